@@ -35,6 +35,17 @@ std::string counts_of(const Shown& shown) {
 
 }  // namespace
 
+std::string run_name(const Shown& shown, const RenderOptions& options) {
+    switch (shown.origin) {
+        case PointOrigin::log: return file_name(options.part.log);
+        case PointOrigin::simulation:
+            return shown.part.machine ? "simulated on \"" + shown.part.machine->name + "\""
+                                      : "simulated on the default machine";
+        case PointOrigin::program: return "as programmed";
+    }
+    return {};
+}
+
 viz::MapPanel panel_of(const Shown& shown, const RenderOptions& options, std::string caption) {
     viz::MapPanel panel;
     panel.surface = &shown.surface;
@@ -66,13 +77,16 @@ viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, c
                        const std::vector<std::string>& range_notes) {
     viz::MapTexts texts;
     texts.frame = frame_of(shown);
-    texts.title = fmt::format("{}, {} {}", shown.field.info.label, name_of(shown.part.path.role),
+    const std::string_view positions =
+        shown.origin == PointOrigin::program ? "programmed" : name_of(shown.part.path.role);
+    texts.title = fmt::format("{}, {} {}", shown.field.info.label, positions,
                               options.shown.look.style == viz::Style::surface ? "surface" : "path");
     if (shown.relief) texts.title = fmt::format("{}, {}", shown.field.info.label, to_text(*shown.part.tool));
     const std::string program = file_name(options.part.program);
     // The captions of two panels name the logs.
     texts.subtitle = before ? fmt::format("{} · before: {} · after: {}", program, counts_of(*before), counts_of(shown))
-                            : fmt::format("{} · {} · {}", program, file_name(options.part.log), counts_of(shown));
+                            : fmt::format("{} · {} · {}", program, run_name(shown, options), counts_of(shown));
+    if (!options.selection.is_all()) texts.notes.push_back("only " + options.selection.words);
     if (!shown.field.info.note.empty()) texts.notes.push_back(shown.field.info.note);
     if (!shown.relief && is_speed(shown.field.info)) texts.notes.emplace_back("paler: ramps at the ends of passes");
     if (options.defects)
@@ -92,8 +106,8 @@ viz::Image draw_defect_map(const Shown& shown, const RenderOptions& options) {
     viz::MapTexts texts;
     texts.frame = frame_of(shown);
     texts.title = io::headline_of(shown.defects.report);
-    texts.subtitle = fmt::format("{} · {} · {} · {}", count, file_name(options.part.program),
-                                 file_name(options.part.log), counts_of(shown));
+    texts.subtitle = fmt::format("{} · {} · {} · {}", count, file_name(options.part.program), run_name(shown, options),
+                                 counts_of(shown));
     texts.notes = {"coloured: the sections at fault", "darker: farther above the threshold; 1: the farthest"};
     const viz::Camera camera = viz::map_camera({panel}, options.shown.look);
     return viz::draw_map({panel}, camera, {}, texts, options.shown.look);

@@ -11,6 +11,8 @@
 
 namespace clsurf::cli {
 
+/// The run that a map shows: "run.biip", "simulated on mill", "as programmed".
+[[nodiscard]] std::string run_name(const Shown& shown, const RenderOptions& options);
 /// One part with its marks. Refers to `shown`. Throws UsageError: a mark that the log does not have.
 [[nodiscard]] viz::MapPanel panel_of(const Shown& shown, const RenderOptions& options, std::string caption);
 

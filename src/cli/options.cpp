@@ -84,9 +84,13 @@ void declare_force(po::options_description& options) {
     options.add_options()("force", "continue although the log does not belong to the program; nothing is judged");
 }
 
-void declare_kinematics(po::options_description& options) {
+void declare_kinematics(po::options_description& options, bool simulates) {
     options.add_options()("machine", po::value<std::string>()->value_name("FILE"),
-                          "machine file; its kinematics convert five-axis positions into tool tips in the workpiece");
+                          simulates ? "machine file; its kinematics convert five-axis positions into tool tips in the "
+                                      "workpiece, and a program without a log is simulated on it (default: that of "
+                                      "clsurf machine --defaults)"
+                                    : "machine file; its kinematics convert five-axis positions into tool tips in the "
+                                      "workpiece");
 }
 
 std::shared_ptr<const Kinematics> load_kinematics(const std::string& path) {

@@ -40,7 +40,7 @@ void declare_log_options(po::options_description& options);
 void declare_force(po::options_description& options);
 
 /// --machine, for its kinematics
-void declare_kinematics(po::options_description& options);
+void declare_kinematics(po::options_description& options, bool simulates = false);
 /// The kinematics of a machine file; nullptr: no file, or three axes.
 [[nodiscard]] std::shared_ptr<const Kinematics> load_kinematics(const std::string& path);
 

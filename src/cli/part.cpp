@@ -6,6 +6,7 @@
 #include "cli/work_frames.h"
 #include "core/error.h"
 #include "core/spelling.h"
+#include "io/files/compressed.h"
 #include "io/readers/machine_file.h"
 #include "io/readers/part_file.h"
 
@@ -19,15 +20,15 @@ Role parse_role(const std::string& text) {
     throw UsageError("'" + text + "' is not commanded, feedback or actual", did_you_mean(text, names));
 }
 
-void declare_part(po::options_description& options, bool can_form) {
+void declare_part(po::options_description& options, bool of_render) {
     declare_program_options(options);
     declare_log_options(options);
     declare_work_offset(options);
-    declare_kinematics(options);
+    declare_kinematics(options, of_render);
     // clang-format off
     options.add_options()
-        ("surface", po::value<std::string>()->value_name(can_form ? "commanded|feedback|actual|formed" : "commanded|feedback|actual"),
-            can_form ? "positions to use (default: commanded, else what the log has), or the as-machined surface, which needs --tool" : "positions to use (default: commanded, else what the log has)")
+        ("surface", po::value<std::string>()->value_name(of_render ? "commanded|feedback|actual|formed" : "commanded|feedback|actual"),
+            of_render ? "positions to use (default: commanded, else what the log has), or the as-machined surface, which needs --tool" : "positions to use (default: commanded, else what the log has)")
         ("ignore-lines", "find lines by geometry even if the log has a line channel");
     declare_force(options);
     // clang-format on
@@ -45,6 +46,11 @@ void declare_derivative(po::options_description& options) {
     // clang-format on
 }
 
+bool is_log(const io::Source& source, const io::LogOptions& options) {
+    const bool is_program = io::forces_log(options) && io::looks_like_program(source);
+    return !is_program && io::recognise_log(source, options) != nullptr;
+}
+
 PartOptions read_part_or_log_options(const po::variables_map& values) {
     if (values.count("LOG") > 0) return read_part_options(values);
     const std::string log = required(values, "PROGRAM");
@@ -52,6 +58,14 @@ PartOptions read_part_or_log_options(const po::variables_map& values) {
     alone.insert({"LOG", po::variable_value(log, false)});
     PartOptions options = read_part_options(alone);
     options.program.clear();
+    return options;
+}
+
+PartOptions read_part_or_program_options(const po::variables_map& values) {
+    if (values.count("LOG") > 0) return read_part_options(values);
+    PartOptions options = read_part_or_log_options(values);
+    if (options.log == "-" || !is_log(io::open_source(options.log), options.log_options))
+        options.program = std::exchange(options.log, {});
     return options;
 }
 
@@ -82,8 +96,7 @@ PartOptions read_part_options(const po::variables_map& values) {
 
 std::optional<Role> take_measured_role(PartOptions& options) { return std::exchange(options.role, std::nullopt); }
 
-Part load_part(const PartOptions& options, StageClock& clock) {
-    const io::PartFiles files{options.program, options.log, options.program_options, options.log_options, false};
+PartRules rules_of(const PartOptions& options) {
     PartRules rules;
     rules.role = options.role;
     rules.poses = options.poses;
@@ -95,6 +108,12 @@ Part load_part(const PartOptions& options, StageClock& clock) {
     rules.use_line_channel = options.use_line_channel;
     rules.accept_foreign = options.force;
     rules.derivative = options.derivative;
+    return rules;
+}
+
+Part load_part(const PartOptions& options, StageClock& clock) {
+    const io::PartFiles files{options.program, options.log, options.program_options, options.log_options, false};
+    PartRules rules = rules_of(options);
     Part part = io::read_part(files, std::move(rules), clock.stages());
     if (!options.program.empty()) part.tool = find_tool(options.tool, &part.log, &part.program, part.diagnostics);
     clock.end();

@@ -26,13 +26,18 @@ struct PartOptions {
 };
 
 /// --dialect, --block-delete, --tools, --layout, --mapping, --period, --surface, --work-offset, --machine, --ignore-lines.
-/// `can_form`: --surface may be `formed` too.
-void declare_part(po::options_description& options, bool can_form = false);
+/// `of_render`: --surface may be `formed` too, and the program may come alone.
+void declare_part(po::options_description& options, bool of_render = false);
 /// --derivative, of what shows fields.
 void declare_derivative(po::options_description& options);
 [[nodiscard]] PartOptions read_part_options(const po::variables_map& values);
 /// The same where a log may come alone, as the only argument: `program` is empty then.
 [[nodiscard]] PartOptions read_part_or_log_options(const po::variables_map& values);
+
+/// Whether a file is a log, not a program, by its content; a layout or a mapping says that it is one.
+[[nodiscard]] bool is_log(const io::Source& source, const io::LogOptions& options);
+/// The same where a program may come alone: `log` is empty then. A log that comes alone is told apart by its content.
+[[nodiscard]] PartOptions read_part_or_program_options(const po::variables_map& values);
 
 /// "commanded", "feedback" or "actual". Throws UsageError.
 [[nodiscard]] Role parse_role(const std::string& text);
@@ -40,6 +45,9 @@ void declare_derivative(po::options_description& options);
 /// Reads both and assembles them. Without a program the lines are those of the log's channel. Throws InputError (also where
 /// the log does not belong to the program, unless forced), UsageError.
 [[nodiscard]] Part load_part(const PartOptions& options, StageClock& clock);
+
+/// How a part is put together, as the options say. Throws InputError.
+[[nodiscard]] PartRules rules_of(const PartOptions& options);
 
 /// The tool of a part, or a UsageError that says what needs it, with an example.
 [[nodiscard]] CuttingTool required_tool(const Part& part, const std::string& what, const std::string& example);

@@ -67,6 +67,7 @@ ExitCode run_render(const po::variables_map& values) {
     StageClock clock(read_common(values), stages_of_a_part * (options.before.empty() ? 1 : 2) + 3);
     Shown after = load_shown(options.part, options.field, options.defects, clock);
     if (options.part.as_machined) show_as_machined(after, options, clock);
+    show_selection(after, options.selection);
     print(after.part.diagnostics, values);
     if (has_classes(after.field.info)) {
         refuse_scale_options(after.field.info, options.shown);
@@ -81,7 +82,7 @@ ExitCode run_render(const po::variables_map& values) {
         const viz::Image image = draw_defect_map(after, options);
         clock.begin("write the picture");
         output.write(image, fmt::format("clsurf defects of {} from {}: {}", file_name(options.part.program),
-                                        file_name(options.part.log), io::headline_of(after.defects.report)));
+                                        run_name(after, options), io::headline_of(after.defects.report)));
         return ExitCode::done;
     }
     std::vector<viz::MapPanel> panels;
@@ -104,7 +105,7 @@ ExitCode run_render(const po::variables_map& values) {
     const viz::Image image = draw_maps(panels, after, before, shown, options);
     clock.begin("write the picture");
     output.write(image, fmt::format("clsurf map of {} from {}: {}{}", file_name(options.part.program),
-                                    file_name(options.part.log), after.field.info.name, shown.words));
+                                    run_name(after, options), after.field.info.name, shown.words));
     return ExitCode::done;
 }
 
@@ -113,11 +114,15 @@ ExitCode run_render(const po::variables_map& values) {
 Subcommand render_subcommand() {
     return {
         .name = "render",
-        .arguments = "PROGRAM LOG -o map.png",
+        .arguments = "PROGRAM [LOG] -o map.png",
         .summary = "the quality map: the CL surface coloured by speed, acceleration and more",
         .description =
             "Maps each logged point to its line, rebuilds the cutter-location surface from adjacent passes,\n"
-            "colours it by a field and draws it without a display.\n\n"
+            "colours it by a field and draws it without a display. Without a log the program is simulated on\n"
+            "--machine, or drawn as it is programmed: by programmed_feed, block_length, turning_angle or\n"
+            "programmed_curvature.\n\n"
+            "  clsurf render part.nc -o map.png\n"
+            "  clsurf render part.nc -o blocks.png --color block_length --passes 3..8\n"
             "  clsurf render part.nc run.biip -o map.png\n"
             "  clsurf render part.nc run.biip -o map.png --color acceleration --view top --range 0,800\n"
             "  clsurf render part.nc run.biip -o map.png --surface formed --tool ball:6",

@@ -1,5 +1,8 @@
 #include "cli/render_options.h"
 
+#include <charconv>
+#include <string_view>
+
 #include "core/error.h"
 
 namespace clsurf::cli {
@@ -18,6 +21,62 @@ void read_as_machined(const po::variables_map& values, RenderOptions& options) {
         throw UsageError("--style is not of the formed surface: it is drawn as one");
 }
 
+/// "A..B", "A..", "..B" or "N".
+NumberRange parse_range(const std::string& option, const std::string& text, std::int64_t least) {
+    const auto wrong = [&] {
+        return UsageError("--" + option + ": '" + text + "' is not a range of whole numbers",
+                          "A..B, A.., ..B or a single number");
+    };
+    const auto number = [&](std::string_view digits, std::int64_t otherwise) {
+        if (digits.empty()) return otherwise;
+        std::int64_t value = 0;
+        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+        if (error != std::errc() || end != digits.data() + digits.size()) throw wrong();
+        return value;
+    };
+    const std::string_view all(text);
+    const std::size_t dots = all.find("..");
+    NumberRange range;
+    if (dots == std::string_view::npos) {
+        if (all.empty()) throw wrong();
+        range.first = range.last = number(all, 0);
+    } else {
+        if (all == "..") throw wrong();
+        range.first = number(all.substr(0, dots), least);
+        range.last = number(all.substr(dots + 2), range.last);
+    }
+    if (range.first < least) throw UsageError("--" + option + ": they are counted from " + std::to_string(least));
+    if (range.last < range.first) throw UsageError("--" + option + ": '" + text + "' ends before it begins");
+    return range;
+}
+
+Selection read_selection(const po::variables_map& values) {
+    Selection selection;
+    const auto read = [&](const char* option, std::int64_t least, std::optional<NumberRange>& range) {
+        if (values.count(option) == 0) return;
+        const std::string text = values[option].as<std::string>();
+        range = parse_range(option, text, least);
+        if (!selection.words.empty()) selection.words += ", ";
+        selection.words += std::string(option) + " " + text;
+    };
+    read("points", 0, selection.points);
+    read("lines", 1, selection.lines);
+    read("passes", 1, selection.passes);
+    return selection;
+}
+
+void refuse_selection(const RenderOptions& options) {
+    if (options.selection.is_all()) return;
+    if (options.part.as_machined)
+        throw UsageError("--points, --lines and --passes do not apply to the formed surface", "--box cuts it");
+    if (options.defects)
+        throw UsageError("--points, --lines and --passes do not apply to --defects",
+                         "--box shows the defects of a region");
+    if (!options.before.empty())
+        throw UsageError("--points, --lines and --passes do not apply to --before",
+                         "--box shows a region of both logs");
+}
+
 }  // namespace
 
 void declare_render(po::options_description& options) {
@@ -31,6 +90,9 @@ void declare_render(po::options_description& options) {
         ("color", po::value<std::string>()->value_name("FIELD"), "field that colours the surface (default: feed_share, the speed in percent of the programmed feed; speed if --range gives numbers or no feed is known; `clsurf help fields`)")
         ("mark-point", po::value<std::vector<long long>>()->value_name("N"), "mark a point with a ring; may be repeated")
         ("mark-line", po::value<std::vector<long long>>()->value_name("N"), "draw the points of a line bold; may be repeated")
+        ("points", po::value<std::string>()->value_name("A..B"), "show these points of the log only; A.., ..B and a single number are ranges, too")
+        ("lines", po::value<std::string>()->value_name("A..B"), "show the points of these lines of the program only")
+        ("passes", po::value<std::string>()->value_name("A..B"), "show these passes only, counted from 1 as in `clsurf check`")
         ("defects", "draw what `clsurf check` finds on a grey relief and name the twelve strongest; with --color, --before or --surface formed: outlines with numbers")
         ("before", po::value<std::string>()->value_name("LOG"), "another log of the program, drawn next to it on the same scale; what changed is drawn below both");
     // clang-format on
@@ -39,7 +101,8 @@ void declare_render(po::options_description& options) {
 
 RenderOptions read_render_options(const po::variables_map& values) {
     RenderOptions options;
-    options.part = read_part_options(values);
+    options.part = read_part_or_program_options(values);
+    options.selection = read_selection(values);
     options.output = required(values, "output");
     options.before = text_of(values, "before", "");
     options.shown = read_look_options(values);
@@ -60,6 +123,11 @@ RenderOptions read_render_options(const po::variables_map& values) {
         options.defects && !given(values, "color") && !options.part.as_machined && options.before.empty();
     options.shown.look.names = options.defect_map;
     read_as_machined(values, options);
+    refuse_selection(options);
+    if (options.part.log.empty() && !options.before.empty())
+        throw UsageError("--before compares logs: PROGRAM LOG --before LOG");
+    if (options.part.log.empty() && given(values, "work-offset") && options.part.machine.empty())
+        throw UsageError("--work-offset places a log; without one the program's own work offsets count");
     return options;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 // The options of `render`.
 
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,8 +12,22 @@
 
 namespace clsurf::cli {
 
+/// Numbers from `first` to `last`; what is not said has no end.
+struct NumberRange {
+    std::int64_t first = 0;
+    std::int64_t last = std::numeric_limits<std::int64_t>::max();
+};
+
+/// What of a part is shown: what all of them have in common.
+struct Selection {
+    std::optional<NumberRange> points, lines, passes;
+    [[nodiscard]] bool is_all() const { return !points && !lines && !passes; }
+    std::string words;  ///< "points 100 to 300, passes 2 to 5"
+};
+
 struct RenderOptions {
-    PartOptions part;
+    PartOptions part;  ///< without a log the program is simulated, or shown as programmed
+    Selection selection;
     std::string before;  ///< log of the other panel; empty: one panel
     std::string output;
     bool defect_map = false;  ///< of `defects`: sections and names on a grey relief, not outlines on a field

@@ -57,8 +57,7 @@ LoadedRun load_run(const std::string& path, const RunOptions& options) {
     run.name = path;
     const io::Source source = io::open_source(path);
     if (source.bytes.empty()) throw InputError(Place::of_file(source.name), "is empty, expected a program or a log");
-    const bool is_program = io::forces_log(options.log_options) && io::looks_like_program(source);
-    if (!is_program && io::recognise_log(source, options.log_options) != nullptr) {
+    if (is_log(source, options.log_options)) {
         run.log = io::open_log(source, options.log_options);
         run.kinematics = options.kinematics;
         run.pose = zero_of(options.poses, run.log, run.log.diagnostics).value_or(Eigen::Isometry3d::Identity());

@@ -1,13 +1,21 @@
 #include "cli/shown_part.h"
 
+#include <algorithm>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/as_machined.h"
+#include "core/block.h"
+#include "core/error.h"
+#include "io/readers/program_file.h"
 #include "pipeline/judge.h"
 #include "pipeline/part_fields.h"
+#include "pipeline/program_fields.h"
+#include "pipeline/programmed_part.h"
 #include "predictor/outline.h"
+#include "surface/selection.h"
 #include "surface/stitch.h"
 
 namespace clsurf::cli {
@@ -43,11 +51,70 @@ ShownDefects find_shown_defects(Part& part, const ClSurface& surface, const std:
     return shown;
 }
 
+/// The program with its motions as programmed.
+Program read_programmed(const PartOptions& options, bool placed) {
+    io::ProgramOptions how = options.program_options;
+    how.coordinates = placed ? std::optional(Coordinates::workpiece) : std::nullopt;
+    return io::read_program(options.program, how);
+}
+
+Shown programmed(const PartOptions& options, const std::string& field, StageClock& clock) {
+    Shown shown;
+    shown.origin = PointOrigin::program;
+    clock.begin("read the program");
+    Program program = read_programmed(options, true);
+    clock.begin("stitch the surface");
+    ProgrammedPart made = programmed_part(std::move(program));
+    shown.part = std::move(made.part);
+    shown.surface = std::move(made.surface);
+    if (shown.surface.positions.size() == 0)
+        throw InputError(Place::of_file(options.program), "has no motions to show");
+    clock.begin("compute the field");
+    FieldSet fields(shown.part.log.records);
+    fields.add(std::make_shared<const ProgramFields>(shown.part.program, shown.part.lines));
+    shown.field = fields.get(field);
+    clock.end();
+    return shown;
+}
+
+/// A part from a log, or from the simulation of a program that comes alone.
+Part load_run_of(const PartOptions& options, StageClock& clock) {
+    if (!options.log.empty()) return load_part(options, clock);
+    clock.begin("read the program");
+    Program program = read_programmed(options, false);
+    clock.begin("simulate");
+    Part part = simulated_part(std::move(program), rules_of(options));
+    part.tool = find_tool(options.tool, &part.log, &part.program, part.diagnostics);
+    clock.end();
+    return part;
+}
+
+/// Points of lines, in order. O(points).
+std::vector<PointRange> points_of_lines(const LineMap& lines, const NumberRange& wanted) {
+    std::vector<PointRange> ranges;
+    std::vector<LineNumber> block(static_cast<std::size_t>(block_points));
+    for (PointIndex first = 0; first < lines.count(); first += block_points) {
+        const PointIndex size = std::min(block_points, lines.count() - first);
+        lines.read(first, std::span(block).first(static_cast<std::size_t>(size)));
+        for (PointIndex i = 0; i < size; ++i) {
+            const std::int64_t line = block[static_cast<std::size_t>(i)];
+            if (line < wanted.first || line > wanted.last) continue;
+            if (!ranges.empty() && ranges.back().last == first + i - 1)
+                ++ranges.back().last;
+            else
+                ranges.push_back({first + i, first + i});
+        }
+    }
+    return ranges;
+}
+
 }  // namespace
 
 Shown load_shown(const PartOptions& options, const std::string& field, bool defects, StageClock& clock) {
+    if (options.log.empty() && ProgramFields::has(field) && !defects) return programmed(options, field, clock);
     Shown shown;
-    shown.part = load_part(options, clock);
+    shown.origin = options.log.empty() ? PointOrigin::simulation : PointOrigin::log;
+    shown.part = load_run_of(options, clock);
     clock.begin("stitch the surface");
     shown.surface = stitch(shown.part);
     clock.begin("compute the field");
@@ -63,6 +130,22 @@ Shown load_shown(const PartOptions& options, const std::string& field, bool defe
                                            options.as_machined ? shown.part.tool : std::optional<CuttingTool>(), clock);
     clock.end();
     return shown;
+}
+
+void show_selection(Shown& shown, const Selection& selection) {
+    if (selection.is_all()) return;
+    const PointIndex last = shown.part.log.records - 1;
+    std::vector<PointRange> ranges{{0, last}};
+    if (selection.points)
+        ranges = intersection(ranges, {{selection.points->first, std::min(last, selection.points->last)}});
+    if (selection.lines) ranges = intersection(ranges, points_of_lines(*shown.part.lines, *selection.lines));
+    if (selection.passes)
+        ranges = intersection(ranges,
+                              points_of_passes(shown.surface.passes, selection.passes->first, selection.passes->last));
+    keep_points(shown.surface, ranges);
+    const auto is_shown = [](const Pass& pass) { return is_of_surface(pass.kind); };
+    if (std::none_of(shown.surface.passes.begin(), shown.surface.passes.end(), is_shown))
+        throw UsageError("no finishing pass has points of " + selection.words);
 }
 
 void show_as_machined(Shown& shown, const RenderOptions& options, StageClock& clock) {

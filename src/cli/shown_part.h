@@ -24,8 +24,12 @@ struct ShownDefects {
     std::vector<viz::OutlineMark> outlines;  ///< of report.defects
 };
 
+/// Where the points come from.
+enum class PointOrigin : std::uint8_t { log, simulation, program };
+
 /// A part with its surface and its field.
 struct Shown {
+    PointOrigin origin = PointOrigin::log;
     Part part;
     ClSurface surface;
     Field field;
@@ -40,8 +44,13 @@ struct Shown {
     }
 };
 
-/// Reads a part and computes its field (empty: as RenderOptions::field); with `defects` also what `check` finds. Throws InputError, UsageError.
+/// Reads a part and computes its field (empty: as RenderOptions::field); with `defects` also what `check` finds. Without a log
+/// the points of what a program itself says are on its path, and all others those of a simulation. Throws InputError,
+/// UsageError.
 [[nodiscard]] Shown load_shown(const PartOptions& options, const std::string& field, bool defects, StageClock& clock);
+
+/// Leaves what was selected. Throws UsageError: nothing is left.
+void show_selection(Shown& shown, const Selection& selection);
 
 /// The formed surface in place of the positions', as fine as the picture shows it.
 void show_as_machined(Shown& shown, const RenderOptions& options, StageClock& clock);

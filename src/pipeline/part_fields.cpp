@@ -8,6 +8,7 @@
 #include "pipeline/channel_classes.h"
 #include "pipeline/feed_fields.h"
 #include "pipeline/limits_of.h"
+#include "pipeline/program_fields.h"
 #include "pipeline/signals_of.h"
 #include "predictor/quality_fields.h"
 
@@ -27,6 +28,7 @@ FieldSet fields_of(const Part& part, const ClSurface& surface,
                                                                   Derivation{estimate_motion(part, surface.passes), 0});
     fields.add(positions);
     fields.add(std::make_shared<const FeedFields>(part.program, part.lines, positions));
+    fields.add(std::make_shared<const ProgramFields>(part.program, part.lines));
     fields.add(std::make_shared<const QualityFields>(surface, [&] { return signals_alone(part, surface); }));
     fields.add(std::make_shared<const CauseFields>(part, surface));
     fields.add(

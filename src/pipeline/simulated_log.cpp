@@ -19,6 +19,7 @@ namespace {
 struct Columns {
     std::vector<std::vector<double>> positions;
     std::vector<LineNumber> line;
+    std::vector<LimitingFactor> limit;
 };
 
 /// A log of the columns that `fill` fills, a run's summary its result; `axes`: of each role, in order.
@@ -43,6 +44,8 @@ SimulatedRun run_to_log(const Program& program, const Machine& machine, const st
                                 view(columns->positions[k].data(), sizeof(double), ScalarType::f64)});
     }
     log.channels.push_back({"line", "", view(columns->line.data(), sizeof(LineNumber), ScalarType::u32)});
+    static_assert(sizeof(LimitingFactor) == 1);
+    log.channels.push_back({"limit", "", view(columns->limit.data(), sizeof(LimitingFactor), ScalarType::u8)});
     return run;
 }
 
@@ -60,6 +63,7 @@ SimulatedRun five_axes_to_log(const Program& program, const Machine& machine, co
                         columns.positions[axis + factors.size()].push_back(p.feedback[axis] * factors[axis]);
                     }
                     columns.line.push_back(p.line);
+                    columns.limit.push_back(p.limit);
                 }
             };
             return simulate_five_axis(program, machine, zero, start, take, progress).run;
@@ -96,6 +100,7 @@ SimulatedRun simulate_to_log(const Program& programmed, const Machine& machine, 
                     columns.positions[static_cast<std::size_t>(axis + 3)].push_back(p.feedback[axis]);
                 }
                 columns.line.push_back(p.line);
+                columns.limit.push_back(p.limit);
             }
         };
         return simulate(program, machine, start, take, progress);

@@ -20,14 +20,14 @@ namespace clsurf {
 [[nodiscard]] Eigen::Isometry3d prepare_five_axes(Program& program, const Machine& machine, FramePoses poses);
 
 struct SimulatedRun {
-    Log log;  ///< cmd.*, fb.*, line; owns its columns
+    Log log;  ///< cmd.*, fb.*, line, limit; owns its columns
     SimulationSummary summary;
 };
 
 /// Runs a program from `start`, where the axes stand [mm]. `program` is in the coordinates that the log is to have. Of a
 /// program that runs on five axes the motions are those of the tip (toolpath/tip_motions.h), and `zero` is the machine
 /// position of its zero [mm], which the log names as its work offset. Throws what simulate() and simulate_five_axis()
-/// throw. O(points), in the caller's thread; memory: 52 bytes a point, 84 on five axes.
+/// throw. O(points), in the caller's thread; memory: 53 bytes a point, 85 on five axes.
 [[nodiscard]] SimulatedRun simulate_to_log(const Program& program, const Machine& machine,
                                            const Vec3& start = Vec3::Zero(), const Progress& progress = {},
                                            const Vec3& zero = Vec3::Zero());

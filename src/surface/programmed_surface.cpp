@@ -72,14 +72,18 @@ ProgrammedSurface stitch_sampled(Sampled sampled, const Program& program) {
     ProgrammedSurface programmed;
     programmed.motion = std::move(sampled.motion);
     programmed.is_end = std::move(sampled.is_end);
-    Column<std::uint32_t> motion(programmed.motion.size());
-    std::copy(programmed.motion.begin(), programmed.motion.end(), motion.begin());
-    const LineMap lines(std::move(motion), Column<std::uint8_t>(programmed.motion.size(), 255), program);
-    programmed.surface = stitch(std::move(sampled.positions), lines);
+    programmed.surface = stitch(std::move(sampled.positions), lines_of(programmed, program));
     return programmed;
 }
 
 }  // namespace
+
+LineMap lines_of(const ProgrammedSurface& programmed, const Program& program) {
+    constexpr std::uint8_t certain = 255;
+    Column<std::uint32_t> motion(programmed.motion.size());
+    std::copy(programmed.motion.begin(), programmed.motion.end(), motion.begin());
+    return {std::move(motion), Column<std::uint8_t>(programmed.motion.size(), certain), program};
+}
 
 ProgrammedSurface build_programmed_surface(const Program& program) {
     const Toolpath path = toolpath_of(program);

@@ -25,6 +25,9 @@ struct ProgrammedSurface {
 /// beyond which long motions get fewer.
 [[nodiscard]] ProgrammedSurface build_programmed_surface(const Program& program);
 
+/// The line of each of its points.
+[[nodiscard]] LineMap lines_of(const ProgrammedSurface& programmed, const Program& program);
+
 /// The motions of a cut pass in order, as the points where they end; the first point is the start of the pass.
 struct ProgrammedPass {
     std::int64_t number = 0;       ///< of the cut passes, from 1

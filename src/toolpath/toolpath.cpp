@@ -55,6 +55,18 @@ Vec3 point_of(const Helix& h, double fraction) {
     return p;
 }
 
+/// By the fraction.
+Vec3 derivative_of(const Helix& h, double fraction) {
+    const double angle = h.start_angle + h.sign * h.sweep * fraction;
+    const double radius = h.radius + h.radius_growth * fraction;
+    const double turn = h.sign * h.sweep;
+    Vec3 d;
+    d[h.u] = h.radius_growth * std::cos(angle) - turn * radius * std::sin(angle);
+    d[h.v] = h.radius_growth * std::sin(angle) + turn * radius * std::cos(angle);
+    d[h.w] = h.rise;
+    return d;
+}
+
 Projection projection_on_helix(const Helix& h, const Vec3& p, double from) {
     const double angle = h.sign * (std::atan2(p[h.v] - h.centre[h.v], p[h.u] - h.centre[h.u]) - h.start_angle);
     // Candidates: the ends, and the same angle in every turn (the turn nearest in rise wins).
@@ -88,6 +100,36 @@ Vec3 Toolpath::at(std::int64_t motion, double fraction) const {
     const Vec3 b = end(motion);
     const Arc* arc = is_arc(kind) ? motions_->arc_of(motion) : nullptr;
     return arc == nullptr ? Vec3(a + fraction * (b - a)) : point_of(make_helix(*arc, kind, a, b), fraction);
+}
+
+Vec3 Toolpath::direction(std::int64_t motion, double fraction) const {
+    const MotionKind kind = motions_->kind[static_cast<std::size_t>(motion)];
+    if (kind == MotionKind::dwell) return Vec3::Zero();
+    if (const auto spline = curve(motion)) return spline->tangent(spline->at_arc_length(fraction * spline->length()));
+    const Vec3 a = begin(motion);
+    const Vec3 b = end(motion);
+    const Arc* arc = is_arc(kind) ? motions_->arc_of(motion) : nullptr;
+    const Vec3 along = arc == nullptr ? Vec3(b - a) : derivative_of(make_helix(*arc, kind, a, b), fraction);
+    return along.isZero(0) ? Vec3::Zero() : Vec3(along.normalized());
+}
+
+double Toolpath::curvature(std::int64_t motion) const {
+    if (const auto spline = curve(motion)) {
+        constexpr int pieces = 32;
+        double greatest = 0;
+        for (int k = 0; k <= pieces; ++k) {
+            const CurveJet jet = spline->moving_jet(static_cast<double>(k) / pieces);
+            greatest = std::max(greatest, jet.first.cross(jet.second).norm() / std::pow(jet.first.norm(), 3));
+        }
+        return greatest;
+    }
+    const MotionKind kind = motions_->kind[static_cast<std::size_t>(motion)];
+    const Arc* arc = is_arc(kind) ? motions_->arc_of(motion) : nullptr;
+    if (arc == nullptr) return 0;
+    const Helix h = make_helix(*arc, kind, begin(motion), end(motion));
+    const double radius = std::min(h.radius, h.radius + h.radius_growth);
+    const double rise_per_rad = h.rise / h.sweep;
+    return radius / (radius * radius + rise_per_rad * rise_per_rad);
 }
 
 double Toolpath::length(std::int64_t motion) const {

@@ -29,6 +29,10 @@ public:
     [[nodiscard]] std::shared_ptr<const BezierCurve> curve(std::int64_t motion) const;
     /// The point after a fraction of a motion's arc length.
     [[nodiscard]] Vec3 at(std::int64_t motion, double fraction) const;
+    /// Unit vector of travel after a fraction of a motion's arc length; 0: a dwell, or a motion without a length.
+    [[nodiscard]] Vec3 direction(std::int64_t motion, double fraction) const;
+    /// The greatest curvature of a motion [1/mm]: of an arc or helix exactly, of a spline at 33 places; 0 of a line.
+    [[nodiscard]] double curvature(std::int64_t motion) const;
     /// Arc length along a motion [mm].
     [[nodiscard]] double length(std::int64_t motion) const;
     /// The nearest point of a motion at or after `from` (fraction of its way) to `p`.

@@ -30,6 +30,16 @@ TEST(Toolpath, FindsTheFootOnAnArc) {
     EXPECT_NEAR(path.length(0), std::numbers::pi / 2, 1e-12);
 }
 
+TEST(Toolpath, DirectionsAndCurvatureOfAHelix) {
+    Motions m = quarter_circle();
+    EXPECT_LT((Toolpath(m, Vec3::Zero()).direction(0, 0.5) - Vec3(-1, 1, 0).normalized()).norm(), 1e-12);
+    EXPECT_NEAR(Toolpath(m, Vec3::Zero()).curvature(0), 1, 1e-12);
+    // A rise of 1 mm per radian: the direction at the begin is (0, 1, 1)/√2, and κ = r / (r² + c²) = 1/2.
+    m.end[0] = Xyz(0, 1, std::numbers::pi / 2);
+    EXPECT_LT((Toolpath(m, Vec3::Zero()).direction(0, 0) - Vec3(0, 1, 1).normalized()).norm(), 1e-12);
+    EXPECT_NEAR(Toolpath(m, Vec3::Zero()).curvature(0), 0.5, 1e-12);
+}
+
 TEST(Toolpath, FindsTheEndWhereTheAngleIsNotOnTheArc) {
     const Motions m = quarter_circle();
     EXPECT_NEAR(Toolpath(m, Vec3::Zero()).projection(0, Vec3(0, -3, 0)).distance, std::sqrt(10.0), 1e-12);
@@ -70,6 +80,9 @@ TEST(Toolpath, FindsTheFootOnACurve) {
     EXPECT_LE((path.at(0, 0.5) - Vec3(2, 4, 7)).norm(), 1e-9);
     // ∫ √(1 + (4 − 2x)²) dx over 0 … 4 = 2 √17 + ½ asinh 4.
     EXPECT_NEAR(path.length(0), 2 * std::sqrt(17.0) + 0.5 * std::asinh(4.0), 1e-8);
+    // κ = 2 at the top; at the begin the slope is 4.
+    EXPECT_NEAR(path.curvature(0), 2, 1e-6);
+    EXPECT_LE((path.direction(0, 0) - Vec3(1, 4, 0).normalized()).norm(), 1e-9);
     // Behind a fraction of the way only.
     EXPECT_NEAR(path.projection(0, Vec3(1, 4, 7), 0.5).fraction, 0.5, 1e-6);
 }

@@ -49,3 +49,29 @@ clsurf_cli_test(NAME plot_defect_of_a_region ARGS plot ${bottle} --defect 6 -o c
 clsurf_cli_test(NAME plot_defect_that_is_none ARGS plot ${bottle} --defect 99 -o card.png EXIT 2 STDERR "`clsurf check` finds 15 of them")
 clsurf_cli_test(NAME plot_defect_is_no_curve ARGS plot ${bottle} --defect 1 --fields speed -o card.png EXIT 2 STDERR "--fields does not apply to --defect")
 clsurf_cli_test(NAME plot_defect_needs_the_program ARGS plot @LOGS@/bottle_uneven.biip --defect 1 -o card.png EXIT 2 STDERR "--defect needs the program")
+
+# Without a log: the simulation, or the program itself.
+set(bottle_nc @DATA@/programs/bottle_uneven.nc)
+clsurf_cli_test(NAME render_program_simulates
+  SETUP "$CLSURF render @DATA@/programs/bottle_uneven.nc -o map.png --size 320x240 -q && grep -q 'simulated on the default machine: feed_share 0 to 100 %' map.png" ARGS --version)
+clsurf_cli_test(NAME render_program_names_the_machine
+  SETUP "$CLSURF render @DATA@/programs/bottle_uneven.nc --machine @DATA@/machines/linuxcnc_kernel.toml --color jerk -o map.png --size 320x240 -q && grep -q 'simulated on \"[^\"]*\": jerk' map.png" ARGS --version)
+foreach(field block_length turning_angle programmed_curvature programmed_feed)
+  clsurf_cli_test(NAME render_program_${field}
+    SETUP "$CLSURF render @DATA@/programs/bottle_uneven.nc --color ${field} -o map.png --size 320x240 -q && grep -q 'as programmed: ${field} ' map.png" ARGS --version)
+endforeach()
+clsurf_cli_test(NAME render_program_formed ARGS render ${bottle_nc} --surface formed --tool ball:6 --size 320x240 -o map.png FILE map.png)
+clsurf_cli_test(NAME render_log_alone ARGS render @LOGS@/bottle_uneven.biip --color speed --size 320x240 -o map.png FILE map.png)
+clsurf_cli_test(NAME render_program_before ARGS render ${bottle_nc} --before @LOGS@/bottle_uneven.biip -o map.png EXIT 2 STDERR "--before compares logs")
+clsurf_cli_test(NAME render_program_has_no_offset ARGS render ${bottle_nc} --work-offset 1,2,3 -o map.png EXIT 2 STDERR "the program's own work offsets count")
+clsurf_cli_test(NAME render_program_without_motions SETUP "echo '(nothing)' > empty.nc" ARGS render empty.nc --color block_length -o map.png EXIT 3 STDERR "empty.nc: error: has no motions to show" NO_FILE map.png)
+
+# A part of the part.
+clsurf_cli_test(NAME render_passes
+  SETUP "$CLSURF render @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip --passes 3..5 -o map.png --size 320x240 -q" ARGS --version)
+clsurf_cli_test(NAME render_lines_and_points ARGS render ${bottle} --lines 1000.. --points ..20000 --size 320x240 -o map.png FILE map.png)
+clsurf_cli_test(NAME render_lines_that_cut_nothing ARGS render ${bottle} --lines 1..2 -o map.png EXIT 2 STDERR "no finishing pass has points of lines 1[.][.]2" NO_FILE map.png)
+clsurf_cli_test(NAME render_passes_out_of_order ARGS render ${bottle} --passes 5..3 -o map.png EXIT 2 STDERR "--passes: '5[.][.]3' ends before it begins")
+clsurf_cli_test(NAME render_passes_count_from_one ARGS render ${bottle} --passes 0..3 -o map.png EXIT 2 STDERR "--passes: they are counted from 1")
+clsurf_cli_test(NAME render_points_no_range ARGS render ${bottle} --points a..b -o map.png EXIT 2 STDERR "'a[.][.]b' is not a range of whole numbers")
+clsurf_cli_test(NAME render_points_of_defects ARGS render ${bottle} --passes 3..5 --defects -o map.png EXIT 2 STDERR "do not apply to --defects")

@@ -1,0 +1,35 @@
+#pragma once
+// ProgramFields: what the program itself says of a place: feed, length of the block, how the path turns and bends. They
+// need no log; the points of a log show the values of their blocks.
+
+#include <memory>
+
+#include "field/field_provider.h"
+#include "mapping/line_map.h"
+#include "program/program.h"
+
+namespace clsurf {
+
+class ProgramFields : public FieldProvider {
+public:
+    /// `program` must outlive it.
+    ProgramFields(const Program& program, std::shared_ptr<const LineMap> lines)
+        : program_(program), lines_(std::move(lines)) {}
+
+    /// programmed_feed, block_length, turning_angle, programmed_curvature.
+    [[nodiscard]] std::vector<FieldInfo> fields() const override;
+    /// Whether there is a program.
+    [[nodiscard]] bool can_compute(std::string_view name) const override;
+    /// The value of the motion of each point; NaN at rapids, and where no motion is known. Throws UsageError: no program.
+    /// O(points + motions), parallel over points.
+    [[nodiscard]] std::vector<Field> compute(std::span<const std::string_view> names, PointRange points) const override;
+
+    /// Whether it is one of these fields.
+    [[nodiscard]] static bool has(std::string_view name);
+
+private:
+    const Program& program_;
+    std::shared_ptr<const LineMap> lines_;
+};
+
+}  // namespace clsurf

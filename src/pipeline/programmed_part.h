@@ -1,0 +1,24 @@
+#pragma once
+// Parts of a program that has no log: as it is programmed, or as a machine would run it.
+
+#include "core/progress.h"
+#include "pipeline/part.h"
+
+namespace clsurf {
+
+/// The programmed path, with what the program says of it (pipeline/program_fields.h).
+struct ProgrammedPart {
+    Part part;  ///< its log has as many records as the surface has points, and no channels
+    ClSurface surface;
+};
+
+/// Points on the programmed path: ends of motions, and more along long ones (surface/programmed_surface.h). `program` is in
+/// the coordinates that are shown. O(points).
+[[nodiscard]] ProgrammedPart programmed_part(Program program);
+
+/// Runs a program on `rules.machine` (nullptr: the default one) from machine position 0, and puts both together.
+/// `program` has its motions as programmed. On three axes the program's own work offsets count, not `rules.poses`. Throws
+/// what simulate_to_log() and assemble() throw.
+[[nodiscard]] Part simulated_part(Program program, PartRules rules, const Progress& progress = {});
+
+}  // namespace clsurf
