@@ -3,16 +3,18 @@
 
 set(other "printf '[path]\\nmax_normal_acceleration = 900\\n[[axis]]\\nname = \"x\"\\nmax_acceleration = 1300\\n' > other.toml")
 set(dome @DATA@/programs/dome_loops.nc)
+# Its first eight seconds: each run of a repair is simulated many times.
+set(other "${other}; (head -n 620 @DATA@/programs/dome_loops.nc; echo M2) > first_loops.nc")
 clsurf_cli_test(NAME optimize_on_a_controller SETUP "${other}"
-  ARGS optimize ${dome} --controller "$CLSURF simulate {program} --machine other.toml -o {log} -q" --runs 2 -o better.nc FILE better.nc
+  ARGS optimize first_loops.nc --controller "$CLSURF simulate {program} --machine other.toml -o {log} -q" --runs 2 -o better.nc FILE better.nc
   STDOUT "machine: that of clsurf machine --defaults, fitted to the runs of the controller" "run 1, the program: [0-9.]+ s, speed mismatch [0-9.]+ mm/min, [0-9]+ defects" "run 2, candidate 1: .*. promised .*. accepted" "on the controller +before" "accepted")
 clsurf_cli_test(NAME optimize_controller_json SETUP "${other}"
-  ARGS optimize ${dome} --controller "$CLSURF simulate {program} --machine other.toml -o {log} -q" --runs 2 -o better.nc --json
+  ARGS optimize first_loops.nc --controller "$CLSURF simulate {program} --machine other.toml -o {log} -q" --runs 2 -o better.nc --json
   STDOUT "\"controller_runs\"" "\"promised\"" "\"proof\": \"controller\"" "\"ensemble\"" "\"worst\"")
 # A candidate's failure is reported; without any that ran, nothing is written.
 clsurf_cli_test(NAME optimize_controller_fails_on_candidates EXIT 1
   SETUP "${other}; printf '#!/bin/sh\\ngrep -q optimize \"$1\" && { echo no such tool; exit 7; }\\n\"$CLSURF\" simulate \"$1\" --machine other.toml -o \"$2\" -q\\n' > controller; chmod +x controller"
-  ARGS optimize ${dome} --controller "./controller {program} {log}" --runs 2 -o better.nc NO_FILE better.nc
+  ARGS optimize first_loops.nc --controller "./controller {program} {log}" --runs 2 -o better.nc NO_FILE better.nc
   STDOUT "run 2, candidate 1: failed: it ended with exit code 7 [(]\"no such tool\"[)]" "refused")
 clsurf_cli_test(NAME optimize_controller_fails EXIT 3
   ARGS optimize ${dome} --controller "false {program} {log}" -o better.nc NO_FILE better.nc STDERR "the controller did not run it: it ended with exit code 1")
