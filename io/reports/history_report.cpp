@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/file_name.h"
+#include "predictor/severity.h"
 
 namespace clsurf::io {
 namespace {
@@ -33,7 +34,7 @@ std::string verdict_of_run(const RunRecord& run) {
     if (!run.failure.empty()) return "failed";
     if (!run.judged) return "not judged";
     if (!run.within_budget) return "over budget";
-    return run.defects == 0 ? "no defects" : fmt::format("severity {}", run.worst_severity);
+    return run.defects == 0 ? "no defects" : std::string(name_of_severity(run.worst_severity));
 }
 
 std::string with_unit(double value, std::string_view unit) {
@@ -58,9 +59,9 @@ std::string lines_of(const RecordedDefect& d) {
 }
 
 std::string defect_line(const RecordedDefect& d) {
-    return fmt::format(
-        "{:<13} severity {}  {:>6.1f} times the threshold  {:>6.1f} µm  X {:.2f} Y {:.2f} Z {:.2f}  lines {}", d.cause,
-        d.severity, d.score, d.depth_um, d.position.x(), d.position.y(), d.position.z(), lines_of(d));
+    return fmt::format("{:<13} {:<8} {:>6.1f} times the threshold  {:>6.1f} µm  X {:.2f} Y {:.2f} Z {:.2f}  lines {}",
+                       d.cause, name_of_severity(d.severity), d.score, d.depth_um, d.position.x(), d.position.y(),
+                       d.position.z(), lines_of(d));
 }
 
 const TrendPoint* latest(const Trend& trend) {
