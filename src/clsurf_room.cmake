@@ -58,6 +58,10 @@ function(clsurf_room name)
   # Rooms include each other as "room/header.h", users say <clsurf/room/header.h>.
   target_include_directories(clsurf_${name} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   list(TRANSFORM ROOM_NEEDS PREPEND clsurf_)
+  # A static room can become part of a shared object (the Python module, or another project's plug-in). Functions are not
+  # to be replaced from outside, so calls inside a file are as direct, and inlined, as without.
+  set_target_properties(clsurf_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(clsurf_${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
   target_link_libraries(clsurf_${name} PRIVATE $<BUILD_INTERFACE:clsurf_build_options>)
   target_link_libraries(clsurf_${name} PUBLIC ${ROOM_NEEDS})
   target_link_libraries(clsurf_${name} ${ROOM_LIBRARIES})
