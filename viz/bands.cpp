@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "core/parallel.h"
@@ -413,6 +414,16 @@ Bands join_passes(const ClSurface& surface, const SectionVertices& vertices, con
         append(all.segments, piece.segments);
     }
     return all;
+}
+
+Column<std::int64_t> triangles_of(const ClSurface& surface) {
+    Column<PointIndex> every(static_cast<std::size_t>(surface.positions.size()));
+    std::iota(every.begin(), every.end(), PointIndex{0});
+    const SectionVertices vertices = section_vertices(surface, every);
+    const Bands bands = join_passes(surface, vertices, {}, static_cast<float>(surface.step_over));
+    Column<std::int64_t> triangles(bands.triangles.size());
+    for (std::size_t k = 0; k < triangles.size(); ++k) triangles[k] = vertices.points[bands.triangles[k]];
+    return triangles;
 }
 
 }  // namespace clsurf::viz

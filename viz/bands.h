@@ -42,4 +42,7 @@ struct NearnessFrame {
 [[nodiscard]] Bands join_passes(const ClSurface& surface, const SectionVertices& vertices, const NearnessFrame& frame,
                                 float reach);
 
+/// The triangles between adjacent passes over all points, 3 points each. O(points), parallel.
+[[nodiscard]] Column<std::int64_t> triangles_of(const ClSurface& surface);
+
 }  // namespace clsurf::viz

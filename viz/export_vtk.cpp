@@ -1,7 +1,5 @@
 #include "viz/export_vtk.h"
 
-#include <numeric>
-
 #include <hdf5.h>
 #include <vtkCellArray.h>
 #include <vtkCellType.h>
@@ -35,12 +33,7 @@ CellColumns cells_of(const ClSurface& surface) {
         for (PointIndex i = pass.first; i <= pass.last; ++i) cells.line_points.push_back(i);
         cells.line_offsets.push_back(static_cast<std::int64_t>(cells.line_points.size()));
     }
-    Column<PointIndex> every(static_cast<std::size_t>(surface.positions.size()));
-    std::iota(every.begin(), every.end(), PointIndex{0});
-    const SectionVertices vertices = section_vertices(surface, every);
-    const Bands bands = join_passes(surface, vertices, {}, static_cast<float>(surface.step_over));
-    cells.triangles.resize(bands.triangles.size());
-    for (std::size_t k = 0; k < bands.triangles.size(); ++k) cells.triangles[k] = vertices.points[bands.triangles[k]];
+    cells.triangles = triangles_of(surface);
     return cells;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "viz/colour_difference.h"
+
 namespace clsurf::viz {
 
 std::string usual_colour_map_name(const FieldInfo& field) {
@@ -34,6 +36,12 @@ ColourScale scale_of(const FieldInfo& field, double low, double high, int bins, 
 
 ColourScale scale_of(const FieldInfo& field, double low, double high, int bins) {
     return scale_of(field, low, high, bins, usual_colour_map(field));
+}
+
+double colour_difference_of(const FieldInfo& field, double a, double b) {
+    const double factor = field.unit.per_inside;
+    const ColourScale scale = scale_of(field, factor * field.usual_range->low, factor * field.usual_range->high);
+    return delta_e00(lab_of(scale.colour(factor * a)), lab_of(scale.colour(factor * b)));
 }
 
 }  // namespace clsurf::viz

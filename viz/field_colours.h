@@ -20,4 +20,8 @@ namespace clsurf::viz {
 [[nodiscard]] ColourScale scale_of(const FieldInfo& field, double low, double high, int bins = 0);
 [[nodiscard]] ColourScale scale_of(const FieldInfo& field, double low, double high, int bins, ColourMap map);
 
+/// How different two values (in inside units) look in the usual colours of a field over its usual range, which it must
+/// have: CIEDE2000.
+[[nodiscard]] double colour_difference_of(const FieldInfo& field, double a, double b);
+
 }  // namespace clsurf::viz

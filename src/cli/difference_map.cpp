@@ -12,6 +12,7 @@
 #include "core/file_name.h"
 #include "core/spelling.h"
 #include "field/range.h"
+#include "viz/map_texts.h"
 
 namespace clsurf::cli {
 namespace {
@@ -67,7 +68,7 @@ void draw_difference(const DrawnDifference& shown, const Trajectory& path, const
         fmt::format("{}: {} minus {}", shown.field.info.label, file_name(shown.run), file_name(shown.reference));
     texts.subtitle =
         fmt::format("{} points of {}, {} path", path.count, file_name(shown.reference), name_of(path.role));
-    texts.notes = notes_of(range);
+    texts.notes = viz::notes_of(range);
     if (!shown.note.empty()) texts.notes.insert(texts.notes.begin(), shown.note);
     const viz::Image image = viz::draw_map({panel}, camera, scale_of(shown.field.info, range, look), texts, look.look);
     output.write(image, fmt::format("clsurf difference of {} and {}: {} {:g} to {:g} {}", file_name(shown.run),

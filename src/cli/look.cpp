@@ -1,8 +1,5 @@
 #include "cli/look.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "core/file_name.h"
@@ -115,16 +112,6 @@ void refuse_scale_options(const FieldInfo& field, const LookOptions& options) {
     if (options.range.kind != RangeRule::Kind::automatic) refuse("--range");
     if (!options.colour_map.empty()) refuse("--colormap");
     if (options.bins > 0) refuse("--bins");
-}
-
-std::vector<std::string> notes_of(const ShownRange& range) {
-    std::vector<std::string> notes{range.note};
-    if (range.lowest < range.low || range.highest > range.high) {
-        const double readable = std::max(1e-3 * (range.high - range.low), 1e-6 * std::abs(range.high));
-        notes.push_back(fmt::format("values from {} to {}", viz::tick_text(range.lowest, readable),
-                                    viz::tick_text(range.highest, readable)));
-    }
-    return notes;
 }
 
 std::string text_of(const po::variables_map& values, const char* name, const std::string& otherwise) {

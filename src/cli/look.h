@@ -25,8 +25,6 @@ void declare_look(po::options_description& options);
 [[nodiscard]] viz::ColourScale scale_of(const FieldInfo& field, const ShownRange& range, const LookOptions& options);
 /// Throws UsageError: --range, --colormap or --bins, and a field whose values are names.
 void refuse_scale_options(const FieldInfo& field, const LookOptions& options);
-/// What the footnote says of a range.
-[[nodiscard]] std::vector<std::string> notes_of(const ShownRange& range);
 
 /// An option's text, or another where it is not given.
 [[nodiscard]] std::string text_of(const po::variables_map& values, const char* name, const std::string& otherwise);

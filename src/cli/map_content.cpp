@@ -1,6 +1,5 @@
 #include "cli/map_content.h"
 
-#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,28 +9,14 @@
 #include "core/file_name.h"
 #include "field/pass_ramps.h"
 #include "io/reports/defect_names.h"
+#include "program/frame_placement.h"
+#include "viz/map_texts.h"
 
 namespace clsurf::cli {
 namespace {
 
 /// Its ramps at the ends of passes say nothing: all passes have them.
 bool is_speed(const FieldInfo& field) { return field.preference == FieldPreference::higher && !has_classes(field); }
-
-/// "G54" where the program's coordinates are those of one work offset.
-std::string frame_of(const Shown& shown) {
-    constexpr int last_usual = 6;  // G54 … G59
-    const std::vector<WorkFrame>& frames = shown.part.program.motions.frames;
-    const int system = frames.front().system;
-    const bool one = std::all_of(frames.begin(), frames.end(), [&](const WorkFrame& f) { return f.system == system; });
-    return one && system >= 1 && system <= last_usual ? fmt::format("G{}", 53 + system) : std::string();
-}
-
-std::string counts_of(const Shown& shown) {
-    PointIndex passes = 0;
-    for (const Pass& pass : shown.surface.passes) passes += pass.kind == PassKind::cut ? 1 : 0;
-    return fmt::format("{} points, {} passes{}", shown.part.log.records, passes,
-                       shown.surface.step_over > 0 ? fmt::format(", {:.3g} mm apart", shown.surface.step_over) : "");
-}
 
 }  // namespace
 
@@ -76,7 +61,7 @@ viz::MapPanel panel_of(const Shown& shown, const RenderOptions& options, std::st
 viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, const RenderOptions& options,
                        const std::vector<std::string>& range_notes) {
     viz::MapTexts texts;
-    texts.frame = frame_of(shown);
+    texts.frame = common_work_system(shown.part.program.motions);
     const std::string_view positions =
         shown.origin == PointOrigin::program ? "programmed" : name_of(shown.part.path.role);
     texts.title = fmt::format("{}, {} {}", shown.field.info.label, positions,
@@ -84,8 +69,10 @@ viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, c
     if (shown.relief) texts.title = fmt::format("{}, {}", shown.field.info.label, to_text(*shown.part.tool));
     const std::string program = file_name(options.part.program);
     // The captions of two panels name the logs.
-    texts.subtitle = before ? fmt::format("{} · before: {} · after: {}", program, counts_of(*before), counts_of(shown))
-                            : fmt::format("{} · {} · {}", program, run_name(shown, options), counts_of(shown));
+    const std::string counts = viz::counts_of(shown.surface);
+    texts.subtitle = before
+                         ? fmt::format("{} · before: {} · after: {}", program, viz::counts_of(before->surface), counts)
+                         : fmt::format("{} · {} · {}", program, run_name(shown, options), counts);
     if (!options.selection.is_all()) texts.notes.push_back("only " + options.selection.words);
     if (!shown.field.info.note.empty()) texts.notes.push_back(shown.field.info.note);
     if (!shown.relief && is_speed(shown.field.info)) texts.notes.emplace_back("paler: ramps at the ends of passes");
@@ -104,10 +91,10 @@ viz::Image draw_defect_map(const Shown& shown, const RenderOptions& options) {
     panel.defects = &defects;
     const std::string count = defects.marks.size() == 1 ? "1 defect" : fmt::format("{} defects", defects.marks.size());
     viz::MapTexts texts;
-    texts.frame = frame_of(shown);
+    texts.frame = common_work_system(shown.part.program.motions);
     texts.title = io::headline_of(shown.defects.report);
     texts.subtitle = fmt::format("{} · {} · {} · {}", count, file_name(options.part.program), run_name(shown, options),
-                                 counts_of(shown));
+                                 viz::counts_of(shown.surface));
     texts.notes = {"coloured: the sections at fault", "darker: farther above the threshold; 1: the farthest"};
     const viz::Camera camera = viz::map_camera({panel}, options.shown.look);
     return viz::draw_map({panel}, camera, {}, texts, options.shown.look);

@@ -37,12 +37,9 @@ WantedPlace parse_place(std::string text) {
 /// A place from which the nearest pass lies far away is not on the part; under one without a height nothing was cut.
 std::vector<FoundPlace> find_on_part(const PointQuery& query, const WantedPlace& wanted, const std::string& text,
                                      Diagnostics& diagnostics) {
-    constexpr double far_away = 5;  // step-overs
     std::vector<FoundPlace> found = query.find_nearest(wanted);
-    constexpr double far_from_one_pass = 10;  // mm: no step-over is known; a tip may lie a tool's radius off the part
     const double step_over = query.step_over();
-    const double far = step_over > 0 ? far_away * step_over : far_from_one_pass;
-    const bool is_far = !found.empty() && found.front().distance > far;
+    const bool is_far = !found.empty() && query.is_off_the_part(found.front().distance);
     if (wanted.from_above && (found.empty() || is_far)) {
         const std::string away = found.empty()
                                      ? "no cutter reaches there"

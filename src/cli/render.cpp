@@ -17,6 +17,7 @@
 #include "core/file_name.h"
 #include "field/range.h"
 #include "io/reports/defect_names.h"
+#include "viz/map_texts.h"
 #include "viz/scene.h"
 
 namespace clsurf::cli {
@@ -39,7 +40,7 @@ MapScale scale_of_map(const Shown& after, const std::optional<Shown>& before, co
         range = wider(range, range_in_picture(*before, options, camera));
         if (options.shown.range.kind == RangeRule::Kind::fixed) range.note = note;
     }
-    return {scale_of(after.field.info, range, options.shown), notes_of(range),
+    return {scale_of(after.field.info, range, options.shown), viz::notes_of(range),
             fmt::format(" {:g} to {:g} {}", range.low, range.high, after.field.info.unit.name), range.high - range.low};
 }
 

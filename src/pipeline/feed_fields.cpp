@@ -34,6 +34,16 @@ double programmed_feed_at(const Part& part, PointIndex point) {
     return feed_of(part.program.motions, part.lines->motion_at(point));
 }
 
+std::vector<SpeedShares> speed_shares(const QualityReport& report, const Part& part) {
+    std::vector<SpeedShares> shares;
+    for (const Defect& defect : report.defects) {
+        const double programmed = programmed_feed_at(part, defect.point);
+        const double feed = programmed > 0 ? programmed : static_cast<double>(report.thresholds.usual_speed);
+        shares.push_back({defect.speed / feed, defect.speed_beside / feed});
+    }
+    return shares;
+}
+
 std::vector<FieldInfo> FeedFields::fields() const { return {feed_share_info()}; }
 
 bool FeedFields::can_compute(std::string_view) const {

@@ -2,11 +2,13 @@
 // The field `feed_share`: the path speed as a share of the programmed feed.
 
 #include <memory>
+#include <vector>
 
 #include "field/field_provider.h"
 #include "field/position_fields.h"
 #include "mapping/line_map.h"
 #include "pipeline/part.h"
+#include "predictor/defect.h"
 #include "program/program.h"
 
 namespace clsurf {
@@ -15,6 +17,14 @@ namespace clsurf {
 
 /// The programmed feed at a point of a part [mm/s]; NaN: none is known.
 [[nodiscard]] double programmed_feed_at(const Part& part, PointIndex point);
+
+/// Speeds as shares of the programmed feed there, or where there is none of the usual speed.
+struct SpeedShares {
+    double at_defect = 0;
+    double beside = 0;  ///< of the adjacent passes
+};
+/// One for each defect of a report on the part.
+[[nodiscard]] std::vector<SpeedShares> speed_shares(const QualityReport& report, const Part& part);
 
 class FeedFields : public FieldProvider {
 public:

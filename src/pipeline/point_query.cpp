@@ -121,6 +121,12 @@ void PointQuery::add_motion(QueryMatch& match) const {
     }
 }
 
+bool PointQuery::is_off_the_part(double distance) const {
+    constexpr double step_overs = 5;
+    constexpr double of_one_pass = 10;  // mm: no step-over is known; a tip may lie a tool's radius off the part
+    return distance > (step_over() > 0 ? step_overs * step_over() : of_one_pass);
+}
+
 std::vector<PointRange> PointQuery::points_of_line(std::size_t file, LineNumber line) const {
     return file == 0 ? part_.lines->points_of(line) : points_of(part_.program, *part_.lines, file, line);
 }

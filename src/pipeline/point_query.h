@@ -48,6 +48,8 @@ public:
     /// The nearest point of each of the nearest passes, or of each of the nearest lines where there is one pass only. By
     /// contact points where the tool is known. Needs the surface.
     [[nodiscard]] std::vector<FoundPlace> find_nearest(const WantedPlace& wanted) const;
+    /// Whether a place so far [mm] from the nearest one that was found does not lie on the part. Needs the surface.
+    [[nodiscard]] bool is_off_the_part(double distance) const;
     /// The runs of points of a line: of the program's own file 0, or of another of its files.
     [[nodiscard]] std::vector<PointRange> points_of_line(std::size_t file, LineNumber line) const;
 

@@ -333,4 +333,12 @@ std::string name_of_work_system(int number, const Dialect* dialect) {
     return fmt::format("G54.1 P{}", number - plain);
 }
 
+std::string common_work_system(const Motions& motions) {
+    constexpr int plain = 6;  // G54 … G59
+    const int system = motions.frames.front().system;
+    const auto same = [&](const WorkFrame& f) { return f.system == system; };
+    const bool one = std::all_of(motions.frames.begin(), motions.frames.end(), same);
+    return one && system >= 1 && system <= plain ? name_of_work_system(system, nullptr) : std::string();
+}
+
 }  // namespace clsurf

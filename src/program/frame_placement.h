@@ -80,6 +80,9 @@ Eigen::Isometry3d place_motions(Program& program, const FramePoses& poses = {},
 /// "G54" … "G59.3", "G54.1 P1": the name of a work system of a dialect.
 [[nodiscard]] std::string name_of_work_system(int number, const Dialect* dialect);
 
+/// "G54" where all motions are in one work system, and that is one of G54 … G59; else empty.
+[[nodiscard]] std::string common_work_system(const Motions& motions);
+
 /// A transformation that leaves unknown coordinates (NaN) the only ones: what is multiplied by zero does not count.
 [[nodiscard]] Vec3 apply(const Eigen::Isometry3d& pose, const Vec3& p);
 
