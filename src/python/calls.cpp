@@ -1,0 +1,183 @@
+#include "python/calls.h"
+
+#include <cmath>
+#include <span>
+
+#include "compare/drifted_run.h"
+#include "compare/run_difference.h"
+#include "compare/run_report.h"
+#include "core/error.h"
+#include "core/spelling.h"
+#include "identify/identify.h"
+#include "io/files/compressed.h"
+#include "io/formats/program_identity.h"
+#include "io/readers/machine_file.h"
+#include "io/reports/identify_report.h"
+#include "io/reports/run_report.h"
+#include "io/reports/simulated_log.h"
+#include "io/reports/simulation_origin.h"
+#include "pipeline/contacts.h"
+#include "pipeline/roles.h"
+#include "pipeline/simulated_log.h"
+#include "surface/stitch.h"
+
+namespace clsurf::python {
+namespace {
+
+using Parts = std::vector<std::shared_ptr<LoadedPart>>;
+
+template <typename T, std::size_t n>
+T choose(const std::string& option, const std::string& word, const std::string_view (&names)[n], const T (&values)[n]) {
+    for (std::size_t i = 0; i < n; ++i) {
+        if (word == names[i]) return values[i];
+    }
+    throw UsageError(option + ": '" + word + "' is not known", did_you_mean(word, names));
+}
+
+PartRules rules_of(const PartOptions& options) {
+    PartRules rules;
+    if (!options.surface.empty())
+        rules.role = choose<Role>("surface", options.surface, {"commanded", "feedback", "actual"},
+                                  {Role::commanded, Role::feedback, Role::actual});
+    rules.derivative = choose<DerivativeMethod>("derivative", options.derivative, {"savgol", "kalman"},
+                                                {DerivativeMethod::savgol, DerivativeMethod::kalman});
+    if (options.work_offset) {
+        const auto& [x, y, z, turn] = *options.work_offset;
+        rules.poses.zero = pose_of(Vec3(x, y, z), turn);
+    }
+    if (!options.machine.empty()) {
+        const Machine machine = io::read_machine(options.machine);
+        if (machine.kinematics.has_rotary()) rules.kinematics = std::make_shared<const Kinematics>(machine.kinematics);
+        rules.limits = io::read_stated_limits(options.machine);
+        rules.machine = std::make_shared<const Machine>(machine);
+    }
+    rules.use_line_channel = !options.ignore_lines;
+    rules.accept_foreign = options.force;
+    if (!options.tool.empty() && options.tool != "none") rules.tool = parse_tool(options.tool);
+    return rules;
+}
+
+io::ProgramOptions program_options_of(const PartOptions& options) {
+    io::ProgramOptions program;
+    program.dialect = options.dialect;
+    program.block_delete = options.block_delete;
+    program.tools = options.tools;
+    return program;
+}
+
+ComparedRun compared(const Part& part, const Part& other) {
+    const std::optional<Role> role = common_role(part.log, other.log);
+    if (!role)
+        throw InputError(Place::of_file(other.log.name), "has no positions of a kind that " + part.log.name + " has");
+    ComparedRun run;
+    run.log = &part.log;
+    run.path = part.path.role == *role ? part.path : reconstruct_like(part.log, *role, part.path);
+    if (part.log.has(Role::commanded) && other.log.has(Role::commanded))
+        run.commanded = reconstruct_like(part.log, Role::commanded, run.path);
+    if (const std::optional<Role> measured = common_measured_role(part.log, other.log)) {
+        run.measured = reconstruct_like(part.log, *measured, run.path);
+        if (*measured != *role) run.truest = run.measured;
+    }
+    return run;
+}
+
+std::vector<Part> copies(const Parts& parts, Diagnostics& diagnostics) {
+    std::vector<Part> copied;
+    for (const std::shared_ptr<LoadedPart>& part : parts) {
+        copied.push_back(part->part());
+        diagnostics.append(part->part().diagnostics);
+    }
+    return copied;
+}
+
+}  // namespace
+
+std::shared_ptr<LoadedPart> read_part(const PartOptions& options) {
+    io::LogOptions log;
+    log.layout = options.layout;
+    log.mapping = options.mapping;
+    log.period = options.period;
+    if (log.period && !(*log.period > 0 && std::isfinite(*log.period))) throw UsageError("period must be above 0 s");
+    io::PartFiles files{options.program, options.log, program_options_of(options), log, options.tool != "none"};
+    return std::make_shared<LoadedPart>(PartRequest{std::move(files), rules_of(options)});
+}
+
+std::shared_ptr<LoadedPart> simulate_part(const PartOptions& options, const std::array<double, 3>& start) {
+    PartRules rules = rules_of(options);
+    const Machine machine = rules.machine ? *rules.machine : Machine{};
+    const io::Source source = io::open_source(options.program);
+    io::ProgramOptions how = program_options_of(options);
+    how.coordinates.reset();
+    const Program as_programmed = io::read_program(source, how);
+    Program driven = as_programmed;
+    Vec3 zero = Vec3::Zero();
+    const bool five_axes = runs_on_five_axes(driven, machine);
+    if (five_axes)
+        zero = prepare_five_axes(driven, machine, rules.poses).translation();
+    else
+        (void)place_motions(driven, {}, Coordinates::machine);
+    SimulatedRun run = simulate_to_log(driven, machine, Vec3(start[0], start[1], start[2]), {}, zero);
+    Diagnostics diagnostics = driven.diagnostics;
+    diagnostics.append(run.summary.diagnostics);
+    std::string report = io::simulation_json(run.summary, diagnostics, machine.fidelity);
+    run.log.metadata = io::with_simulation("{}", machine);
+    run.log.programs = {io::identify(source)};
+    rules.identity = ProgramIdentity::same;
+    if (!five_axes) rules.kinematics = nullptr;
+    Part part = assemble(as_programmed, std::move(run.log), rules);
+    if (!part.tool && !how.tools.empty() && options.tool != "none")
+        part.tool = io::tool_of_table(how.tools, part.program);
+    return std::make_shared<LoadedPart>(std::move(part), std::move(report));
+}
+
+std::pair<std::string, std::string> identify_machine(const Parts& parts, const Parts& tests,
+                                                     const std::string& machine) {
+    if (parts.empty()) throw UsageError("identify needs at least one part");
+    const Machine known = machine.empty() ? Machine{} : io::read_machine(machine);
+    Diagnostics diagnostics;
+    std::vector<Part> fitted = copies(parts, diagnostics);
+    const std::vector<Part> tested = copies(tests, diagnostics);
+    Identification result = identify_parts(fitted, known);
+    cross_validate(fitted, known, result);
+    test_runs(tested, result);
+    diagnostics.append(result.diagnostics);
+    return {io::identification_json(result, diagnostics), io::identified_machine_text(result)};
+}
+
+std::string diff_parts(const Parts& parts) {
+    if (parts.size() < 2) throw UsageError("diff compares two parts or more");
+    const Part& reference = parts.front()->part();
+    Diagnostics diagnostics = reference.log.diagnostics;
+    io::ReportedRuns reported;
+    reported.reference = reference.log.name;
+    reported.diagnostics = &diagnostics;
+    std::optional<ClSurface> surface;
+    std::optional<DriftFinder> drift;
+    Role role = Role::commanded;
+    for (std::size_t k = 1; k < parts.size(); ++k) {
+        const Part& other = parts[k]->part();
+        diagnostics.append(other.log.diagnostics);
+        const ComparedRun a = compared(reference, other);
+        const ComparedRun b = compared(other, reference);
+        if (surface && a.path.role != role)
+            throw InputError(Place::of_file(other.log.name), "has other kinds of positions than the runs before it");
+        role = a.path.role;
+        if (!surface) {
+            surface = stitch(gather(a.path), *reference.lines);
+            drift.emplace(*surface);
+        }
+        const RunDifferences differences = compare_runs(a, *surface, b);
+        if (differences.alignment.aligned <= 0)
+            throw InputError(Place::of_file(other.log.name), "nowhere runs along the path of " + reference.log.name);
+        RunReport report = report_run(a, *surface, reference.lines.get(), b, differences);
+        if (reference.tool)
+            PartContacts(reference.log, a.path, *reference.lines, *surface, *reference.tool).locate(report);
+        reported.runs.push_back({other.log.name, std::move(report), {}});
+        drift->add(differences);
+    }
+    reported.departures = drift->departures();
+    reported.drifted = drifted_run(reported.departures);
+    return io::runs_json(reported);
+}
+
+}  // namespace clsurf::python

@@ -1,0 +1,19 @@
+# The Python package, by pytest: numbers against those of the program, memory, errors, pictures, and what docs/python.md shows.
+
+if(TARGET clsurf_python)
+  get_target_property(interpreter clsurf_python CLSURF_INTERPRETER)
+  set(pytest ${interpreter} -B -m pytest -q -p no:cacheprovider)
+  foreach(file numbers memory errors picture)
+    add_test(NAME python.${file} COMMAND ${pytest} ${CMAKE_CURRENT_LIST_DIR}/test_${file}.py)
+    list(APPEND python_tests python.${file})
+  endforeach()
+  # The page works on part.nc and run.biip, as a reader does.
+  set(page ${CMAKE_CURRENT_BINARY_DIR}/python_page)
+  file(MAKE_DIRECTORY ${page})
+  configure_file(${PROJECT_SOURCE_DIR}/data/programs/bottle_uneven.nc ${page}/part.nc COPYONLY)
+  add_test(NAME python.page WORKING_DIRECTORY ${page} COMMAND sh -ec
+    "cp '${PROJECT_BINARY_DIR}/samples/bottle_uneven.biip' run.biip; exec '${interpreter}' -B -m pytest -q -p no:cacheprovider --rootdir=. --doctest-glob='*.md' -o doctest_optionflags='NORMALIZE_WHITESPACE ELLIPSIS' '${PROJECT_SOURCE_DIR}/docs/python.md'")
+  list(APPEND python_tests python.page)
+  set_tests_properties(${python_tests} PROPERTIES LABELS python TIMEOUT 600 ENVIRONMENT
+    "PYTHONPATH=${PROJECT_BINARY_DIR}/python;CLSURF=$<TARGET_FILE:clsurf>;CLSURF_DATA=${PROJECT_SOURCE_DIR}/data;CLSURF_SAMPLES=${PROJECT_BINARY_DIR}/samples")
+endif()

@@ -1,0 +1,28 @@
+// The OpenGL of a module that another program loads (the Python module), in place of gl_symbols.cpp and
+// gl_context_osmesa.cpp (clsurf_link_gl_of_module). A program exports glX functions of its own, so that VTK draws with
+// OSMesa. A module must not: its host may have loaded VTK already, and may draw on a display with it. The module's
+// contexts come from EGL. libGL (GLVND) passes each call to the vendor of the current context, so that VTK needs no other
+// functions than those of its host.
+
+#include "core/error.h"
+#include "viz/gl_context.h"
+#include "viz/gl_context_makers.h"
+
+namespace clsurf::viz {
+namespace {
+
+GlResolver resolver_of_module = nullptr;
+
+}  // namespace
+
+void set_gl_resolver(GlResolver wanted) { resolver_of_module = wanted; }
+
+GlFunction resolve_gl(const char* name) { return resolver_of_module == nullptr ? nullptr : resolver_of_module(name); }
+
+bool gl_symbols_are_ours() { return true; }
+
+std::unique_ptr<GlContext> make_osmesa_context(int, int) {
+    throw SystemError("a module draws with EGL, not with OSMesa");
+}
+
+}  // namespace clsurf::viz
