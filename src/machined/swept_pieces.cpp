@@ -1,40 +1,25 @@
 #include "machined/swept_pieces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <deque>
-#include <limits>
 #include <utility>
 
 #include "core/vectorised.h"
+#include "machined/outline_sweep.h"
 
 namespace clsurf {
 namespace {
 
-constexpr float nothing = std::numeric_limits<float>::infinity();
-constexpr int leaf_side = 8;
-constexpr int leaf_cells = leaf_side * leaf_side;  ///< of a block that is not divided any further
-constexpr float gentle = 0.04F;     ///< of the corner radius squared: a steeper outline has no useful tangent plane
-constexpr float rounding = 2e-6F;   ///< [mm] of heights
-constexpr double corner_share = 4;  ///< pieces of a bull-nose tool to its corner radius
-constexpr double standing = 1e-6;   ///< [mm] in the plane
-
-/// The tool as the loops use it [mm].
-struct Outline {
-    float radius, corner, bottom;  ///< bottom: radius of what is flat
-
-    explicit Outline(const CuttingTool& tool)
-        : radius(static_cast<float>(tool.radius)),
-          corner(static_cast<float>(tool.corner)),
-          bottom(static_cast<float>(tool.radius - tool.corner)) {}
-
-    [[nodiscard]] float height(float rho) const {
-        if (rho > radius) return nothing;
-        const float out = std::max(rho - bottom, 0.0F);
-        return corner - std::sqrt(std::max(corner * corner - out * out, 0.0F));
-    }
-};
+constexpr int side = 4;              ///< cells of a block that is not divided any further
+constexpr std::size_t few = 8;       ///< pieces that are not worth a division either
+constexpr float gentle = 0.04F;      ///< of the corner radius squared: a steeper outline has no useful tangent plane
+constexpr float rounding = 2e-6F;    ///< [mm] of heights
+constexpr double corner_share = 4;   ///< pieces of a bull-nose tool to its corner radius
+constexpr double longest_cells = 8;  ///< cells to a piece, or more where the tool is large beside them
+constexpr double standing = 1e-6;    ///< [mm] in the plane
 
 struct Block {
     int column, row, columns, rows;
@@ -52,35 +37,42 @@ struct Extent {
     [[nodiscard]] float diagonal() const { return std::sqrt(half_x * half_x + half_y * half_y); }
 };
 
-/// What each piece is over the middle of a block: height of the tool in the middle of the piece, its slopes; and
-/// how low it can be anywhere in the block over a plane through nothing in the middle.
+/// A plane through nothing in the middle of a block, by its slopes.
+struct Plane {
+    float slope_x = 0, slope_y = 0;
+};
+
+/// What each piece is over the middle of a block: height and slopes of the tool in the middle of the piece, infinite and
+/// level where the outline there is too steep; and how low the tool can be there all along the piece, or anywhere in the
+/// block where it is too steep; infinite: it reaches no cell.
 struct Reach {
-    std::vector<float> height, slope_x, slope_y, bound;
+    std::vector<float> height, slope_x, slope_y, low;
 
     void resize(std::size_t count) {
-        for (std::vector<float>* column : {&height, &slope_x, &slope_y, &bound}) column->resize(count);
+        for (std::vector<float>* column : {&height, &slope_x, &slope_y, &low}) column->resize(count);
     }
 };
 
-/// Height and slopes over a place in the middle of the block; infinite where the outline there is too steep.
-CLSURF_VECTORISED void measure_heights(const SweptPieces& p, const Outline& tool, const Extent& e, Reach& reach) {
+CLSURF_VECTORISED void measure(const SweptPieces& p, const Outline& tool, const Extent& e, Reach& reach) {
     const std::size_t count = p.size();
     const float* const x = p.x.data();
     const float* const y = p.y.data();
     const float* const z = p.z.data();
     const float* const dx = p.dx.data();
     const float* const dy = p.dy.data();
-    const float* const length = p.length.data();
+    const float* const half = p.half.data();
     const float* const slope = p.slope.data();
     float* const height = reach.height.data();
     float* const slope_x = reach.slope_x.data();
     float* const slope_y = reach.slope_y.data();
-    const float radius = tool.radius, corner = tool.corner, bottom = tool.bottom, at_x = e.x, at_y = e.y;
-    const float squared = corner * corner;
+    float* const low = reach.low.data();
+    const float radius = tool.radius(), corner = tool.corner(), bottom = tool.bottom(), at_x = e.x, at_y = e.y;
+    const float squared = corner * corner, diagonal = e.diagonal();
+    // The columns do not overlap, and they are too many for the compiler to ask.
+#pragma GCC ivdep
     for (std::size_t k = 0; k < count; ++k) {
-        const float half = 0.5F * length[k];
-        const float off_x = at_x - x[k] - dx[k] * half;
-        const float off_y = at_y - y[k] - dy[k] * half;
+        const float off_x = at_x - x[k];
+        const float off_y = at_y - y[k];
         const float rho = std::sqrt(off_x * off_x + off_y * off_y);
         const float beyond = rho - bottom;
         const float out = beyond > 0 ? beyond : 0.0F;
@@ -89,192 +81,65 @@ CLSURF_VECTORISED void measure_heights(const SweptPieces& p, const Outline& tool
         const float steep = out / ((up > 1e-9F ? up : 1e-9F) * (rho > 1e-9F ? rho : 1e-9F));
         const bool flat = rho < bottom;
         const bool usable = flat | ((rest > gentle * squared) & (rho < radius));
-        slope_x[k] = flat ? 0.0F : steep * off_x;
-        slope_y[k] = flat ? 0.0F : steep * off_y;
-        height[k] = usable ? z[k] + slope[k] * half + corner - up : nothing;
+        const float rise_x = usable & !flat ? steep * off_x : 0.0F;
+        const float rise_y = usable & !flat ? steep * off_y : 0.0F;
+        const float over = z[k] + corner - up;
+        slope_x[k] = rise_x;
+        slope_y[k] = rise_y;
+        height[k] = usable ? over : not_reached;
+        const float tangent = over - std::abs(slope[k] - rise_x * dx[k] - rise_y * dy[k]) * half[k];
+        // Where it is steep, by how near the axis comes to the block.
+        const float apart = rho - diagonal - half[k];
+        const float nearest = apart > 0 ? apart : 0.0F;
+        const float past = nearest - bottom > 0 ? nearest - bottom : 0.0F;
+        const float left = squared - past * past;
+        const float radial = z[k] - std::abs(slope[k]) * half[k] + corner - std::sqrt(left > 0 ? left : 0.0F);
+        const float either = usable ? tangent : radial;
+        low[k] = nearest <= radius ? either : not_reached;
     }
 }
 
-/// How low each piece can be over the block, less a plane of slopes `plane_x`, `plane_y`.
-CLSURF_VECTORISED void measure_bounds(const SweptPieces& p, const Outline& tool, const Extent& e, float plane_x,
-                                      float plane_y, Reach& reach) {
-    const std::size_t count = p.size();
-    const float* const x = p.x.data();
-    const float* const y = p.y.data();
-    const float* const z = p.z.data();
-    const float* const dx = p.dx.data();
-    const float* const dy = p.dy.data();
-    const float* const length = p.length.data();
-    const float* const slope = p.slope.data();
-    const float* const height = reach.height.data();
+/// From how low a piece can be over the middle of a block to how low it can be anywhere in the block, over a plane.
+CLSURF_VECTORISED void lean(Reach& reach, const Extent& e, const Plane& plane) {
+    const std::size_t count = reach.low.size();
     const float* const slope_x = reach.slope_x.data();
     const float* const slope_y = reach.slope_y.data();
-    float* const bound = reach.bound.data();
-    const float radius = tool.radius, corner = tool.corner, bottom = tool.bottom;
-    const float at_x = e.x, at_y = e.y, half_x = e.half_x, half_y = e.half_y, diagonal = e.diagonal();
-    const float plane_falls = std::abs(plane_x) * half_x + std::abs(plane_y) * half_y;
-    for (std::size_t k = 0; k < count; ++k) {
-        const float half = 0.5F * length[k];
-        const float tangent = height[k] - std::abs(slope_x[k] - plane_x) * half_x -
-                              std::abs(slope_y[k] - plane_y) * half_y -
-                              std::abs(slope[k] - slope_x[k] * dx[k] - slope_y[k] * dy[k]) * half;
-        // Where it is steep, by how near the axis comes to the block.
-        const float off_x = at_x - x[k] - dx[k] * half;
-        const float off_y = at_y - y[k] - dy[k] * half;
-        const float apart = std::sqrt(off_x * off_x + off_y * off_y) - diagonal - half;
-        const float nearest = apart > 0 ? apart : 0.0F;
-        const float beyond = nearest - bottom;
-        const float out = beyond > 0 ? beyond : 0.0F;
-        const float rest = corner * corner - out * out;
-        const float radial = z[k] + slope[k] * half - std::abs(slope[k]) * half + corner -
-                             std::sqrt(rest > 0 ? rest : 0.0F) - plane_falls;
-        const float either = height[k] < nothing ? tangent : radial;
-        bound[k] = nearest <= radius ? either : nothing;
-    }
+    float* const low = reach.low.data();
+    const float plane_x = plane.slope_x, plane_y = plane.slope_y, half_x = e.half_x, half_y = e.half_y;
+    for (std::size_t k = 0; k < count; ++k)
+        low[k] -= std::abs(slope_x[k] - plane_x) * half_x + std::abs(slope_y[k] - plane_y) * half_y;
 }
 
-/// A block of cells seen from a piece: along = s + column · s_column + row · s_row, and across.
-struct Seen {
-    float s, s_column, s_row, w, w_column, w_row;
-};
-
-Seen seen_from(const SweptPieces& p, std::size_t k, const Block& block, const CellBlock& cells) {
-    const float off_x = static_cast<float>(block.column) * cells.cell - p.x[k];
-    const float off_y = static_cast<float>(block.row) * cells.row_pitch - p.y[k];
-    const float dx = p.dx[k];
-    const float dy = p.dy[k];
-    return {off_x * dx + off_y * dy, dx * cells.cell,  dy * cells.row_pitch,
-            off_y * dx - off_x * dy, -dy * cells.cell, dx * cells.row_pitch};
+/// The numbers of pieces that can be as low as `top`.
+void find_low(const std::vector<float>& low, float top, std::vector<std::uint32_t>& found) {
+    found.resize(low.size());
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < low.size(); ++k) {
+        found[count] = static_cast<std::uint32_t>(k);
+        count += static_cast<std::size_t>((low[k] < not_reached) & (low[k] <= top));
+    }
+    found.resize(count);
 }
 
-/// The cells of a leaf, `stride` from row to row.
-struct Leaf {
-    float* z;
-    int columns, rows, stride;
-};
-
-/// One piece under a ball. The outline's height is convex in the way, so that the lowest place on the infinite line,
-/// held back to the piece's ends, is the lowest on the piece.
-CLSURF_VECTORISED void lower_ball(const Leaf& leaf, const Seen& seen, float radius, float slope, float length,
-                                  float tip) {
-    const float squared = radius * radius;
-    const float sine = slope / std::sqrt(1 + slope * slope);
-    for (int row = 0; row < leaf.rows; ++row) {
-        float* const z = leaf.z + static_cast<std::ptrdiff_t>(row) * leaf.stride;
-        const float s = seen.s + static_cast<float>(row) * seen.s_row;
-        const float w = seen.w + static_cast<float>(row) * seen.w_row;
-        for (int k = 0; k < leaf.columns; ++k) {
-            const auto x = static_cast<float>(k);
-            const float along = s + seen.s_column * x;
-            const float across = w + seen.w_column * x;
-            const float rest = squared - across * across;
-            // The tangent of slope touches the circle of this section `half · sine` from its middle.
-            float at = along - std::sqrt(rest > 0 ? rest : 0.0F) * sine;
-            at = at < 0 ? 0.0F : at;
-            at = at > length ? length : at;
-            const float off = along - at;
-            const float q = rest - off * off;
-            const float height = tip + slope * at + (radius - std::sqrt(q > 0 ? q : 0.0F));
-            const float lowered = height < z[k] ? height : z[k];
-            z[k] = q >= 0 ? lowered : z[k];
-        }
+/// The number of the least value, of the first of them.
+CLSURF_VECTORISED std::size_t least_of(const std::vector<float>& values) {
+    constexpr std::size_t lanes = 16;
+    std::array<float, lanes> least;
+    least.fill(not_reached);
+    const float* const from = values.data();
+    std::size_t k = 0;
+    for (; k + lanes <= values.size(); k += lanes) {
+        for (std::size_t lane = 0; lane < lanes; ++lane)
+            least[lane] = from[k + lane] < least[lane] ? from[k + lane] : least[lane];
     }
-}
-
-/// One piece under a bull-nose tool: where the rise along it is zero, between the ends by two steps of the secant.
-CLSURF_VECTORISED void lower_bull(const Leaf& leaf, const Seen& seen, float radius, float corner, float slope,
-                                  float length, float tip) {
-    const float bottom = radius - corner;
-    const float squared = corner * corner;
-    const float least_up = 1e-4F * corner;
-    for (int row = 0; row < leaf.rows; ++row) {
-        float* const z = leaf.z + static_cast<std::ptrdiff_t>(row) * leaf.stride;
-        const float s = seen.s + static_cast<float>(row) * seen.s_row;
-        const float w = seen.w + static_cast<float>(row) * seen.w_row;
-        for (int k = 0; k < leaf.columns; ++k) {
-            const auto x = static_cast<float>(k);
-            const float along = s + seen.s_column * x;
-            const float across = w + seen.w_column * x;
-            float low = 0, high = length;
-            float rise_low = 0, rise_high = 0;
-            float at = 0;
-            for (int step = 0; step < 4; ++step) {
-                at = step == 0 ? 0.0F : step == 1 ? length : low - rise_low * (high - low) / (rise_high - rise_low);
-                at = at >= low ? at : low;  // also where the rises are equal, and their quotient no number
-                at = at <= high ? at : high;
-                const float off = along - at;
-                const float rho = std::sqrt(off * off + across * across) + 1e-9F;
-                const float out = rho - bottom > 0 ? rho - bottom : 0.0F;
-                const float rest = squared - out * out;
-                const float up = std::sqrt(rest > least_up * least_up ? rest : least_up * least_up);
-                const float rise = slope - out * off / (up * rho);
-                const bool falls = rise < 0;
-                // The first two steps are the ends: where it rises from the first or falls to the last, that is it.
-                if (step == 0) rise_low = rise;
-                if (step == 1) rise_high = rise;
-                low = (step > 1) & falls ? at : low;
-                rise_low = (step > 1) & falls ? rise : rise_low;
-                high = (step > 1) & !falls ? at : high;
-                rise_high = (step > 1) & !falls ? rise : rise_high;
-                if (step == 1) {
-                    high = rise_low >= 0 ? 0.0F : high;
-                    low = (rise_low < 0) & (rise_high <= 0) ? length : low;
-                }
-            }
-            const float fraction = low - rise_low * (high - low) / (rise_high - rise_low);
-            at = fraction >= low ? fraction : low;
-            at = at <= high ? at : high;
-            const float off = along - at;
-            const float rho = std::sqrt(off * off + across * across);
-            const float out = rho - bottom > 0 ? rho - bottom : 0.0F;
-            const float up = squared - out * out;
-            const float height = tip + slope * at + (corner - std::sqrt(up > 0 ? up : 0.0F));
-            const float lowered = height < z[k] ? height : z[k];
-            z[k] = rho <= radius ? lowered : z[k];
-        }
-    }
-}
-
-/// One piece under a flat tool: its bottom stands over a cell all the way between two places: the lower one counts.
-CLSURF_VECTORISED void lower_flat(const Leaf& leaf, const Seen& seen, float radius, float slope, float length,
-                                  float tip) {
-    for (int row = 0; row < leaf.rows; ++row) {
-        float* const z = leaf.z + static_cast<std::ptrdiff_t>(row) * leaf.stride;
-        const float s = seen.s + static_cast<float>(row) * seen.s_row;
-        const float w = seen.w + static_cast<float>(row) * seen.w_row;
-        for (int k = 0; k < leaf.columns; ++k) {
-            const auto x = static_cast<float>(k);
-            const float along = s + seen.s_column * x;
-            const float across = w + seen.w_column * x;
-            const float rest = radius * radius - across * across;
-            const float half = std::sqrt(rest > 0 ? rest : 0.0F);
-            const float first = along - half > 0 ? along - half : 0.0F;
-            const float last = along + half < length ? along + half : length;
-            const float height = tip + slope * (slope >= 0 ? first : last);
-            const float lowered = height < z[k] ? height : z[k];
-            z[k] = (rest >= 0) & (first <= last) ? lowered : z[k];
-        }
-    }
-}
-
-/// The highest cell over a plane of these slopes through the middle of the block.
-CLSURF_VECTORISED float highest_over(const Leaf& leaf, float step_x, float step_y) {
-    float most = -nothing;
-    for (int row = 0; row < leaf.rows; ++row) {
-        const float* const z = leaf.z + static_cast<std::ptrdiff_t>(row) * leaf.stride;
-        const float plane = step_y * (static_cast<float>(row) - 0.5F * static_cast<float>(leaf.rows - 1)) -
-                            step_x * 0.5F * static_cast<float>(leaf.columns - 1);
-        for (int k = 0; k < leaf.columns; ++k) {
-            const float over = z[k] - plane - step_x * static_cast<float>(k);
-            most = over > most ? over : most;
-        }
-    }
-    return most;
+    float lowest = *std::min_element(least.begin(), least.end());
+    for (; k < values.size(); ++k) lowest = std::min(lowest, from[k]);
+    return static_cast<std::size_t>(std::find(values.begin(), values.end(), lowest) - values.begin());
 }
 
 class Sweep {
 public:
-    Sweep(const CuttingTool& tool, const CellBlock& cells) : kind_(tool.kind), tool_(tool), cells_(cells) {}
+    Sweep(const CuttingTool& tool, const CellBlock& cells) : tool_(tool), cells_(cells) {}
 
     void run(const SweptPieces& pieces) { lower(pieces, {0, 0, cells_.columns, cells_.rows}, 0); }
 
@@ -282,6 +147,7 @@ private:
     /// What a depth of the division works with.
     struct Level {
         Reach reach;
+        std::vector<std::uint32_t> found;
         SweptPieces kept;
     };
 
@@ -292,23 +158,24 @@ private:
         const Extent extent(block, cells_);
         Reach& reach = level.reach;
         reach.resize(pieces.size());
-        measure_heights(pieces, tool_, extent, reach);
-        const auto lowest =
-            static_cast<std::size_t>(std::min_element(reach.height.begin(), reach.height.end()) - reach.height.begin());
-        const bool known = reach.height[lowest] < nothing;
-        const float plane_x = known ? reach.slope_x[lowest] : 0.0F;
-        const float plane_y = known ? reach.slope_y[lowest] : 0.0F;
-        measure_bounds(pieces, tool_, extent, plane_x, plane_y, reach);
-        if (block.columns * block.rows <= leaf_cells) return lower_leaf(pieces, block, reach, plane_x, plane_y);
-        const float top = known ? highest_at_corners(pieces, lowest, extent, plane_x, plane_y) : nothing;
-        level.kept.clear();
-        for (std::size_t k = 0; k < pieces.size(); ++k) {
-            if (reach.bound[k] < nothing && reach.bound[k] <= top + rounding) level.kept.copy(pieces, k);
+        measure(pieces, tool_, extent, reach);
+        const std::size_t lowest = least_of(reach.height);
+        const bool known = reach.height[lowest] < not_reached;
+        const Plane plane = known ? Plane{reach.slope_x[lowest], reach.slope_y[lowest]} : Plane{};
+        const float top = known ? highest_at_corners(pieces[lowest], extent, plane) : not_reached;
+        lean(reach, extent, plane);
+        find_low(reach.low, top + rounding, level.found);
+        const int cells = block.columns * block.rows;
+        if (cells <= side * side || (cells <= CellGroup::most && level.found.size() <= few)) {
+            gather(block, extent, plane);
+            lower_group(pieces, level);
+            return scatter(block);
         }
+        level.kept.take(pieces, level.found);
         // The longer side, or both: blocks stay about square.
         const Block& b = block;
-        const int left = b.columns > 1 && 2 * b.columns > b.rows ? (b.columns + 1) / 2 : b.columns;
-        const int low = b.rows > 1 && 2 * b.rows > b.columns ? (b.rows + 1) / 2 : b.rows;
+        const int left = b.columns > 1 && 2 * b.columns > b.rows ? half_of(b.columns) : b.columns;
+        const int low = b.rows > 1 && 2 * b.rows > b.columns ? half_of(b.rows) : b.rows;
         for (const Block& part :
              {Block{b.column, b.row, left, low}, Block{b.column + left, b.row, b.columns - left, low},
               Block{b.column, b.row + low, left, b.rows - low},
@@ -316,70 +183,68 @@ private:
             lower(level.kept, part, depth + 1);
     }
 
+    /// Sides of whole blocks, as long as there are two.
+    static int half_of(int cells) { return cells > side ? (cells / side + 1) / 2 * side : (cells + 1) / 2; }
+
     /// How high the tool in the middle of a piece stands over the plane at the block's corners: since its outline is
     /// convex, nowhere in the block does it stand higher.
-    [[nodiscard]] float highest_at_corners(const SweptPieces& p, std::size_t k, const Extent& e, float plane_x,
-                                           float plane_y) const {
-        float most = -nothing;
-        const float half = 0.5F * p.length[k];
+    [[nodiscard]] float highest_at_corners(const SweptPiece& p, const Extent& e, const Plane& plane) const {
+        float most = -not_reached;
         for (const float x : {-e.half_x, e.half_x}) {
             for (const float y : {-e.half_y, e.half_y}) {
-                const float rho = std::hypot(e.x + x - p.x[k] - p.dx[k] * half, e.y + y - p.y[k] - p.dy[k] * half);
-                most = std::max(most, p.z[k] + p.slope[k] * half + tool_.height(rho) - plane_x * x - plane_y * y);
+                const float off_x = e.x + x - p.x, off_y = e.y + y - p.y;
+                const float rho = std::sqrt(off_x * off_x + off_y * off_y);
+                most = std::max(most, p.z + tool_.height(rho) - plane.slope_x * x - plane.slope_y * y);
             }
         }
         return most;
     }
 
-    void lower_leaf(const SweptPieces& pieces, const Block& block, const Reach& reach, float plane_x, float plane_y) {
-        order_.clear();
-        for (std::size_t k = 0; k < pieces.size(); ++k) {
-            if (reach.bound[k] < nothing) order_.push_back(static_cast<std::uint32_t>(k));
-        }
-        // The lowest in the middle first: after a few of them, most of the others are too high.
-        const auto sooner = [&](std::uint32_t a, std::uint32_t b) {
-            return std::pair(reach.height[a], reach.bound[a]) < std::pair(reach.height[b], reach.bound[b]);
-        };
-        const Leaf leaf{cells_.z + static_cast<std::ptrdiff_t>(block.row) * cells_.columns + block.column,
-                        block.columns, block.rows, cells_.columns};
-        constexpr std::size_t at_a_time = 16;
-        float top = highest_over(leaf, plane_x * cells_.cell, plane_y * cells_.row_pitch);
-        for (std::size_t first = 0; first < order_.size(); first += at_a_time) {
-            const std::size_t end = std::min(order_.size(), first + at_a_time);
-            const auto from = order_.begin() + static_cast<std::ptrdiff_t>(first);
-            std::partial_sort(from, order_.begin() + static_cast<std::ptrdiff_t>(end), order_.end(), sooner);
-            for (std::size_t k = first; k < end; ++k) {
-                if (reach.bound[order_[k]] > top + rounding) continue;
-                lower_by(pieces, order_[k], block, leaf);
-                top = highest_over(leaf, plane_x * cells_.cell, plane_y * cells_.row_pitch);
+    void gather(const Block& block, const Extent& extent, const Plane& plane) {
+        group_.size = 0;
+        for (int row = 0; row < block.rows; ++row) {
+            const float y = static_cast<float>(block.row + row) * cells_.row_pitch;
+            const float* const z = first_of(block, row);
+            for (int column = 0; column < block.columns; ++column) {
+                const float x = static_cast<float>(block.column + column) * cells_.cell;
+                group_.add(x, y, plane.slope_x * (x - extent.x) + plane.slope_y * (y - extent.y), z[column]);
             }
-            std::erase_if(order_, [&, n = std::size_t{0}](std::uint32_t k) mutable {
-                return n++ >= end && reach.bound[k] > top + rounding;
-            });
+        }
+        group_.fill_up();
+    }
+
+    void scatter(const Block& block) {
+        const float* from = group_.z.data();
+        for (int row = 0; row < block.rows; ++row, from += block.columns)
+            std::copy(from, from + block.columns, first_of(block, row));
+    }
+
+    [[nodiscard]] float* first_of(const Block& block, int row) const {
+        return cells_.z + static_cast<std::ptrdiff_t>(block.row + row) * cells_.columns + block.column;
+    }
+
+    void lower_group(const SweptPieces& pieces, const Level& level) {
+        order_.clear();
+        for (const std::uint32_t k : level.found) order_.emplace_back(level.reach.height[k], k);
+        // The lowest in the middle first: after a few of them, most of the others are too high.
+        std::sort(order_.begin(), order_.end());
+        float top = not_reached;
+        for (const auto& [height, k] : order_) {
+            if (level.reach.low[k] <= top + rounding) top = tool_.lower(group_, pieces[k]);
         }
     }
 
-    void lower_by(const SweptPieces& p, std::size_t k, const Block& block, const Leaf& leaf) const {
-        const Seen seen = seen_from(p, k, block, cells_);
-        switch (kind_) {
-            case ToolKind::ball: return lower_ball(leaf, seen, tool_.radius, p.slope[k], p.length[k], p.z[k]);
-            case ToolKind::bull:
-                return lower_bull(leaf, seen, tool_.radius, tool_.corner, p.slope[k], p.length[k], p.z[k]);
-            case ToolKind::flat: return lower_flat(leaf, seen, tool_.radius, p.slope[k], p.length[k], p.z[k]);
-        }
-    }
-
-    ToolKind kind_;
     Outline tool_;
     CellBlock cells_;
     std::deque<Level> levels_;  // whose addresses stay
-    std::vector<std::uint32_t> order_;
+    CellGroup group_;
+    std::vector<std::pair<float, std::uint32_t>> order_;
 };
 
 }  // namespace
 
 void SweptPieces::clear() {
-    for (std::vector<float>* column : {&x, &y, &z, &dx, &dy, &length, &slope}) column->clear();
+    for (std::vector<float>* column : columns()) column->clear();
 }
 
 void SweptPieces::add(const Vec3& from, const Vec3& to, double longest) {
@@ -390,29 +255,30 @@ void SweptPieces::add(const Vec3& from, const Vec3& to, double longest) {
     const Vec2 direction = stands ? Vec2(Vec2::UnitX()) : Vec2(step.head<2>() / whole);
     const int count = stands ? 1 : static_cast<int>(std::ceil(whole / longest));
     for (int k = 0; k < count; ++k) {
-        const Vec3 here = from + step * (static_cast<double>(k) / count);
-        x.push_back(static_cast<float>(here.x()));
-        y.push_back(static_cast<float>(here.y()));
-        z.push_back(static_cast<float>(stands ? std::min(from.z(), to.z()) : here.z()));
+        const Vec3 middle = from + step * ((k + 0.5) / count);
+        x.push_back(static_cast<float>(stands ? from.x() : middle.x()));
+        y.push_back(static_cast<float>(stands ? from.y() : middle.y()));
+        z.push_back(static_cast<float>(stands ? std::min(from.z(), to.z()) : middle.z()));
         dx.push_back(static_cast<float>(direction.x()));
         dy.push_back(static_cast<float>(direction.y()));
-        length.push_back(stands ? 0.0F : static_cast<float>(whole / count));
+        half.push_back(stands ? 0.0F : static_cast<float>(0.5 * whole / count));
         slope.push_back(stands ? 0.0F : static_cast<float>(step.z() / whole));
     }
 }
 
-void SweptPieces::copy(const SweptPieces& other, std::size_t k) {
-    x.push_back(other.x[k]);
-    y.push_back(other.y[k]);
-    z.push_back(other.z[k]);
-    dx.push_back(other.dx[k]);
-    dy.push_back(other.dy[k]);
-    length.push_back(other.length[k]);
-    slope.push_back(other.slope[k]);
+void SweptPieces::take(const SweptPieces& others, const std::vector<std::uint32_t>& numbers) {
+    const auto to = columns();
+    const auto from = others.columns();
+    for (std::size_t column = 0; column < to.size(); ++column) {
+        to[column]->resize(numbers.size());
+        float* const out = to[column]->data();
+        const float* const in = from[column]->data();
+        for (std::size_t k = 0; k < numbers.size(); ++k) out[k] = in[numbers[k]];
+    }
 }
 
 double longest_piece(const CuttingTool& tool, double cell) {
-    const double longest = std::max(leaf_side * cell, tool.radius / 32);
+    const double longest = std::max(longest_cells * cell, tool.radius / 32);
     return tool.kind == ToolKind::bull ? std::min(longest, std::max(tool.corner / corner_share, cell)) : longest;
 }
 

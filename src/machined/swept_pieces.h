@@ -6,28 +6,38 @@
 // and are left out there. That is exact: less the slope of the surface, the outline over a block is a convex function
 // of the place and of the way along a piece, so that it lies above its tangent plane in the middle of both.
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/geometry.h"
+#include "machined/outline_sweep.h"
 #include "machined/tool.h"
 
 namespace clsurf {
 
-/// Straight pieces of the path of a tool's tip, as columns [mm]: from the middle of the map's first cell, heights
-/// from any level.
-struct SweptPieces {
-    std::vector<float> x, y, z;  ///< where a piece begins
-    std::vector<float> dx, dy;   ///< unit vector in the plane
-    std::vector<float> length;   ///< in the plane; 0: the tool stands or plunges
-    std::vector<float> slope;    ///< rise per length
-
+/// Straight pieces of the path of a tool's tip, as columns of SweptPiece [mm]: from the middle of the map's first cell,
+/// heights from any level.
+class SweptPieces {
+public:
     [[nodiscard]] std::size_t size() const { return x.size(); }
+    [[nodiscard]] SweptPiece operator[](std::size_t k) const {
+        return {x[k], y[k], z[k], dx[k], dy[k], half[k], slope[k]};
+    }
     void clear();
     /// A straight motion, in pieces no longer than `longest` [mm]. Places that are not finite leave nothing.
     void add(const Vec3& from, const Vec3& to, double longest);
-    /// Piece `from[k]` of another set.
-    void copy(const SweptPieces& other, std::size_t k);
+    /// Those of another set that have these numbers, in place of its own.
+    void take(const SweptPieces& others, const std::vector<std::uint32_t>& numbers);
+
+    std::vector<float> x, y, z, dx, dy, half, slope;
+
+private:
+    [[nodiscard]] std::array<std::vector<float>*, 7> columns() { return {&x, &y, &z, &dx, &dy, &half, &slope}; }
+    [[nodiscard]] std::array<const std::vector<float>*, 7> columns() const {
+        return {&x, &y, &z, &dx, &dy, &half, &slope};
+    }
 };
 
 /// A map's cells, row by row; row r lies at y = r row_pitch, column c at x = c cell.
@@ -41,7 +51,7 @@ struct CellBlock {
 [[nodiscard]] double longest_piece(const CuttingTool& tool, double cell);
 
 /// Lowers the cells to what the tool leaves. Heights are exact but for float: 10^-7 of the tool's radius and of
-/// the heights. O(pieces + cells · pieces that touch a block of 64 cells).
+/// the heights. O(pieces + cells · pieces that touch a block of 16 cells).
 void lower(const CuttingTool& tool, const SweptPieces& pieces, const CellBlock& cells);
 
 }  // namespace clsurf
