@@ -20,8 +20,9 @@ constexpr PointIndex section_points = 64;
 constexpr std::int64_t tile_cells = 256;    ///< a side: 256 kB, which the L2 cache holds
 constexpr std::int64_t tile_of_row = 4096;  ///< cells where there are hardly any rows: all look at the same sections
 constexpr std::int64_t few_rows = 4;
-constexpr double passes_apart = 2;     ///< step-overs, seen from above, that passes between two lie beside them
-constexpr double most_between = 1000;  ///< contact points between two positions
+constexpr double passes_apart = 2;       ///< step-overs, seen from above, that passes between two lie beside them
+constexpr std::size_t most_kept = 1000;  ///< sections whose passes between are kept: 25 MB
+constexpr double most_between = 1000;    ///< contact points between two positions
 
 int smoother_points(double period) {
     const int points = static_cast<int>(std::lround(std::min(smooth_seconds / period, 2000.0))) | 1;
@@ -164,9 +165,17 @@ void AsMachinedSurface::map(const MapFrame& frame, const TakeRows& take) const {
         0, take);
 }
 
-PassesBetween AsMachinedSurface::passes_between(const Box2& region) const {
-    const std::vector<PointRange> near = points_near(region, tool_.radius + passes_apart * surface_.step_over);
-    return {surface_, signals_, smoothed_ ? &smoother_ : nullptr, pieces_, near, tool_, usual_cell()};
+PassesBetween AsMachinedSurface::passes_between(const Box2& region, bool many) const {
+    const double reach = tool_.radius + passes_apart * surface_.step_over;
+    PassesBetween between(surface_, signals_, smoothed_ ? &smoother_ : nullptr, pieces_, points_near(region, reach),
+                          tool_, usual_cell());
+    const std::vector<std::size_t> near = sections_in(region, reach);
+    if (!many || near.size() > most_kept) return between;
+    for (const std::size_t k : near) {
+        const Section& section = sections_[k];
+        between.keep({section.first, section.last}, section.piece, section.goes_on);
+    }
+    return between;
 }
 
 void AsMachinedSurface::map_programmed(const PassesBetween& between, const MapFrame& frame,

@@ -59,8 +59,9 @@ public:
     /// of cells) and a list of sections of the path. The same for any number of threads.
     void map(const MapFrame& frame, const TakeRows& take) const;
 
-    /// The surface's own positions with more passes between each two adjacent ones, for maps inside a region.
-    [[nodiscard]] PassesBetween passes_between(const Box2& region) const;
+    /// The surface's own positions with more passes between each two adjacent ones, for maps inside a region. `many`: of
+    /// which there will be several, so that what they have in common is kept.
+    [[nodiscard]] PassesBetween passes_between(const Box2& region, bool many = false) const;
     /// The same map of what a tool would leave that follows them: no scallops, no errors of the machine.
     void map_programmed(const PassesBetween& between, const MapFrame& frame, const TakeRows& take) const;
 

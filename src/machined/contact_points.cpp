@@ -45,10 +45,12 @@ bool stays_low(const Positions& p, const Pass& link, double step_over) {
 
 ContactPoints::ContactPoints(const ClSurface& surface, const Trajectory& path, std::optional<ToolAxes> axes,
                              const CuttingTool& tool)
-    : surface_(surface), path_(path), axes_(std::move(axes)), tool_(tool) {
-    half_chord_ = 0.5 * (surface.step_over > 0 ? surface.step_over : 0.1 * tool.radius);
-    level_ = level_steps * finest_quantum(path) / (2 * half_chord_);
-}
+    : surface_(surface),
+      path_(path),
+      axes_(std::move(axes)),
+      tool_(tool),
+      half_chord_(0.5 * (surface.step_over > 0 ? surface.step_over : 0.1 * tool.radius)),
+      level_(level_steps * finest_quantum(path) / (2 * half_chord_)) {}
 
 double ContactPoints::reach() const { return std::hypot(tool_.radius, tool_.corner); }
 

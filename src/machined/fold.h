@@ -24,8 +24,8 @@ struct Fold {
     [[nodiscard]] double at(double x, double y) const;
 };
 
-/// z of a quadratic.
-[[nodiscard]] double value_of(const LocalQuadratic::Terms& terms, double x, double y);
+/// z of a quadratic: a0 + a1 x + a2 y + a3 x² + a4 xy + a5 y².
+[[nodiscard]] double value_of(const LocalQuadratic::Terms& a, double x, double y);
 
 /// What share of the places' weight lies farther than `most` from f(x, y).
 template <typename Surface>

@@ -94,12 +94,12 @@ struct Form::Workspace {
 };
 
 Form::Form(const AsMachinedSurface& as_machined, const Box2& region, Of of, double tolerance)
-    : level_(as_machined.level()) {
-    pitch_ = as_machined.surface().step_over > 0 ? as_machined.surface().step_over : 10 * as_machined.usual_cell();
-    // Of the flat formula, with the tool's radius: a measure of size.
-    most_scatter_ =
-        std::max({least_scatter, tolerance, scallop_share * pitch_ * pitch_ / (8 * as_machined.tool().radius)});
-    reach_ = as_machined.tool().radius;
+    : level_(as_machined.level()),
+      pitch_(as_machined.surface().step_over > 0 ? as_machined.surface().step_over : 10 * as_machined.usual_cell()),
+      // Of the flat formula, with the tool's radius: a measure of size.
+      most_scatter_(
+          std::max({least_scatter, tolerance, scallop_share * pitch_ * pitch_ / (8 * as_machined.tool().radius)})),
+      reach_(as_machined.tool().radius) {
     if (region.isEmpty()) return;
     corner_ = region.min() - Vec2::Constant(pitch_);
     columns_ = static_cast<std::int64_t>(std::ceil(region.sizes().x() / pitch_)) + 3;
@@ -118,8 +118,8 @@ Form::Form(const AsMachinedSurface& as_machined, const Box2& region, Of of, doub
     }
     // Slopes are taken from places beside the region, too.
     const Vec2 room = Vec2::Constant(2 * as_machined.usual_cell());
-    between_ =
-        std::make_unique<PassesBetween>(as_machined.passes_between(Box2(region.min() - room, region.max() + room)));
+    between_ = std::make_unique<PassesBetween>(
+        as_machined.passes_between(Box2(region.min() - room, region.max() + room), of == Of::program));
     bridge_contacts(region);
 }
 
@@ -158,7 +158,9 @@ void Form::fit_contacts(const AsMachinedSurface& as_machined, const Box2& region
     const std::int64_t fine_columns = finer * columns_;
     parallel_for(static_cast<std::int64_t>(inside_.size()), 1024, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t k = first; k < last; ++k) {
-            const Vec2 off(static_cast<double>(k % fine_columns), static_cast<double>(k / fine_columns));
+            const std::int64_t column = k % fine_columns;
+            const std::int64_t row = k / fine_columns;
+            const Vec2 off(static_cast<double>(column), static_cast<double>(row));
             inside_[static_cast<std::size_t>(k)] =
                 is_inside(corner_ + pitch_ / finer * (off + Vec2::Constant(0.5)), samples) ? 1 : 0;
         }
@@ -174,9 +176,11 @@ void Form::find_contradictions() {
             double high = -low;
             double steepest = 0;
             for (int k = 0; k < 4; ++k) {
-                const Knot& knot = knots_[static_cast<std::size_t>((row + k / 2) * columns_ + column + k % 2)];
+                const int right = k % 2;
+                const int up = k / 2;
+                const Knot& knot = knots_[static_cast<std::size_t>((row + up) * columns_ + column + right)];
                 if (knot.kind == Kind::none || knot.kind == Kind::unknown) continue;
-                const Height height = height_at(knot, 0.5 - k % 2, 0.5 - k / 2);
+                const Height height = height_at(knot, 0.5 - right, 0.5 - up);
                 low = std::min(low, height.z);
                 high = std::max(high, height.z);
                 steepest = std::max(steepest, std::hypot(height.zx, height.zy) / pitch_);

@@ -26,7 +26,7 @@ public:
 
 private:
     [[nodiscard]] Terms solve();
-    void weigh(const Terms& fitted, double least_spread);
+    void weigh(const Terms& a, double least_spread);
 
     /// Columns, for loops over four places at a time.
     std::vector<double> x_, y_, z_, weight_, robust_, left_, sorted_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/not_finite.h"
 #include "core/parallel.h"
@@ -45,13 +46,11 @@ double height_across(const AsMachinedSurface& as_machined, const Form& form, con
     return high > low ? high - low : 0;
 }
 
-/// Of a square about a place.
+/// Of a square about a place, from its heights.
 AreaHeights square_heights(const AsMachinedSurface& as_machined, const Form& form, const Box2& box,
-                           const AcrossFeed& across, double& unknown) {
-    std::vector<float> cells;
-    const auto unknown_cells = static_cast<double>(
-        map_deviation(as_machined, form, frame_of(box, as_machined.usual_cell()),
-                      [&](std::int64_t, std::span<float> z) { cells.insert(cells.end(), z.begin(), z.end()); }));
+                           const AcrossFeed& across, std::vector<float> cells, double& unknown) {
+    const auto unknown_cells =
+        static_cast<double>(form.subtract(frame_of(box, as_machined.usual_cell()), 0, as_machined.level(), cells));
     AreaHeights heights = area_heights(cells);
     if (heights.cells > 0) heights.sz = std::max(heights.sz, height_across(as_machined, form, box, across));
     const double cut = unknown_cells + static_cast<double>(heights.cells);
@@ -108,6 +107,19 @@ std::vector<float> heights_of(const AsMachinedSurface& as_machined, const MapFra
     return cells;
 }
 
+/// Heights over `measured_from` [mm] less those of a map of `commanded`, along the normal of the latter.
+std::vector<float> take_off(const AsMachinedSurface& commanded, double measured_from, std::vector<float> heights,
+                            const MapFrame& frame) {
+    const std::vector<float> from = heights_of(commanded, frame);
+    const double shift = measured_from - commanded.level();
+    for (std::int64_t k = 0; k < static_cast<std::int64_t>(heights.size()); ++k) {
+        const auto cell = static_cast<std::size_t>(k);
+        const double steep = steepness(from, frame, k % frame.columns, k / frame.columns);
+        heights[cell] = static_cast<float>((heights[cell] + shift - from[cell]) / steep);
+    }
+    return heights;
+}
+
 RoughPatch measure_patch(const RoughnessSurfaces& surfaces, const RoughnessPlace& place, double cutoff) {
     RoughPatch patch;
     patch.point = place.point;
@@ -118,12 +130,18 @@ RoughPatch measure_patch(const RoughnessSurfaces& surfaces, const RoughnessPlace
     const Vec2 corner = Vec2::Constant(0.5 * patch_cutoffs * cutoff);
     const Box2 box(across.at - corner, across.at + corner);
     const Form form(surfaces.form_of, box);
-    patch.area = square_heights(surfaces.measured, form, box, across, patch.unknown);
+    const AsMachinedSurface& measured = surfaces.measured;
+    const MapFrame own_frame = frame_of(box, measured.usual_cell());
+    std::vector<float> heights = heights_of(measured, own_frame);
+    patch.area = square_heights(measured, form, box, across, heights, patch.unknown);
     if (surfaces.commanded == nullptr) return patch;
     const MapFrame frame = frame_of(box, surfaces.form_of.usual_cell());
-    std::vector<float> added = deviation_from(*surfaces.commanded, surfaces.measured, frame);
+    if (frame.cell != own_frame.cell) heights = heights_of(measured, frame);
+    std::vector<float> added = take_off(*surfaces.commanded, measured.level(), std::move(heights), frame);
     for (std::int64_t k = 0; k < static_cast<std::int64_t>(added.size()); ++k) {
-        const Vec2 middle = frame.at(static_cast<double>(k % frame.columns), static_cast<double>(k / frame.columns));
+        const std::int64_t column = k % frame.columns;
+        const std::int64_t row = k / frame.columns;
+        const Vec2 middle = frame.at(static_cast<double>(column), static_cast<double>(row));
         if (!form.is_among_contacts(middle)) added[static_cast<std::size_t>(k)] = missing<float>;
     }
     patch.machine = area_heights(added);
@@ -171,15 +189,7 @@ std::vector<RoughnessPlace> roughness_places(const AsMachinedSurface& as_machine
 
 std::vector<float> deviation_from(const AsMachinedSurface& commanded, const AsMachinedSurface& measured,
                                   const MapFrame& frame) {
-    const std::vector<float> from = heights_of(commanded, frame);
-    std::vector<float> off = heights_of(measured, frame);
-    const double shift = measured.level() - commanded.level();
-    for (std::int64_t k = 0; k < static_cast<std::int64_t>(off.size()); ++k) {
-        const auto cell = static_cast<std::size_t>(k);
-        const double steep = steepness(from, frame, k % frame.columns, k / frame.columns);
-        off[cell] = static_cast<float>((off[cell] + shift - from[cell]) / steep);
-    }
-    return off;
+    return take_off(commanded, measured.level(), heights_of(measured, frame), frame);
 }
 
 PartRoughness measure_roughness(const RoughnessSurfaces& surfaces, std::span<const RoughnessPlace> places) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace clsurf {
 namespace {
@@ -24,7 +25,10 @@ public:
     [[nodiscard]] Vec3 second_difference(int number) const { return at(number - 1) - 2 * at(number) + at(number + 1); }
 
 private:
-    static std::size_t index(int number) { return static_cast<std::size_t>(number + 2); }
+    static std::size_t index(int number) {
+        const int from_first = number + 2;
+        return static_cast<std::size_t>(from_first);
+    }
     std::array<Vec3, 6> at_;  // -2 … 3
     std::array<bool, 6> known_{};
 };
@@ -169,7 +173,9 @@ bool PassesBetween::between(PointIndex point, Side side, Row& row) const {
     return std::all_of(row.begin(), row.end(), [](const Vec3& p) { return p.allFinite(); });
 }
 
-void PassesBetween::add_side(PointRange points, Side side, const FrameAxes& axes, SweptPieces& swept) const {
+/// take(from, to) for the straight motions along passes between those of points and those beside them.
+template <typename Take>
+void PassesBetween::motions_beside(PointRange points, Side side, Take&& take) const {
     std::optional<Row> before;
     PointIndex last = points.first;
     for (PointIndex i = points.first; i <= points.last; ++i) {
@@ -185,8 +191,7 @@ void PassesBetween::add_side(PointRange points, Side side, const FrameAxes& axes
         if (before) {
             const double step = (surface_.positions[i] - surface_.positions[last]).norm();
             for (std::size_t k = 0; k < row.size(); ++k) {
-                if ((row[k] - (*before)[k]).norm() <= most_jump * step + least_)
-                    swept.add(axes((*before)[k]), axes(row[k]), longest_);
+                if ((row[k] - (*before)[k]).norm() <= most_jump * step + least_) take((*before)[k], row[k]);
             }
         }
         before = row;
@@ -194,19 +199,34 @@ void PassesBetween::add_side(PointRange points, Side side, const FrameAxes& axes
     }
 }
 
-void PassesBetween::add(PointRange points, std::size_t piece, bool goes_on, const FrameAxes& axes,
-                        SweptPieces& swept) const {
+template <typename Take>
+void PassesBetween::motions(PointRange points, std::size_t piece, bool goes_on, Take&& take) const {
     const PointRange& range = pieces_[piece];
     const PointRange to_next{points.first, points.last + (goes_on ? 1 : 0)};
     std::optional<Vec3> before;
     for (PointIndex i = to_next.first; i <= to_next.last; ++i) {
-        const Vec3 at = axes(smooth(i));
+        const Vec3 at = smooth(i);
         if (before && (at - *before).head<2>().norm() < 0.5 * least_ && i < to_next.last) continue;
-        if (before) swept.add(*before, at, longest_);
+        if (before) take(*before, at);
         before = at;
     }
     const PointRange inside{to_next.first, std::min(to_next.last, range.last)};
-    for (const Side side : {Side::left, Side::right}) add_side(inside, side, axes, swept);
+    for (const Side side : {Side::left, Side::right}) motions_beside(inside, side, take);
+}
+
+void PassesBetween::keep(PointRange points, std::size_t piece, bool goes_on) {
+    Kept kept{points.first, {}};
+    motions(points, piece, goes_on, [&](const Vec3& from, const Vec3& to) { kept.motions.push_back({from, to}); });
+    kept_.push_back(std::move(kept));
+}
+
+void PassesBetween::add(PointRange points, std::size_t piece, bool goes_on, const FrameAxes& axes,
+                        SweptPieces& swept) const {
+    const auto sweep = [&](const Vec3& from, const Vec3& to) { swept.add(axes(from), axes(to), longest_); };
+    const auto kept = std::lower_bound(kept_.begin(), kept_.end(), points.first,
+                                       [](const Kept& k, PointIndex first) { return k.first < first; });
+    if (kept == kept_.end() || kept->first != points.first) return motions(points, piece, goes_on, sweep);
+    for (const Motion& motion : kept->motions) sweep(motion.from, motion.to);
 }
 
 }  // namespace clsurf

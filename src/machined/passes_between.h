@@ -29,6 +29,9 @@ public:
     /// The pass itself along points of a piece and, where it goes on, to the next one; and what lies between it and
     /// later passes beside it. O(points).
     void add(PointRange points, std::size_t piece, bool goes_on, const FrameAxes& axes, SweptPieces& swept) const;
+    /// Computes what add() adds for such points once and for all: for many maps of one place. Not while others add.
+    /// `points` begin behind those that are kept already. Memory: some 400 bytes a point.
+    void keep(PointRange points, std::size_t piece, bool goes_on);
 
 private:
     using Row = std::array<Vec3, count>;
@@ -37,17 +40,30 @@ private:
         PointIndex first = 0;
         std::vector<Eigen::Vector3f> at;
     };
+    /// A straight motion [mm].
+    struct Motion {
+        Vec3 from, to;
+    };
+    /// What is kept of the points from one on.
+    struct Kept {
+        PointIndex first = 0;
+        std::vector<Motion> motions;
+    };
     void smooth_into(PointRange points, std::vector<Eigen::Vector3f>& smoothed) const;
     [[nodiscard]] Vec3 smooth(PointIndex point) const;
     [[nodiscard]] Vec3 smooth(const PathLocation& at) const;
     [[nodiscard]] bool between(PointIndex point, Side side, Row& row) const;
-    void add_side(PointRange points, Side side, const FrameAxes& axes, SweptPieces& swept) const;
+    template <typename Take>
+    void motions(PointRange points, std::size_t piece, bool goes_on, Take&& take) const;
+    template <typename Take>
+    void motions_beside(PointRange points, Side side, Take&& take) const;
 
     const ClSurface& surface_;
     const Signals& signals_;
     const Differentiator* smoother_;
     const std::vector<PointRange>& pieces_;
     std::vector<Run> runs_;
+    std::vector<Kept> kept_;
     double longest_ = 0, least_ = 0;  ///< [mm] pieces
 };
 

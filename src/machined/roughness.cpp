@@ -4,12 +4,24 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/vectorised.h"
+
 namespace clsurf {
 namespace {
 
 const double alpha =
     std::sqrt(std::numbers::ln2 / std::numbers::pi);  ///< half of a wave of the cut-off's length goes through
 constexpr int most_lengths = 5;
+
+/// Adds to every place the values `off` steps before and after it, weighed.
+CLSURF_VECTORISED void add_beside(std::span<const double> z, std::size_t off, double weight,
+                                  std::vector<double>& line) {
+    const double* const from = z.data();
+    double* const to = line.data();
+    const std::size_t count = z.size() - off;
+    for (std::size_t k = 0; k < count; ++k) to[k + off] += weight * from[k];
+    for (std::size_t k = 0; k < count; ++k) to[k] += weight * from[k + off];
+}
 
 }  // namespace
 
@@ -37,18 +49,13 @@ std::vector<double> gaussian_mean_line(std::span<const double> z, double step, d
         const double x = static_cast<double>(k) * step / (alpha * cutoff);
         weights[k] = std::exp(-std::numbers::pi * x * x);
     }
-    const auto n = static_cast<std::ptrdiff_t>(z.size());
-    std::vector<double> line(z.size());
-    for (std::ptrdiff_t i = 0; i < n; ++i) {
-        double sum = 0;
-        double weight = 0;
-        for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, i - half); k <= std::min(n - 1, i + half); ++k) {
-            const double w = weights[static_cast<std::size_t>(std::abs(k - i))];
-            sum += w * z[static_cast<std::size_t>(k)];
-            weight += w;
-        }
-        line[static_cast<std::size_t>(i)] = sum / weight;
-    }
+    // Weights of the places within some steps on one side.
+    std::vector<double> beside(weights.size());
+    for (std::size_t k = 1; k < weights.size(); ++k) beside[k] = beside[k - 1] + weights[k];
+    std::vector<double> line(z.begin(), z.end());
+    for (std::size_t k = 1; k < std::min(weights.size(), z.size()); ++k) add_beside(z, k, weights[k], line);
+    for (std::size_t i = 0; i < z.size(); ++i)
+        line[i] /= 1 + beside[std::min(i, weights.size() - 1)] + beside[std::min(z.size() - 1 - i, weights.size() - 1)];
     return line;
 }
 

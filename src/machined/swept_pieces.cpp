@@ -42,6 +42,47 @@ struct Plane {
     float slope_x = 0, slope_y = 0;
 };
 
+/// Pieces, a column for each member.
+class PieceColumns {
+public:
+    explicit PieceColumns(const std::vector<SweptPiece>& pieces = {}) {
+        for (std::vector<float>* column : columns()) column->reserve(pieces.size());
+        for (const SweptPiece& p : pieces) {
+            x.push_back(p.x);
+            y.push_back(p.y);
+            z.push_back(p.z);
+            dx.push_back(p.dx);
+            dy.push_back(p.dy);
+            half.push_back(p.half);
+            slope.push_back(p.slope);
+        }
+    }
+
+    [[nodiscard]] std::size_t size() const { return x.size(); }
+    [[nodiscard]] SweptPiece operator[](std::size_t k) const {
+        return {x[k], y[k], z[k], dx[k], dy[k], half[k], slope[k]};
+    }
+    /// Those of others that have these numbers, in place of its own.
+    void take(const PieceColumns& others, const std::vector<std::uint32_t>& numbers) {
+        const auto to = columns();
+        const auto from = others.columns();
+        for (std::size_t column = 0; column < to.size(); ++column) {
+            to[column]->resize(numbers.size());
+            float* const out = to[column]->data();
+            const float* const in = from[column]->data();
+            for (std::size_t k = 0; k < numbers.size(); ++k) out[k] = in[numbers[k]];
+        }
+    }
+
+    std::vector<float> x, y, z, dx, dy, half, slope;
+
+private:
+    [[nodiscard]] std::array<std::vector<float>*, 7> columns() { return {&x, &y, &z, &dx, &dy, &half, &slope}; }
+    [[nodiscard]] std::array<const std::vector<float>*, 7> columns() const {
+        return {&x, &y, &z, &dx, &dy, &half, &slope};
+    }
+};
+
 /// What each piece is over the middle of a block: height and slopes of the tool in the middle of the piece, infinite and
 /// level where the outline there is too steep; and how low the tool can be there all along the piece, or anywhere in the
 /// block where it is too steep; infinite: it reaches no cell.
@@ -53,7 +94,7 @@ struct Reach {
     }
 };
 
-CLSURF_VECTORISED void measure(const SweptPieces& p, const Outline& tool, const Extent& e, Reach& reach) {
+CLSURF_VECTORISED void measure(const PieceColumns& p, const Outline& tool, const Extent& e, Reach& reach) {
     const std::size_t count = p.size();
     const float* const x = p.x.data();
     const float* const y = p.y.data();
@@ -141,17 +182,17 @@ class Sweep {
 public:
     Sweep(const CuttingTool& tool, const CellBlock& cells) : tool_(tool), cells_(cells) {}
 
-    void run(const SweptPieces& pieces) { lower(pieces, {0, 0, cells_.columns, cells_.rows}, 0); }
+    void run(const PieceColumns& pieces) { lower(pieces, {0, 0, cells_.columns, cells_.rows}, 0); }
 
 private:
     /// What a depth of the division works with.
     struct Level {
         Reach reach;
         std::vector<std::uint32_t> found;
-        SweptPieces kept;
+        PieceColumns kept;
     };
 
-    void lower(const SweptPieces& pieces, const Block& block, std::size_t depth) {
+    void lower(const PieceColumns& pieces, const Block& block, std::size_t depth) {
         if (pieces.size() == 0 || block.columns <= 0 || block.rows <= 0) return;
         if (depth == levels_.size()) levels_.emplace_back();
         Level& level = levels_[depth];
@@ -168,7 +209,7 @@ private:
         const int cells = block.columns * block.rows;
         if (cells <= side * side || (cells <= CellGroup::most && level.found.size() <= few)) {
             gather(block, extent, plane);
-            lower_group(pieces, level);
+            lower_group(pieces, level, lowest);
             return scatter(block);
         }
         level.kept.take(pieces, level.found);
@@ -223,14 +264,18 @@ private:
         return cells_.z + static_cast<std::ptrdiff_t>(block.row + row) * cells_.columns + block.column;
     }
 
-    void lower_group(const SweptPieces& pieces, const Level& level) {
+    void lower_group(const PieceColumns& pieces, const Level& level, std::size_t lowest) {
+        const Reach& reach = level.reach;
+        float top = reach.height[lowest] < not_reached ? tool_.lower(group_, pieces[lowest]) : not_reached;
+        // The lowest in the middle first: after a few of them, most of the others are too high. Those as high as the
+        // cells already are do not count: under a flat bottom there are thousands.
         order_.clear();
-        for (const std::uint32_t k : level.found) order_.emplace_back(level.reach.height[k], k);
-        // The lowest in the middle first: after a few of them, most of the others are too high.
+        for (const std::uint32_t k : level.found) {
+            if (k != lowest && reach.low[k] < top) order_.emplace_back(reach.height[k], k);
+        }
         std::sort(order_.begin(), order_.end());
-        float top = not_reached;
         for (const auto& [height, k] : order_) {
-            if (level.reach.low[k] <= top + rounding) top = tool_.lower(group_, pieces[k]);
+            if (reach.low[k] < top) top = tool_.lower(group_, pieces[k]);
         }
     }
 
@@ -243,37 +288,22 @@ private:
 
 }  // namespace
 
-void SweptPieces::clear() {
-    for (std::vector<float>* column : columns()) column->clear();
-}
-
 void SweptPieces::add(const Vec3& from, const Vec3& to, double longest) {
     const Vec3 step = to - from;
     const double whole = step.head<2>().norm();
     if (!step.allFinite() || !from.allFinite()) return;
-    const bool stands = whole < standing;
-    const Vec2 direction = stands ? Vec2(Vec2::UnitX()) : Vec2(step.head<2>() / whole);
-    const int count = stands ? 1 : static_cast<int>(std::ceil(whole / longest));
+    if (whole < standing) {
+        pieces_.push_back({static_cast<float>(from.x()), static_cast<float>(from.y()),
+                           static_cast<float>(std::min(from.z(), to.z())), 1, 0, 0, 0});
+        return;
+    }
+    const int count = static_cast<int>(std::ceil(whole / longest));
+    const auto dx = static_cast<float>(step.x() / whole), dy = static_cast<float>(step.y() / whole);
+    const auto half = static_cast<float>(0.5 * whole / count), slope = static_cast<float>(step.z() / whole);
     for (int k = 0; k < count; ++k) {
         const Vec3 middle = from + step * ((k + 0.5) / count);
-        x.push_back(static_cast<float>(stands ? from.x() : middle.x()));
-        y.push_back(static_cast<float>(stands ? from.y() : middle.y()));
-        z.push_back(static_cast<float>(stands ? std::min(from.z(), to.z()) : middle.z()));
-        dx.push_back(static_cast<float>(direction.x()));
-        dy.push_back(static_cast<float>(direction.y()));
-        half.push_back(stands ? 0.0F : static_cast<float>(0.5 * whole / count));
-        slope.push_back(stands ? 0.0F : static_cast<float>(step.z() / whole));
-    }
-}
-
-void SweptPieces::take(const SweptPieces& others, const std::vector<std::uint32_t>& numbers) {
-    const auto to = columns();
-    const auto from = others.columns();
-    for (std::size_t column = 0; column < to.size(); ++column) {
-        to[column]->resize(numbers.size());
-        float* const out = to[column]->data();
-        const float* const in = from[column]->data();
-        for (std::size_t k = 0; k < numbers.size(); ++k) out[k] = in[numbers[k]];
+        pieces_.push_back({static_cast<float>(middle.x()), static_cast<float>(middle.y()),
+                           static_cast<float>(middle.z()), dx, dy, half, slope});
     }
 }
 
@@ -283,7 +313,7 @@ double longest_piece(const CuttingTool& tool, double cell) {
 }
 
 void lower(const CuttingTool& tool, const SweptPieces& pieces, const CellBlock& cells) {
-    Sweep(tool, cells).run(pieces);
+    Sweep(tool, cells).run(PieceColumns(pieces.all()));
 }
 
 }  // namespace clsurf

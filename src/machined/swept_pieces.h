@@ -6,9 +6,6 @@
 // and are left out there. That is exact: less the slope of the surface, the outline over a block is a convex function
 // of the place and of the way along a piece, so that it lies above its tangent plane in the middle of both.
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "core/geometry.h"
@@ -17,27 +14,16 @@
 
 namespace clsurf {
 
-/// Straight pieces of the path of a tool's tip, as columns of SweptPiece [mm]: from the middle of the map's first cell,
-/// heights from any level.
+/// Straight pieces of the path of a tool's tip [mm]: from the middle of the map's first cell, heights from any level.
 class SweptPieces {
 public:
-    [[nodiscard]] std::size_t size() const { return x.size(); }
-    [[nodiscard]] SweptPiece operator[](std::size_t k) const {
-        return {x[k], y[k], z[k], dx[k], dy[k], half[k], slope[k]};
-    }
-    void clear();
+    [[nodiscard]] const std::vector<SweptPiece>& all() const { return pieces_; }
+    void clear() { pieces_.clear(); }
     /// A straight motion, in pieces no longer than `longest` [mm]. Places that are not finite leave nothing.
     void add(const Vec3& from, const Vec3& to, double longest);
-    /// Those of another set that have these numbers, in place of its own.
-    void take(const SweptPieces& others, const std::vector<std::uint32_t>& numbers);
-
-    std::vector<float> x, y, z, dx, dy, half, slope;
 
 private:
-    [[nodiscard]] std::array<std::vector<float>*, 7> columns() { return {&x, &y, &z, &dx, &dy, &half, &slope}; }
-    [[nodiscard]] std::array<const std::vector<float>*, 7> columns() const {
-        return {&x, &y, &z, &dx, &dy, &half, &slope};
-    }
+    std::vector<SweptPiece> pieces_;
 };
 
 /// A map's cells, row by row; row r lies at y = r row_pitch, column c at x = c cell.
