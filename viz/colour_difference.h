@@ -15,6 +15,6 @@ using Lab = std::array<double, 3>;
 [[nodiscard]] Lab lab_of(const Rgb& rgb);
 
 /// CIEDE2000 (ISO/CIE 11664-6) with kL = kC = kH = 1. About 1 is just seen side by side.
-[[nodiscard]] double delta_e00(const Lab& a, const Lab& b);
+[[nodiscard]] double delta_e00(const Lab& first, const Lab& second);
 
 }  // namespace clsurf::viz

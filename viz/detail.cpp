@@ -28,11 +28,11 @@ public:
     Projector(const ClSurface& surface, const DetailRequest& request)
         : p_(surface.positions),
           width_(static_cast<float>(request.width)),
-          height_(static_cast<float>(request.height)) {
+          height_(static_cast<float>(request.height)),
+          boxed_(!request.box.isEmpty()) {
         linear_ = request.projection.leftCols<3>().cast<float>();
         const Vec2 shift = request.projection.leftCols<3>() * p_.origin + request.projection.col(3);
         shift_ = shift.cast<float>();
-        boxed_ = !request.box.isEmpty();
         if (boxed_) {
             low_ = (request.box.min() - p_.origin).cast<float>();
             high_ = (request.box.max() - p_.origin).cast<float>();
@@ -59,7 +59,7 @@ private:
     float width_, height_;
     Eigen::Matrix<float, 2, 3> linear_;
     Vec2f shift_;
-    bool boxed_ = false;
+    bool boxed_;
     Vec3f low_, high_;
 };
 

@@ -13,15 +13,15 @@
 namespace clsurf::viz {
 namespace {
 
-GlResolver resolver = nullptr;
+GlResolver current_resolver = nullptr;
 
 void* no_display() { return nullptr; }
 
 }  // namespace
 
-void set_gl_resolver(GlResolver wanted) { resolver = wanted; }
+void set_gl_resolver(GlResolver resolver) { current_resolver = resolver; }
 
-GlFunction resolve_gl(const char* name) { return resolver == nullptr ? nullptr : resolver(name); }
+GlFunction resolve_gl(const char* name) { return current_resolver == nullptr ? nullptr : current_resolver(name); }
 
 }  // namespace clsurf::viz
 
@@ -30,7 +30,7 @@ using clsurf::viz::no_display;
 extern "C" {
 
 __attribute__((visibility("default"))) void (*glXGetProcAddressARB(const unsigned char* name))() {
-    const clsurf::viz::GlResolver resolve = clsurf::viz::resolver;
+    const clsurf::viz::GlResolver resolve = clsurf::viz::current_resolver;
     const char* const text = reinterpret_cast<const char*>(name);
     if (resolve == nullptr) return nullptr;
     // There is no GLX here. GLEW asks for the current display; the answer must be that there is none,

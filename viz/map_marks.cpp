@@ -30,7 +30,7 @@ std::vector<std::vector<Vec2>> strokes(PointIndex count, const At& position, con
     std::vector<std::vector<Vec2>> all;
     bool goes_on = false;
     for (PointIndex i = 0; i < count; ++i) {
-        const Vec3 p = position(i);
+        const Vec3& p = position(i);
         if (!shows(camera, look, p)) {
             goes_on = false;
             continue;

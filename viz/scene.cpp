@@ -53,7 +53,8 @@ Beyond paint(Detail& detail, const ColourScale& scale, double per_inside, const 
                 const Vec3 n(g.normals[3 * v], g.normals[3 * v + 1], g.normals[3 * v + 2]);
                 shade = shade_dark + (1 - shade_dark) * std::abs(n.dot(direction));
             }
-            for (std::size_t k = 0; k < 3; ++k) g.rgb[3 * v + k] = static_cast<std::uint8_t>(255 * shade + 0.5);
+            const auto grey = static_cast<std::uint8_t>(std::lround(255 * shade));
+            for (std::size_t k = 0; k < 3; ++k) g.rgb[3 * v + k] = grey;
         }
         if (here.below) below = true;
         if (here.above) above = true;

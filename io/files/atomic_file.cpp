@@ -71,8 +71,7 @@ int open_stream(const std::string& path) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::string path, Replaces replaces) : path_(std::move(path)) {
-    stream_ = open_stream(path_);
+AtomicFile::AtomicFile(std::string path, Replaces replaces) : path_(std::move(path)), stream_(open_stream(path_)) {
     if (stream_ >= 0) {
         open_for_stream();
         return;

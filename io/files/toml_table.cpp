@@ -30,12 +30,12 @@ void TomlFile::fail(const toml::node& node, const std::string& what, const std::
 
 void TomlFile::fail(const std::string& what) const { throw InputError(Place::of_file(name_), what); }
 
-void TomlFile::allow(const toml::table& table, const std::vector<std::string_view>& known) const {
+void TomlFile::allow(const toml::table& table, const std::vector<std::string_view>& keys) const {
     for (const auto& [key, node] : table) {
         bool found = false;
-        for (const std::string_view candidate : known) found = found || candidate == key.str();
+        for (const std::string_view candidate : keys) found = found || candidate == key.str();
         if (!found)
-            fail(node, fmt::format("unknown key '{}'", std::string_view(key.str())), did_you_mean(key.str(), known));
+            fail(node, fmt::format("unknown key '{}'", std::string_view(key.str())), did_you_mean(key.str(), keys));
     }
 }
 

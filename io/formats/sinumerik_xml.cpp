@@ -56,7 +56,7 @@ ColumnPlan known_variable(const std::string& name) {
     std::size_t at = name.find_first_of(",;", bracket);
     int axis = 0;
     if (at != std::string::npos) {
-        at = std::min(name.find_first_not_of(" ", at + 1), name.size());
+        at = std::min(name.find_first_not_of(' ', at + 1), name.size());
         std::from_chars(name.data() + at, name.data() + name.size(), axis);
     }
     for (const Variable& variable : variables) {

@@ -102,7 +102,7 @@ void prepare_history(const SqliteConnection& connection) {
 SqliteConnection readable_history(const std::string& path) {
     SqliteConnection file(path, DatabaseAccess::read);
     if (version_of(file) == history_version()) return file;
-    SqliteConnection copy(file);
+    SqliteConnection copy = file.copy_in_memory();
     take_steps(copy);
     return copy;
 }

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -74,16 +75,20 @@ SqliteConnection::SqliteConnection(const std::string& path, DatabaseAccess acces
     if (code != SQLITE_OK) fail(code);
 }
 
-SqliteConnection::SqliteConnection(const SqliteConnection& file) : path_(file.path_) {
+SqliteConnection::SqliteConnection(std::string path) : path_(std::move(path)) {}
+
+SqliteConnection SqliteConnection::copy_in_memory() const {
+    SqliteConnection copy(path_);
     sqlite3* handle = nullptr;
     const int code = sqlite3_open(":memory:", &handle);
-    handle_.reset(handle);
-    if (code != SQLITE_OK) fail(code);
-    sqlite3_backup* backup = sqlite3_backup_init(handle, "main", file.get(), "main");
-    if (backup == nullptr) fail(sqlite3_errcode(handle));
+    copy.handle_.reset(handle);
+    if (code != SQLITE_OK) copy.fail(code);
+    sqlite3_backup* backup = sqlite3_backup_init(handle, "main", get(), "main");
+    if (backup == nullptr) copy.fail(sqlite3_errcode(handle));
     sqlite3_backup_step(backup, -1);
     const int finished = sqlite3_backup_finish(backup);
-    if (finished != SQLITE_OK) fail(finished);
+    if (finished != SQLITE_OK) copy.fail(finished);
+    return copy;
 }
 
 void SqliteConnection::fail(int code) const {

@@ -18,12 +18,13 @@ class SqliteConnection {
 public:
     /// Opens a file. `write`: it is made where it is missing. Throws InputError (missing, no database), SystemError.
     SqliteConnection(const std::string& path, DatabaseAccess access);
-    /// A copy of `file` in memory: what is changed in it changes no file.
-    explicit SqliteConnection(const SqliteConnection& file);
+    SqliteConnection(const SqliteConnection&) = delete;
     SqliteConnection& operator=(const SqliteConnection&) = delete;
     SqliteConnection(SqliteConnection&& other) noexcept = default;
     SqliteConnection& operator=(SqliteConnection&& other) noexcept = default;
 
+    /// A copy in memory: what is changed in it changes no file.
+    [[nodiscard]] SqliteConnection copy_in_memory() const;
     [[nodiscard]] const std::string& path() const { return path_; }
     [[nodiscard]] sqlite3* get() const { return handle_.get(); }
     /// One or more statements without values.
@@ -34,6 +35,7 @@ public:
     [[noreturn]] void fail(int code) const;
 
 private:
+    explicit SqliteConnection(std::string path);
     struct Close {
         void operator()(sqlite3* handle) const;
     };

@@ -11,6 +11,6 @@ namespace clsurf::io {
 [[nodiscard]] std::string html(std::string_view text);
 
 /// JSON that may stand in a <script> of a type of its own: no `<` is left in it.
-[[nodiscard]] std::string json_for_html(std::string json);
+[[nodiscard]] std::string json_for_html(const std::string& json);
 
 }  // namespace clsurf::io

@@ -15,8 +15,8 @@ struct ProfileReport {
     Roughness roughness;
 };
 
-[[nodiscard]] std::string profile_text(const ProfileReport& report);
+[[nodiscard]] std::string profile_text(const ProfileReport& p);
 /// Keys: from_mm[2], to_mm[2], measured_mm, ra_um, rz_um, cutoff_mm, sampling_lengths, evaluated_mm, diagnostics[].
-[[nodiscard]] std::string profile_json(const ProfileReport& report, const Diagnostics& diagnostics);
+[[nodiscard]] std::string profile_json(const ProfileReport& p, const Diagnostics& diagnostics);
 
 }  // namespace clsurf::io

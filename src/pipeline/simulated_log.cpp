@@ -95,9 +95,9 @@ SimulatedRun simulate_to_log(const Program& programmed, const Machine& machine, 
     return run_to_log(program, machine, "xyz", [&](Columns& columns) {
         const auto take = [&](std::span<const SimulatedPoint> points) {
             for (const SimulatedPoint& p : points) {
-                for (int axis = 0; axis < 3; ++axis) {
-                    columns.positions[static_cast<std::size_t>(axis)].push_back(p.commanded[axis]);
-                    columns.positions[static_cast<std::size_t>(axis + 3)].push_back(p.feedback[axis]);
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    columns.positions[axis].push_back(p.commanded[static_cast<Eigen::Index>(axis)]);
+                    columns.positions[axis + 3].push_back(p.feedback[static_cast<Eigen::Index>(axis)]);
                 }
                 columns.line.push_back(p.line);
                 columns.limit.push_back(p.limit);

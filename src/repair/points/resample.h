@@ -39,7 +39,7 @@ struct ResampledSegment {
 /// all may. `orientation`: of a program that runs on five axes; otherwise nullptr, and angles stay. The tool axis at a
 /// new point is that of its projection onto the old lines. O(points), parallel.
 [[nodiscard]] std::vector<ResampledSegment> resample(const Program& program, const ProgrammedSurface& programmed,
-                                                     const LineEditor& editor, const ResampleRules& rules,
+                                                     const LineEditor& editor, const ResampleRules& wanted,
                                                      std::span<const std::uint8_t> needed,
                                                      const Orientation* orientation = nullptr);
 
