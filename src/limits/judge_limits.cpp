@@ -19,7 +19,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double arithmetic = 1e-9;  ///< share of a limit that sums of doubles are off
+constexpr double arithmetic = 1e-6;  ///< share of a limit that sums of doubles are off, also those of a planner
 
 /// What was found of one limit in one block.
 struct BlockFindings {

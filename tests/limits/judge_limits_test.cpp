@@ -92,6 +92,15 @@ TEST(JudgeLimits, APlateauAtTheLimitIsNoFinding) {
     EXPECT_LE(report.greatest_factor(), 1);
 }
 
+TEST(JudgeLimits, WhatTheArithmeticOfAPlannerAddsIsNoFinding) {
+    const auto findings = [](double over) {
+        const Positions positions = driven({{0, 200}, {2000 * (1 + over), 100}, {0, 200}});
+        return judged(log_of(positions, 0), {acceleration_of_x}).findings.size();
+    };
+    EXPECT_EQ(findings(1e-7), 0u);
+    EXPECT_EQ(findings(1e-4), 1u);
+}
+
 TEST(JudgeLimits, ABurstOfThreeRecordsIsFoundWithItsFactorAndDuration) {
     const Log log = log_of(driven({{0, 500}, {1000, 40}, {2500, 3}, {1000, 40}, {0, 500}}));
     const LimitReport report = judged(log, {acceleration_of_x});
