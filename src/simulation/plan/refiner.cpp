@@ -80,13 +80,32 @@ double way_of_turn(const Span& span, double from, double turn) {
     return pace.slope < 0 ? std::min(way, approach * pace.value / -pace.slope) : way;
 }
 
-/// From rest at the greatest jerk, if all of the way is straight.
-RestRamp steepest_from_rest(double way, const Span& span, const PathLimits& path) {
-    if (!span.straight() || way > span.length) return {};
-    const double time = std::cbrt(6 * way / span.jerk);
-    const RestRamp ramp{span.jerk, time, 0.5 * span.jerk * time * time, span.jerk * time};
-    const bool held =
-        ramp.speed <= span.free_cap && ramp.acceleration <= std::min(span.acceleration, path.max_acceleration);
+/// From rest at the greatest jerk, if that ends below every limit. With constant jerk j over a way s, v a = 3 j s and
+/// v³ = 4.5 j s²: the jerk of an axis, x′ j + 3 x″ v a + x‴ v³, grows with j alone.
+RestRamp steepest_from_rest(double way, const Span& span, const Machine& machine) {
+    if (way > span.length) return {};
+    const auto most = [way](double limit, double slope, double bend, double twist) {
+        return limit / (slope + 9 * bend * way + 4.5 * twist * way * way);
+    };
+    double jerk = span.jerk;
+    if (!span.straight()) {
+        jerk = std::min(jerk, most(machine.path.max_jerk, span.greatest_slope, span.pace_slope, span.pace_curve));
+        for (int i = 0; i < 3; ++i) {
+            const double limit = machine.axes[static_cast<std::size_t>(i)].max_jerk;
+            if (limit > 0) jerk = std::min(jerk, most(limit, span.slope[i], span.bend[i], span.twist[i]));
+        }
+    }
+    const double time = std::cbrt(6 * way / jerk);
+    const RestRamp ramp{jerk, time, 0.5 * jerk * time * time, jerk * time};
+    const double square = ramp.speed * ramp.speed;
+    bool held = ramp.speed <= (span.straight() ? span.free_cap : std::min(span.free_cap, span.cap)) &&
+                ramp.acceleration <= std::min(span.acceleration, machine.path.max_acceleration);
+    if (span.straight()) return held ? ramp : RestRamp{};
+    held = held && span.greatest_slope * ramp.acceleration + span.pace_slope * square <= machine.path.max_acceleration;
+    for (int i = 0; i < 3; ++i) {
+        const double acceleration = span.slope[i] * ramp.acceleration + span.bend[i] * square;
+        held = held && acceleration <= machine.axes[static_cast<std::size_t>(i)].max_acceleration;
+    }
     return held ? ramp : RestRamp{};
 }
 
@@ -173,14 +192,14 @@ void Refiner::divide(Section& section) {
         lead_ = section;
         lead_.to = std::min(rest_share * profile.durations()[0], section.to);
         section.from = lead_.to;
-        steepest_lead_ = steepest_from_rest(profile.at(lead_.to).arc_length, run.spans.front(), machine_->path);
+        steepest_lead_ = steepest_from_rest(profile.at(lead_.to).arc_length, run.spans.front(), *machine_);
     }
     if (run.to_rest && section.to == profile.duration()) {
         tail_ = section;
         tail_.from = std::max(profile.duration() - rest_share * profile.durations()[6], section.from);
         section.to = tail_.from;
         steepest_tail_ =
-            steepest_from_rest(profile.length() - profile.at(tail_.from).arc_length, run.spans.back(), machine_->path);
+            steepest_from_rest(profile.length() - profile.at(tail_.from).arc_length, run.spans.back(), *machine_);
     }
     if (cells_.empty() && open_.length == 0) start_ = end_ = state_at(profile, section.from);
     add_cells(section);

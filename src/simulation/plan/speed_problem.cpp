@@ -8,9 +8,8 @@ namespace clsurf {
 namespace {
 
 constexpr int most_steps = 90;
-const double end_gap =
-    getenv("GAP") ? atof(getenv("GAP")) : (4e-3);  ///< of the time: how far from the optimum it stops
-constexpr double boundary_share = 0.97;            ///< of the way to a limit in one step
+constexpr double end_gap = 4e-3;         ///< of the time: how far from the optimum it stops
+constexpr double boundary_share = 0.97;  ///< of the way to a limit in one step
 // A start far from every limit, as its slacks say, converges best.
 constexpr double first_slack = 1.0;  ///< of a bound, at least
 constexpr double first_gap = 1.0;    ///< of the time
