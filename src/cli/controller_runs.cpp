@@ -27,7 +27,7 @@ std::string first_sentence(const std::string& message) {
 
 }  // namespace
 
-ControllerRuns::ControllerRuns(ControllerCommand command, const TextReader& reader)
+ControllerRuns::ControllerRuns(ControllerCommand command, const io::TextReader& reader)
     : command_(std::move(command)), reader_(reader) {}
 
 ControllerOutcome ControllerRuns::run(const std::string& text) const {

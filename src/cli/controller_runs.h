@@ -4,7 +4,7 @@
 #include <string>
 
 #include "cli/controller_command.h"
-#include "cli/fitted_machine.h"
+#include "io/readers/fitted_machine.h"
 #include "repair/controller_repair.h"
 
 namespace clsurf::cli {
@@ -12,7 +12,7 @@ namespace clsurf::cli {
 class ControllerRuns {
 public:
     /// `reader` says what the text of a program belongs to, and must outlive it.
-    ControllerRuns(ControllerCommand command, const TextReader& reader);
+    ControllerRuns(ControllerCommand command, const io::TextReader& reader);
 
     /// Writes the text into a file with the name of the program, runs the command, reads the log and checks that it belongs
     /// to the text. Throws SystemError: the file cannot be written, or nothing can be started.
@@ -20,7 +20,7 @@ public:
 
 private:
     ControllerCommand command_;
-    const TextReader& reader_;
+    const io::TextReader& reader_;
     RunFolder folder_;
 };
 

@@ -41,8 +41,8 @@ RepairInputs read_repair_inputs(const po::variables_map& values, Diagnostics& di
     in.rounds = read_rounds(values);
     const bool fitted_later = values.count("controller") > 0 || !in.rounds.empty();
     if (in.measured && !has_machine && !fitted_later && in.rules.identity != ProgramIdentity::other) {
-        in.machine =
-            fitted_machine(in.reader, {{std::string(in.program.main().text()), *in.measured}}, in.machine, diagnostics);
+        in.machine = io::fitted_machine(in.reader, {{std::string(in.program.main().text()), *in.measured}}, in.machine,
+                                        diagnostics);
         if (in.machine.fidelity) in.machine_origin = "fitted to " + in.measured->name;
     }
     std::vector<Log*> logs;
@@ -69,7 +69,7 @@ Optimized run_repair(const po::variables_map& values, RepairInputs& in, const Pr
     if (command) controller.emplace(*command, in.reader);
     ControllerJudge judge{nullptr,
                           [&](const std::vector<ControllerLog>& logs, const Machine& known) {
-                              return fitted_machine(in.reader, logs, known, diagnostics);
+                              return io::fitted_machine(in.reader, logs, known, diagnostics);
                           },
                           runs};
     if (controller) judge.run = [&](const std::string& text) { return controller->run(text); };

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/fitted_machine.h"
 #include "cli/options.h"
+#include "io/readers/fitted_machine.h"
 #include "repair/controller_repair.h"
 
 namespace clsurf::cli {
@@ -18,7 +18,7 @@ struct RepairInputs {
     std::string machine_origin;  ///< a clause
     std::optional<Log> measured;
     std::vector<EarlierRound> rounds;
-    TextReader reader;
+    io::TextReader reader;
     Program program;
 };
 

@@ -41,10 +41,7 @@ PartRules rules_of(const PartOptions& options) {
                                   {Role::commanded, Role::feedback, Role::actual});
     rules.derivative = choose<DerivativeMethod>("derivative", options.derivative, {"savgol", "kalman"},
                                                 {DerivativeMethod::savgol, DerivativeMethod::kalman});
-    if (options.work_offset) {
-        const auto& [x, y, z, turn] = *options.work_offset;
-        rules.poses.zero = pose_of(Vec3(x, y, z), turn);
-    }
+    rules.poses = poses_of(options);
     if (!options.machine.empty()) {
         const Machine machine = io::read_machine(options.machine);
         if (machine.kinematics.has_rotary()) rules.kinematics = std::make_shared<const Kinematics>(machine.kinematics);
@@ -55,14 +52,6 @@ PartRules rules_of(const PartOptions& options) {
     rules.accept_foreign = options.force;
     if (!options.tool.empty() && options.tool != "none") rules.tool = parse_tool(options.tool);
     return rules;
-}
-
-io::ProgramOptions program_options_of(const PartOptions& options) {
-    io::ProgramOptions program;
-    program.dialect = options.dialect;
-    program.block_delete = options.block_delete;
-    program.tools = options.tools;
-    return program;
 }
 
 ComparedRun compared(const Part& part, const Part& other) {
@@ -92,13 +81,34 @@ std::vector<Part> copies(const Parts& parts, Diagnostics& diagnostics) {
 
 }  // namespace
 
-std::shared_ptr<LoadedPart> read_part(const PartOptions& options) {
+io::ProgramOptions program_options_of(const PartOptions& options) {
+    io::ProgramOptions program;
+    program.dialect = options.dialect;
+    program.block_delete = options.block_delete;
+    program.tools = options.tools;
+    return program;
+}
+
+io::LogOptions log_options_of(const PartOptions& options) {
     io::LogOptions log;
     log.layout = options.layout;
     log.mapping = options.mapping;
     log.period = options.period;
     if (log.period && !(*log.period > 0 && std::isfinite(*log.period))) throw UsageError("period must be above 0 s");
-    io::PartFiles files{options.program, options.log, program_options_of(options), log, options.tool != "none"};
+    return log;
+}
+
+FramePoses poses_of(const PartOptions& options) {
+    FramePoses poses;
+    if (!options.work_offset) return poses;
+    const auto& [x, y, z, turn] = *options.work_offset;
+    poses.zero = pose_of(Vec3(x, y, z), turn);
+    return poses;
+}
+
+std::shared_ptr<LoadedPart> read_part(const PartOptions& options) {
+    io::PartFiles files{options.program, options.log, program_options_of(options), log_options_of(options),
+                        options.tool != "none"};
     return std::make_shared<LoadedPart>(PartRequest{std::move(files), rules_of(options)});
 }
 

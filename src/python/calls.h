@@ -30,6 +30,11 @@ struct PartOptions {
     std::string derivative = "savgol";
 };
 
+[[nodiscard]] io::ProgramOptions program_options_of(const PartOptions& options);
+/// Throws UsageError.
+[[nodiscard]] io::LogOptions log_options_of(const PartOptions& options);
+[[nodiscard]] FramePoses poses_of(const PartOptions& options);
+
 /// Throws InputError, UsageError.
 [[nodiscard]] std::shared_ptr<LoadedPart> read_part(const PartOptions& options);
 

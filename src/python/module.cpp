@@ -13,6 +13,7 @@
 #include "python/arrays.h"
 #include "python/calls.h"
 #include "python/loaded_part.h"
+#include "python/optimize.h"
 #include "python/picture.h"
 
 namespace py = pybind11;
@@ -201,5 +202,13 @@ PYBIND11_MODULE(_clsurf, module) {
     bind_part(module);
     module.def("simulate", &simulate_part, Unlocked());
     module.def("identify", &identify_machine, Unlocked());
+    py::class_<RepairOptions>(module, "RepairOptions")
+        .def(py::init<>())
+        .def_readwrite("tolerance", &RepairOptions::tolerance)
+        .def_readwrite("more_time_percent", &RepairOptions::more_time_percent)
+        .def_readwrite("machines", &RepairOptions::machines)
+        .def_readwrite("decimals", &RepairOptions::decimals)
+        .def_readwrite("feeds", &RepairOptions::feeds);
+    module.def("optimize", &optimize_program, Unlocked());
     module.def("diff", &diff_parts, Unlocked());
 }

@@ -59,6 +59,8 @@ def test_a_log_of_another_program():
         lambda part: part.picture(size=(1, 1)),
         lambda part: part.picture(range=(2, 1)),
         lambda part: clsurf.diff(part),
+        lambda part: clsurf.optimize(part.program, tolerance=0),
+        lambda part: clsurf.optimize(part.program, feeds="fast"),
         lambda part: clsurf.identify([]),
     ],
 )

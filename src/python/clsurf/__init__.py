@@ -11,7 +11,7 @@ Lengths are in mm, times in s, speeds in mm/min, accelerations in mm/s², angles
 """
 
 from ._clsurf import version as __version__
-from .calls import IdentifiedMachine, diff, identify, simulate
+from .calls import IdentifiedMachine, OptimizedProgram, diff, identify, optimize, simulate
 from .errors import Error, InputError, SystemError, UsageError
 from .part import Part, Picture
 from .surface import Surface
@@ -20,6 +20,7 @@ __all__ = [
     "Error",
     "IdentifiedMachine",
     "InputError",
+    "OptimizedProgram",
     "Part",
     "Picture",
     "Surface",
@@ -27,5 +28,6 @@ __all__ = [
     "UsageError",
     "diff",
     "identify",
+    "optimize",
     "simulate",
 ]

@@ -30,7 +30,16 @@ def simulate(
         start: where the axes stand before the program [mm].
         work_offset: for machines with rotary axes, the position of the program's zero with both angles zero [mm].
     """
-    options = options_of(program, None, machine=machine, tool=tool, dialect=dialect, tools=tools, block_delete=block_delete, work_offset=work_offset)
+    options = options_of(
+        program,
+        None,
+        machine=machine,
+        tool=tool,
+        dialect=dialect,
+        tools=tools,
+        block_delete=block_delete,
+        work_offset=work_offset,
+    )
     x, y, z = (float(value) for value in start)
     return Part._of(_clsurf.simulate(options, (x, y, z)))
 
@@ -61,6 +70,74 @@ def identify(parts: Iterable[Part], machine: Optional[Path] = None, tests: Itera
         "" if machine is None else os.fspath(machine),
     )
     return IdentifiedMachine(json.loads(report), text)
+
+
+class OptimizedProgram(NamedTuple):
+    """What `optimize` makes."""
+
+    report: Dict[str, Any]
+    """The keys of `clsurf optimize --json`: `accepted`, `reason`, `time_before_s`, `time_after_s` …."""
+    text: Optional[str]
+    """The new program; None if none was accepted."""
+
+
+def optimize(
+    program: Path,
+    machine: Optional[Path] = None,
+    log: Optional[Path] = None,
+    *,
+    tool: Optional[str] = None,
+    tolerance: float = 0.005,
+    more_time_percent: float = 0.0,
+    machines: int = 4,
+    decimals: int = 0,
+    feeds: str = "searched",
+    dialect: Optional[str] = None,
+    tools: Optional[Path] = None,
+    block_delete: bool = True,
+    layout: Optional[Path] = None,
+    mapping: Optional[Path] = None,
+    period: Optional[float] = None,
+    work_offset: Optional[Sequence[float]] = None,
+) -> OptimizedProgram:
+    """Makes a smoother program within a tolerance, verified by simulation.
+
+    Args:
+        program: the NC program.
+        machine: machine file. Without it, and with a log, the machine is fitted to the log.
+        log: a recorded run: only places that differ from adjacent passes there are repaired.
+        tool: the new program must not leave a rougher surface. Default: from the log or from `tools`.
+        tolerance: largest distance from the programmed path [mm].
+        more_time_percent: additional machining time that is allowed for fewer defects.
+        machines: other machines that the new program must be better on.
+        decimals: smallest number of decimals of new coordinates; 0: as in the program.
+        feeds: `"searched"` or `"intervals"`, the speeds of constant-speed intervals.
+        dialect, tools, block_delete, layout, mapping, period, work_offset: as those of `Part`.
+
+    Raises:
+        InputError: the program cannot be run, or has no adjacent passes.
+    """
+    options = options_of(
+        program,
+        log,
+        tool=tool,
+        machine=machine,
+        dialect=dialect,
+        tools=tools,
+        block_delete=block_delete,
+        layout=layout,
+        mapping=mapping,
+        period=period,
+        work_offset=work_offset,
+    )
+    repair = _clsurf.RepairOptions()
+    repair.tolerance = tolerance
+    repair.more_time_percent = more_time_percent
+    repair.machines = machines
+    repair.decimals = decimals
+    repair.feeds = feeds
+    report, text = _clsurf.optimize(options, repair)
+    return OptimizedProgram(json.loads(report), text or None)
 
 
 def diff(reference: Part, *others: Part) -> Dict[str, Any]:

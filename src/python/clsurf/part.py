@@ -108,7 +108,14 @@ class Part:
         UsageError: an unknown tool, dialect or surface.
     """
 
-    def __init__(self, program: Optional[Path], log: Path, tool: Optional[str] = None, machine: Optional[Path] = None, **options: Any) -> None:
+    def __init__(
+        self,
+        program: Optional[Path],
+        log: Path,
+        tool: Optional[str] = None,
+        machine: Optional[Path] = None,
+        **options: Any,
+    ) -> None:
         self._native = _clsurf.Part(options_of(program, log, tool=tool, machine=machine, **options))
 
     @classmethod
@@ -197,12 +204,13 @@ class Part:
     def channel(self, name: str) -> np.ndarray:
         """A channel of the log, in its unit.
 
-        The array lies in the log's file, in the type that is stored there. Channels that are stored with a scale become float64.
+        The array lies in the log's file, in the type that is stored there. Channels that are stored with a scale become
+        float64.
         """
         return self._native.channel(name)
 
     def check(self) -> Dict[str, Any]:
-        """The keys of `clsurf check --json`: `summary`, `defects`, `expected`, `limits` (with a machine), `diagnostics` ….
+        """The keys of `clsurf check --json`: `summary`, `defects`, `limits` (with a machine), `diagnostics` ….
 
         Computed once. Units are in the names of the keys.
         """
@@ -211,8 +219,8 @@ class Part:
     def defects(self) -> pandas.DataFrame:
         """The defects that `clsurf check` lists, most conspicuous first.
 
-        Columns are the keys of a defect there: `severity` (1 trace … 4 reject), `cause`, `depth_um`, `speed_jump_mm_min`,
-        `length_mm`, `lines` ([first, last] of each pass) …. The index is `id`. Needs pandas.
+        Columns are the keys of a defect there: `severity` (1 trace … 4 reject), `cause`, `depth_um`,
+        `speed_jump_mm_min`, `length_mm`, `lines` ([first, last] of each pass) …. The index is `id`. Needs pandas.
         """
         import pandas
 
@@ -230,7 +238,9 @@ class Part:
         file: str = "",
         nearest: int = 1,
     ) -> List[Dict[str, Any]]:
-        """What is known of points: the `matches` of `clsurf query --json`, with `line`, `text`, `time_s`, `position_mm`, `speed_mm_min` ….
+        """What is known of points: the `matches` of `clsurf query --json`.
+
+        Each has `point`, `time_s`, `line`, `text`, `position_mm`, `speed_mm_min`, `slow_because` ….
 
         Args:
             point: number of a point.
@@ -248,7 +258,8 @@ class Part:
 
             raise UsageError("what to look for is missing", "point=, line=, at= or time=")
         place = None if at is None else [float(x) for x in at]
-        return json.loads(self._native.query(point=point, line=line, file=file, time=time, at=place, nearest=nearest))["matches"]
+        report = self._native.query(point=point, line=line, file=file, time=time, at=place, nearest=nearest)
+        return json.loads(report)["matches"]
 
     def surface(self) -> Surface:
         """The CL surface: points, triangles and passes as arrays, and as VTK or PyVista mesh."""

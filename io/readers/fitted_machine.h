@@ -11,12 +11,12 @@
 #include "program/frame_placement.h"
 #include "repair/controller_repair.h"
 
-namespace clsurf::cli {
+namespace clsurf::io {
 
 /// How the text of a program is read: as that of `source`, with the same name, dialect, options and subprograms.
 struct TextReader {
-    io::Source source;
-    io::ProgramOptions options;
+    Source source;
+    ProgramOptions options;
     std::string dialect;
     FramePoses poses;
 
@@ -31,4 +31,4 @@ struct TextReader {
 [[nodiscard]] Machine fitted_machine(const TextReader& reader, const std::vector<ControllerLog>& logs,
                                      const Machine& known, Diagnostics& diagnostics);
 
-}  // namespace clsurf::cli
+}  // namespace clsurf::io

@@ -1,4 +1,4 @@
-#include "cli/fitted_machine.h"
+#include "io/readers/fitted_machine.h"
 
 #include <memory>
 #include <span>
@@ -8,17 +8,17 @@
 #include "pipeline/part.h"
 #include "pipeline/placement.h"
 
-namespace clsurf::cli {
+namespace clsurf::io {
 
 Program TextReader::as_programmed(const std::string& text) const {
     auto bytes = std::make_shared<std::string>(text);
-    io::Source changed = source;
+    Source changed = source;
     changed.bytes = std::as_bytes(std::span(bytes->data(), bytes->size()));
     changed.keep_alive = bytes;
-    io::ProgramOptions same = options;
+    ProgramOptions same = options;
     same.dialect = dialect;
     same.coordinates.reset();
-    return io::read_program(changed, same);
+    return read_program(changed, same);
 }
 
 Program TextReader::level(const std::string& text) const {
@@ -46,4 +46,4 @@ Machine fitted_machine(const TextReader& reader, const std::vector<ControllerLog
     } catch (const InputError& error) { return keep_known(error.what()); }
 }
 
-}  // namespace clsurf::cli
+}  // namespace clsurf::io
