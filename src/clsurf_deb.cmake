@@ -1,8 +1,12 @@
 # `cpack -G DEB` in the build folder: packages split as Debian does, clsurf (program, man pages, completion), libclsurf-dev
-# (libraries, headers, CMake package), clsurf-doc. The same commit gives the same packages, byte for byte: times are those
-# of the commit (SOURCE_DATE_EPOCH, tests/deb/build).
+# (libraries, headers, CMake package), clsurf-doc, and python3-clsurf where the Python package is built. The same commit
+# gives the same packages, byte for byte: times are those of the commit (SOURCE_DATE_EPOCH, tests/deb/build).
 
 set(debian_names clsurf libclsurf-dev clsurf-doc)
+if(TARGET clsurf_python)
+  list(APPEND debian_names python3-clsurf)
+  get_target_property(python_versions clsurf_python CLSURF_PYTHON_VERSIONS)
+endif()
 set(debian_files ${PROJECT_BINARY_DIR}/debian)
 file(MAKE_DIRECTORY ${debian_files})
 
@@ -43,6 +47,15 @@ set(CPACK_DEBIAN_LIBCLSURF-DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBCLSURF-DEV_PACKAGE_DEPENDS
   "libeigen3-dev, libtbb-dev, libfmt-dev, libtomlplusplus-dev, zlib1g-dev, libzstd-dev, liblzma-dev, libexpat1-dev, libssl-dev, libsqlite3-dev, libvtk9-dev, libosmesa6-dev, libegl-dev, libhdf5-dev")
 set(CPACK_DEBIAN_LIBCLSURF-DEV_DESCRIPTION "Static libraries, headers and the CMake package of clsurf, which finds the NC program lines that mark a machined surface.")
+# Its libclsurf_image, which writes pictures, is that of clsurf.
+set(CPACK_DEBIAN_PYTHON3-CLSURF_PACKAGE_NAME python3-clsurf)
+set(CPACK_DEBIAN_PYTHON3-CLSURF_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON3-CLSURF_PACKAGE_SHLIBDEPS ON)
+list(JOIN python_versions "), python3 (<< " python_versions)
+set(CPACK_DEBIAN_PYTHON3-CLSURF_PACKAGE_DEPENDS
+  "clsurf (= ${PROJECT_VERSION}), python3-numpy, python3 (>= ${python_versions})")
+set(CPACK_DEBIAN_PYTHON3-CLSURF_PACKAGE_SUGGESTS "python3-pandas, python3-vtk9")
+set(CPACK_DEBIAN_PYTHON3-CLSURF_DESCRIPTION "Python package of clsurf, which finds the NC program lines that mark a machined surface: points as NumPy arrays, defects as a table, maps in notebooks.")
 set(CPACK_DEBIAN_CLSURF-DOC_PACKAGE_NAME clsurf-doc)
 set(CPACK_DEBIAN_CLSURF-DOC_PACKAGE_SECTION doc)
 set(CPACK_DEBIAN_CLSURF-DOC_PACKAGE_ARCHITECTURE all)

@@ -8,6 +8,11 @@ execute_process(COMMAND date -u -R -d @${epoch} OUTPUT_VARIABLE time OUTPUT_STRI
 foreach(name ${CPACK_COMPONENTS_ALL})
   set(root ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/${name}/usr)
   file(GLOB pages ${root}/share/man/man1/*.1)
+  # The Python of the system looks there, whatever its minor version.
+  file(GLOB versioned ${root}/lib/python3.*)
+  if(versioned)
+    file(RENAME ${versioned} ${root}/lib/python3)
+  endif()
   set(changelog ${root}/share/doc/${name}/changelog)
   configure_file(${CPACK_CLSURF_CHANGELOG} ${changelog} @ONLY)
   foreach(file ${pages} ${changelog})
