@@ -60,17 +60,14 @@ CLSURF_VECTORISED float lower_bull(CellGroup& cells, const SweptPiece& piece, fl
     const auto size = static_cast<std::size_t>(cells.size);
     const float bottom = radius - corner;
     const float squared = corner * corner;
-    const float least_up = 1e-4F * corner;
-    const float least = least_up * least_up;
+    const float least = 1e-8F * squared;
     Lanes highest = lowest_lanes();
     for (std::size_t first = 0; first < size; first += width) {
         for (std::size_t lane = 0; lane < width; ++lane) {
             const std::size_t k = first + lane;
-            const float off_x = cells.x[k] - x;
-            const float off_y = cells.y[k] - y;
+            const float off_x = cells.x[k] - x, off_y = cells.y[k] - y;
             const float along = off_x * dx + off_y * dy;
-            const float across = off_y * dx - off_x * dy;
-            const float aside = across * across;
+            const float aside = (off_y * dx - off_x * dy) * (off_y * dx - off_x * dy);
             const auto rise_at = [&](float at) {
                 const float off = along - at;
                 const float rho = std::sqrt(off * off + aside) + 1e-9F;

@@ -1,5 +1,5 @@
 #pragma once
-// OutlineSweep: the height that a tool leaves over a few cells when it moves straight along one piece of its path.
+// Outline: the height that a tool leaves over a few cells when it moves straight along one piece of its path.
 
 #include <array>
 #include <cstddef>

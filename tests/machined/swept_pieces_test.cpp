@@ -55,7 +55,7 @@ std::vector<Motion> wavy_path(std::mt19937& random) {
     std::uniform_real_distribution<double> any(-1, 1);
     const double tilt_x = 0.4 * any(random), tilt_y = 0.4 * any(random), wave = 0.03 * any(random);
     std::vector<Motion> motions;
-    Vec3 before;
+    Vec3 before = Vec3::Zero();
     for (int pass = 0; pass < 7; ++pass) {
         for (int k = 0; k <= 14; ++k) {
             const double x = 0.2 * (pass % 2 == 0 ? k : 14 - k) - 0.7 + 0.02 * any(random), y = 0.3 * pass - 0.4;
