@@ -12,6 +12,7 @@ namespace {
 
 constexpr Rgb ink_colour{20, 20, 24};
 constexpr Rgb cursor_colour{200, 30, 30};
+constexpr Rgb reference_colour{150, 150, 156};
 // Readable by the colour-blind (Okabe, Ito 2008).
 constexpr Rgb curve_colours[] = {{0, 90, 178}, {213, 94, 0}, {0, 130, 95}, {160, 70, 130}, {110, 85, 0}};
 
@@ -19,10 +20,12 @@ constexpr Rgb curve_colours[] = {{0, 90, 178}, {213, 94, 0}, {0, 130, 95}, {160,
 void fit(ChartFrame& frame, const Curve& curve) {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
-    for (const double v : curve.values) {
-        if (!std::isfinite(v)) continue;
-        low = std::min(low, v);
-        high = std::max(high, v);
+    for (const std::vector<double>* values : {&curve.values, &curve.reference}) {
+        for (const double v : *values) {
+            if (!std::isfinite(v)) continue;
+            low = std::min(low, v);
+            high = std::max(high, v);
+        }
     }
     if (!(low <= high)) low = high = 0;
     const double room = high > low ? 0.05 * (high - low) : std::max(1.0, 0.05 * std::abs(high));
@@ -147,9 +150,9 @@ void add_cursor(Sheet& sheet, const ChartFrame& f, const ChartCursor& cursor, co
     sheet.texts.push_back(std::move(note));
 }
 
-void add_curve(Sheet& sheet, const ChartFrame& f, std::span<const double> x, const Curve& curve, const Rgb& colour) {
-    FlatLine line{{}, 1.4, colour};
-    for (const Vec2& p : thin_curve(x, curve.values, f.x_low, f.x_high, static_cast<int>(f.rect.width))) {
+void add_line(Sheet& sheet, const ChartFrame& f, std::span<const double> x, std::span<const double> values,
+              FlatLine line) {
+    for (const Vec2& p : thin_curve(x, values, f.x_low, f.x_high, static_cast<int>(f.rect.width))) {
         if (std::isfinite(p.y())) {
             line.points.push_back(f.at(p.x(), p.y()));
         } else if (!line.points.empty()) {
@@ -158,6 +161,20 @@ void add_curve(Sheet& sheet, const ChartFrame& f, std::span<const double> x, con
         }
     }
     if (!line.points.empty()) sheet.lines.push_back(std::move(line));
+}
+
+/// The curve over its reference, which is named beside it.
+void add_curve(Sheet& sheet, const ChartFrame& f, std::span<const double> x, const Curve& curve, const Rgb& colour,
+               const FlatText& name) {
+    if (!curve.reference.empty()) {
+        add_line(sheet, f, x, curve.reference, {{}, 3.2, reference_colour, Level::edge});
+        FlatText label = name;
+        label.x += text_width(name) + 2 * name.size;
+        label.text = curve.reference_label;
+        label.rgb = reference_colour;
+        sheet.texts.push_back(std::move(label));
+    }
+    add_line(sheet, f, x, curve.values, {{}, 1.4, colour});
 }
 
 }  // namespace
@@ -205,7 +222,7 @@ Image draw_chart(std::span<const double> x, const std::vector<Curve>& curves, co
             add_bands(sheet, f, x, curves[k]);
             add_class_names(sheet, f, curves[k], name);
         } else {
-            add_curve(sheet, f, x, curves[k], colour);
+            add_curve(sheet, f, x, curves[k], colour, name);
         }
         for (const ChartCursor& cursor : cursors) add_cursor(sheet, f, cursor, curves[k], name, k);
     }

@@ -21,6 +21,8 @@ struct Curve {
     std::string label;                     ///< "Path speed [mm/min]"
     std::vector<double> values;            ///< shown units; NaN: a gap
     std::vector<CurveClass> classes = {};  ///< of names: they are drawn as bands; empty: values are numbers
+    std::vector<double> reference = {};    ///< drawn under it in grey, in the same frame; empty: none
+    std::string reference_label = {};      ///< "predicted"
 };
 
 struct ChartCursor {

@@ -13,6 +13,8 @@
 #include "io/reports/joined_reports.h"
 #include "io/reports/limit_reports.h"
 #include "io/reports/line_ranges.h"
+#include "io/reports/measured_json.h"
+#include "io/reports/measured_report.h"
 #include "io/reports/quality_words.h"
 #include "limits/limit_budget.h"
 
@@ -280,6 +282,7 @@ std::string quality_json(const ReportedQuality& q) {
         json["limits"] = limits_json(*q.limits, *q.program);
         json["limits_judged"] = judged_limits_json(*q.limits);
     }
+    if (q.measured != nullptr) json["measured"] = measured_json(*q.measured);
     json["simulation"] = nullptr;
     if (q.origin)
         json["simulation"] = {{"machine", q.origin->machine}, {"fidelity", fidelity_json(q.origin->fidelity)}};
@@ -335,6 +338,7 @@ std::string quality_text(const ReportedQuality& q) {
             text += fmt::format("{} more at the border of the part, where a pass has one neighbour only: not counted\n",
                                 r.expected.size());
     }
+    if (q.measured != nullptr) text += measured_text(*q.measured);
     for (const BudgetLine& line : q.budget) {
         text += fmt::format("budget {:<28} {:>10.4g} of {:<10.4g} {}\n", line.name, line.measured, line.limit,
                             line.held                                  ? "held"

@@ -8,6 +8,7 @@
 #include "core/diagnostic.h"
 #include "history/recorded_match.h"
 #include "io/reports/acceptance.h"
+#include "io/reports/reported_measurement.h"
 #include "io/reports/simulation_origin.h"
 #include "limits/limit_report.h"
 #include "machined/as_machined_report.h"
@@ -32,7 +33,8 @@ struct ReportedQuality {
     std::vector<BudgetLine> budget;
     std::optional<SimulationOrigin> origin;   ///< nullopt: the log is a recorded run
     const RecordedMatch* baseline = nullptr;  ///< the defects among those of an earlier run; nullptr: there is none
-    bool passes_asked = true;                 ///< false: the budget is of limits of the machine only
+    const ReportedMeasurement* measured = nullptr;  ///< nullptr: nothing was measured; in text and JSON only
+    bool passes_asked = true;                       ///< false: the budget is of limits of the machine only
     const Diagnostics* diagnostics = nullptr;
     std::size_t columns = 80;  ///< width of the table in the text
 };

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 
 #include <fmt/format.h>
 
 #include "cli/checked_run.h"
 #include "cli/defect_colours.h"
+#include "cli/measured_check.h"
 #include "cli/report_output.h"
 #include "cli/run_recorder.h"
 #include "cli/terminal.h"
@@ -43,18 +45,22 @@ struct CheckRules {
     CheckBudget budget;
     std::optional<std::vector<RecordedDefect>> baseline;
     std::optional<RunRecorder> recorder;
+    std::unique_ptr<MeasuredInput> measured_part;  ///< nullptr: nothing was measured
     std::string format;
 };
 
-Checked check_log(const PartOptions& options, const CheckRules& rules, const po::variables_map& values) {
+Checked check_log(const PartOptions& options, CheckRules& rules, const po::variables_map& values) {
     StageClock clock(read_common(values), 8);
-    const CheckedRun run = check_run(options, rules.measured, rules.budget, clock);
+    CheckedRun run = check_run(options, rules.measured, rules.budget, clock);
     if (rules.recorder) {
         const io::AddedRun added = rules.recorder->add(options, run);
         if (!read_common(values).quiet) write_message("recorded as " + rules.recorder->text_of(added) + "\n");
     }
     std::optional<RecordedMatch> match;
     if (rules.baseline) match = match_recorded(*rules.baseline, recorded_defects(run.quality.report));
+    std::optional<io::ReportedMeasurement> measured;
+    if (rules.measured_part) measured = compare_measured(run, rules.measured, *rules.measured_part, clock);
+    const bool aligned = !measured || measured->result.alignment.determined();
     const bool worse = match && match->worsened() > 0 && run.code == ExitCode::done;
     io::ReportedQuality reported;
     reported.report = &run.quality.report;
@@ -69,11 +75,13 @@ Checked check_log(const PartOptions& options, const CheckRules& rules, const po:
     reported.origin = io::simulation_origin(run.part.log);
     reported.acceptance = run.acceptance ? &*run.acceptance : nullptr;
     reported.baseline = match ? &*match : nullptr;
+    reported.measured = measured ? &*measured : nullptr;
     reported.passes_asked = !rules.budget.only_limits();
     reported.diagnostics = &run.part.diagnostics;
     if (values.count("output") == 0) reported.columns = table_columns();
     if (rules.format != "json") print(run.part.diagnostics, values);
-    return {writer_of(rules.format)(reported), worse ? ExitCode::check_failed : run.code};
+    const ExitCode code = worse ? ExitCode::check_failed : run.code;
+    return {writer_of(rules.format)(reported), code == ExitCode::done && !aligned ? ExitCode::not_judged : code};
 }
 
 ExitCode run_check(const po::variables_map& values) {
@@ -88,6 +96,7 @@ ExitCode run_check(const po::variables_map& values) {
     rules.recorder = read_recorder(values, options.program, logs);
     ReportOutput output(values, check_formats);
     rules.format = output.format();
+    rules.measured_part = read_measured_input(values, rules.format, logs.size());
     std::vector<std::string> texts;
     ExitCode worst = ExitCode::done;
     for (const std::string& log : logs) {
@@ -122,8 +131,12 @@ Subcommand check_subcommand() {
             "The exit code is 1 if a limit of --budget, --fail-on or --max-depth is exceeded, and 5 if the\n"
             "data do not allow a verdict: less than half of the cutting points could be compared.\n"
             "With --baseline it is 1 if a defect is new or of a higher severity than in the earlier report.\n"
-            "--record adds the run to a history, whatever the verdict.\n\n"
+            "--record adds the run to a history, whatever the verdict.\n"
+            "--measured compares a profile or an areal map that was measured on the part with the predicted surface: aligned\n"
+            "(`clsurf align`), with the same form and filters, Ra, Rq and Rz of both, the correlation of the roughness profiles,\n"
+            "and which predicted marks are there. The exit code is 5 if the data do not determine the pose.\n\n"
             "  clsurf check part.nc run.biip --tool ball:6\n"
+            "  clsurf check part.nc run.biip --tool ball:6 --measured stylus.csv --measured-at 12.5,3,90 --picture profile.png\n"
             "  clsurf check part.nc run.biip --machine mill.toml --budget limits.toml\n"
             "  clsurf check part.nc monday.biip friday.biip --fail-on distinct --max-depth 5um -q\n"
             "  clsurf check part.nc run.biip --tool ball:6 --budget part.toml --format sarif -o part.sarif",
@@ -137,6 +150,7 @@ Subcommand check_subcommand() {
                 options.add_options()("record", po::value<std::string>()->value_name("DB"),
                                       "add the run to that history (`clsurf history`)");
                 declare_recording(options);
+                declare_measured_check(options);
             },
         .positional = {"PROGRAM", "LOG…"},
         .run = run_check,

@@ -11,8 +11,8 @@ CheckedRun check_run(const PartOptions& options, std::optional<Role> measured, c
     CheckedRun run;
     run.part = load_part(options, clock);
     clock.begin("stitch the surface");
-    const ClSurface surface = stitch(run.part);
-    run.quality = judge(run.part, surface, measured, {}, clock.stages());
+    run.surface = stitch(run.part);
+    run.quality = judge(run.part, run.surface, measured, {}, clock.stages());
     run.part.diagnostics.append(run.quality.diagnostics);
     if (const std::vector<StatedLimit> stated = stated_limits(run.part.limits, budget); !stated.empty()) {
         clock.begin("compare with the limits");

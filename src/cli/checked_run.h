@@ -14,6 +14,7 @@ namespace clsurf::cli {
 
 struct CheckedRun {
     Part part;  ///< with all diagnostics
+    ClSurface surface;
     Quality quality;
     LimitReport limits;
     bool states_limits = false;                ///< of a machine file or the budget

@@ -39,6 +39,7 @@ struct Subcommand {
 [[nodiscard]] const Subcommand& find_subcommand(std::string_view name);
 
 // One function a subcommand, each in the file of its name.
+[[nodiscard]] Subcommand align_subcommand();
 [[nodiscard]] Subcommand check_subcommand();
 [[nodiscard]] Subcommand compare_subcommand();
 [[nodiscard]] Subcommand convert_subcommand();

@@ -1,0 +1,12 @@
+#pragma once
+// The comparison with a measurement as text: a section of what `check` says.
+
+#include <string>
+
+#include "io/reports/reported_measurement.h"
+
+namespace clsurf::io {
+
+[[nodiscard]] std::string measured_text(const ReportedMeasurement& measured);
+
+}  // namespace clsurf::io

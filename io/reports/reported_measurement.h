@@ -1,0 +1,14 @@
+#pragma once
+// ReportedMeasurement: a measurement with what it comes to.
+
+#include "measured/measured_data.h"
+#include "measured/measured_result.h"
+
+namespace clsurf::io {
+
+struct ReportedMeasurement {
+    MeasuredData data;
+    MeasuredResult result;
+};
+
+}  // namespace clsurf::io

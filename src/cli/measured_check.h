@@ -1,0 +1,34 @@
+#pragma once
+// `check --measured`: what was measured on the part, next to the prediction.
+
+#include <memory>
+#include <string>
+
+#include "cli/checked_run.h"
+#include "cli/picture_output.h"
+#include "cli/stage_clock.h"
+#include "io/reports/reported_measurement.h"
+#include "measured/align.h"
+
+namespace clsurf::cli {
+
+/// What was measured on the part, and the picture of the comparison.
+struct MeasuredInput {
+    MeasuredData data;
+    AlignRules rules;
+    std::unique_ptr<PictureOutput> picture;  ///< nullptr: not asked for
+};
+
+/// --measured, --picture, and how a measurement is read and aligned.
+void declare_measured_check(po::options_description& options);
+
+/// nullptr: nothing was measured. `format`: of the report. Throws UsageError: --picture and others without --measured, a form of
+/// report that cannot hold it, several logs; InputError: the file cannot be read.
+[[nodiscard]] std::unique_ptr<MeasuredInput> read_measured_input(const po::variables_map& values,
+                                                                 const std::string& format, std::size_t logs);
+
+/// Aligns and compares, and draws the picture, or adds a warning that it is not drawn. Takes the data out of `input`. Throws UsageError: the tool is not known.
+[[nodiscard]] io::ReportedMeasurement compare_measured(CheckedRun& run, std::optional<Role> role, MeasuredInput& input,
+                                                       StageClock& clock);
+
+}  // namespace clsurf::cli

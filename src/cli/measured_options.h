@@ -1,0 +1,22 @@
+#pragma once
+// Options that say how a measurement is read and where it lies on the part.
+
+#include "cli/subcommand.h"
+#include "io/readers/measured_file.h"
+#include "measured/align.h"
+
+namespace clsurf::cli {
+
+/// --measured-at, --measured-columns, --measured-free, --measured-search.
+void declare_measured(po::options_description& options);
+
+struct MeasuredOptions {
+    io::MeasuredColumns columns;
+    AlignRules rules;
+};
+/// Throws UsageError.
+[[nodiscard]] MeasuredOptions read_measured_options(const po::variables_map& values);
+/// The first of these options that is on the command line; nullptr: none.
+[[nodiscard]] const char* given_measured_option(const po::variables_map& values);
+
+}  // namespace clsurf::cli

@@ -1,0 +1,41 @@
+#pragma once
+// AlignedHeights: what was measured, as heights over places on the part.
+
+#include <vector>
+
+#include "machined/across_feed.h"
+#include "measured/measured_data.h"
+#include "measured/pose.h"
+
+namespace clsurf {
+
+class AlignedHeights {
+public:
+    /// `measured` must outlive it.
+    AlignedHeights(const MeasuredData& measured, const Pose& pose);
+
+    /// Along the profile from end to end, as finely as it was measured but no finer than `least_step` [mm]; of a profile
+    /// only.
+    [[nodiscard]] ProfileRow own_row(double least_step) const;
+    /// Height [mm] over a place, linear between measured ones. A profile is asked along own_row() only. NaN: nothing was
+    /// measured there.
+    [[nodiscard]] double at(const Vec2& place) const;
+    /// The middle of what was measured [mm], seen from above.
+    [[nodiscard]] const Vec2& middle() const { return middle_; }
+    /// [mm] between neighbouring places.
+    [[nodiscard]] double spacing() const { return spacing_; }
+
+private:
+    [[nodiscard]] double along_profile(const Vec2& place) const;
+    [[nodiscard]] double over_map(const Vec2& place) const;
+    [[nodiscard]] double map_height(double column, double row) const;
+
+    const MeasuredData& measured_;
+    Pose pose_;
+    Vec2 middle_ = Vec2::Zero();
+    double spacing_ = 0;
+    Vec2 from_ = Vec2::Zero(), along_ = Vec2::UnitX();  ///< of a profile
+    std::vector<double> way_, height_;                  ///< of its points, way rising
+};
+
+}  // namespace clsurf

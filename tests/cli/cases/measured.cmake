@@ -1,0 +1,41 @@
+# What was measured on the part, by a plain dexel simulator (tests/measured/dexel_part.py) that shares nothing with the product:
+# pose, roughness and marks that were planted.
+
+set(dexel "python3 ${PROJECT_SOURCE_DIR}/tests/measured/dexel_part.py")
+set(stylus --measured profile.csv --measured-at 7.1,2.9,90)
+foreach(part_tool ball=ball:6 tilted_ball=ball:6 bull=bull:8,2)
+  string(REPLACE "=" ";" part_tool ${part_tool})
+  list(GET part_tool 0 cut_part)
+  list(GET part_tool 1 tool)
+  clsurf_cli_test(NAME measured_profile_of_${cut_part}
+    SETUP "${dexel} make . --part ${cut_part}; $CLSURF check part.nc run.csv --tool ${tool} --measured profile.csv --measured-at 7.1,2.9,90 --json > ../r.json; ${dexel} check . --part ${cut_part} --report ../r.json"
+    ARGS check part.nc run.csv --tool ${tool} ${stylus} --picture p.png FILE p.png
+    STDOUT "measured profile.csv: profile of 3001 places" "  Ra [0-9.]+ µm measured, [0-9.]+ µm predicted" "marks found: 1 [(]" "correlation 0[.]99")
+endforeach()
+clsurf_cli_test(NAME measured_profile_without_the_mark
+  SETUP "${dexel} make . --without-mark; $CLSURF check part.nc run.csv --tool ball:6 --measured profile.csv --measured-at 7.1,2.9,90 --json > ../r.json; ${dexel} check . --without-mark --report ../r.json"
+  ARGS check part.nc run.csv --tool ball:6 ${stylus} STDOUT "marks missing: 1 [(]0[.]" NO_STDOUT "marks found")
+foreach(mark "" "--without-mark")
+  clsurf_cli_test(NAME measured_map${mark}
+    SETUP "${dexel} make . --measure areal ${mark}; $CLSURF check part.nc run.csv --tool ball:6 --measured map.sdf --measured-at 7.1,4.3,90 --json > ../r.json; ${dexel} check . ${mark} --report ../r.json"
+    ARGS align map.sdf part.nc run.csv --tool ball:6 --measured-at 7.1,4.3,90 STDOUT "areal map of 3383 places, 1 more without a height" "its origin lies at X 7[.](09|10)[0-9]+ Y 4[.](299|300)")
+endforeach()
+clsurf_cli_test(NAME align_touched_points
+  SETUP "${dexel} make . --measure touch; $CLSURF align cmm.csv part.nc run.csv --tool ball:6 --json > ../r.json; ${dexel} check . --report ../r.json"
+  ARGS align cmm.csv part.nc run.csv --tool ball:6 STDOUT "cmm.csv: points of 648 places; 0[.][0-9]+ µm rms" "c [+]0[.]0[0-9]+° ± ")
+clsurf_cli_test(NAME align_on_even_passes SETUP "${dexel} make . --part flat_plane --without-mark"
+  ARGS align profile.csv part.nc run.csv --tool ball:6 --measured-at 7.1,2.9,90 EXIT 5 STDOUT "not determined: a second pose [0-9.]+ mm beside it fits as well")
+clsurf_cli_test(NAME align_profile_without_a_start SETUP "${dexel} make ."
+  ARGS align profile.csv part.nc run.csv --tool ball:6 EXIT 5 STDOUT "not determined: the profile does not say where on the part it begins")
+
+set(three "printf 'x,z\\n0,1\\n1,2\\n2,3\\n' > m.csv")
+set(bottle @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip)
+clsurf_cli_test(NAME measured_without_a_tool SETUP "${three}" ARGS check ${bottle} --measured m.csv --measured-at 0,0 EXIT 2 STDERR "--measured needs to know the tool")
+clsurf_cli_test(NAME measured_as_sarif SETUP "${three}" ARGS check ${bottle} --tool ball:6 --measured m.csv --format sarif EXIT 2 STDERR "reported as text and JSON, not as sarif")
+clsurf_cli_test(NAME measured_of_two_logs SETUP "${three}" ARGS check ${bottle} @LOGS@/bottle_zigzag.biip --tool ball:6 --measured m.csv EXIT 2 STDERR "--measured belongs to one log")
+clsurf_cli_test(NAME measured_options_alone ARGS check ${bottle} --picture p.png EXIT 2 NO_FILE p.png STDERR "--picture is of --measured only")
+clsurf_cli_test(NAME measured_place_alone ARGS check ${bottle} --measured-at 1,2 EXIT 2 STDERR "--measured-at is of --measured only")
+clsurf_cli_test(NAME measured_free_of_a_profile SETUP "${three}" ARGS align m.csv ${bottle} --tool ball:6 --measured-at 0,0 --measured-free y EXIT 2 STDERR "a profile does not tell y")
+clsurf_cli_test(NAME measured_free_unknown SETUP "${three}" ARGS align m.csv ${bottle} --tool ball:6 --measured-free q EXIT 2 STDERR "'q' is none of x, y, z, a, b and c")
+clsurf_cli_test(NAME measured_bad_number SETUP "printf 'x,z\\n0,1\\n1,oops\\n' > m.csv" ARGS align m.csv ${bottle} --tool ball:6 EXIT 3 STDERR "m.csv:3: error: 'oops' in column 'z' is not a number")
+clsurf_cli_test(NAME measured_program_instead ARGS align ${bottle} ${bottle} --tool ball:6 EXIT 2 STDERR "argument|too many")
