@@ -1,7 +1,6 @@
 // clsurf check: adjacent-path discontinuities and the marks that they will leave.
 
 #include <algorithm>
-#include <map>
 #include <memory>
 
 #include <fmt/format.h>
@@ -9,6 +8,7 @@
 #include "cli/checked_run.h"
 #include "cli/defect_colours.h"
 #include "cli/measured_check.h"
+#include "cli/quality_writer.h"
 #include "cli/report_output.h"
 #include "cli/run_recorder.h"
 #include "cli/terminal.h"
@@ -21,17 +21,6 @@ namespace clsurf::cli {
 namespace {
 
 constexpr const char* check_formats = "text|json|csv|sarif|junit";
-
-using QualityWriter = std::string (*)(const io::ReportedQuality&);
-
-QualityWriter writer_of(const std::string& format) {
-    static const std::map<std::string, QualityWriter, std::less<>> writers{{"text", io::quality_text},
-                                                                           {"json", io::quality_json},
-                                                                           {"csv", io::quality_csv},
-                                                                           {"sarif", io::quality_sarif},
-                                                                           {"junit", io::quality_junit}};
-    return writers.at(format);
-}
 
 /// One log's report, and what it comes to.
 struct Checked {
@@ -81,7 +70,7 @@ Checked check_log(const PartOptions& options, CheckRules& rules, const po::varia
     if (values.count("output") == 0) reported.columns = table_columns();
     if (rules.format != "json") print(run.part.diagnostics, values);
     const ExitCode code = worse ? ExitCode::check_failed : run.code;
-    return {writer_of(rules.format)(reported), code == ExitCode::done && !aligned ? ExitCode::not_judged : code};
+    return {quality_writer(rules.format)(reported), code == ExitCode::done && !aligned ? ExitCode::not_judged : code};
 }
 
 ExitCode run_check(const po::variables_map& values) {
