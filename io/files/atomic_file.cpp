@@ -71,7 +71,8 @@ int open_stream(const std::string& path) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::string path, Replaces replaces) : path_(std::move(path)), stream_(open_stream(path_)) {
+AtomicFile::AtomicFile(std::string path, Replaces replaces, Unfinished unfinished)
+    : path_(std::move(path)), stream_(open_stream(path_)) {
     if (stream_ >= 0) {
         open_for_stream();
         return;
@@ -81,7 +82,22 @@ AtomicFile::AtomicFile(std::string path, Replaces replaces) : path_(std::move(pa
     char* target = ::realpath(path_.c_str(), nullptr);
     if (target != nullptr) path_ = target;
     std::free(target);
-    open_beside();
+    if (unfinished == Unfinished::stays)
+        open_part();
+    else
+        open_beside();
+}
+
+void AtomicFile::open_part() {
+    temporary_ = path_ + ".part";
+    descriptor_ = ::open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    if (descriptor_ < 0 && errno == EEXIST) {
+        throw UsageError(temporary_ + " is there: it was left behind by a run that was ended, or is being written",
+                         "rename or remove it");
+    }
+    if (descriptor_ < 0) fail(temporary_, "cannot write");
+    named_ = true;
+    stays_ = true;
 }
 
 void AtomicFile::open_beside() {
@@ -118,7 +134,7 @@ void AtomicFile::open_for_stream() {
 AtomicFile::~AtomicFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
     if (stream_ >= 0) ::close(stream_);
-    if (named_) ::unlink(temporary_.c_str());
+    if (named_ && !stays_) ::unlink(temporary_.c_str());
 }
 
 /// Links cannot replace a file, so it gets a name beside its target first.

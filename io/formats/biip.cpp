@@ -265,8 +265,8 @@ void store(const ChannelView& view, std::size_t offset, PointIndex begin, PointI
 }  // namespace
 
 BiipWriter::BiipWriter(const std::string& path, const std::vector<StoredChannel>& channels, double period,
-                       const std::string& metadata)
-    : file_(path) {
+                       const std::string& metadata, Unfinished unfinished)
+    : file_(path, Replaces::no_input, unfinished) {
     if (channels.empty()) throw UsageError("no channels to write");
     for (const StoredChannel& channel : channels) {
         if (channel.name.size() >= name_bytes)

@@ -29,7 +29,7 @@ public:
     /// `metadata` is a JSON object's text. Throws UsageError (no channels, a name or unit too long),
     /// SystemError.
     BiipWriter(const std::string& path, const std::vector<StoredChannel>& channels, double period,
-               const std::string& metadata);
+               const std::string& metadata, Unfinished unfinished = Unfinished::vanishes);
 
     [[nodiscard]] std::size_t record_bytes() const { return record_bytes_; }
     /// Where a channel stands in its record.
@@ -37,6 +37,8 @@ public:
 
     /// Appends whole records, raw values where offset_of() says. Throws SystemError (disk full).
     void append(std::span<const std::byte> records);
+    /// Hands what was appended to the system: a log that stays unfinished has it. Throws SystemError.
+    void save() { file_.save(); }
     /// Writes the number of records and gives the file its name. Throws SystemError.
     void close();
 

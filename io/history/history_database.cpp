@@ -10,7 +10,7 @@
 #include "core/file_name.h"
 #include "io/files/sha256.h"
 #include "io/history/history_schema.h"
-#include "io/history/utc.h"
+#include "io/files/utc.h"
 
 namespace clsurf::io {
 namespace {

@@ -4,16 +4,35 @@
 #include "cli/output_format.h"
 #include "io/files/compressed.h"
 #include "io/formats/biip.h"
+#include "io/formats/joined_log.h"
 #include "io/formats/program_identity.h"
 
 namespace clsurf::cli {
 namespace {
+
+/// Adds the channels of --join.
+void join(Log& log, const po::variables_map& values) {
+    if (values.count("join") == 0) {
+        for (const char* name : {"join-offset", "join-age"}) {
+            if (given(values, name)) throw UsageError("--" + std::string(name) + " needs --join");
+        }
+        return;
+    }
+    io::JoinRules rules;
+    if (values.count("join-offset") > 0) rules.offset = values["join-offset"].as<double>();
+    if (values.count("join-age") > 0) rules.age = values["join-age"].as<double>();
+    if (rules.age && !(*rules.age > 0)) throw UsageError("--join-age must be more than 0");
+    const Log slow = io::open_log(values["join"].as<std::string>(), {});
+    print(slow.diagnostics, values);
+    print(io::join_log(log, slow, rules), values);
+}
 
 ExitCode run_convert(const po::variables_map& values) {
     const std::string output = required(values, "output");
     (void)output_format(output, log_formats());
     Log log = io::open_log(required(values, "LOG"), read_log_options(values));
     print(log.diagnostics, values);
+    join(log, values);
     std::string metadata = log.metadata;
     if (values.count("program") > 0) {
         std::vector<ProgramReference> programs;
@@ -36,15 +55,21 @@ Subcommand convert_subcommand() {
         .description =
             "Keeps the stored types and scales of binary logs; text becomes 64-bit floating point. With\n"
             "--program the log records its program, and other subcommands then warn if the program was edited\n"
-            "or is another one.\n\n"
+            "or is another one.\n"
+            "With --join the channels of a slow log, such as that of `clsurf record`, become channels of this log.\n"
+            "Each value is held until the next one, for at most --join-age.\n\n"
             "  clsurf convert run.raw --layout run.layout.toml -o run.biip\n"
-            "  clsurf convert run.csv --program part.nc -o run.biip",
+            "  clsurf convert run.csv --program part.nc -o run.biip\n"
+            "  clsurf convert run.csv --join slow.biip --join-offset 12.5 -o joined.biip",
         .declare =
             [](po::options_description& options) {
                 // clang-format off
             options.add_options()
                 ("output,o", po::value<std::string>()->value_name("FILE"), "the BIIP log")
-                ("program", po::value<std::vector<std::string>>()->value_name("FILE"), "the program that ran (again: its subprograms); name, size and SHA-256 go into the log");
+                ("program", po::value<std::vector<std::string>>()->value_name("FILE"), "the program that ran (again: its subprograms); name, size and SHA-256 go into the log")
+                ("join", po::value<std::string>()->value_name("FILE"), "a log of slow channels, which are added to LOG by time")
+                ("join-offset", po::value<double>()->value_name("S"), "time in the slow log at which LOG begins, in seconds (default: from the times that both logs say they were recorded)")
+                ("join-age", po::value<double>()->value_name("S"), "seconds for which a value is held; later records have none (default: three periods of the slow log)");
                 // clang-format on
                 declare_log_options(options);
             },

@@ -23,7 +23,7 @@
 #include "core/parallel.h"
 #include "core/version.h"
 #include "history/memory_plan.h"
-#include "io/history/utc.h"
+#include "io/files/utc.h"
 
 namespace clsurf::cli {
 namespace {

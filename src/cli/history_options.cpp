@@ -2,7 +2,7 @@
 
 #include "cli/look.h"
 #include "history/parameter_rules.h"
-#include "io/history/utc.h"
+#include "io/files/utc.h"
 
 namespace clsurf::cli {
 namespace {

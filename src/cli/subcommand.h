@@ -56,6 +56,7 @@ struct Subcommand {
 [[nodiscard]] Subcommand optimize_subcommand();
 [[nodiscard]] Subcommand plot_subcommand();
 [[nodiscard]] Subcommand query_subcommand();
+[[nodiscard]] Subcommand record_subcommand();
 [[nodiscard]] Subcommand render_subcommand();
 [[nodiscard]] Subcommand report_subcommand();
 [[nodiscard]] Subcommand simulate_subcommand();

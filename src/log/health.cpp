@@ -20,7 +20,7 @@ void check_channels(const Log& log, Diagnostics& found) {
     const bool measured = log.has(Role::feedback) || log.has(Role::actual);
     if (!log.has(Role::commanded) && !measured) {
         add(Severity::error, "no role has x, y and z: nothing can be drawn",
-            "name the channels with --mapping or --layout");
+            "name the channels with --mapping or --layout; a log of slow channels is joined to that of a run with clsurf convert --join");
         return;
     }
     if (!log.has(Role::commanded)) add(Severity::note, "no commanded positions (cmd.x, cmd.y, cmd.z)", "");

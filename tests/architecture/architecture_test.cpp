@@ -47,6 +47,7 @@ const std::vector<ThirdParty> third_parties{
     {"expat.h", {"io/"}},
     {"openssl/", {"io/"}},
     {"sqlite3.h", {"io/history/"}},
+    {"modbus/modbus", {"io/modbus/modbus_link."}},
     {"boost/crc", {"io/"}},
     {"boost/program_options", {"src/cli/"}},
 };

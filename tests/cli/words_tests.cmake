@@ -1,7 +1,7 @@
 # Words that people try, in the order in which they try them; and those that a configuration says for them.
 clsurf_cli_test(NAME words_version ARGS version STDOUT "^clsurf ${PROJECT_VERSION}")
 clsurf_cli_test(NAME words_version_of_all_parts ARGS --version STDOUT "^clsurf ${PROJECT_VERSION}\ncommit    ([0-9a-f]{12}(-dirty)?|unknown)\ncompiler  "
-  "VTK 9\\.[0-9]+\\.[0-9]+, OpenImageIO [0-9.]+, Eigen 3\\.[0-9.]+, Boost 1\\.[0-9.]+, TBB [0-9.]+, fmt [0-9.]+, nlohmann-json [0-9.]+, toml\\+\\+ [0-9.]+, HDF5 [0-9.]+, zlib [0-9.]+, Zstandard [0-9.]+, liblzma [0-9.]+, Expat [0-9.]+, OpenSSL [0-9][0-9a-z.]+, SQLite [0-9.]+\n"
+  "VTK 9\\.[0-9]+\\.[0-9]+, OpenImageIO [0-9.]+, Eigen 3\\.[0-9.]+, Boost 1\\.[0-9.]+, TBB [0-9.]+, fmt [0-9.]+, nlohmann-json [0-9.]+, toml\\+\\+ [0-9.]+, HDF5 [0-9.]+, zlib [0-9.]+, Zstandard [0-9.]+, liblzma [0-9.]+, Expat [0-9.]+, OpenSSL [0-9][0-9a-z.]+, SQLite [0-9.]+, libmodbus [0-9.]+\n"
   "OSMesa    OpenGL .*Mesa [0-9]+")
 if(EXISTS ${PROJECT_SOURCE_DIR}/.git)
   add_test(NAME cli.words_version_of_an_archive COMMAND bash -euc

@@ -18,7 +18,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "io/history/utc.h"
+#include "io/files/utc.h"
 
 namespace clsurf::io {
 namespace {

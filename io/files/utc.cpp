@@ -1,4 +1,4 @@
-#include "io/history/utc.h"
+#include "io/files/utc.h"
 
 #include <sys/stat.h>
 
@@ -43,6 +43,14 @@ bool read_zone(const std::string& text, std::chrono::seconds& ahead) {
 }  // namespace
 
 std::string utc_now() { return text_of(std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now())); }
+
+std::string utc_with_milliseconds(std::chrono::system_clock::time_point time) {
+    const auto second = std::chrono::floor<std::chrono::seconds>(time);
+    const auto rest = std::chrono::floor<std::chrono::milliseconds>(time - second);
+    std::string text = text_of(second);
+    text.pop_back();
+    return text + fmt::format(".{:03}Z", rest.count());
+}
 
 std::string utc_of_file(const std::string& path) {
     struct stat status {};

@@ -1,12 +1,15 @@
 #pragma once
-// Times as a history keeps them: UTC, ISO 8601, "2026-11-24T07:30:00Z". Their order is that of their texts.
+// Times as files of ours keep them: UTC, ISO 8601, "2026-11-24T07:30:00Z". Their order is that of their texts.
 
+#include <chrono>
 #include <string>
 
 namespace clsurf::io {
 
 /// UTC now, "2026-11-24T07:30:00Z".
 [[nodiscard]] std::string utc_now();
+/// UTC with milliseconds, "2026-11-24T07:30:00.125Z".
+[[nodiscard]] std::string utc_with_milliseconds(std::chrono::system_clock::time_point time);
 /// When a file was last modified, in the same form. Throws InputError.
 [[nodiscard]] std::string utc_of_file(const std::string& path);
 /// "2026-11-24", "2026-11-24T07:30", "2026-11-24T07:30:00Z" or "+01:00" at its end → UTC. Without a zone it is UTC. Throws

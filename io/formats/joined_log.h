@@ -1,0 +1,21 @@
+#pragma once
+// A log joined with channels that were recorded beside it, at a lower rate.
+
+#include <optional>
+
+#include "log/log.h"
+
+namespace clsurf::io {
+
+struct JoinRules {
+    std::optional<double> offset = {};  ///< [s] in the slow log at the first record of the other; none: from `recorded`
+    std::optional<double> age = {};     ///< [s] for which a value is held; none: three periods of the slow log
+};
+
+/// Adds the channels of `slow` to `log`, each value held until the next one (log/held_values.h). Without an offset the
+/// times `recorded` in the metadata of both say how they belong together. Returns the warning `join.gap` for each channel
+/// that lacks values. Throws UsageError (no offset and no such times), InputError (no time in common, a channel that both
+/// have, no channel).
+[[nodiscard]] Diagnostics join_log(Log& log, const Log& slow, const JoinRules& rules);
+
+}  // namespace clsurf::io
