@@ -22,7 +22,7 @@ foreach(mark "" "--without-mark")
 endforeach()
 clsurf_cli_test(NAME align_touched_points
   SETUP "${dexel} make . --measure touch; $CLSURF align cmm.csv part.nc run.csv --tool ball:6 --json > ../r.json; ${dexel} check . --report ../r.json"
-  ARGS align cmm.csv part.nc run.csv --tool ball:6 STDOUT "cmm.csv: points of 648 places; 0[.][0-9]+ µm rms" "c [+]0[.]0[0-9]+° ± ")
+  ARGS align cmm.csv part.nc run.csv --tool ball:6 STDOUT "cmm.csv: points of 648 places. 0[.][0-9]+ µm rms" "c [+]0[.]0[0-9]+° ± ")
 clsurf_cli_test(NAME align_on_even_passes SETUP "${dexel} make . --part flat_plane --without-mark"
   ARGS align profile.csv part.nc run.csv --tool ball:6 --measured-at 7.1,2.9,90 EXIT 5 STDOUT "not determined: a second pose [0-9.]+ mm beside it fits as well")
 clsurf_cli_test(NAME align_profile_without_a_start SETUP "${dexel} make ."
@@ -30,7 +30,7 @@ clsurf_cli_test(NAME align_profile_without_a_start SETUP "${dexel} make ."
 
 set(three "printf 'x,z\\n0,1\\n1,2\\n2,3\\n' > m.csv")
 set(bottle @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip)
-clsurf_cli_test(NAME measured_without_a_tool SETUP "${three}" ARGS check ${bottle} --measured m.csv --measured-at 0,0 EXIT 2 STDERR "--measured needs to know the tool")
+clsurf_cli_test(NAME measured_without_a_tool SETUP "${three}" ARGS check ${bottle} --tool none --measured m.csv --measured-at 0,0 EXIT 2 STDERR "--measured needs to know the tool")
 clsurf_cli_test(NAME measured_as_sarif SETUP "${three}" ARGS check ${bottle} --tool ball:6 --measured m.csv --format sarif EXIT 2 STDERR "reported as text and JSON, not as sarif")
 clsurf_cli_test(NAME measured_of_two_logs SETUP "${three}" ARGS check ${bottle} @LOGS@/bottle_zigzag.biip --tool ball:6 --measured m.csv EXIT 2 STDERR "--measured belongs to one log")
 clsurf_cli_test(NAME measured_options_alone ARGS check ${bottle} --picture p.png EXIT 2 NO_FILE p.png STDERR "--picture is of --measured only")
