@@ -15,6 +15,7 @@ namespace {
 
 constexpr int side = 4;              ///< cells of a block that is not divided any further
 constexpr std::size_t few = 8;       ///< pieces that are not worth a division either
+constexpr double kept_share = 0.9;   ///< of pieces: a division that leaves more is of no use
 constexpr float gentle = 0.04F;      ///< of the corner radius squared: a steeper outline has no useful tangent plane
 constexpr float rounding = 2e-6F;    ///< [mm] of heights
 constexpr double corner_share = 4;   ///< pieces of a bull-nose tool to its corner radius
@@ -207,7 +208,10 @@ private:
         lean(reach, extent, plane);
         find_low(reach.low, top + rounding, level.found);
         const int cells = block.columns * block.rows;
-        if (cells <= side * side || (cells <= CellGroup::most && level.found.size() <= few)) {
+        // Nor is a block divided whose division leaves nearly all pieces to each part: a flat bottom covers them alike.
+        const bool is_divided = level.found.size() > few && static_cast<double>(level.found.size()) <=
+                                                                kept_share * static_cast<double>(pieces.size());
+        if (cells <= side * side || (cells <= CellGroup::most && !is_divided)) {
             gather(block, extent, plane);
             lower_group(pieces, level, lowest);
             return scatter(block);
@@ -273,9 +277,17 @@ private:
         for (const std::uint32_t k : level.found) {
             if (k != lowest && reach.low[k] < top) order_.emplace_back(reach.height[k], k);
         }
-        std::sort(order_.begin(), order_.end());
-        for (const auto& [height, k] : order_) {
-            if (reach.low[k] < top) top = tool_.lower(group_, pieces[k]);
+        // A few at a time: they lower the cells so far that hardly any of the others has to be sorted.
+        while (!order_.empty()) {
+            const std::size_t count = std::min(order_.size(), few);
+            std::partial_sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(count), order_.end());
+            for (std::size_t i = 0; i < count; ++i) {
+                const std::uint32_t k = order_[i].second;
+                if (reach.low[k] < top) top = tool_.lower(group_, pieces[k]);
+            }
+            std::erase_if(order_, [&, i = std::size_t{0}](const std::pair<float, std::uint32_t>& piece) mutable {
+                return i++ < count || reach.low[piece.second] >= top;
+            });
         }
     }
 
