@@ -11,30 +11,37 @@ namespace {
 constexpr std::size_t width = CellGroup::width;
 using Lanes = std::array<float, width>;
 
-/// The highest over their planes of cells that a loop has kept apart by their place in a group of `width`.
-float highest_of(const Lanes& lanes) { return *std::max_element(lanes.begin(), lanes.end()); }
-
-Lanes lowest_lanes() {
-    Lanes lanes;
-    lanes.fill(-not_reached);
-    return lanes;
+/// Lowers each cell to height(along, across), its place seen from the middle of the piece; what is not reached is infinite.
+/// Returns the highest over its plane. Inlined into what is vectorised.
+template <typename Height>
+[[gnu::always_inline]] inline float lower_each(CellGroup& cells, const SweptPiece& piece, const Height& height) {
+    const auto size = static_cast<std::size_t>(cells.size);
+    Lanes highest;
+    highest.fill(-not_reached);
+    for (std::size_t first = 0; first < size; first += width) {
+        for (std::size_t lane = 0; lane < width; ++lane) {
+            const std::size_t k = first + lane;
+            const float off_x = cells.x[k] - piece.x;
+            const float off_y = cells.y[k] - piece.y;
+            const float there = height(off_x * piece.dx + off_y * piece.dy, off_y * piece.dx - off_x * piece.dy);
+            const float before = cells.z[k];
+            const float z = there < before ? there : before;
+            cells.z[k] = z;
+            const float over = z - cells.plane[k];
+            highest[lane] = over > highest[lane] ? over : highest[lane];
+        }
+    }
+    return *std::max_element(highest.begin(), highest.end());
 }
 
 /// The outline's height is convex in the way, so that the lowest place on the infinite line, held back to the piece's
 /// ends, is the lowest on the piece.
 CLSURF_VECTORISED float lower_ball(CellGroup& cells, const SweptPiece& piece, float radius) {
-    const auto [x, y, tip, dx, dy, half, slope] = piece;
-    const auto size = static_cast<std::size_t>(cells.size);
+    const float tip = piece.z, half = piece.half, slope = piece.slope;
     const float squared = radius * radius;
     const float sine = slope / std::sqrt(1 + slope * slope);
-    Lanes highest = lowest_lanes();
-    for (std::size_t first = 0; first < size; first += width) {
-        for (std::size_t lane = 0; lane < width; ++lane) {
-            const std::size_t k = first + lane;
-            const float off_x = cells.x[k] - x;
-            const float off_y = cells.y[k] - y;
-            const float along = off_x * dx + off_y * dy;
-            const float across = off_y * dx - off_x * dy;
+    return lower_each(
+        cells, piece, [=](float along, float across) __attribute__((always_inline)) {
             const float rest = squared - across * across;
             // The tangent of slope touches the circle of this section `radius · sine` from its middle.
             float at = along - std::sqrt(rest > 0 ? rest : 0.0F) * sine;
@@ -43,31 +50,19 @@ CLSURF_VECTORISED float lower_ball(CellGroup& cells, const SweptPiece& piece, fl
             const float off = along - at;
             const float q = rest - off * off;
             const float height = tip + slope * at + (radius - std::sqrt(q > 0 ? q : 0.0F));
-            const float before = cells.z[k];
-            const float lowered = height < before ? height : before;
-            const float z = q >= 0 ? lowered : before;
-            cells.z[k] = z;
-            const float over = z - cells.plane[k];
-            highest[lane] = over > highest[lane] ? over : highest[lane];
-        }
-    }
-    return highest_of(highest);
+            return q >= 0 ? height : not_reached;
+        });
 }
 
 /// Where the rise along the piece is zero, between the ends by two steps of the secant and a last one.
 CLSURF_VECTORISED float lower_bull(CellGroup& cells, const SweptPiece& piece, float radius, float corner) {
-    const auto [x, y, tip, dx, dy, half, slope] = piece;
-    const auto size = static_cast<std::size_t>(cells.size);
+    const float tip = piece.z, half = piece.half, slope = piece.slope;
     const float bottom = radius - corner;
     const float squared = corner * corner;
     const float least = 1e-8F * squared;
-    Lanes highest = lowest_lanes();
-    for (std::size_t first = 0; first < size; first += width) {
-        for (std::size_t lane = 0; lane < width; ++lane) {
-            const std::size_t k = first + lane;
-            const float off_x = cells.x[k] - x, off_y = cells.y[k] - y;
-            const float along = off_x * dx + off_y * dy;
-            const float aside = (off_y * dx - off_x * dy) * (off_y * dx - off_x * dy);
+    return lower_each(
+        cells, piece, [=](float along, float across) __attribute__((always_inline)) {
+            const float aside = across * across;
             const auto rise_at = [&](float at) {
                 const float off = along - at;
                 const float rho = std::sqrt(off * off + aside) + 1e-9F;
@@ -103,43 +98,22 @@ CLSURF_VECTORISED float lower_bull(CellGroup& cells, const SweptPiece& piece, fl
             const float out = rho - bottom > 0 ? rho - bottom : 0.0F;
             const float up = squared - out * out;
             const float height = tip + slope * at + (corner - std::sqrt(up > 0 ? up : 0.0F));
-            const float before = cells.z[k];
-            const float lowered = height < before ? height : before;
-            const float z = rho <= radius ? lowered : before;
-            cells.z[k] = z;
-            const float over = z - cells.plane[k];
-            highest[lane] = over > highest[lane] ? over : highest[lane];
-        }
-    }
-    return highest_of(highest);
+            return rho <= radius ? height : not_reached;
+        });
 }
 
 /// Its bottom stands over a cell all the way between two places: the lower one counts.
 CLSURF_VECTORISED float lower_flat(CellGroup& cells, const SweptPiece& piece, float radius) {
-    const auto [x, y, tip, dx, dy, half, slope] = piece;
-    const auto size = static_cast<std::size_t>(cells.size);
-    Lanes highest = lowest_lanes();
-    for (std::size_t group = 0; group < size; group += width) {
-        for (std::size_t lane = 0; lane < width; ++lane) {
-            const std::size_t k = group + lane;
-            const float off_x = cells.x[k] - x;
-            const float off_y = cells.y[k] - y;
-            const float along = off_x * dx + off_y * dy;
-            const float across = off_y * dx - off_x * dy;
+    const float tip = piece.z, half = piece.half, slope = piece.slope;
+    return lower_each(
+        cells, piece, [=](float along, float across) __attribute__((always_inline)) {
             const float rest = radius * radius - across * across;
             const float reach = std::sqrt(rest > 0 ? rest : 0.0F);
             const float first = along - reach > -half ? along - reach : -half;
             const float last = along + reach < half ? along + reach : half;
             const float height = tip + slope * (slope >= 0 ? first : last);
-            const float before = cells.z[k];
-            const float lowered = height < before ? height : before;
-            const float z = (rest >= 0) & (first <= last) ? lowered : before;
-            cells.z[k] = z;
-            const float over = z - cells.plane[k];
-            highest[lane] = over > highest[lane] ? over : highest[lane];
-        }
-    }
-    return highest_of(highest);
+            return (rest >= 0) & (first <= last) ? height : not_reached;
+        });
 }
 
 }  // namespace
