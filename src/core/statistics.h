@@ -36,4 +36,19 @@ template <typename Values>
                         static_cast<std::size_t>(std::lround(share * static_cast<double>(std::size(values) - 1))));
 }
 
+/// Standard deviation over median absolute deviation of a normal distribution.
+inline constexpr double deviation_of_mad = 1.4826;
+
+/// What is usual of some values, and how far they scatter about it.
+struct Spread {
+    double median = 0, deviation = 0;  ///< deviation: from the median absolute one, so that some outliers do not matter
+};
+/// Changes the values.
+template <typename Values>
+[[nodiscard]] Spread robust_spread(Values& values) {
+    const double middle = median(values);
+    for (auto& value : values) value = std::abs(value - middle);
+    return {middle, deviation_of_mad * median(values)};
+}
+
 }  // namespace clsurf

@@ -16,13 +16,12 @@ namespace {
 constexpr PointIndex scallop_places = 10'000;
 constexpr double passes_aside = 6.5;  ///< of a mark's profile: a mark of two passes leaves most pairs of it as they are
 constexpr double mark_within = 1.0;   ///< step-overs from the middle that the mark lies in
-constexpr double coarse_spread = 0.001;  ///< [mm] by which pieces of an even surface do not differ
-constexpr double certain_share = 0.5;    ///< of a depth: spread of the level that it is measured from
-constexpr double mark_tolerance = 0.25;  ///< of a mark's depth: so far contact points may lie from the form about it
-constexpr double agreement = 0.002;      ///< [mm] between the depth of a pass alone and the as-machined one …
-constexpr double agreement_share = 0.3;  ///< … or this share of it
-constexpr double normal_mad = 1.4826;    ///< standard deviation over median absolute deviation of a normal distribution
-constexpr std::size_t fewest_pairs = 2;  ///< of a mark's profile …
+constexpr double coarse_spread = 0.001;   ///< [mm] by which pieces of an even surface do not differ
+constexpr double certain_share = 0.5;     ///< of a depth: spread of the level that it is measured from
+constexpr double mark_tolerance = 0.25;   ///< of a mark's depth: so far contact points may lie from the form about it
+constexpr double agreement = 0.002;       ///< [mm] between the depth of a pass alone and the as-machined one …
+constexpr double agreement_share = 0.3;   ///< … or this share of it
+constexpr std::size_t fewest_pairs = 2;   ///< of a mark's profile …
 constexpr std::size_t fewest_pieces = 4;  ///< … or pieces of one
 
 /// What is usual about the middle of a row, and how far it is certain.
@@ -30,12 +29,9 @@ struct Level {
     double value = missing<double>, spread = 0;
 };
 
-/// The median, and how far the values scatter about it (1.4826 times the median absolute deviation).
 Level level_of(std::vector<double> values) {
-    Level middle_level{median(values), 0};
-    for (double& value : values) value = std::abs(value - middle_level.value);
-    middle_level.spread = normal_mad * median(values);
-    return middle_level;
+    const Spread spread = robust_spread(values);
+    return {spread.median, spread.deviation};
 }
 
 /// The value that is usual in the middle of a row: of means of two as far from it on either side, so that

@@ -100,7 +100,7 @@ void LocalQuadratic::weigh(const Terms& a, double least_spread) {
         left_[k] = std::abs(z_[k] - (a[0] + a[1] * x + a[2] * y + a[3] * x * x + a[4] * x * y + a[5] * y * y));
         if (weight_[k] > 0) sorted_.push_back(left_[k]);
     }
-    const double most = outlying * std::max(least_spread, 1.4826 * median(sorted_));
+    const double most = outlying * std::max(least_spread, deviation_of_mad * median(sorted_));
     for (std::size_t k = 0; k < size(); ++k) {
         const double share = std::min(1.0, left_[k] / most);
         robust_[k] = (1 - share * share) * (1 - share * share);

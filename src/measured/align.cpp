@@ -80,10 +80,7 @@ double variance_of(const FittedPose& fit, std::size_t unknowns, double correlate
     return std::max(fit.distances.squares / spare, surface_error * surface_error);
 }
 
-std::size_t known_of(const FittedPose& fit) {
-    return static_cast<std::size_t>(std::count_if(fit.distances.along_normal.begin(), fit.distances.along_normal.end(),
-                                                  [](double distance) { return std::isfinite(distance); }));
-}
+std::size_t known_of(const FittedPose& fit) { return fit.distances.known_ones().size(); }
 
 /// Squares of all points that have a distance, each counted up to a most one [mm]: how far off a missing mark or dirt is does
 /// not matter. And the part of those that are cut off.
@@ -92,8 +89,7 @@ struct CutSquares {
 };
 CutSquares cut_squares(const FittedPose& fit, double most) {
     CutSquares squares;
-    for (const double distance : fit.distances.along_normal) {
-        if (!std::isfinite(distance)) continue;
+    for (const double distance : fit.distances.known_ones()) {
         squares.sum += std::min(distance * distance, most * most);
         if (std::abs(distance) > most) squares.cut += most * most;
     }
@@ -101,10 +97,8 @@ CutSquares cut_squares(const FittedPose& fit, double most) {
 }
 
 double middle_distance(const FittedPose& fit) {
-    std::vector<double> known;
-    for (const double distance : fit.distances.along_normal) {
-        if (std::isfinite(distance)) known.push_back(std::abs(distance));
-    }
+    std::vector<double> known = fit.distances.known_ones();
+    for (double& distance : known) distance = std::abs(distance);
     return known.empty() ? infinite : median(known);
 }
 
@@ -221,12 +215,12 @@ private:
         result_.correlated = correlated_points(points_, best, fine, step_over_);
         const double variance = variance_of(best, unknowns_, result_.correlated);
         judge(fine.information(best.pose), variance, fine);
-        tell_apart(found, most_off, variance, fine);
+        find_rivals(found, most_off, variance, fine);
     }
 
-    /// Whether another pose fits as well as the best one. A mark tells poses apart if it was measured; one that is missing
+    /// Whether another pose fits as well as the best one. A mark distinguishes poses if it was measured; one that is missing
     /// lies somewhere off in every pose.
-    void tell_apart(const std::vector<FittedPose>& found, double most_off, double variance, const PoseFit& fine) {
+    void find_rivals(const std::vector<FittedPose>& found, double most_off, double variance, const PoseFit& fine) {
         const CutSquares best = cut_squares(found.front(), most_off);
         const double clear = std::max(clear_difference * variance, clear_share * best.cut);
         const Vec3 middle = fine.centre(result_.pose);
@@ -234,7 +228,7 @@ private:
             const double apart = (fine.centre(other.pose) - middle).head<2>().norm();
             if (apart < same_place * step_over_ || cut_squares(other, most_off).sum - best.sum > clear) continue;
             result_.reasons.push_back(
-                fmt::format("a second pose {:.3f} mm beside it fits as well: {:.3f} µm rms against {:.3f} µm", apart,
+                fmt::format("another pose, {:.3f} mm away, fits as well: {:.3f} µm rms against {:.3f} µm", apart,
                             std::sqrt(other.distances.mean_square()) * um_per_mm, result_.rms * um_per_mm));
             break;
         }

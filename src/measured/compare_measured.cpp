@@ -13,8 +13,7 @@ namespace {
 
 constexpr double steps_of_pass = 1000;  ///< of a profile: more tell nothing
 constexpr int map_profiles = 11;
-constexpr double map_share = 0.9;      ///< of a map's extent that its profiles are spread over
-constexpr double normal_mad = 1.4826;  ///< standard deviation over median absolute deviation of a normal distribution
+constexpr double map_share = 0.9;          ///< of a map's extent that its profiles are spread over
 constexpr double steps_of_short_wave = 2;  ///< that a filter of it needs
 
 /// The deviations of heights along a row [mm] from a form.
@@ -167,9 +166,7 @@ void sum_up(MeasuredComparison& result) {
         sum->rz /= known;
     }
     result.correlation /= known;
-    const double usual = median(off);
-    for (double& value : off) value = std::abs(value - usual);
-    result.noise = normal_mad * median(off);
+    result.noise = robust_spread(off).deviation;
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ private:
             mark.reason = fmt::format("{:.2f} µm deep there, and less than {:.2f} µm cannot be told from the scatter",
                                       mark.predicted * um_per_mm, least * um_per_mm);
         else if (!std::isfinite(mark.measured))
-            mark.reason = "too little was measured beside it";
+            mark.reason = "too few places next to it were measured";
         else
             mark.state = mark.measured >= present * mark.predicted ? MarkState::found : MarkState::missing;
     }

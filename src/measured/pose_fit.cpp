@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <Eigen/Cholesky>
 
@@ -17,18 +18,24 @@ constexpr double first_damping = 1e-4;  ///< of the mean diagonal
 constexpr double least_damping = 1e-6;
 constexpr double most_damping = 1e8;
 constexpr double surface_reach = 0.125;  ///< step-overs, of slopes with scallops
-constexpr double least_known = 0.5;      ///< of the points, over the part: a pose beside it has no distances at all
-constexpr double kept_share = 0.95;      ///< of the points that a pose has distances of, in the next one
-constexpr double outlier = 3;            ///< standard deviations
-constexpr double least_outlier = 2e-4;   ///< [mm]
-constexpr double deviation_of_mad =
-    1.4826;  ///< standard deviation over median absolute deviation of a normal distribution
+constexpr double least_known =
+    0.5;  ///< share of the points that must lie over the part: elsewhere they have no distance
+constexpr double kept_share = 0.95;     ///< of the points that a pose has distances of, in the next one
+constexpr double outlier = 3;           ///< standard deviations
+constexpr double least_outlier = 2e-4;  ///< [mm]
 constexpr int most_rounds = 8;
 constexpr int level_rounds = 12;
 constexpr double nearest_share = 0.75;    ///< of the points, which height and tilt are found from
 constexpr double height_rounding = 6e-8;  ///< relative, of float heights over level()
 
 }  // namespace
+
+std::vector<double> Distances::known_ones() const {
+    std::vector<double> found;
+    std::copy_if(along_normal.begin(), along_normal.end(), std::back_inserter(found),
+                 [](double distance) { return std::isfinite(distance); });
+    return found;
+}
 
 PoseFit::PoseFit(std::span<const Vec3> points, PredictedHeights& heights, const Form& form, const Pose& start,
                  const FreeAxes& free, double step_over, double most_shift)
@@ -145,28 +152,22 @@ FittedPose PoseFit::fit_surface(const Pose& from) { return fit(from, surface_rea
 
 /// All but a share of the points.
 void PoseFit::leave_out_farthest(const FittedPose& fit) {
-    std::vector<double> known;
-    for (const double distance : fit.distances.along_normal) {
-        if (std::isfinite(distance)) known.push_back(std::abs(distance));
-    }
+    std::vector<double> known = fit.distances.known_ones();
     if (known.empty()) return;
+    for (double& distance : known) distance = std::abs(distance);
     const double most = std::max(least_outlier, quantile_below(known, nearest_share));
     for (std::size_t i = 0; i < left_out_.size(); ++i)
         left_out_[i] = std::abs(fit.distances.along_normal[i]) > most ? 1 : 0;
 }
 
 bool PoseFit::leave_out_far_ones(const FittedPose& fit) {
-    std::vector<double> known;
-    for (const double distance : fit.distances.along_normal) {
-        if (std::isfinite(distance)) known.push_back(distance);
-    }
+    std::vector<double> known = fit.distances.known_ones();
     if (known.empty()) return false;
-    const double middle = median(known);
-    for (double& distance : known) distance = std::abs(distance - middle);
-    const double most = std::max(least_outlier, outlier * deviation_of_mad * median(known));
+    const Spread spread = robust_spread(known);
+    const double most = std::max(least_outlier, outlier * spread.deviation);
     bool changed = false;
     for (std::size_t i = 0; i < left_out_.size(); ++i) {
-        const char out = std::abs(fit.distances.along_normal[i] - middle) > most ? 1 : 0;
+        const char out = std::abs(fit.distances.along_normal[i] - spread.median) > most ? 1 : 0;
         changed = changed || out != left_out_[i];
         left_out_[i] = out;
     }

@@ -26,6 +26,8 @@ struct Distances {
     double squares = 0;  ///< their sum [mm²]
 
     [[nodiscard]] double mean_square() const { return squares / static_cast<double>(known); }
+    /// Those that are not NaN, also of points that a fit leaves out.
+    [[nodiscard]] std::vector<double> known_ones() const;
 };
 
 struct FittedPose {

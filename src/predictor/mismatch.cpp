@@ -17,13 +17,12 @@ namespace clsurf {
 namespace {
 
 constexpr std::size_t sampled_points = 50'000;
-constexpr float normal_deviation = 1.4826F;  ///< standard deviations per median absolute deviation
-constexpr float along_or_against = 0.866F;   ///< cos 30°: neighbours run along with the feed or against it
-constexpr float round_a_corner = 0.5F;       ///< cos 60°: straight across a corner they have turned more than that
-constexpr std::size_t fewest_passes = 2;     ///< for a median
-constexpr float slack_step_overs = 0.5F;     ///< along the feed between the ends of passes that end side by side
-constexpr float shape_left = 0.35F;          ///< of a relief: more is left of it beside it where it is the part's own
-constexpr float shape_beside = 0.6F;         ///< of the largest relief around: a smaller one lies beside an edge
+constexpr float along_or_against = 0.866F;  ///< cos 30°: neighbours run along with the feed or against it
+constexpr float round_a_corner = 0.5F;      ///< cos 60°: straight across a corner they have turned more than that
+constexpr std::size_t fewest_passes = 2;    ///< for a median
+constexpr float slack_step_overs = 0.5F;    ///< along the feed between the ends of passes that end side by side
+constexpr float shape_left = 0.35F;         ///< of a relief: more is left of it beside it where it is the part's own
+constexpr float shape_beside = 0.6F;        ///< of the largest relief around: a smaller one lies beside an edge
 
 /// a · x + b · y.
 Compared mixed(float a, const Compared& x, float b, const Compared& y) {
@@ -360,7 +359,7 @@ Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals, 
         thresholds.p99[q] = quantile(values, 0.99);
         const float median = quantile(values, 0.5);
         for (float& v : values) v = std::abs(v - median);
-        const float spread = normal_deviation * quantile(values, 0.5);
+        const float spread = static_cast<float>(deviation_of_mad) * quantile(values, 0.5);
         thresholds.median[q] = median;
         thresholds.spread[q] = spread;
         const float own =

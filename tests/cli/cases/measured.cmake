@@ -24,7 +24,7 @@ clsurf_cli_test(NAME align_touched_points
   SETUP "${dexel} make . --measure touch; $CLSURF align cmm.csv part.nc run.csv --tool ball:6 --json > ../r.json; ${dexel} check . --report ../r.json"
   ARGS align cmm.csv part.nc run.csv --tool ball:6 STDOUT "cmm.csv: points of 648 places. 0[.][0-9]+ µm rms" "c [+]0[.]0[0-9]+° ± ")
 clsurf_cli_test(NAME align_on_even_passes SETUP "${dexel} make . --part flat_plane --without-mark"
-  ARGS align profile.csv part.nc run.csv --tool ball:6 --measured-at 7.1,2.9,90 EXIT 5 STDOUT "not determined: a second pose [0-9.]+ mm beside it fits as well")
+  ARGS align profile.csv part.nc run.csv --tool ball:6 --measured-at 7.1,2.9,90 EXIT 5 STDOUT "not determined: another pose, [0-9.]+ mm away, fits as well")
 clsurf_cli_test(NAME align_profile_without_a_start SETUP "${dexel} make ."
   ARGS align profile.csv part.nc run.csv --tool ball:6 EXIT 5 STDOUT "not determined: the profile does not say where on the part it begins")
 
