@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "machine/kinematics.h"
-
 namespace clsurf {
 namespace {
 

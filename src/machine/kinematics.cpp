@@ -194,6 +194,4 @@ std::vector<RotaryAngles> follow_rotary(const Kinematics& kinematics, std::span<
     return path;
 }
 
-double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
-
 }  // namespace clsurf

@@ -122,7 +122,4 @@ struct AngleRange {
                                                       const RotaryAngles& before, const AngleRange& tilt,
                                                       const AngleRange& rotation);
 
-/// The angle between two tool axes [rad], good near 0 (by atan2).
-[[nodiscard]] double angle_between(const Vec3& a, const Vec3& b);
-
 }  // namespace clsurf

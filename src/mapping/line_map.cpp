@@ -142,7 +142,7 @@ std::int64_t LineMap::motion_at(PointIndex point, LineNumber line) const {
     return motions.empty() ? -1 : static_cast<std::int64_t>(motions.front());
 }
 
-std::vector<PointRange> LineMap::points_of(LineNumber line) const {
+std::vector<PointRange> LineMap::points_of(LineNumber first, LineNumber last) const {
     std::vector<PointRange> ranges;
     std::array<LineNumber, 4096> lines;
     for (PointIndex begin = 0; begin < count_; begin += static_cast<PointIndex>(lines.size())) {
@@ -150,7 +150,7 @@ std::vector<PointRange> LineMap::points_of(LineNumber line) const {
             static_cast<std::size_t>(std::min<PointIndex>(static_cast<PointIndex>(lines.size()), count_ - begin));
         read(begin, {lines.data(), n});
         for (std::size_t i = 0; i < n; ++i) {
-            if (lines[i] != line) continue;
+            if (lines[i] < first || lines[i] > last) continue;
             const PointIndex point = begin + static_cast<PointIndex>(i);
             if (!ranges.empty() && ranges.back().last == point - 1) {
                 ranges.back().last = point;

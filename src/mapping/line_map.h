@@ -61,7 +61,9 @@ public:
     [[nodiscard]] std::int64_t motion_at(PointIndex point, LineNumber line) const;
 
     /// Every run of consecutive points with that line, in order. O(points).
-    [[nodiscard]] std::vector<PointRange> points_of(LineNumber line) const;
+    [[nodiscard]] std::vector<PointRange> points_of(LineNumber line) const { return points_of(line, line); }
+    /// The same with the lines `first` … `last`.
+    [[nodiscard]] std::vector<PointRange> points_of(LineNumber first, LineNumber last) const;
 
     /// How sure the line of a point is, 0 … 1, by what gave it: a log's line is certain unless the program was
     /// edited. confidences() adds what the geometry says.

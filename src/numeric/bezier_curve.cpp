@@ -169,7 +169,7 @@ double BezierCurve::turning() const {
     const std::size_t places = 4 * (knots_.size() - 1);
     for (std::size_t k = 1; k <= places; ++k) {
         const Vec3 here = tangent(static_cast<double>(k) / static_cast<double>(places));
-        sum += std::atan2(before.cross(here).norm(), before.dot(here));
+        sum += angle_between(before, here);
         before = here;
     }
     return sum;

@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "core/block.h"
 #include "core/error.h"
 #include "core/not_finite.h"
+#include "mapping/point_motions.h"
 
 namespace clsurf {
 namespace {
@@ -62,13 +62,8 @@ std::vector<Field> FeedFields::compute(std::span<const std::string_view> names, 
     field.info = feed_share_info();
     field.info.note = note;
     const Motions& motions = program_.motions;
-    parallel_for(points.size(), block_points, [&](std::int64_t first, std::int64_t last) {
-        std::vector<LineNumber> lines(static_cast<std::size_t>(last - first));
-        lines_->read(points.first + first, lines);
-        for (std::int64_t i = first; i < last; ++i) {
-            const std::int64_t motion = lines_->motion_at(points.first + i, lines[static_cast<std::size_t>(i - first)]);
-            field.values[static_cast<std::size_t>(i)] /= feed_of(motions, motion);
-        }
+    for_each_motion(*lines_, points, [&](PointIndex point, std::int64_t motion) {
+        field.values[static_cast<std::size_t>(point - points.first)] /= feed_of(motions, motion);
     });
     return std::vector<Field>(names.size(), field);
 }

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/not_finite.h"
 #include "core/units.h"
+#include "mapping/point_motions.h"
 #include "numeric/polyline.h"
 #include "numeric/resolved_curvature.h"
 #include "program/coordinate_step.h"
@@ -63,18 +64,15 @@ std::int64_t moving_beside(const Toolpath& path, std::int64_t motion, std::int64
     return -1;
 }
 
-/// [rad] by atan2: good near 0.
-double angle_between_directions(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
-
 PerMotion turning_angles(const Program& program) {
     const Toolpath path = toolpath_of(program);
     return of_cutting_motions(program, [&](std::int64_t i) {
         if (!(path.length(i) > 0)) return missing<double>;
         double greatest = 0;
         if (const std::int64_t before = moving_beside(path, i, -1); before >= 0)
-            greatest = angle_between_directions(path.direction(before, 1), path.direction(i, 0));
+            greatest = angle_between(path.direction(before, 1), path.direction(i, 0));
         if (const std::int64_t after = moving_beside(path, i, 1); after >= 0)
-            greatest = std::max(greatest, angle_between_directions(path.direction(i, 1), path.direction(after, 0)));
+            greatest = std::max(greatest, angle_between(path.direction(i, 1), path.direction(after, 0)));
         return greatest;
     });
 }
@@ -108,8 +106,8 @@ PerMotion curvatures(const Program& program) {
         if (program.motions.kind[static_cast<std::size_t>(i)] != MotionKind::feed) {
             close();
         } else if (path.length(i) > 0) {
-            const bool corner = !lines.empty() && angle_between_directions(path.direction(lines.back(), 1),
-                                                                           path.direction(i, 0)) > least_corner;
+            const bool corner =
+                !lines.empty() && angle_between(path.direction(lines.back(), 1), path.direction(i, 0)) > least_corner;
             if (corner) close();
             if (lines.empty()) corners.push_back(path.begin(i));
             corners.push_back(path.end(i));
@@ -175,15 +173,11 @@ std::vector<Field> ProgramFields::compute(std::span<const std::string_view> name
         fields.push_back(std::move(field));
         values.push_back(row.compute(program_));
     }
-    parallel_for(points.size(), block_points, [&](std::int64_t first, std::int64_t last) {
-        std::vector<LineNumber> lines(static_cast<std::size_t>(last - first));
-        lines_->read(points.first + first, lines);
-        for (std::int64_t i = first; i < last; ++i) {
-            const std::int64_t motion = lines_->motion_at(points.first + i, lines[static_cast<std::size_t>(i - first)]);
-            if (motion < 0) continue;
-            for (std::size_t k = 0; k < fields.size(); ++k)
-                fields[k].values[static_cast<std::size_t>(i)] = values[k][static_cast<std::size_t>(motion)];
-        }
+    for_each_motion(*lines_, points, [&](PointIndex point, std::int64_t motion) {
+        if (motion < 0) return;
+        for (std::size_t k = 0; k < fields.size(); ++k)
+            fields[k].values[static_cast<std::size_t>(point - points.first)] =
+                values[k][static_cast<std::size_t>(motion)];
     });
     return fields;
 }

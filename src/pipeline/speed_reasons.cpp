@@ -117,7 +117,6 @@ private:
         const Xyz& to = motions_.end[static_cast<std::size_t>(i)];
         return {to.x - from.x, to.y - from.y, to.z - from.z};
     }
-    static double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
     const Motions& motions_;
     std::int64_t motion_;
