@@ -10,6 +10,7 @@
 #include "io/files/compressed.h"
 #include "io/formats/program_identity.h"
 #include "io/readers/log_tool.h"
+#include "io/readers/machine_file.h"
 #include "io/readers/tool_table_file.h"
 
 namespace clsurf::io {
@@ -39,6 +40,13 @@ std::optional<CuttingTool> tool_of_table(const std::string& path, const Program&
         known = tool;
     }
     return known;
+}
+
+void use_machine(const std::string& path, PartRules& rules) {
+    rules.machine = std::make_shared<const Machine>(read_machine(path));
+    rules.limits = read_stated_limits(path);
+    const Kinematics& kinematics = rules.machine->kinematics;
+    rules.kinematics = kinematics.has_rotary() ? std::make_shared<const Kinematics>(kinematics) : nullptr;
 }
 
 Part read_part(const PartFiles& files, PartRules rules, const Stages& stages) {

@@ -25,6 +25,9 @@ struct PartFiles {
 /// InputError: the table cannot be read.
 [[nodiscard]] std::optional<CuttingTool> tool_of_table(const std::string& path, const Program& program);
 
+/// Kinematics, limits and machine of a machine file. Throws InputError.
+void use_machine(const std::string& path, PartRules& rules);
+
 /// Reads both and assembles them (pipeline/part.h). `rules.identity` is set from the hashes that the log carries. Throws
 /// InputError: a file that cannot be read or used, a log of another program; UsageError: an unknown dialect or format.
 [[nodiscard]] Part read_part(const PartFiles& files, PartRules rules = {}, const Stages& stages = {});

@@ -100,11 +100,7 @@ PartRules rules_of(const PartOptions& options) {
     PartRules rules;
     rules.role = options.role;
     rules.poses = options.poses;
-    rules.kinematics = load_kinematics(options.machine);
-    if (!options.machine.empty()) {
-        rules.limits = io::read_stated_limits(options.machine);
-        rules.machine = std::make_shared<const Machine>(io::read_machine(options.machine));
-    }
+    if (!options.machine.empty()) io::use_machine(options.machine, rules);
     rules.use_line_channel = options.use_line_channel;
     rules.accept_foreign = options.force;
     rules.derivative = options.derivative;

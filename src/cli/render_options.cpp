@@ -126,8 +126,6 @@ RenderOptions read_render_options(const po::variables_map& values) {
     refuse_selection(options);
     if (options.part.log.empty() && !options.before.empty())
         throw UsageError("--before compares logs: PROGRAM LOG --before LOG");
-    if (options.part.log.empty() && given(values, "work-offset") && options.part.machine.empty())
-        throw UsageError("--work-offset places a log; without one the program's own work offsets count");
     return options;
 }
 

@@ -22,7 +22,7 @@ struct NumberRange {
 struct Selection {
     std::optional<NumberRange> points, lines, passes;
     [[nodiscard]] bool is_all() const { return !points && !lines && !passes; }
-    std::string words;  ///< "points 100 to 300, passes 2 to 5"
+    std::string words;  ///< "points 100..300, passes 2..5"
 };
 
 struct RenderOptions {

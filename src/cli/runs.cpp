@@ -22,27 +22,15 @@ io::ProgramOptions in_coordinates_of(const RunOptions& options, const Log& log) 
     return program;
 }
 
-Role required_common_role(const LoadedRun& a, const LoadedRun& b, std::optional<Role> wanted) {
-    if (const std::optional<Role> role = common_role(a.log, b.log, wanted)) return *role;
-    throw InputError(Place::of_file(b.name),
-                     "has no positions of a kind that " + a.name + " has too: commanded, feedback or actual");
-}
-
 /// Simulates the program of a run.
 void simulate_into(LoadedRun& run, const io::Source& source, const RunOptions& options) {
     run.simulated = true;
     io::ProgramOptions as_programmed = options.program_options;
     as_programmed.coordinates.reset();
     Program program = io::read_program(source, as_programmed);
-    Vec3 zero = Vec3::Zero();
-    if (runs_on_five_axes(program, options.machine)) {
-        run.kinematics = options.kinematics;
-        run.pose = prepare_five_axes(program, options.machine, options.poses);
-        zero = run.pose.translation();
-    } else {
-        (void)place_motions(program, {}, *in_coordinates_of(options, run.log).coordinates);
-    }
-    SimulatedRun made = simulate_to_log(program, options.machine, options.start, {}, zero);
+    if (runs_on_five_axes(program, options.machine)) run.kinematics = options.kinematics;
+    run.pose = prepare_run(program, options.machine, options.poses, *in_coordinates_of(options, run.log).coordinates);
+    SimulatedRun made = simulate_to_log(program, options.machine, options.start, {}, run.pose.translation());
     run.log = std::move(made.log);
     run.log.name = program.main().name();
     run.log.diagnostics = program.diagnostics;
@@ -70,17 +58,8 @@ LoadedRun load_run(const std::string& path, const RunOptions& options) {
 }
 
 ComparedRun run_of(const LoadedRun& run, const LoadedRun& other, const RunOptions& options) {
-    ComparedRun made;
-    made.log = &run.log;
-    const Role role = required_common_role(run, other, options.role);
-    made.path = reconstruct(run.log, role, run.pose, run.kinematics);
-    if (run.log.has(Role::commanded) && other.log.has(Role::commanded))
-        made.commanded = reconstruct_like(run.log, Role::commanded, made.path);
-    if (const std::optional<Role> measured = common_measured_role(run.log, other.log)) {
-        made.measured = reconstruct_like(run.log, *measured, made.path);
-        if (*measured != role) made.truest = made.measured;
-    }
-    return made;
+    const Role role = required_common_role(run.log, other.log, options.role);
+    return compared_run(run.log, other.log, reconstruct(run.log, role, run.pose, run.kinematics));
 }
 
 namespace {

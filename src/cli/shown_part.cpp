@@ -1,13 +1,11 @@
 #include "cli/shown_part.h"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/as_machined.h"
-#include "core/block.h"
 #include "core/error.h"
 #include "io/readers/program_file.h"
 #include "pipeline/judge.h"
@@ -59,6 +57,8 @@ Program read_programmed(const PartOptions& options, bool placed) {
 }
 
 Shown programmed(const PartOptions& options, const std::string& field, StageClock& clock) {
+    if (options.poses.zero && !options.poses.zero_is_default)
+        throw UsageError("--work-offset places a log; '" + field + "' is drawn in the coordinates of the program");
     Shown shown;
     shown.origin = PointOrigin::program;
     clock.begin("read the program");
@@ -83,29 +83,12 @@ Part load_run_of(const PartOptions& options, StageClock& clock) {
     clock.begin("read the program");
     Program program = read_programmed(options, false);
     clock.begin("simulate");
-    Part part = simulated_part(std::move(program), rules_of(options));
+    SimulatedPart made = simulated_part(std::move(program), rules_of(options));
+    Part part = std::move(made.part);
+    part.diagnostics.append(made.summary.diagnostics);
     part.tool = find_tool(options.tool, &part.log, &part.program, part.diagnostics);
     clock.end();
     return part;
-}
-
-/// Points of lines, in order. O(points).
-std::vector<PointRange> points_of_lines(const LineMap& lines, const NumberRange& wanted) {
-    std::vector<PointRange> ranges;
-    std::vector<LineNumber> block(static_cast<std::size_t>(block_points));
-    for (PointIndex first = 0; first < lines.count(); first += block_points) {
-        const PointIndex size = std::min(block_points, lines.count() - first);
-        lines.read(first, std::span(block).first(static_cast<std::size_t>(size)));
-        for (PointIndex i = 0; i < size; ++i) {
-            const std::int64_t line = block[static_cast<std::size_t>(i)];
-            if (line < wanted.first || line > wanted.last) continue;
-            if (!ranges.empty() && ranges.back().last == first + i - 1)
-                ++ranges.back().last;
-            else
-                ranges.push_back({first + i, first + i});
-        }
-    }
-    return ranges;
 }
 
 }  // namespace
@@ -138,7 +121,12 @@ void show_selection(Shown& shown, const Selection& selection) {
     std::vector<PointRange> ranges{{0, last}};
     if (selection.points)
         ranges = intersection(ranges, {{selection.points->first, std::min(last, selection.points->last)}});
-    if (selection.lines) ranges = intersection(ranges, points_of_lines(*shown.part.lines, *selection.lines));
+    if (selection.lines) {
+        constexpr std::int64_t most = no_line - 1;
+        const auto line = [&](std::int64_t number) { return static_cast<LineNumber>(std::min(number, most)); };
+        ranges = intersection(ranges,
+                              shown.part.lines->points_of(line(selection.lines->first), line(selection.lines->last)));
+    }
     if (selection.passes)
         ranges = intersection(ranges,
                               points_of_passes(shown.surface.passes, selection.passes->first, selection.passes->last));

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/error.h"
 #include "pipeline/simulated_log.h"
 #include "surface/programmed_surface.h"
 
@@ -21,20 +22,19 @@ ProgrammedPart programmed_part(Program program) {
     return made;
 }
 
-Part simulated_part(Program program, PartRules rules, const Progress& progress) {
+SimulatedPart simulated_part(Program program, PartRules rules, const Vec3& start, const Progress& progress) {
     const Machine machine = rules.machine ? *rules.machine : Machine{};
-    Program placed = program;
-    Vec3 zero = Vec3::Zero();
-    if (runs_on_five_axes(placed, machine)) {
-        zero = prepare_five_axes(placed, machine, rules.poses).translation();
-    } else {
-        (void)place_motions(placed, {}, Coordinates::machine);
+    if (!runs_on_five_axes(program, machine)) {
+        if (rules.poses.zero && !rules.poses.zero_is_default)
+            throw UsageError(
+                "a work offset is for programs that run on five axes; on three the program's own work offsets count");
         rules.poses = {};
         rules.kinematics = nullptr;
     }
-    SimulatedRun run = simulate_to_log(placed, machine, Vec3::Zero(), progress, zero);
-    run.log.diagnostics.append(run.summary.diagnostics);
-    return assemble(std::move(program), std::move(run.log), rules);
+    Program placed = program;
+    const Eigen::Isometry3d pose = prepare_run(placed, machine, rules.poses);
+    SimulatedRun run = simulate_to_log(placed, machine, start, progress, pose.translation());
+    return {assemble(std::move(program), std::move(run.log), rules), std::move(run.summary)};
 }
 
 }  // namespace clsurf

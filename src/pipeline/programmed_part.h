@@ -3,6 +3,7 @@
 
 #include "core/progress.h"
 #include "pipeline/part.h"
+#include "simulation/run/simulator.h"
 
 namespace clsurf {
 
@@ -16,9 +17,16 @@ struct ProgrammedPart {
 /// the coordinates that are shown. O(points).
 [[nodiscard]] ProgrammedPart programmed_part(Program program);
 
-/// Runs a program on `rules.machine` (nullptr: the default one) from machine position 0, and puts both together.
-/// `program` has its motions as programmed. On three axes the program's own work offsets count, not `rules.poses`. Throws
-/// what simulate_to_log() and assemble() throw.
-[[nodiscard]] Part simulated_part(Program program, PartRules rules, const Progress& progress = {});
+/// A part and what its run was like.
+struct SimulatedPart {
+    Part part;
+    SimulationSummary summary;
+};
+
+/// Runs a program on `rules.machine` (nullptr: the default one) from `start` [mm], and puts both together. `program` has its
+/// motions as programmed. On three axes the program's own work offsets count. Throws UsageError: `rules.poses` has a zero
+/// that is no default, and the run is on three axes; and what simulate_to_log() and assemble() throw.
+[[nodiscard]] SimulatedPart simulated_part(Program program, PartRules rules, const Vec3& start = Vec3::Zero(),
+                                           const Progress& progress = {});
 
 }  // namespace clsurf

@@ -1,5 +1,9 @@
 #include "pipeline/roles.h"
 
+#include <utility>
+
+#include "core/error.h"
+
 namespace clsurf {
 namespace {
 
@@ -33,6 +37,25 @@ std::optional<Role> common_role(const Log& a, const Log& b, std::optional<Role> 
         if (a.has(role) && b.has(role)) return role;
     }
     return std::nullopt;
+}
+
+Role required_common_role(const Log& a, const Log& b, std::optional<Role> wanted) {
+    if (const std::optional<Role> role = common_role(a, b, wanted)) return *role;
+    throw InputError(Place::of_file(b.name),
+                     "has no positions of a kind that " + a.name + " has too: commanded, feedback or actual");
+}
+
+ComparedRun compared_run(const Log& log, const Log& other, Trajectory path) {
+    ComparedRun run;
+    run.log = &log;
+    run.path = std::move(path);
+    if (log.has(Role::commanded) && other.has(Role::commanded))
+        run.commanded = reconstruct_like(log, Role::commanded, run.path);
+    if (const std::optional<Role> measured = common_measured_role(log, other)) {
+        run.measured = reconstruct_like(log, *measured, run.path);
+        if (*measured != run.path.role) run.truest = run.measured;
+    }
+    return run;
 }
 
 std::optional<Role> common_measured_role(const Log& a, const Log& b) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "compare/run_difference.h"
 #include "log/log.h"
 #include "toolpath/trajectory.h"
 
@@ -31,5 +32,12 @@ inline constexpr std::array all_roles{Role::commanded, Role::feedback, Role::act
 
 /// Measured positions that both logs have: actual, else feedback; nullopt: none.
 [[nodiscard]] std::optional<Role> common_measured_role(const Log& a, const Log& b);
+
+/// The same as common_role(). Throws InputError: they have none in common.
+[[nodiscard]] Role required_common_role(const Log& a, const Log& b, std::optional<Role> wanted = std::nullopt);
+
+/// A run as it is compared with that of another log: aligned by `path`, with commanded and measured positions where both
+/// logs have them. `log` must outlive it.
+[[nodiscard]] ComparedRun compared_run(const Log& log, const Log& other, Trajectory path);
 
 }  // namespace clsurf

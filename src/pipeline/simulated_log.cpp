@@ -86,6 +86,13 @@ Eigen::Isometry3d prepare_five_axes(Program& program, const Machine& machine, Fr
     return pose;
 }
 
+Eigen::Isometry3d prepare_run(Program& program, const Machine& machine, const FramePoses& poses,
+                              Coordinates three_axes) {
+    if (runs_on_five_axes(program, machine)) return prepare_five_axes(program, machine, poses);
+    (void)place_motions(program, {}, three_axes);
+    return Eigen::Isometry3d::Identity();
+}
+
 SimulatedRun simulate_to_log(const Program& programmed, const Machine& machine, const Vec3& start,
                              const Progress& progress, const Vec3& zero) {
     std::optional<Program> held;

@@ -19,6 +19,12 @@ namespace clsurf {
 /// throws (toolpath/tip_motions.h). O(motions).
 [[nodiscard]] Eigen::Isometry3d prepare_five_axes(Program& program, const Machine& machine, FramePoses poses);
 
+/// Brings a program, read with its motions as programmed, to where it is simulated: as prepare_five_axes() does where it runs
+/// on five axes, else into `three_axes` by its own work offsets. Returns machine = pose · workpiece, whose translation is the
+/// `zero` of simulate_to_log(); on three axes the identity. O(motions).
+[[nodiscard]] Eigen::Isometry3d prepare_run(Program& program, const Machine& machine, const FramePoses& poses,
+                                            Coordinates three_axes = Coordinates::machine);
+
 struct SimulatedRun {
     Log log;  ///< cmd.*, fb.*, line, limit; owns its columns
     SimulationSummary summary;

@@ -17,8 +17,8 @@
 #include "io/reports/simulated_log.h"
 #include "io/reports/simulation_origin.h"
 #include "pipeline/contacts.h"
+#include "pipeline/programmed_part.h"
 #include "pipeline/roles.h"
-#include "pipeline/simulated_log.h"
 #include "surface/stitch.h"
 
 namespace clsurf::python {
@@ -42,12 +42,7 @@ PartRules rules_of(const PartOptions& options) {
     rules.derivative = choose<DerivativeMethod>("derivative", options.derivative, {"savgol", "kalman"},
                                                 {DerivativeMethod::savgol, DerivativeMethod::kalman});
     rules.poses = poses_of(options);
-    if (!options.machine.empty()) {
-        const Machine machine = io::read_machine(options.machine);
-        if (machine.kinematics.has_rotary()) rules.kinematics = std::make_shared<const Kinematics>(machine.kinematics);
-        rules.limits = io::read_stated_limits(options.machine);
-        rules.machine = std::make_shared<const Machine>(machine);
-    }
+    if (!options.machine.empty()) io::use_machine(options.machine, rules);
     rules.use_line_channel = !options.ignore_lines;
     rules.accept_foreign = options.force;
     if (!options.tool.empty() && options.tool != "none") rules.tool = parse_tool(options.tool);
@@ -55,19 +50,9 @@ PartRules rules_of(const PartOptions& options) {
 }
 
 ComparedRun compared(const Part& part, const Part& other) {
-    const std::optional<Role> role = common_role(part.log, other.log);
-    if (!role)
-        throw InputError(Place::of_file(other.log.name), "has no positions of a kind that " + part.log.name + " has");
-    ComparedRun run;
-    run.log = &part.log;
-    run.path = part.path.role == *role ? part.path : reconstruct_like(part.log, *role, part.path);
-    if (part.log.has(Role::commanded) && other.log.has(Role::commanded))
-        run.commanded = reconstruct_like(part.log, Role::commanded, run.path);
-    if (const std::optional<Role> measured = common_measured_role(part.log, other.log)) {
-        run.measured = reconstruct_like(part.log, *measured, run.path);
-        if (*measured != *role) run.truest = run.measured;
-    }
-    return run;
+    const Role role = required_common_role(part.log, other.log);
+    return compared_run(part.log, other.log,
+                        part.path.role == role ? part.path : reconstruct_like(part.log, role, part.path));
 }
 
 std::vector<Part> copies(const Parts& parts, Diagnostics& diagnostics) {
@@ -118,23 +103,15 @@ std::shared_ptr<LoadedPart> simulate_part(const PartOptions& options, const std:
     const io::Source source = io::open_source(options.program);
     io::ProgramOptions how = program_options_of(options);
     how.coordinates.reset();
-    const Program as_programmed = io::read_program(source, how);
-    Program driven = as_programmed;
-    Vec3 zero = Vec3::Zero();
-    const bool five_axes = runs_on_five_axes(driven, machine);
-    if (five_axes)
-        zero = prepare_five_axes(driven, machine, rules.poses).translation();
-    else
-        (void)place_motions(driven, {}, Coordinates::machine);
-    SimulatedRun run = simulate_to_log(driven, machine, Vec3(start[0], start[1], start[2]), {}, zero);
-    Diagnostics diagnostics = driven.diagnostics;
-    diagnostics.append(run.summary.diagnostics);
-    std::string report = io::simulation_json(run.summary, diagnostics, machine.fidelity);
-    run.log.metadata = io::with_simulation("{}", machine);
-    run.log.programs = {io::identify(source)};
+    Program program = io::read_program(source, how);
     rules.identity = ProgramIdentity::same;
-    if (!five_axes) rules.kinematics = nullptr;
-    Part part = assemble(as_programmed, std::move(run.log), rules);
+    SimulatedPart made = simulated_part(std::move(program), std::move(rules), Vec3(start[0], start[1], start[2]));
+    Diagnostics diagnostics = made.part.program.diagnostics;
+    diagnostics.append(made.summary.diagnostics);
+    std::string report = io::simulation_json(made.summary, diagnostics, machine.fidelity);
+    Part part = std::move(made.part);
+    part.log.metadata = io::with_simulation("{}", machine);
+    part.log.programs = {io::identify(source)};
     if (!part.tool && !how.tools.empty() && options.tool != "none")
         part.tool = io::tool_of_table(how.tools, part.program);
     return std::make_shared<LoadedPart>(std::move(part), std::move(report));

@@ -83,7 +83,7 @@ TEST(ProgramFields, ACornerIsNoCurvature) {
 TEST(ProgramFields, PointsOfALogHaveThoseOfTheirLines) {
     const std::string text = wavy_zigzag(
         5, 12, [](int pass, double) { return pass == 2 ? 0.1 : 0.3; }, 0);
-    const Part part = simulated_part(program_of(text), {});
+    const Part part = simulated_part(program_of(text), {}).part;
     const ClSurface surface = stitch(part);
     const Field length = fields_of(part, surface).get("block_length");
     for (PointIndex i = 0; i < part.log.records; i += 97) {
@@ -99,7 +99,7 @@ TEST(ProgramFields, PointsOfALogHaveThoseOfTheirLines) {
 TEST(SimulatedPart, IsThePartOfTheSimulatedLog) {
     const std::string text = wavy_zigzag(
         5, 12, [](int, double) { return 0.3; }, 0);
-    const Part made = simulated_part(program_of(text), {});
+    const Part made = simulated_part(program_of(text), {}).part;
     const Part read = assemble(program_of(text), simulate_to_log(read_text(text), Machine{}).log);
     ASSERT_EQ(made.log.records, read.log.records);
     for (PointIndex i = 0; i < made.log.records; i += 101) {

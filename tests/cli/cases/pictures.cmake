@@ -64,6 +64,10 @@ clsurf_cli_test(NAME render_program_formed ARGS render ${bottle_nc} --surface fo
 clsurf_cli_test(NAME render_log_alone ARGS render @LOGS@/bottle_uneven.biip --color speed --size 320x240 -o map.png FILE map.png)
 clsurf_cli_test(NAME render_program_before ARGS render ${bottle_nc} --before @LOGS@/bottle_uneven.biip -o map.png EXIT 2 STDERR "--before compares logs")
 clsurf_cli_test(NAME render_program_has_no_offset ARGS render ${bottle_nc} --work-offset 1,2,3 -o map.png EXIT 2 STDERR "the program's own work offsets count")
+clsurf_cli_test(NAME render_program_has_no_offset_on_three_axes
+  ARGS render ${bottle_nc} --machine @DATA@/machines/three_axis_mill.toml --work-offset 1,2,3 -o map.png EXIT 2 STDERR "the program's own work offsets count" NO_FILE map.png)
+clsurf_cli_test(NAME render_program_field_has_no_offset
+  ARGS render ${bottle_nc} --color block_length --work-offset 1,2,3 -o map.png EXIT 2 STDERR "'block_length' is drawn in the coordinates of the program" NO_FILE map.png)
 clsurf_cli_test(NAME render_program_without_motions SETUP "echo '(nothing)' > empty.nc" ARGS render empty.nc --color block_length -o map.png EXIT 3 STDERR "empty.nc: error: has no motions to show" NO_FILE map.png)
 
 # A part of the part.
