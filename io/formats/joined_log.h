@@ -1,5 +1,5 @@
 #pragma once
-// A log joined with channels that were recorded beside it, at a lower rate.
+// A log with the channels of another one, which was recorded at the same time but at a lower rate.
 
 #include <optional>
 

@@ -36,7 +36,8 @@ void declare_derivative(po::options_description& options);
 
 /// Whether a file is a log, not a program, by its content; a layout or a mapping says that it is one.
 [[nodiscard]] bool is_log(const io::Source& source, const io::LogOptions& options);
-/// The same where a program may come alone: `log` is empty then. A log that comes alone is told apart by its content.
+/// Options of PROGRAM [LOG]. The content of a single argument says whether it is a program, with an empty `log`, or a log, with
+/// an empty `program`.
 [[nodiscard]] PartOptions read_part_or_program_options(const po::variables_map& values);
 
 /// "commanded", "feedback" or "actual". Throws UsageError.

@@ -50,51 +50,37 @@ void translate(std::exception_ptr thrown) {
     } catch (const SystemError& error) { raise("SystemError", std::string(error.what())); }
 }
 
+/// What a computation gives without the interpreter's lock.
+template <typename Compute>
+auto unlocked(const Compute& compute) {
+    const py::gil_scoped_release released;
+    return compute();
+}
+
 /// A method whose column becomes an array.
 template <typename T>
 auto column(SharedColumn<T> (LoadedPart::*get)() const) {
-    return [get](const SharedPart& part) {
-        SharedColumn<T> values;
-        {
-            const py::gil_scoped_release unlocked;
-            values = (*part.*get)();
-        }
-        return shared_array(values);
-    };
+    return [get](const SharedPart& part) { return shared_array(unlocked([&] { return (*part.*get)(); })); };
 }
 
 /// The same with so many values a row.
 template <typename T>
 auto rows(SharedColumn<T> (LoadedPart::*get)() const, py::ssize_t width) {
     return [get, width](const SharedPart& part) {
-        SharedColumn<T> values;
-        {
-            const py::gil_scoped_release unlocked;
-            values = (*part.*get)();
-        }
+        const SharedColumn<T> values = unlocked([&] { return (*part.*get)(); });
         return shared_array(values, {static_cast<py::ssize_t>(values->size()) / width, width});
     };
 }
 
 py::array field_array(const SharedPart& part, const std::string& name) {
-    SharedColumn<float> values;
-    {
-        const py::gil_scoped_release unlocked;
-        values = part->field(name);
-    }
-    return shared_array(values);
+    return shared_array(unlocked([&] { return part->field(name); }));
 }
 
 /// Where a value is what is stored, the array lies in the file.
 py::array channel_array(const SharedPart& part, const std::string& name) {
     const ChannelView& view = part->channel(name).values;
     if (view.scale == 1 && view.bias == 0) return raw_array(view, part->part().log.keep_alive);
-    SharedColumn<double> values;
-    {
-        const py::gil_scoped_release unlocked;
-        values = part->channel_values(name);
-    }
-    return shared_array(values);
+    return shared_array(unlocked([&] { return part->channel_values(name); }));
 }
 
 /// Name and unit of each field that can be computed.
@@ -131,12 +117,9 @@ std::string query(const SharedPart& part, std::optional<PointIndex> point, std::
 py::bytes picture(const SharedPart& part, const std::string& field, const std::string& view,
                   std::optional<std::pair<double, double>> range, const std::string& colour_map,
                   std::pair<int, int> size) {
-    std::string png;
-    {
-        const py::gil_scoped_release unlocked;
-        png = draw_picture(*part, {field, view, range, colour_map, size.first, size.second});
-    }
-    return py::bytes(png);
+    return py::bytes(unlocked([&] {
+        return draw_picture(*part, {field, view, range, colour_map, size.first, size.second});
+    }));
 }
 
 std::string text_of(const std::optional<CuttingTool>& tool) { return tool ? to_text(*tool) : std::string(); }

@@ -198,7 +198,7 @@ TEST_F(ModbusRecording, EndsWhenItIsStopped) {
     EXPECT_EQ(run.values("count")[3], 4);
 }
 
-/// What is left in the folder by a recording that does not begin.
+/// The files that a recording leaves in its folder if it cannot begin.
 TEST_F(ModbusRecording, SaysWhyItDoesNotBegin) {
     const auto error_of = [&](const std::string& address, const std::vector<RegisterChannel>& channels) -> std::string {
         try {
