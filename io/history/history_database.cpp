@@ -9,8 +9,8 @@
 
 #include "core/file_name.h"
 #include "io/files/sha256.h"
-#include "io/history/history_schema.h"
 #include "io/files/utc.h"
+#include "io/history/history_schema.h"
 
 namespace clsurf::io {
 namespace {

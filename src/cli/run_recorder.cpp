@@ -11,8 +11,8 @@
 #include "history/record_of.h"
 #include "io/files/mapped_file.h"
 #include "io/files/sha256.h"
-#include "io/history/parameter_file.h"
 #include "io/files/utc.h"
+#include "io/history/parameter_file.h"
 #include "io/readers/log_tool.h"
 #include "io/readers/machine_file.h"
 
