@@ -154,7 +154,7 @@ TEST(Align, OnEvenScallopsEveryStepOverFitsAlike) {
     rules.start = MeasuredPlace{Vec2(6, 2.1), 0.5 * M_PI};
     const Alignment even = align(traced(plane, {6, 2.1}, 5e-5), plane.surface, rules);
     ASSERT_FALSE(even.determined());
-    EXPECT_NE(even.reasons.front().find("a second pose"), std::string::npos) << even.reasons.front();
+    EXPECT_NE(even.reasons.front().find("another pose"), std::string::npos) << even.reasons.front();
     // A mark tells them apart.
     const Cut marked(0, mark);
     const Alignment found = align(traced(marked, {6, 2.1}, 5e-5), marked.surface, rules);
