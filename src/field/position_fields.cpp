@@ -75,7 +75,8 @@ struct Plan {
 
 /// Angles and tool axes have no measured speeds.
 bool is_smoothed(const FieldRow& row, const Derivation& derivation) {
-    return derivation.estimate && row.subject == FieldSubject::tip && (row.needs & needs::derivatives) != 0;
+    return derivation.estimate && row.subject == FieldSubject::tip &&
+           (row.needs & (needs::derivatives | needs::sigmas)) != 0;
 }
 
 Role measured_role_of(const Trajectory& path) { return path.role == Role::commanded ? Role::feedback : path.role; }
@@ -222,7 +223,7 @@ private:
             if ((plan_.needs & bit_of_sigma(d)) == 0) continue;
             std::vector<double>& values = sigmas_[static_cast<std::size_t>(d - 1)];
             values.resize(count_);
-            plan_.estimate->sigmas(d, piece, first_, values);
+            plan_.estimate->sigmas(d, piece, first_, scratch_, values);
             fill(bit_of_sigma(d), {values.data()});
         }
         if ((plan_.needs & needs::time) == 0) return;

@@ -162,7 +162,8 @@ std::array<double, 4> KalmanSmoother::unit_of_state() const {
     return unit;
 }
 
-void KalmanSmoother::smooth(const Measurements& measured, std::span<SmoothedState> states) const {
+void KalmanSmoother::smooth(const Measurements& measured, std::span<SmoothedState> states,
+                            std::span<Eigen::Array4d> innovations) const {
     if (states.empty()) return;
     const std::array<double, 4> unit = unit_of_state();
     Eigen::Array4d origin = lanes(measured.position, 0);
@@ -181,7 +182,13 @@ void KalmanSmoother::smooth(const Measurements& measured, std::span<SmoothedStat
             off = off.isNaN().select(0.0, off);
             for (std::size_t k = 0; k < 4; ++k) x[k] += now.gain[d][k] * off;
         };
-        take(0, lanes(measured.position, i) - origin);
+        const Eigen::Array4d position = lanes(measured.position, i) - origin;
+        if (!innovations.empty()) {
+            const Eigen::Array4d off = (position / unit[0] - x[0]) / std::sqrt(innovation_variance_);
+            const bool settling = static_cast<PointIndex>(i) < reach();
+            innovations[i] = settling ? Eigen::Array4d::Zero() : Eigen::Array4d(off.isNaN().select(0.0, off));
+        }
+        take(0, position);
         if (speeds) take(1, lanes(measured.speed, i));
         if (accelerations) take(2, lanes(measured.acceleration, i));
         states[i] = x;

@@ -51,8 +51,10 @@ public:
     [[nodiscard]] PointIndex reach() const { return static_cast<PointIndex>(forward_.size()); }
 
     /// Smooths consecutive points with all that is measured of them; `states` has one for each. A value
-    /// that is missing (NaN) teaches nothing.
-    void smooth(const Measurements& measured, std::span<SmoothedState> states) const;
+    /// that is missing (NaN) teaches nothing. `innovations`, if it is not empty, has one for each point, too: how far the
+    /// positions are from their one-step predictions, in standard deviations; 0 while the gains settle.
+    void smooth(const Measurements& measured, std::span<SmoothedState> states,
+                std::span<Eigen::Array4d> innovations = {}) const;
 
     /// Standard deviation of derivative 0 … 3 that is left at points [first, first + out.size()) of `count`
     /// [mm/s^d].

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <fmt/format.h>
 
+#include "core/error.h"
 #include "core/statistics.h"
 #include "core/units.h"
 #include "log/quantum.h"
@@ -17,8 +19,21 @@ constexpr PointIndex looked_at = 2000;   ///< points of a section that the model
 constexpr PointIndex sections = 48;      ///< evenly spaced over the pieces
 constexpr PointIndex least_piece = 100;  ///< points
 constexpr double finest = 1e-8;          ///< [mm] no position is more exact
-constexpr double most_wandering = 1e2, least_wandering = 1e-17;
-constexpr double per_sigma = 1.4826;  ///< standard deviation over median of absolute deviations
+constexpr double most_wandering = 1e6, least_wandering = 1e-17;
+constexpr double moving_steps = 10;   ///< an axis that stays within so many steps teaches nothing of the motion
+constexpr PointIndex most_lead = 12;  ///< records: further ahead no control has been seen to record a signal
+constexpr double better_lead = 0.8;   ///< squares of a lead that counts, over those of none
+constexpr double near_record = 0.05;  ///< leads so near a whole number of records are that number
+/// A channel that differs by more of the speed is not a measurement of it: a programmed feed, or a filtered display.
+constexpr double most_disagreement = 0.05;
+/// Squared innovations above it are no chance: 1 in 16,000 (χ² with one degree of freedom).
+constexpr double jump_gate = 16;
+/// Records around a jump that it disturbs, where positions count as much as the model; more where they count less.
+constexpr double disturbed = 4, disturbed_by_width = 2;
+/// So many standard deviations hold this share of the measured errors, as of a normal distribution.
+constexpr double within_sigmas = 3, covered = 0.9973;
+constexpr double most_nees = 2;
+constexpr double two_periods_7 = 128;  ///< 2⁷: `wandering` with a period twice as long
 /// A model is sure of itself only so far: the wandering is found to a factor of √10.
 constexpr double wandering_step = 3.1622776601683795;
 
@@ -46,6 +61,33 @@ std::vector<PointRange> samples_of(const std::vector<PointRange>& pieces) {
 
 double norm(const SmoothedState& state, std::size_t d) { return std::sqrt(state[d].square().sum()); }
 
+Measurements all_of(const MotionEstimate::Scratch& scratch) {
+    const auto& [p, v, a] = scratch.measured;
+    return {{p[0], p[1], p[2]}, {v[0], v[1], v[2]}, {a[0], a[1], a[2]}};
+}
+
+/// Values of a channel that is `lead` records ahead, at points from `first`; cubic between records, NaN beyond them.
+void copy_ahead(const ChannelView& view, PointIndex count, PointIndex first, double lead, std::vector<double>& out) {
+    const auto whole = static_cast<PointIndex>(std::floor(-lead));
+    const double u = -lead - static_cast<double>(whole);
+    const std::array<double, 4> weights{-u * (u - 1) * (u - 2) / 6, (u + 1) * (u - 1) * (u - 2) / 2,
+                                        -(u + 1) * u * (u - 2) / 2, (u + 1) * u * (u - 1) / 6};
+    const auto n = static_cast<PointIndex>(out.size());
+    const PointIndex from = first + whole - 1;  // of the four records around the first point's
+    std::vector<double> records(out.size() + 3, std::numeric_limits<double>::quiet_NaN());
+    const PointIndex begin = std::max<PointIndex>(from, 0);
+    const PointIndex end = std::min(from + n + 3, count);
+    if (begin < end)
+        copy_block(
+            view, begin,
+            std::span(records).subspan(static_cast<std::size_t>(begin - from), static_cast<std::size_t>(end - begin)));
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        out[i] = u == 0 ? records[i + 1]
+                        : weights[0] * records[i] + weights[1] * records[i + 1] + weights[2] * records[i + 2] +
+                              weights[3] * records[i + 3];
+    }
+}
+
 }  // namespace
 
 MotionEstimate::MotionEstimate(const Log& log, const Trajectory& path, const std::vector<PointRange>& pieces)
@@ -55,6 +97,7 @@ MotionEstimate::MotionEstimate(const Log& log, const Trajectory& path, const std
     // The axes' own speeds are not those of a tool that also turns.
     if (path.kinematics == nullptr) measure_components(pieces);
     if (!model_.has_speed() && (path.role == Role::commanded || !log.has(Role::commanded))) measure_path_speed(pieces);
+    calibrate(pieces);
 }
 
 void MotionEstimate::measure_positions(const std::vector<PointRange>& pieces) {
@@ -71,8 +114,7 @@ void MotionEstimate::measure_positions(const std::vector<PointRange>& pieces) {
         path_.read(sample.first, p[0], p[1], p[2]);
         for (std::vector<double>& axis : p) {
             const auto [low, high] = std::minmax_element(axis.begin(), axis.end());
-            constexpr double steps = 10;
-            if (*high - *low > steps * floor) moving.push_back(std::move(axis));
+            if (*high - *low > moving_steps * floor) moving.push_back(std::move(axis));
         }
     }
     double least = std::numeric_limits<double>::infinity();
@@ -99,26 +141,66 @@ void MotionEstimate::measure_positions(const std::vector<PointRange>& pieces) {
         if (!(cost < least)) continue;
         least = cost;
         model_.position_sigma = std::sqrt(variance);
+        rounding_rules_ = variance <= 2 * floor * floor && floor > finest;
         model_.wandering = wandering;
     }
 }
 
-/// Standard deviation of residual(states, sample, i) over the sampled sections, robust.
-template <typename Residual>
-double MotionEstimate::agreement(const std::vector<PointRange>& pieces, Residual&& residual) const {
-    std::vector<double> all;
+template <typename Visit>
+void MotionEstimate::visit_samples(const std::vector<PointRange>& pieces, Visit&& visit) const {
     Scratch scratch;
     for (const PointRange& sample : samples_of(pieces)) {
         read(sample.first, sample.last, scratch);
-        scratch.states.resize(static_cast<std::size_t>(sample.size()));
-        const auto& p = scratch.measured[0];
-        across_->smooth({{p[0], p[1], p[2]}, {}, {}}, scratch.states);
-        for (std::size_t i = 0; i < scratch.states.size(); ++i) {
-            const double off = std::abs(residual(scratch, i));
-            if (off == off) all.push_back(off);
-        }
+        const auto n = static_cast<std::size_t>(sample.size());
+        scratch.states.resize(n);
+        scratch.innovations.resize(n);
+        across_->smooth(all_of(scratch), scratch.states, scratch.innovations);
+        visit(scratch);
     }
-    return all.empty() ? 0.0 : per_sigma * median(all);
+}
+
+/// Standard deviation of residual(scratch, i) over the sampled sections.
+template <typename Residual>
+double MotionEstimate::agreement(const std::vector<PointRange>& pieces, Residual&& residual) const {
+    double squares = 0;
+    double count = 0;
+    visit_samples(pieces, [&](const Scratch& scratch) {
+        for (std::size_t i = 0; i < scratch.states.size(); ++i) {
+            const double off = residual(scratch, i);
+            if (std::isnan(off)) continue;
+            squares += off * off;
+            ++count;
+        }
+    });
+    return count > 0 ? std::sqrt(squares / count) : 0.0;
+}
+
+/// How many records measured(scratch, i) is ahead of estimated(scratch, i), Array3d both: where their differences are
+/// least, between records by the parabola through three sums of squares.
+template <typename Measured, typename Estimated>
+double MotionEstimate::lead_of(const std::vector<PointRange>& pieces, Measured&& measured,
+                               Estimated&& estimated) const {
+    std::array<double, 2 * most_lead + 1> squares{};
+    visit_samples(pieces, [&](const Scratch& scratch) {
+        const auto n = static_cast<PointIndex>(scratch.states.size());
+        for (PointIndex i = most_lead; i < n - most_lead; ++i) {
+            const Eigen::Array3d at = estimated(scratch, static_cast<std::size_t>(i));
+            std::array<double, 2 * most_lead + 1> off{};
+            for (PointIndex lead = -most_lead; lead <= most_lead; ++lead) {
+                off[static_cast<std::size_t>(lead + most_lead)] =
+                    (measured(scratch, static_cast<std::size_t>(i - lead)) - at).square().sum();
+            }
+            if (std::any_of(off.begin(), off.end(), [](double x) { return std::isnan(x); })) continue;
+            for (std::size_t k = 0; k < off.size(); ++k) squares[k] += off[k];
+        }
+    });
+    const auto least = static_cast<std::size_t>(std::min_element(squares.begin(), squares.end()) - squares.begin());
+    const bool inside = least > 0 && least + 1 < squares.size();
+    if (!inside || squares[least] > better_lead * squares[most_lead]) return 0;
+    const double before = squares[least - 1], after = squares[least + 1];
+    const double whole = static_cast<double>(least) - static_cast<double>(most_lead);
+    const double part = 0.5 * (before - after) / (before - 2 * squares[least] + after);
+    return std::abs(part) < near_record ? whole : whole + part;
 }
 
 void MotionEstimate::measure_components(const std::vector<PointRange>& pieces) {
@@ -129,13 +211,20 @@ void MotionEstimate::measure_components(const std::vector<PointRange>& pieces) {
             found[axis] = log_.find(fmt::format("{}.{}", d == 0 ? "speed" : "acceleration", "xyz"[axis]));
         if (std::count(found.begin(), found.end(), nullptr) > 0) continue;
         components_[d] = found;
+        const auto measured = [d](const Scratch& s, std::size_t i) {
+            return Eigen::Array3d(s.measured[d + 1][0][i], s.measured[d + 1][1][i], s.measured[d + 1][2][i]);
+        };
+        const auto estimated = [d](const Scratch& s, std::size_t i) -> Eigen::Array3d {
+            return s.states[i][d + 1].head<3>();
+        };
+        component_lead_[d] = lead_of(pieces, measured, estimated);
         double quantum = 0;
         for (const Channel* channel : found) quantum = std::max(quantum, quantum_of(channel->values));
         quantum /= d == 0 ? seconds_per_minute : 1.0;
         double worst = 0;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (int axis = 0; axis < 3; ++axis) {
             worst = std::max(worst, agreement(pieces, [&](const Scratch& s, std::size_t i) {
-                                 return s.measured[d + 1][axis][i] - s.states[i][d + 1][static_cast<int>(axis)];
+                                 return measured(s, i)[axis] - estimated(s, i)[axis];
                              }));
         }
         // The residual holds what the positions do not know, too.
@@ -152,13 +241,116 @@ void MotionEstimate::measure_components(const std::vector<PointRange>& pieces) {
 void MotionEstimate::measure_path_speed(const std::vector<PointRange>& pieces) {
     path_speed_ = log_.find("speed");
     if (path_speed_ == nullptr) return;
+    const auto measured = [](const Scratch& s, std::size_t i) { return Eigen::Array3d(s.path_speed[i], 0, 0); };
+    const auto estimated = [](const Scratch& s, std::size_t i) { return Eigen::Array3d(norm(s.states[i], 1), 0, 0); };
+    path_speed_lead_ = lead_of(pieces, measured, estimated);
     const double off =
         agreement(pieces, [](const Scratch& s, std::size_t i) { return s.path_speed[i] - norm(s.states[i], 1); });
+    const double usual = agreement(pieces, [](const Scratch& s, std::size_t i) { return norm(s.states[i], 1); });
+    if (off > most_disagreement * usual) {
+        path_speed_ = nullptr;
+        path_speed_lead_ = 0;
+        return;
+    }
     const double known = across_->sigma(1);
     const double floor = std::max(quantum_of(path_speed_->values) / seconds_per_minute / std::sqrt(12.0), 1e-3 * known);
     SmootherModel model = model_;
     model.speed_sigma = std::sqrt(std::max(off * off - known * known, floor * floor));
     along_.emplace(model);
+}
+
+/// What three standard deviations must be scaled by to hold 99 % of the errors, from errors that can be measured: of
+/// estimates from every second record against the differences of the records held out; of the estimates against the
+/// differences of the records next to them, since between records a speed is not defined better; and against the channel.
+void MotionEstimate::calibrate(const std::vector<PointRange>& pieces) {
+    SmootherModel model;  // of every second record, positions alone
+    model.period = 2 * model_.period;
+    model.position_sigma = model_.position_sigma;
+    model.wandering = two_periods_7 * model_.wandering;
+    const KalmanSmoother half(model);
+    const double of_difference = std::pow(model_.position_sigma / model_.period, 2) / 2;
+    const double known = std::pow(across_->sigma(1), 2);
+    const double of_channel =
+        path_speed_ == nullptr ? 0.0 : std::pow(quantum_of(path_speed_->values) / seconds_per_minute, 2) / 12;
+    std::array<std::vector<double>, 3> ratios;  // squared errors of the speed, in units of the variance stated of them
+    const auto compare = [&ratios](std::size_t with, double off, double variance) {
+        if (!std::isnan(off)) ratios[with].push_back(off * off / variance);
+    };
+    std::array<std::vector<double>, 3> even;
+    Scratch halved;
+    std::vector<double> sigmas;
+    visit_samples(pieces, [&](Scratch& scratch) {
+        const auto n = scratch.states.size();
+        const std::size_t count = n / 2;
+        const auto difference = [&](std::size_t i) {
+            const auto& p = scratch.measured[0];
+            return Vec3(p[0][i + 1] - p[0][i - 1], p[1][i + 1] - p[1][i - 1], p[2][i + 1] - p[2][i - 1]).norm() /
+                   (2 * model_.period);
+        };
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            even[axis].resize(count);
+            for (std::size_t k = 0; k < count; ++k) even[axis][k] = scratch.measured[0][axis][2 * k];
+        }
+        halved.states.resize(count);
+        halved.innovations.resize(count);
+        sigmas.resize(count);
+        half.smooth({{even[0], even[1], even[2]}, {}, {}}, halved.states, halved.innovations);
+        half.sigmas(1, static_cast<PointIndex>(count), 0, sigmas);
+        set_inflation(0, 0, static_cast<PointIndex>(count) - 1, halved);
+        for (std::size_t k = 1; k + 1 < count; ++k) {
+            compare(0, norm(halved.states[k], 1) - difference(2 * k),
+                    sigmas[k] * sigmas[k] * halved.inflation[k] + of_difference);
+        }
+        set_inflation(0, 0, static_cast<PointIndex>(n) - 1, scratch);
+        for (std::size_t i = 1; i + 1 < n; ++i) {
+            const double speed = norm(scratch.states[i], 1);
+            const double variance = known * scratch.inflation[i];
+            compare(1, speed - difference(i), variance + of_difference);
+            if (path_speed_ != nullptr) compare(2, speed - scratch.path_speed[i], variance + of_channel);
+        }
+    });
+    // While an axis moves by less than a step, its rounding stays: up to half a step, √3 of the standard deviation of steps.
+    double scale = rounding_rules_ ? 3 : 1;
+    for (std::vector<double>& of : ratios) {
+        if (!of.empty()) scale = std::max(scale, nearest_quantile(of, covered) / (within_sigmas * within_sigmas));
+    }
+    scale_ = std::sqrt(scale);
+    nees_ = 0;
+    for (const std::vector<double>& of : ratios) {
+        const double sum = std::accumulate(of.begin(), of.end(), 0.0);
+        if (!of.empty()) nees_ = std::max(nees_, sum / static_cast<double>(of.size()) / scale);
+    }
+    if (nees_ > most_nees)
+        throw InputError(
+            Place::of_file(log_.name),
+            fmt::format("the errors of a Kalman smoother are larger than what can be stated of them: their mean square "
+                        "is {:.3g} times its expectation, where {} is the most",
+                        nees_, most_nees),
+            "use --derivative savgol");
+}
+
+/// Of points [first, last], where the innovations begin at `from`: the greatest around a point, if they are no chance. A jump
+/// shows in one of them, or in the sum of as many as the estimate averages over.
+void MotionEstimate::set_inflation(PointIndex from, PointIndex first, PointIndex last, Scratch& scratch) const {
+    const auto reach =
+        static_cast<PointIndex>(std::max(disturbed, disturbed_by_width * std::pow(model_.wandering, -1.0 / 8)));
+    scratch.inflation.assign(static_cast<std::size_t>(last - first + 1), 1.0);
+    const auto raise = [&](PointIndex around, PointIndex by, double squared) {
+        if (!(squared > jump_gate)) return;
+        for (PointIndex i = std::max(first, around - by); i <= std::min(last, around + by); ++i) {
+            double& inflation = scratch.inflation[static_cast<std::size_t>(i - first)];
+            inflation = std::max(inflation, squared);
+        }
+    };
+    const std::vector<Eigen::Array4d>& innovations = scratch.innovations;
+    const auto count = static_cast<PointIndex>(innovations.size());
+    Eigen::Array4d sum = Eigen::Array4d::Zero();
+    for (PointIndex i = 0; i < count; ++i) {
+        raise(from + i, reach, innovations[static_cast<std::size_t>(i)].square().maxCoeff());
+        sum += innovations[static_cast<std::size_t>(i)];
+        if (i >= reach) sum -= innovations[static_cast<std::size_t>(i - reach)];
+        raise(from + i - reach / 2, reach, sum.square().maxCoeff() / static_cast<double>(reach));
+    }
 }
 
 void MotionEstimate::read(PointIndex first, PointIndex last, Scratch& scratch) const {
@@ -171,14 +363,14 @@ void MotionEstimate::read(PointIndex first, PointIndex last, Scratch& scratch) c
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if (components_[d][axis] == nullptr) continue;
             std::vector<double>& values = scratch.measured[d + 1][axis];
-            copy_block(components_[d][axis]->values, first, values);
+            copy_ahead(components_[d][axis]->values, path_.count, first, component_lead_[d], values);
             if (d > 0) continue;
             for (double& value : values) value /= seconds_per_minute;
         }
     }
     if (path_speed_ == nullptr) return;
     scratch.path_speed.resize(n);
-    copy_block(path_speed_->values, first, scratch.path_speed);
+    copy_ahead(path_speed_->values, path_.count, first, path_speed_lead_, scratch.path_speed);
     for (double& value : scratch.path_speed) value /= seconds_per_minute;
 }
 
@@ -190,9 +382,11 @@ void MotionEstimate::estimate(PointRange piece, PointIndex first, PointIndex las
     read(from, to, scratch);
     const auto n = static_cast<std::size_t>(to - from + 1);
     auto& [p, v, a] = scratch.measured;
-    Measurements measured{{p[0], p[1], p[2]}, {v[0], v[1], v[2]}, {a[0], a[1], a[2]}};
+    const Measurements measured = all_of(scratch);
     scratch.states.resize(n);
-    across_->smooth(measured, scratch.states);
+    scratch.innovations.resize(n);
+    across_->smooth(measured, scratch.states, scratch.innovations);
+    set_inflation(from, first, last, scratch);
     if (along_) {
         // What the speed measures is the velocity along the way that the positions tell.
         for (std::size_t i = 0; i < n; ++i) {
@@ -228,8 +422,10 @@ void MotionEstimate::estimate(PointRange piece, PointIndex first, PointIndex las
     }
 }
 
-void MotionEstimate::sigmas(int derivative, PointRange piece, PointIndex first, std::span<double> out) const {
+void MotionEstimate::sigmas(int derivative, PointRange piece, PointIndex first, const Scratch& scratch,
+                            std::span<double> out) const {
     best(derivative).sigmas(derivative, piece.size(), first - piece.first, out);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] *= scale_ * std::sqrt(scratch.inflation[i]);
 }
 
 std::string MotionEstimate::note(int derivative) const {
@@ -237,6 +433,9 @@ std::string MotionEstimate::note(int derivative) const {
         fmt::format("Kalman smoother: positions \u00b1{:.2g} \u00b5m", model_.position_sigma * um_per_mm);
     const double speed = along_ ? along_->model().speed_sigma : model_.speed_sigma;
     if (std::isfinite(speed)) text += fmt::format(", speeds \u00b1{:.2g} mm/min", speed * seconds_per_minute);
+    const double lead = along_ ? path_speed_lead_ : component_lead_[0];
+    if (lead != 0)
+        text += fmt::format(", {:.3g} records {} the positions", std::abs(lead), lead > 0 ? "ahead of" : "behind");
     if (model_.has_acceleration())
         text += fmt::format(", accelerations \u00b1{:.2g} mm/s\u00b2", model_.acceleration_sigma);
     const double left = sigma(derivative);

@@ -8,6 +8,17 @@
 // direction comes from a first smoothing of the positions alone, whose error is across the path, where it
 // does not matter to first order. Channels `speed.x` … and `acceleration.x` … measure components. Theirs is
 // the uncertainty with which they agree with the positions.
+//
+// Controls record some signals earlier than others: LinuxCNC's speed belongs to the position two records later.
+// A channel is therefore first shifted by the lead at which it agrees best with what the positions tell.
+//
+// A machine does not move like the model: its acceleration jumps. Where a position is far from its prediction, the
+// standard deviations grow with it (Mehra 1972, "Approaches to adaptive filtering": the innovations tell whether a
+// filter is consistent). What then remains is measured: from every second record the speeds at these records are
+// estimated and compared with the differences of the records held out, and the path's speed with its channel. All
+// standard deviations are scaled so that three of them hold 99 % of these errors. Where their mean square then still
+// exceeds twice what is stated (the normalised estimation error squared of Bar-Shalom et al. 2001, section 5.4), the
+// estimate is refused.
 
 #include <array>
 #include <optional>
@@ -28,6 +39,7 @@ enum class DerivativeMethod : std::uint8_t {
 class MotionEstimate {
 public:
     /// `log` and `path` must outlive it. `pieces` are smoothed each by itself. O(points), at most some 10^5 of them.
+    /// Throws InputError: the errors are more than what can be stated of them.
     MotionEstimate(const Log& log, const Trajectory& path, const std::vector<PointRange>& pieces);
 
     /// Estimates at points [first, last] of a piece. Scratch is kept between calls.
@@ -35,16 +47,23 @@ public:
         std::array<std::array<std::vector<double>, 3>, 3> measured;  ///< by derivative, axis
         std::vector<double> path_speed;
         std::vector<SmoothedState> states, with_speed;
+        std::vector<Eigen::Array4d> innovations;  ///< of the positions, in standard deviations
+        std::vector<double> inflation;            ///< of the variances at the points that were estimated last, from 1
     };
     /// `out[d][axis][i]`: derivative d of point first + i [mm/s^d]; NaN where the position is missing.
     void estimate(PointRange piece, PointIndex first, PointIndex last, Scratch& scratch,
                   std::array<std::array<std::vector<double>, 3>, 4>& out) const;
 
     /// Standard deviation of the speed (derivative 1), of a component of acceleration (2) or jerk (3), and of a
-    /// position (0), at points [first, first + out.size()) of a piece.
-    void sigmas(int derivative, PointRange piece, PointIndex first, std::span<double> out) const;
-    /// Far from the ends of pieces [mm/s^d].
-    [[nodiscard]] double sigma(int derivative) const { return best(derivative).sigma(derivative); }
+    /// position (0), at points [first, first + out.size()) of a piece. `scratch` is that of their estimate.
+    void sigmas(int derivative, PointRange piece, PointIndex first, const Scratch& scratch,
+                std::span<double> out) const;
+    /// Far from the ends of pieces and from jumps of the acceleration [mm/s^d].
+    [[nodiscard]] double sigma(int derivative) const { return scale_ * best(derivative).sigma(derivative); }
+    /// Normalised estimation error squared, measured in the log: 1 where the errors are as large as stated.
+    [[nodiscard]] double nees() const { return nees_; }
+    /// How many records the channel of the path's speed is ahead of the positions; 0: none is used.
+    [[nodiscard]] double speed_lead() const { return path_speed_lead_; }
 
     /// What was measured and with which uncertainty, for legends: "Kalman smoother, positions ± 0.29 µm …".
     [[nodiscard]] std::string note(int derivative) const;
@@ -57,14 +76,27 @@ private:
     void measure_positions(const std::vector<PointRange>& pieces);
     void measure_components(const std::vector<PointRange>& pieces);
     void measure_path_speed(const std::vector<PointRange>& pieces);
+    void calibrate(const std::vector<PointRange>& pieces);
     void read(PointIndex first, PointIndex last, Scratch& scratch) const;
+    void set_inflation(PointIndex from, PointIndex first, PointIndex last, Scratch& scratch) const;
+    /// Calls visit(scratch, i) for the points of the sampled sections, smoothed by their positions alone.
+    template <typename Visit>
+    void visit_samples(const std::vector<PointRange>& pieces, Visit&& visit) const;
     template <typename Residual>
     [[nodiscard]] double agreement(const std::vector<PointRange>& pieces, Residual&& residual) const;
+    template <typename Measured, typename Estimated>
+    [[nodiscard]] double lead_of(const std::vector<PointRange>& pieces, Measured&& measured,
+                                 Estimated&& estimated) const;
 
     const Log& log_;
     const Trajectory& path_;
     std::array<std::array<const Channel*, 3>, 2> components_{};  ///< speed.x …, acceleration.x …; nullptr: not measured
     const Channel* path_speed_ = nullptr;
+    std::array<double, 2> component_lead_{};  ///< records by which they are ahead of the positions
+    double path_speed_lead_ = 0;
+    bool rounding_rules_ = false;  ///< rounding is at least half the variance of the positions
+    double scale_ = 1;             ///< of all standard deviations
+    double nees_ = 1;              ///< normalised estimation error squared, as measured
     SmootherModel model_;
     std::optional<KalmanSmoother> across_;  ///< of all that is measured of the components
     std::optional<KalmanSmoother> along_;   ///< and of the path's speed
