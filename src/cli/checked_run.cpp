@@ -43,6 +43,7 @@ void declare_judging(po::options_description& options) {
         ("max-depth", po::value<std::string>()->value_name("LENGTH"), "exit code 1 if a defect is deeper, for example 5um or 0.005mm");
     // clang-format on
     declare_part(options);
+    declare_derivative(options);
 }
 
 }  // namespace clsurf::cli

@@ -7,6 +7,7 @@
 
 #include "cli/controller_command.h"
 #include "cli/known_tool.h"
+#include "cli/part.h"
 #include "cli/work_frames.h"
 #include "core/error.h"
 #include "core/file_name.h"
@@ -41,6 +42,7 @@ void declare_optimize(po::options_description& options) {
                           "how often --controller runs, the program itself included if it has no --log (default: 3)");
     declare_log_options(options);
     declare_work_offset(options);
+    declare_derivative(options);
     declare_simulation(options);
     declare_json(options);
     declare_program_options(options);
@@ -58,6 +60,7 @@ OptimizeRules read_optimize_rules(const po::variables_map& values) {
     if (rules.machines < 0 || rules.machines > 100) throw UsageError("--machines must be 0 to 100");
     if (values.count("feeds") > 0 && values["feeds"].as<std::string>() == "intervals")
         rules.feeds = FeedChoice::intervals;
+    rules.derivative = read_derivative(values);
     rules.start = read_start(values);
     rules.header = fmt::format("clsurf {} optimize, tolerance {} mm", version, rules.tolerance);
     return rules;

@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "cli/look.h"
 #include "cli/work_frames.h"
 #include "core/error.h"
 #include "core/spelling.h"
@@ -46,6 +47,10 @@ void declare_derivative(po::options_description& options) {
     // clang-format on
 }
 
+DerivativeMethod read_derivative(const po::variables_map& values) {
+    return text_of(values, "derivative", "savgol") == "kalman" ? DerivativeMethod::kalman : DerivativeMethod::savgol;
+}
+
 bool is_log(const io::Source& source, const io::LogOptions& options) {
     const bool is_program = io::forces_log(options) && io::looks_like_program(source);
     return !is_program && io::recognise_log(source, options) != nullptr;
@@ -84,12 +89,7 @@ PartOptions read_part_options(const po::variables_map& values) {
         if (!options.as_machined) options.role = parse_role(surface);
     }
     options.poses = read_work_offset(values);
-    if (values.count("derivative") > 0) {
-        const std::string method = values["derivative"].as<std::string>();
-        if (method != "savgol" && method != "kalman")
-            throw UsageError("--derivative: '" + method + "' is not savgol or kalman");
-        options.derivative = method == "kalman" ? DerivativeMethod::kalman : DerivativeMethod::savgol;
-    }
+    options.derivative = read_derivative(values);
     if (values.count("machine") > 0) options.machine = values["machine"].as<std::string>();
     return options;
 }

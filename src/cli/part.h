@@ -28,8 +28,9 @@ struct PartOptions {
 /// --dialect, --block-delete, --tools, --layout, --mapping, --period, --surface, --work-offset, --machine, --ignore-lines.
 /// `of_render`: --surface may be `formed` too, and the program may come alone.
 void declare_part(po::options_description& options, bool of_render = false);
-/// --derivative, of what shows fields.
+/// --derivative, of what derives speeds.
 void declare_derivative(po::options_description& options);
+[[nodiscard]] DerivativeMethod read_derivative(const po::variables_map& values);
 [[nodiscard]] PartOptions read_part_options(const po::variables_map& values);
 /// The same where a log may come alone, as the only argument: `program` is empty then.
 [[nodiscard]] PartOptions read_part_or_log_options(const po::variables_map& values);

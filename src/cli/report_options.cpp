@@ -27,6 +27,7 @@ void declare_report(po::options_description& options) {
     // clang-format on
     declare_tool(options);
     declare_part(options);
+    declare_derivative(options);
 }
 
 ReportOptions read_report_options(const po::variables_map& values) {

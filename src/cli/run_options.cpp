@@ -18,6 +18,7 @@ void declare_runs(po::options_description& options) {
     declare_work_offset(options);
     declare_force(options);
     declare_tool(options);
+    declare_derivative(options);
 }
 
 RunOptions read_run_options(const po::variables_map& values) {
@@ -34,6 +35,7 @@ RunOptions read_run_options(const po::variables_map& values) {
             options.kinematics = std::make_shared<const Kinematics>(options.machine.kinematics);
     }
     if (values.count("surface") > 0) options.role = parse_role(values["surface"].as<std::string>());
+    options.derivative = read_derivative(values);
     options.start = read_start(values);
     return options;
 }

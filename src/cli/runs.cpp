@@ -59,7 +59,9 @@ LoadedRun load_run(const std::string& path, const RunOptions& options) {
 
 ComparedRun run_of(const LoadedRun& run, const LoadedRun& other, const RunOptions& options) {
     const Role role = required_common_role(run.log, other.log, options.role);
-    return compared_run(run.log, other.log, reconstruct(run.log, role, run.pose, run.kinematics));
+    ComparedRun compared = compared_run(run.log, other.log, reconstruct(run.log, role, run.pose, run.kinematics));
+    compared.derivative = options.derivative;
+    return compared;
 }
 
 namespace {

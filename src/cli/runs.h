@@ -27,6 +27,7 @@ struct RunOptions {
     bool force = false;  ///< go on with a log that does not belong to `program`
     ToolChoice tool;
     std::optional<Role> role;  ///< none: commanded where all runs have it
+    DerivativeMethod derivative = DerivativeMethod::savgol;
 };
 
 /// --program, --machine, --start, --surface, --work-offset, --tool and what logs and programs need.

@@ -9,6 +9,7 @@
 #include "core/statistics.h"
 #include "field/field_set.h"
 #include "log/quantum.h"
+#include "surface/smoothing_segments.h"
 
 namespace clsurf {
 namespace {
@@ -177,11 +178,16 @@ Passes whole(const Trajectory& path) {
     return passes;
 }
 
+/// The two runs alike: windows reach as far as the coarser of them asks.
+Derivation derivation_of(const ComparedRun& run, const ComparedRun& other, const Passes& passes) {
+    return {estimate_motion(run.derivative, *run.log, run.path, passes), other.log->period};
+}
+
 void compare_motion(const ComparedRun& a, const ComparedRun& b, const ClSurface& surface, RunDifferences& out) {
     const Passes whole_a = whole(a.path);
     const Passes whole_b = whole(b.path);
-    const FieldSet of_a(*a.log, a.path, whole_a, {nullptr, b.log->period});
-    const FieldSet of_b(*b.log, b.path, whole_b, {nullptr, a.log->period});
+    const FieldSet of_a(*a.log, a.path, whole_a, derivation_of(a, b, whole_a));
+    const FieldSet of_b(*b.log, b.path, whole_b, derivation_of(b, a, whole_b));
     out.speed_of_a = of_a.get("speed").values;
     out.usual_speed = percentile_at_feed(out.speed_of_a, surface.passes, 0.95);
     out.of[index_of(RunQuantity::speed)] = out.speed_of_a;

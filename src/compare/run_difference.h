@@ -11,6 +11,7 @@
 #include "core/units.h"
 #include "log/log.h"
 #include "surface/cl_surface.h"
+#include "toolpath/motion_estimate.h"
 #include "toolpath/trajectory.h"
 
 namespace clsurf {
@@ -36,9 +37,10 @@ struct RunQuantityInfo {
 /// A run as it is compared.
 struct ComparedRun {
     const Log* log = nullptr;
-    Trajectory path;                                ///< runs are aligned by it
-    std::optional<Trajectory> commanded, measured;  ///< both: lags are compared
-    std::optional<Trajectory> truest;               ///< heights are compared along it; none: along `path`
+    Trajectory path;                                         ///< runs are aligned by it
+    std::optional<Trajectory> commanded, measured;           ///< both: lags are compared
+    std::optional<Trajectory> truest;                        ///< heights are compared along it; none: along `path`
+    DerivativeMethod derivative = DerivativeMethod::savgol;  ///< of speeds and accelerations
 };
 
 struct RunThresholds {

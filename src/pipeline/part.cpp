@@ -100,9 +100,7 @@ std::vector<Trajectory> other_roles(const Part& part) {
 }
 
 std::shared_ptr<const MotionEstimate> estimate_motion(const Part& part, const Passes& pieces) {
-    if (part.derivative == DerivativeMethod::savgol) return nullptr;
-    return std::make_shared<const MotionEstimate>(
-        part.log, part.path, split_at_standstills(smoothing_segments(part.log, pieces), part.path));
+    return estimate_motion(part.derivative, part.log, part.path, pieces);
 }
 
 }  // namespace clsurf

@@ -22,11 +22,12 @@ struct PartSignals {
 };
 
 /// The signals along any path of a log, whose surface that is. Heights are measured from the positions that
-/// measured_role() chooses (pipeline/roles.h). O(points), parallel.
+/// measured_role() chooses (pipeline/roles.h). `estimate`: as derive_signals() takes it. O(points), parallel.
 [[nodiscard]] PartSignals signals_along(const Log& log, const Trajectory& path, const ClSurface& surface,
-                                        std::optional<Role> wanted = std::nullopt);
+                                        std::optional<Role> wanted = std::nullopt,
+                                        const MotionEstimate* estimate = nullptr);
 
-/// The same of a part and its surface.
+/// The same of a part and its surface, by the part's derivative method.
 [[nodiscard]] PartSignals signals_of(const Part& part, const ClSurface& surface,
                                      std::optional<Role> wanted = std::nullopt);
 

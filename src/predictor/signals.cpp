@@ -128,11 +128,12 @@ void for_each_section(PointIndex count, const std::vector<PointRange>& pieces, F
 class Deriver {
 public:
     /// `usual_speed` [mm/s]; `quantum` [mm] of the path's positions.
-    Deriver(const ClSurface& surface, const Trajectory& path, const Trajectory* measured, double usual_speed,
-            double quantum, Signals& out)
+    Deriver(const ClSurface& surface, const Trajectory& path, const Trajectory* measured,
+            const MotionEstimate* estimate, double usual_speed, double quantum, Signals& out)
         : surface_(surface),
           path_(path),
           measured_(measured),
+          estimate_(estimate),
           out_(out),
           speed_(speed_filter(usual_speed, quantum, path.period)),
           acceleration_(acceleration_filter(usual_speed, quantum, path.period)),
@@ -142,6 +143,11 @@ public:
 
     /// `scatter` [mm]: position_noise().
     void note_noise(double quantum, double scatter, Signals& signals) const {
+        if (estimate_ != nullptr) {
+            signals.speed_noise = static_cast<float>(scatter_deviations * estimate_->sigma(1));
+            signals.acceleration_noise = static_cast<float>(scatter_deviations * estimate_->sigma(2));
+            return;
+        }
         const auto noise = [&](const DerivativeFilter& filter) {
             return static_cast<float>(
                 std::max(2 * quantum * filter.step_response(), scatter_deviations * scatter * noise_gain(filter)));
@@ -155,24 +161,24 @@ public:
         };
         signals.speed_note = note("speed", speed_.filter().points);
         signals.acceleration_note = note("acceleration", acceleration_.filter().points);
+        if (estimate_ != nullptr) {
+            signals.speed_note = "speed by a Kalman smoother";
+            signals.acceleration_note = "acceleration by a Kalman smoother";
+        }
         signals.height_note = note("heights", static_cast<int>(2 * smoother_.reach() + 1));
     }
 
     void derive_motion(PointRange piece, PointIndex first, PointIndex last) const {
-        const PointIndex reach = std::max(speed_.reach(), acceleration_.reach());
-        const PointIndex from = std::max(piece.first, first - reach);
-        const PointIndex to = std::min(piece.last, last + reach);
-        Axes samples;
-        read(path_, from, to, samples);
         const auto n = static_cast<std::size_t>(last - first + 1);
-        Axes v;
-        Axes a;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            v[axis].resize(n);
-            a[axis].resize(n);
-            speed_.apply(samples[axis], from, piece, first, v[axis]);
-            acceleration_.apply(samples[axis], from, piece, first, a[axis]);
+        std::array<Axes, 4> derived;
+        if (estimate_ != nullptr) {
+            MotionEstimate::Scratch scratch;
+            estimate_->estimate(piece, first, last, scratch, derived);
+        } else {
+            derive_over_windows(piece, first, last, derived);
         }
+        const Axes& v = derived[1];
+        const Axes& a = derived[2];
         for (std::size_t k = 0; k < n; ++k) {
             const auto i = first + static_cast<PointIndex>(k);
             const Vec3 velocity(v[0][k], v[1][k], v[2][k]);
@@ -220,6 +226,21 @@ public:
     }
 
 private:
+    void derive_over_windows(PointRange piece, PointIndex first, PointIndex last, std::array<Axes, 4>& derived) const {
+        const PointIndex reach = std::max(speed_.reach(), acceleration_.reach());
+        const PointIndex from = std::max(piece.first, first - reach);
+        const PointIndex to = std::min(piece.last, last + reach);
+        Axes samples;
+        read(path_, from, to, samples);
+        const auto n = static_cast<std::size_t>(last - first + 1);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            derived[1][axis].resize(n);
+            derived[2][axis].resize(n);
+            speed_.apply(samples[axis], from, piece, first, derived[1][axis]);
+            acceleration_.apply(samples[axis], from, piece, first, derived[2][axis]);
+        }
+    }
+
     /// The normal at a point, and how far the point lies above the chord between its neighbours.
     float measure_relief(PointIndex i, Eigen::Vector3f& normal) const {
         normal.setConstant(missing<float>);
@@ -280,6 +301,7 @@ private:
     const ClSurface& surface_;
     const Trajectory& path_;
     const Trajectory* measured_;
+    const MotionEstimate* estimate_;
     Signals& out_;
     Differentiator speed_, acceleration_;
     Smoother smoother_;
@@ -385,7 +407,7 @@ std::vector<std::string> reasons_against(const Trajectory& path) {
 }  // namespace
 
 Signals derive_signals(const ClSurface& surface, const Trajectory& path, const Trajectory* measured,
-                       const std::vector<PointRange>& smooth, double end_zone) {
+                       const std::vector<PointRange>& smooth, double end_zone, const MotionEstimate* estimate) {
     Signals signals;
     // Where loops are joined the speed sideways is not that of the pass.
     std::vector<PointRange> pieces;
@@ -397,7 +419,7 @@ Signals derive_signals(const ClSurface& surface, const Trajectory& path, const T
     signals.pieces = pieces;
     const float quantum = quantum_of_axes(path);
     signals.quantum = measured != nullptr ? std::max(quantum, quantum_of_axes(*measured)) : quantum;
-    const Deriver deriver(surface, path, measured, usual_speed_of(surface, path.period), quantum, signals);
+    const Deriver deriver(surface, path, measured, estimate, usual_speed_of(surface, path.period), quantum, signals);
     deriver.note_windows(signals);
     signals.unfit = reasons_against(path);
     deriver.note_noise(quantum, position_noise(path, pieces), signals);

@@ -8,6 +8,7 @@
 
 #include "numeric/derivative.h"
 #include "surface/cl_surface.h"
+#include "toolpath/motion_estimate.h"
 #include "toolpath/trajectory.h"
 
 namespace clsurf {
@@ -67,7 +68,10 @@ struct Signals {
 ///
 /// The lag is where the measured path crosses the plane through the commanded point normal to the
 /// feed: a lag *along* the path, which says nothing about the surface, drops out.
+///
+/// `estimate`: speeds and accelerations are those of a Kalman smoother; nullptr: of least squares over windows.
 [[nodiscard]] Signals derive_signals(const ClSurface& surface, const Trajectory& path, const Trajectory* measured,
-                                     const std::vector<PointRange>& pieces, double end_zone);
+                                     const std::vector<PointRange>& pieces, double end_zone,
+                                     const MotionEstimate* estimate = nullptr);
 
 }  // namespace clsurf

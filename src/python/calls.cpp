@@ -51,8 +51,10 @@ PartRules rules_of(const PartOptions& options) {
 
 ComparedRun compared(const Part& part, const Part& other) {
     const Role role = required_common_role(part.log, other.log);
-    return compared_run(part.log, other.log,
-                        part.path.role == role ? part.path : reconstruct_like(part.log, role, part.path));
+    ComparedRun run = compared_run(part.log, other.log,
+                                   part.path.role == role ? part.path : reconstruct_like(part.log, role, part.path));
+    run.derivative = part.derivative;
+    return run;
 }
 
 std::vector<Part> copies(const Parts& parts, Diagnostics& diagnostics) {

@@ -94,7 +94,8 @@ private:
     }
 
     [[nodiscard]] JudgedRun judged(Log log, const Program& program, const QualityRules& quality) {
-        return judge_run(std::move(log), program, quality, diagnostics_, nullptr, ProgramIdentity::unknown);
+        return judge_run(std::move(log), program, quality, diagnostics_, nullptr, ProgramIdentity::unknown,
+                         rules_.derivative);
     }
 
     /// Why a log does not show how the program ran; empty: it does.

@@ -76,7 +76,7 @@ JudgedRun Ensemble::judged(const Program& program, const Machine& machine, const
     const std::shared_ptr<const Kinematics> kinematics =
         kinematics_ == nullptr ? nullptr : std::make_shared<const Kinematics>(machine.kinematics);
     return judge_run(simulate_to_log(program, machine, rules_.start, {}, rules_.zero).log, program, as_check,
-                     of_mapping, kinematics);
+                     of_mapping, kinematics, ProgramIdentity::same, rules_.derivative);
 }
 
 EnsembleResult Ensemble::run(const Program& changed) {

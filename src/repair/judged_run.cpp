@@ -11,6 +11,7 @@
 #include "pipeline/roles.h"
 #include "pipeline/signals_of.h"
 #include "predictor/quality_fields.h"
+#include "surface/smoothing_segments.h"
 #include "surface/stitch.h"
 
 namespace clsurf {
@@ -35,14 +36,17 @@ std::size_t defects_by_check(const JudgedRun& run, const Program& program) {
 }
 
 JudgedRun judge_run(Log log, const Program& program, const QualityRules& rules, Diagnostics& diagnostics,
-                    std::shared_ptr<const Kinematics> kinematics, ProgramIdentity identity) {
+                    std::shared_ptr<const Kinematics> kinematics, ProgramIdentity identity,
+                    DerivativeMethod derivative) {
     JudgedRun run;
     run.log = std::move(log);
     const Eigen::Isometry3d pose = pose_of(run.log).value_or(Eigen::Isometry3d::Identity());
     run.path = reconstruct(run.log, shown_role(run.log), pose, std::move(kinematics));
     run.lines = std::make_unique<LineMap>(map_lines(run.path, run.log, program, true, diagnostics, identity));
     run.surface = stitch(gather(run.path), *run.lines);
-    run.signals = signals_along(run.log, run.path, run.surface).signals;
+    const std::shared_ptr<const MotionEstimate> estimate =
+        estimate_motion(derivative, run.log, run.path, run.surface.passes);
+    run.signals = signals_along(run.log, run.path, run.surface, std::nullopt, estimate.get()).signals;
     run.report = find_defects(run.surface, run.signals, *run.lines, program, run.log.period, rules);
     run.duration = time_in_motion(run.surface, run.log.period);
     run.speed_differences = speed_differences(run.surface, run.signals);

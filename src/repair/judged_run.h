@@ -37,9 +37,10 @@ struct JudgedRun {
 
 /// Stitches the surface of a log and judges it by `rules`. Adds diagnostics about lines to `diagnostics`. `kinematics`: of a
 /// machine whose rotary axes the log has; the program's motions are then those of the tip. `identity`: what is known of
-/// the program that ran; `same` for a simulation. O(points), parallel.
+/// the program that ran; `same` for a simulation. `derivative`: how speeds and accelerations are derived. O(points), parallel.
 [[nodiscard]] JudgedRun judge_run(Log log, const Program& program, const QualityRules& rules, Diagnostics& diagnostics,
                                   std::shared_ptr<const Kinematics> kinematics = nullptr,
-                                  ProgramIdentity identity = ProgramIdentity::same);
+                                  ProgramIdentity identity = ProgramIdentity::same,
+                                  DerivativeMethod derivative = DerivativeMethod::savgol);
 
 }  // namespace clsurf

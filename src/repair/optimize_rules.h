@@ -9,6 +9,7 @@
 #include "machined/tool.h"
 #include "mapping/program_match.h"
 #include "predictor/defect.h"
+#include "toolpath/motion_estimate.h"
 
 namespace clsurf {
 
@@ -37,9 +38,10 @@ struct OptimizeRules {
     Vec3 start = Vec3::Zero();  ///< [mm] where the axes stand before the program
     Vec3 zero = Vec3::Zero();   ///< [mm] machine position of its zero, on five axes
     QualityRules quality = judged_place_by_place();
-    std::optional<CuttingTool> tool;  ///< whose surface must not get rougher; three axes
-    int machines = 4;                 ///< of the ensemble that must be better; 0: the nominal machine alone decides
-    bool all_finalists = false;       ///< lists all, instead of the best that the ensemble accepts
+    DerivativeMethod derivative = DerivativeMethod::savgol;  ///< of the runs that are judged
+    std::optional<CuttingTool> tool;                         ///< whose surface must not get rougher; three axes
+    int machines = 4;            ///< of the ensemble that must be better; 0: the nominal machine alone decides
+    bool all_finalists = false;  ///< lists all, instead of the best that the ensemble accepts
     ProgramIdentity identity = ProgramIdentity::unknown;  ///< of the program that a recorded run ran
     std::string header;  ///< text of the comment that says where the program comes from
 };

@@ -147,8 +147,8 @@ private:
     }
 
     Measured judge_measured(Log log) {
-        const JudgedRun run =
-            judge_run(std::move(log), program_, rules_.quality, diagnostics_, evaluator_.kinematics(), rules_.identity);
+        const JudgedRun run = judge_run(std::move(log), program_, rules_.quality, diagnostics_, evaluator_.kinematics(),
+                                        rules_.identity, rules_.derivative);
         if (run.surface.step_over <= 0)
             throw InputError(Place::of_file(run.log.name),
                              "has no adjacent passes: it does not show which passes differ");

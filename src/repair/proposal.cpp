@@ -36,7 +36,8 @@ Evaluator::Evaluator(const Program& program, const ReadProgram& read, const Mach
     }
     SimulatedRun simulated = simulate_to_log(program_, machine_, rules_.start, progress_, rules_.zero);
     summary_before_ = std::move(simulated.summary);
-    before_ = judge_run(std::move(simulated.log), program_, rules_.quality, diagnostics_, kinematics_);
+    before_ = judge_run(std::move(simulated.log), program_, rules_.quality, diagnostics_, kinematics_,
+                        ProgramIdentity::same, rules_.derivative);
 }
 
 bool Evaluator::has_time(double share) const {
@@ -112,7 +113,8 @@ Proposal Evaluator::prove(const std::shared_ptr<const Draft>& draft, std::vector
     // A cleaner run must not be judged more strictly for being cleaner.
     QualityRules as_before = rules_.quality;
     as_before.fixed = before_.report.thresholds;
-    result.run = judge_run(std::move(simulated.log), changed, as_before, diagnostics_, kinematics_);
+    result.run = judge_run(std::move(simulated.log), changed, as_before, diagnostics_, kinematics_,
+                           ProgramIdentity::same, rules_.derivative);
     evaluation.defects_before = before_.report.defects.size();
     evaluation.defects_after = result.run.report.defects.size();
     evaluation.reason = objection(result);

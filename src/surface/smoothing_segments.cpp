@@ -106,4 +106,11 @@ std::vector<PointRange> split_at_standstills(const std::vector<PointRange>& piec
     return split;
 }
 
+std::shared_ptr<const MotionEstimate> estimate_motion(DerivativeMethod method, const Log& log, const Trajectory& path,
+                                                      const Passes& passes) {
+    if (method == DerivativeMethod::savgol) return nullptr;
+    return std::make_shared<const MotionEstimate>(log, path,
+                                                  split_at_standstills(smoothing_segments(log, passes), path));
+}
+
 }  // namespace clsurf

@@ -340,6 +340,9 @@ clsurf_cli_test(NAME moves_tool_axis SETUP "${trunnion} && printf 'G90 G0 X0 Y0 
 clsurf_cli_test(NAME kalman_query ARGS query ${part} ${run} --point 4848 --derivative kalman --json STDOUT "\"acceleration_uncertainty_mm_s2\": [0-9.]+" "\"speed_uncertainty_mm_min\"")
 clsurf_cli_test(NAME kalman_renders ARGS render ${part} ${run} --derivative kalman --color acceleration_uncertainty --size 200x150 -o u.png FILE u.png)
 clsurf_cli_test(NAME uncertainty_needs_kalman ARGS export ${part} ${run} -o out.csv --columns speed_uncertainty EXIT 2 STDERR "--derivative kalman")
+clsurf_cli_test(NAME kalman_check ARGS check @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip --derivative kalman -v STDOUT "85 % slower" "speed by a Kalman smoother")
+clsurf_cli_test(NAME kalman_diff ARGS diff @LOGS@/bottle_uneven.biip @LOGS@/bottle_uneven.biip --derivative kalman STDOUT "speed .mm/min. +0.00 +0.00 +0.00")
+clsurf_cli_test(NAME kalman_report ARGS report @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip --derivative kalman -o page.html FILE page.html)
 clsurf_cli_test(NAME derivative_unknown ARGS query ${part} ${run} --point 1 --derivative kalmann EXIT 2 STDERR "not one of savgol, kalman")
 
 # ---- controller simulation ----
