@@ -8,7 +8,7 @@
 #include "cli/defect_card.h"
 #include "cli/picture_output.h"
 #include "cli/plot_options.h"
-#include "cli/profile.h"
+#include "cli/plot_profile.h"
 #include "core/file_name.h"
 #include "pipeline/part_fields.h"
 #include "viz/field_classes.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/profile.h"
+#include "cli/plot_profile.h"
 #include "core/error.h"
 
 namespace clsurf::cli {

@@ -1,93 +1,127 @@
-#include "cli/profile.h"
+// clsurf profile: a tool path from scanned points.
 
-#include <limits>
+#include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
-#include "cli/as_machined.h"
+#include "cli/options.h"
+#include "cli/output_format.h"
 #include "cli/picture_output.h"
+#include "cli/profile_options.h"
+#include "cli/profile_picture.h"
 #include "core/file_name.h"
-#include "io/reports/profile_report.h"
-#include "machined/as_machined_profile.h"
+#include "io/readers/program_file.h"
+#include "io/reports/cut_report.h"
+#include "scan/cut_program.h"
 
 namespace clsurf::cli {
+namespace {
 
-void declare_profile(po::options_description& options) {
-    // clang-format off
-    options.add_options()
-        ("profile", po::value<std::string>()->value_name("X0,Y0,X1,Y1"), "instead of curves, a section through the as-machined surface between two places [mm], with Ra and Rz; needs --tool");
-    // clang-format on
-    declare_tool(options);
+/// The plane of the cut: Y of a scan that has it.
+double plane_of(const MeasuredData& data) {
+    if (data.kind == MeasuredKind::profile) return 0;
+    const auto [least, most] = std::minmax_element(data.points.begin(), data.points.end(),
+                                                   [](const Vec3& a, const Vec3& b) { return a.y() < b.y(); });
+    constexpr double play = 1e-3;  // mm
+    if (data.kind == MeasuredKind::areal || most->y() - least->y() > play)
+        throw InputError(Place::of_file(data.name), "is not a profile: its points do not have one y",
+                         "--x and --z choose the columns of a profile");
+    return least->y();
 }
 
-bool asks_for_profile(const po::variables_map& values) {
-    const bool asked = values.count("profile") > 0;
-    if (!asked && given(values, "tool"))
-        throw UsageError("--tool is of --profile only", "--profile 10,0,10,5 --tool ball:6");
-    if (!asked && given(values, "json")) throw UsageError("--json is of --profile: curves are only drawn");
-    if (!asked) return false;
-    for (const char* name : {"fields", "over", "from", "to", "line", "mark-point"}) {
-        if (given(values, name)) throw UsageError(fmt::format("--{} is of curves, not of --profile", name));
-    }
-    return true;
+/// The program as it will be read from the file.
+Program read_written(const std::string& name, const std::string& text, const std::string& dialect) {
+    const auto kept = std::make_shared<const std::string>(text);
+    const io::Source source{name, std::as_bytes(std::span(kept->data(), kept->size())), kept};
+    io::ProgramOptions options;
+    options.dialect = dialect;
+    return io::read_program(source, options);
 }
 
-ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz::ChartLook look,
-                      const std::string& output_name) {
+std::string program_of(const ScanCut& cut, const ProfileOptions& options, const MeasuredData& data) {
+    const auto highest = std::max_element(cut.path.samples().begin(), cut.path.samples().end(),
+                                          [](const Vec2& a, const Vec2& b) { return a.y() < b.y(); });
+    const std::string name = file_name(data.name);
+    const CutProgramRules rules{options.dialect, name, options.feed, std::ceil(highest->y() + options.clearance),
+                                plane_of(data)};
+    return options.splines ? span_program(cut.path.spans(), rules) : line_program(cut.path.points(), rules);
+}
+
+ExitCode run_profile(const po::variables_map& values) {
+    const std::string scan = required(values, "SCAN");
+    const std::string path = required(values, "output");
     const bool json = read_json_beside_output(values);
-    if (options.program.empty()) throw UsageError("--profile needs the program: PROGRAM LOG");
-    const std::vector<double> ends = parse_numbers(values["profile"].as<std::string>(), "--profile", 4);
-    const Vec2 from(ends[0], ends[1]);
-    const Vec2 to(ends[2], ends[3]);
-    constexpr double longest = 1000;  // mm: some 10^7 values
-    if (!((to - from).norm() > 0 && (to - from).norm() <= longest))
-        throw UsageError(fmt::format("--profile: from one place to another, at most {:g} mm apart", longest));
-    const std::optional<Role> role = take_measured_role(options);
-    PictureOutput output(output_name, "-o", PictureKind::drawing);
-    look.keep_drawing = output.wants_drawing();
-    StageClock clock(read_common(values), 7);
-    const Part part = load_part(options, clock);
-    if (!json) print(part.diagnostics, values);
-    const CuttingTool tool = required_tool(part, "--profile", "--profile 10,0,10,5 --tool ball:6");
-    clock.begin("stitch the surface");
-    const ClSurface surface = stitch(part);
-    clock.begin("sweep the tool");
-    const AsMachinedPart as_machined(part, surface, role, tool);
-    const AsMachinedProfile profile = measure_profile(as_machined.surface(), from, to);
-    if (profile.count < 2) throw UsageError("--profile: nothing was cut between the two places");
-
-    std::vector<double> x(profile.deviation.size());
-    viz::Curve whole{"Formed surface over its form (µm)", {}};
-    viz::Curve rough{fmt::format("Roughness: waviness taken off, cut-off {:g} mm (µm)", profile.roughness.cutoff),
-                     std::vector<double>(x.size(), std::numeric_limits<double>::quiet_NaN())};
-    for (std::size_t k = 0; k < x.size(); ++k) {
-        x[k] = profile.step * static_cast<double>(k);
-        whole.values.push_back(profile.deviation[k] * um_per_mm);
+    const ProfileOptions options = read_profile_options(values);
+    require_program_ending(path);
+    const MeasuredData data = io::read_measured(scan, options.columns);
+    (void)plane_of(data);
+    io::AtomicFile output(path);
+    std::optional<PictureOutput> picture;
+    if (values.count("picture") > 0)
+        picture.emplace(values["picture"].as<std::string>(), "--picture", PictureKind::drawing);
+    const ScanCut cut = scan_cut(data.name, placed_scan(data.points, options.mount), options.cut);
+    const std::string text = program_of(cut, options, data);
+    const Program program = read_written(path, text, options.dialect);
+    io::CutReport report{data.name,
+                         path,
+                         options.dialect,
+                         data.points.size(),
+                         data.missing,
+                         options.cut,
+                         read_back(program, cut.path),
+                         options.splines};
+    const double rounding = std::pow(10.0, -cut_decimals);
+    if (report.written.deviation > options.cut.tolerance + rounding)
+        throw InputError(
+            Place::of_file(data.name),
+            fmt::format("the program would be {:.4f} mm away from the fit, beyond the tolerance: it is not written",
+                        report.written.deviation));
+    output.write(text);
+    output.commit();
+    if (picture) draw_fit(report, cut, *picture);
+    if (json) {
+        write_to_stdout(io::cut_json(report, cut, program.diagnostics));
+    } else {
+        print(program.diagnostics, values);
+        write_answer(io::cut_text(report, cut), values);
     }
-    const std::span<const double> known = std::span(profile.deviation).subspan(profile.first, profile.count);
-    const std::vector<double> waviness = gaussian_mean_line(known, profile.step, profile.roughness.cutoff);
-    for (std::size_t k = 0; k < known.size(); ++k)
-        rough.values[profile.first + k] = (known[k] - waviness[k]) * um_per_mm;
-
-    const Roughness& r = profile.roughness;
-    look.title =
-        fmt::format("Profile of the formed surface: Ra {:.2f} µm, Rz {:.2f} µm", r.ra * um_per_mm, r.rz * um_per_mm);
-    look.subtitle = fmt::format("{} · {} · X {:g} Y {:g} to X {:g} Y {:g}", file_name(options.program),
-                                file_name(options.log), ends[0], ends[1], ends[2], ends[3]);
-    look.x_label = "along the profile (mm)";
-    look.footnote = fmt::format(
-        "{}, {}; {} of {:.3g} mm evaluated", to_text(tool), as_machined.surface().note(),
-        r.sampling_lengths == 1 ? "one sampling length" : fmt::format("{} sampling lengths", r.sampling_lengths),
-        r.length / r.sampling_lengths);
-    clock.begin("draw");
-    output.write(viz::draw_chart(x, {whole, rough}, {}, look), look.title);
-    clock.end();
-    const io::ProfileReport report{from, to, profile.step * static_cast<double>(profile.count), r};
-    if (json)
-        write_to_stdout(io::profile_json(report, part.diagnostics));
-    else
-        write_answer(io::profile_text(report), values);
     return ExitCode::done;
+}
+
+}  // namespace
+
+Subcommand profile_subcommand() {
+    return {
+        .name = "profile",
+        .arguments = "SCAN -o cut.nc",
+        .summary = "a tool path from scanned points",
+        .description =
+            "SCAN has points along X, as delimited text (comma, semicolon, tab or blanks): x and z in mm, or in the unit that\n"
+            "stands behind the column's name, z [µm]. Outliers are rejected. Polynomials are fitted to windows of points, by\n"
+            "least squares, and joined. The program has lines or splines that stay within the tolerance of the fit, in the XZ\n"
+            "plane. It is read again and compared with the fit before the file appears. Tool, spindle and work offset are for\n"
+            "you to add.\n\n"
+            "The window decides what is form and what is noise: a long one is smooth and misses short waves. --picture shows\n"
+            "what is left between points and fit.\n\n"
+            "With --tool-offset a ball leaves the profile. If it would cut below it, because the profile is tighter than the\n"
+            "ball, the message says where, and no program is written.\n\n"
+            "  clsurf profile scan.csv -o cut.ngc\n"
+            "  clsurf profile scan.csv --window 30 --tool-offset 3 --picture fit.png -o cut.ngc\n"
+            "  clsurf profile laser.txt --x 0 --z 2 --distance 120 --sensor-offset 35 --dialect siemens --blocks splines -o cut.mpf",
+        .declare =
+            [](po::options_description& options) {
+                // clang-format off
+                options.add_options()
+                    ("output,o", po::value<std::string>()->value_name("FILE"), "the NC program")
+                    ("picture", po::value<std::string>()->value_name("FILE"), "fit and residuals as a picture");
+                // clang-format on
+                declare_profile_options(options);
+                declare_json(options);
+            },
+        .positional = {"SCAN"},
+        .run = run_profile,
+    };
 }
 
 }  // namespace clsurf::cli

@@ -55,6 +55,7 @@ struct Subcommand {
 [[nodiscard]] Subcommand moves_subcommand();
 [[nodiscard]] Subcommand optimize_subcommand();
 [[nodiscard]] Subcommand plot_subcommand();
+[[nodiscard]] Subcommand profile_subcommand();
 [[nodiscard]] Subcommand query_subcommand();
 [[nodiscard]] Subcommand record_subcommand();
 [[nodiscard]] Subcommand render_subcommand();

@@ -8,11 +8,12 @@ namespace clsurf::cli {
 
 std::span<const Subcommand> subcommands() {
     static const std::vector<Subcommand> table{
-        render_subcommand(), check_subcommand(),     align_subcommand(),    report_subcommand(),  query_subcommand(),
-        info_subcommand(),   moves_subcommand(),     plot_subcommand(),     export_subcommand(),  convert_subcommand(),
-        record_subcommand(), simulate_subcommand(),  identify_subcommand(), diff_subcommand(),    optimize_subcommand(),
-        lint_subcommand(),   intervals_subcommand(), compare_subcommand(),  machine_subcommand(), history_subcommand(),
-        fleet_subcommand(),  help_subcommand(),      manual_subcommand(),
+        render_subcommand(),   check_subcommand(),     align_subcommand(),    report_subcommand(),
+        query_subcommand(),    info_subcommand(),      moves_subcommand(),    plot_subcommand(),
+        export_subcommand(),   convert_subcommand(),   record_subcommand(),   simulate_subcommand(),
+        identify_subcommand(), diff_subcommand(),      optimize_subcommand(), profile_subcommand(),
+        lint_subcommand(),     intervals_subcommand(), compare_subcommand(),  machine_subcommand(),
+        history_subcommand(),  fleet_subcommand(),     help_subcommand(),     manual_subcommand(),
     };
     return table;
 }

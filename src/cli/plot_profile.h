@@ -1,5 +1,5 @@
 #pragma once
-// Profile: `plot --profile`, a cut across the formed surface with its roughness.
+// `plot --profile`: a cut across the formed surface with its roughness.
 
 #include <string>
 

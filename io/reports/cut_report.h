@@ -1,0 +1,30 @@
+#pragma once
+// What became of a scan: the points, the fit, and the program of `profile`, as text and JSON.
+
+#include <string>
+
+#include "core/diagnostic.h"
+#include "scan/read_back.h"
+#include "scan/scan_cut.h"
+
+namespace clsurf::io {
+
+struct CutReport {
+    std::string scan, output, dialect;
+    std::size_t read = 0;     ///< points
+    std::size_t missing = 0;  ///< places without a height
+    ScanCutRules rules;
+    ReadBack written;
+    bool splines = false;
+};
+
+[[nodiscard]] std::string cut_text(const CutReport& report, const ScanCut& cut);
+/// Keys: file, output, dialect, points, missing, rejected, rejected_mm[][x, z], averaged, scatter_mm, outliers, degree,
+/// window, join, pieces, x_mm[2], rms_residual_mm, max_residual_mm, max_residual_at_mm, window_jumps{count, rms_mm, max_mm,
+/// max_at_mm, max_slope}, tool_offset_mm, blocks, output_points, tolerance_mm, chord_error_mm, diagnostics[].
+/// chord_error_mm is of the written program, read again.
+[[nodiscard]] std::string cut_json(const CutReport& report, const ScanCut& cut, const Diagnostics& diagnostics);
+
+[[nodiscard]] std::string_view name_of(WindowJoin join);
+
+}  // namespace clsurf::io

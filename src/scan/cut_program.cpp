@@ -1,0 +1,147 @@
+#include "scan/cut_program.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace clsurf {
+namespace {
+
+std::string number(double value, bool plus) {
+    std::string text = fmt::format("{:.{}f}", value, cut_decimals);
+    if (std::stod(text) == 0) text = fmt::format("{:.{}f}", 0.0, cut_decimals);
+    while (text.back() == '0') text.pop_back();
+    if (text.back() == '.') text.pop_back();
+    return plus && text.front() != '-' ? "+" + text : text;
+}
+
+/// Letters, digits and a few marks: what no dialect takes for anything but a comment.
+std::string comment_text(std::string_view text) {
+    std::string kept;
+    for (const char c : text) {
+        const bool plain = (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' ||
+                           c == '_' || c == '-' || c == ' ';
+        kept += plain ? c : '_';
+    }
+    return kept;
+}
+
+/// Writes blocks as a dialect has them.
+class BlockWriter {
+public:
+    explicit BlockWriter(const CutProgramRules& rules)
+        : rules_(rules), klartext_(rules.dialect == "klartext"), iso_(rules.dialect == "heidenhain-iso") {}
+
+    void begin(const Vec2& first) {
+        const std::string comment =
+            fmt::format("profile of {}: add tool, spindle and work offset", comment_text(rules_.name));
+        if (klartext_) {
+            block("BEGIN PGM PROFILE MM");
+            block("; " + comment);
+        } else if (iso_) {
+            text_ += "%PROFILE G71 *\n";
+            block("; " + comment);
+            block("G90");
+        } else {
+            const bool siemens = rules_.dialect == "siemens";
+            if (rules_.dialect == "fanuc") text_ += "%\nO0001\n";
+            block(siemens ? "; " + comment : "(" + comment + ")");
+            block(siemens ? "G710 G90 G94 G17" : "G21 G90 G94 G17");
+        }
+        rapid(axis('Z', rules_.clearance_z));
+        rapid(axis('X', first.x()) + " " + axis('Y', rules_.y));
+        at_ = {first.x(), rules_.clearance_z};
+        line(first, true);
+    }
+    void line(const Vec2& to, bool with_feed = false) {
+        std::string words;
+        if (axis('X', to.x()) != axis('X', at_.x())) words += axis('X', to.x()) + " ";
+        if (axis('Z', to.y()) != axis('Z', at_.y())) words += axis('Z', to.y()) + " ";
+        at_ = to;
+        if (words.empty()) return;
+        words.pop_back();
+        const std::string feed = with_feed ? fmt::format(" F{:g}", rules_.feed) : "";
+        block((klartext_ ? "L " : iso_ ? "G01 " : "G1 ") + words + feed);
+    }
+    void span(const CutSpan& span) {
+        const Vec2 second = 3 * (span.end - span.begin) - 2 * span.begin_slope - span.end_slope;
+        const Vec2 third = span.begin_slope + span.end_slope - 2 * (span.end - span.begin);
+        if (klartext_) {
+            // From the end: t runs from 1 to 0.
+            const Vec2 k3 = -third, k2 = second + 3 * third, k1 = -(span.begin_slope + 2 * second + 3 * third);
+            const auto factors = [&](char name, int i) {
+                return fmt::format("K3{0}{1:+.9f} K2{0}{2:+.9f} K1{0}{3:+.9f}", name, k3[i], k2[i], k1[i]);
+            };
+            block(fmt::format("SPL {} {} {} {}", axis('X', span.end.x()), axis('Z', span.end.y()), factors('X', 0),
+                              factors('Z', 1)));
+        } else {
+            const auto factors = [&](char name, int i) {
+                return fmt::format("PO[{}]=({},{:.9f},{:.9f})", name, number(span.end[i], false), second[i], third[i]);
+            };
+            block(fmt::format("POLY {} {}", factors('X', 0), factors('Z', 1)));
+        }
+        at_ = span.end;
+    }
+    [[nodiscard]] std::string end() {
+        rapid(axis('Z', rules_.clearance_z));
+        if (klartext_) {
+            block("M30");
+            block("END PGM PROFILE MM");
+        } else if (iso_) {
+            block("M30");
+            text_ += "N99999999 %PROFILE G71 *\n";
+        } else {
+            block("M30");
+            if (rules_.dialect == "fanuc") text_ += "%\n";
+        }
+        return std::move(text_);
+    }
+    /// Whether a place is written as the tool's place already is.
+    [[nodiscard]] bool stands_at(const Vec2& place) const {
+        return axis('X', place.x()) == axis('X', at_.x()) && axis('Z', place.y()) == axis('Z', at_.y());
+    }
+
+private:
+    [[nodiscard]] std::string axis(char name, double value) const { return name + number(value, klartext_ || iso_); }
+    void rapid(const std::string& words) {
+        block(klartext_ ? "L " + words + " R0 FMAX" : (iso_ ? "G00 " : "G0 ") + words);
+    }
+    void block(const std::string& words) {
+        if (klartext_)
+            text_ += fmt::format("{} {}\n", number_++, words);
+        else if (iso_)
+            text_ += words.front() == ';' ? words + "\n" : fmt::format("N{} {} *\n", 10 * ++number_, words);
+        else
+            text_ += words + "\n";
+    }
+
+    const CutProgramRules& rules_;
+    bool klartext_, iso_;
+    int number_ = 0;
+    Vec2 at_ = Vec2::Zero();
+    std::string text_;
+};
+
+}  // namespace
+
+bool writes_spans(std::string_view dialect) { return dialect == "siemens" || dialect == "klartext"; }
+
+std::string line_program(const std::vector<Vec2>& points, const CutProgramRules& rules) {
+    BlockWriter writer(rules);
+    writer.begin(points.front());
+    for (const Vec2& point : points) writer.line(point);
+    return writer.end();
+}
+
+std::string span_program(const std::vector<CutSpan>& spans, const CutProgramRules& rules) {
+    BlockWriter writer(rules);
+    writer.begin(spans.front().begin);
+    for (const CutSpan& span : spans) {
+        if (!writer.stands_at(span.begin)) writer.line(span.begin);
+        writer.span(span);
+    }
+    return writer.end();
+}
+
+}  // namespace clsurf

@@ -1,0 +1,67 @@
+#include "scan/read_back.h"
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "core/error.h"
+
+namespace clsurf {
+namespace {
+
+double distance_to_line(const Vec2& p, const Vec2& a, const Vec2& b) {
+    const Vec2 way = b - a;
+    const double square = way.squaredNorm();
+    const double t = square > 0 ? std::clamp((p - a).dot(way) / square, 0.0, 1.0) : 0;
+    return (p - a - t * way).norm();
+}
+
+/// How far `places` are from a line of chords at most; both in rising x.
+double greatest_distance(std::span<const Vec2> places, std::span<const Vec2> chords) {
+    double greatest = 0;
+    std::size_t near = 0;
+    for (const Vec2& place : places) {
+        while (near + 2 < chords.size() && chords[near + 1].x() < place.x()) ++near;
+        constexpr std::size_t beside = 2;
+        const std::size_t first = near < beside ? 0 : near - beside;
+        const std::size_t end = std::min(chords.size() - 1, near + beside + 1);
+        double least = (place - chords[first]).norm();
+        for (std::size_t k = first; k < end; ++k)
+            least = std::min(least, distance_to_line(place, chords[k], chords[k + 1]));
+        greatest = std::max(greatest, least);
+    }
+    return greatest;
+}
+
+Vec2 in_plane(const Xyz& at) { return {at.x, at.z}; }
+
+}  // namespace
+
+ReadBack read_back(const Program& program, const CutPath& path) {
+    const Motions& motions = program.motions;
+    std::vector<Vec2> chords;
+    ReadBack result;
+    for (std::int64_t i = 0; i < motions.size(); ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        if (!is_cut(motions.kind[k])) continue;
+        const Vec2 end = in_plane(motions.end[k]);
+        if (chords.empty()) {  // the approach
+            chords.push_back(end);
+            continue;
+        }
+        ++result.motions;
+        if (const Curve* curve = motions.curve_of(i)) {
+            constexpr int divided = 32;
+            for (int n = 1; n < divided; ++n) {
+                const Vec3 at = curve->span->at(static_cast<double>(n) / divided);
+                chords.emplace_back(at.x(), at.z());
+            }
+        }
+        chords.push_back(end);
+    }
+    if (chords.size() < 2) throw InputError(Place::of_file(program.main().name()), "does not move at feed");
+    result.deviation = std::max(greatest_distance(path.samples(), chords), greatest_distance(chords, path.samples()));
+    return result;
+}
+
+}  // namespace clsurf

@@ -1,0 +1,45 @@
+#pragma once
+// scan_cut(): from scanned points to the path of a tool (Duan et al., Research on tool cutting trajectory based on curve
+// fitting algorithm), with windows that meet without jumps and points where the chord error needs them.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/geometry.h"
+#include "scan/clean_scan.h"
+#include "scan/cut_path.h"
+#include "scan/windowed_fit.h"
+
+namespace clsurf {
+
+/// How a sensor is mounted that scans along X.
+struct SensorMount {
+    std::optional<double> reference;  ///< [mm] height that distances are measured down from; none: heights are given
+    double ahead = 0;                 ///< [mm] along X from the place that is recorded to the place that is scanned
+};
+
+/// Scanned points as x and z [mm], in rising x. `places`: x, and z or the distance in their third component.
+[[nodiscard]] std::vector<ScanPoint> placed_scan(std::span<const Vec3> places, const SensorMount& mount);
+
+struct ScanCutRules {
+    double outliers = 5;  ///< multiples of the scatter; 0: none is rejected
+    FitRules fit;
+    double radius = 0;        ///< [mm] of a ball that leaves the fit; 0: the tip follows it
+    double tolerance = 0.01;  ///< [mm] of the lines or spans
+};
+
+struct ScanCut {
+    CleanScan scan;
+    WindowedFit fit;
+    std::vector<double> residuals;  ///< [mm] of the points that are kept: scanned less fitted
+    double rms = 0, worst = 0;      ///< [mm] of them
+    double worst_x = 0;             ///< [mm]
+    CutPath path;
+};
+
+/// `name`: of the scan, for messages. Throws InputError: too few points for the degree, a ball that would gouge the fit.
+[[nodiscard]] ScanCut scan_cut(const std::string& name, std::span<const ScanPoint> points, const ScanCutRules& rules);
+
+}  // namespace clsurf

@@ -1,0 +1,64 @@
+#pragma once
+// WindowedFit: least-squares polynomials z(x) of windows of scanned points, one curve.
+//
+// Each polynomial is a Bernstein form over its own piece, so that the equations are well conditioned wherever the points
+// are: in powers of x the normal matrix of a cubic at x = 2 m has a condition of 10²⁵.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace clsurf {
+
+/// How the polynomials of adjacent windows meet.
+enum class WindowJoin : std::uint8_t {
+    c1,     ///< one least-squares fit with the condition that value and slope are continuous
+    blend,  ///< windows overlap by half; each passes into the next by 3 q² − 2 q³
+    none,   ///< each for itself: the curve jumps halfway between two windows
+};
+
+inline constexpr int most_fit_degree = 9;
+
+struct FitRules {
+    int degree = 3;           ///< 1 … most_fit_degree; of c1 at least 2
+    std::size_t window = 10;  ///< points, at least degree + 1
+    WindowJoin join = WindowJoin::c1;
+};
+
+/// Height, slope and second derivative by x.
+struct FitJet {
+    double z = 0, slope = 0, second = 0;
+};
+
+/// A polynomial over a piece of x.
+struct FitPiece {
+    double begin = 0, end = 0;      ///< [mm]
+    std::vector<double> ordinates;  ///< [mm] of Bernstein's polynomials: degree + 1
+
+    [[nodiscard]] FitJet jet(double x) const;
+    [[nodiscard]] double at(double x) const { return jet(x).z; }
+    /// The same polynomial over another piece.
+    [[nodiscard]] FitPiece over(double from, double to) const;
+};
+
+/// Where two pieces meet: the right one less the left one.
+struct PieceStep {
+    double x = 0, z = 0, slope = 0;
+};
+
+struct WindowedFit {
+    std::vector<FitPiece> pieces;  ///< adjoining, in rising x
+
+    [[nodiscard]] const FitPiece& piece_at(double x) const;
+    [[nodiscard]] double at(double x) const { return piece_at(x).at(x); }
+    /// One entry for each place where two pieces meet.
+    [[nodiscard]] std::vector<PieceStep> steps() const;
+};
+
+/// Domain: x rises strictly, as many z, at least degree + 1 points, rules as FitRules has them. A last window of fewer than
+/// degree + 1 points: of c1 it belongs to the one before; otherwise its polynomial is that of the last `window` points.
+/// O(points degree²).
+[[nodiscard]] WindowedFit fit_windows(std::span<const double> x, std::span<const double> z, const FitRules& rules);
+
+}  // namespace clsurf

@@ -1,0 +1,44 @@
+# A tool path from scanned points. Scans are made, and programs judged, by tests/scan/scanned_part.py, which shares nothing with
+# the product.
+
+set(scanned "python3 ${PROJECT_SOURCE_DIR}/tests/scan/scanned_part.py")
+set(judged "$CLSURF profile scan.csv --x x --z height -o cut.nc --json")
+clsurf_cli_test(NAME profile_of_a_scan
+  SETUP "${scanned} make .; ${judged} --window 40 > ../r.json; ${scanned} check cut.nc ../r.json; rm cut.nc"
+  ARGS profile scan.csv --x x --z height --window 40 --picture fit.png -o cut.nc FILE cut.nc fit.png
+  STDOUT "scan.csv: 1500 points, X 0.1 to 149.8 mm" "7 points rejected: .*: X 0, X 10, X 10.1, X 40, X 77.7, X 120, X 149.9"
+    "degree 3, windows of 40 points, join c1: residual 0.00[34]" "cut.nc: [0-9]+ lines, within 0.00[0-9]+ mm of the fit")
+clsurf_cli_test(NAME profile_of_a_ball
+  SETUP "${scanned} make .; ${judged} --window 40 --tool-offset 3 > ../r.json; ${scanned} check cut.nc ../r.json --radius 3; rm cut.nc"
+  ARGS profile scan.csv --z 1 --x 0 --window 40 --tool-offset 3 --join blend -o cut.nc STDOUT "path of a ball of radius 3 mm")
+clsurf_cli_test(NAME profile_of_distances
+  SETUP "${scanned} make .; $CLSURF profile laser.txt --x way --z distance --distance 120 --sensor-offset 35 --window 40 -o cut.nc --json > ../r.json; ${scanned} check cut.nc ../r.json --outliers 0"
+  ARGS profile laser.txt --x 1 --z 2 --distance 120 --sensor-offset 35 --window 40 --degree 5 --dialect klartext -o c.h FILE c.h STDOUT "X 0 to 149.9 mm" "0 points rejected")
+foreach(dialect linuxcnc siemens klartext)
+  set(blocks lines)
+  if(NOT dialect STREQUAL "linuxcnc")
+    set(blocks splines)
+  endif()
+  clsurf_cli_test(NAME profile_simulated_${dialect}
+    SETUP "${scanned} make .; $CLSURF profile scan.csv --x x --z height --window 40 --tool-offset 3 --dialect ${dialect} --blocks ${blocks} -o cut.nc"
+    ARGS simulate cut.nc --dialect ${dialect} -o run.biip FILE run.biip STDOUT "off the path +0[.]0[01]" "[0-9]+ points, 1[0-9][.]")
+endforeach()
+clsurf_cli_test(NAME profile_windows_apart SETUP "${scanned} make ."
+  ARGS profile scan.csv --x x --z height --join none -o cut.nc STDOUT "it jumps between windows at 149 places: 0.00[0-9]+ mm rms")
+clsurf_cli_test(NAME profile_outliers_kept SETUP "${scanned} make ."
+  ARGS profile scan.csv --x x --z height --outliers 0 -o cut.nc --json STDOUT "\"rejected\": 0" "\"join\": \"c1\"" "\"window_jumps\": ." "\"chord_error_mm\": 0.0")
+clsurf_cli_test(NAME profile_gouged SETUP "${scanned} make ."
+  ARGS profile scan.csv --x x --z height --window 60 --tool-offset 30 -o cut.nc EXIT 3 NO_FILE cut.nc
+  STDERR "scan.csv: error: a ball of radius 30 mm cuts [0-9.]+ mm below the fit at X [0-9.]+ mm. the tightest concave radius of the fit is [5-7][.]")
+
+set(few "printf 'x,z\\n0,1\\n1,2\\n2,3\\n' > m.csv")
+clsurf_cli_test(NAME profile_too_few_points SETUP "${few}" ARGS profile m.csv -o c.nc EXIT 3 STDERR "has 3 points of different x: degree 3 needs 4")
+clsurf_cli_test(NAME profile_bad_number SETUP "printf 'x,z\\n0,1\\n1,oops\\n' > m.csv" ARGS profile m.csv -o c.nc EXIT 3 STDERR "m.csv:3: error: 'oops' in column 'z' is not a number")
+clsurf_cli_test(NAME profile_no_column SETUP "${few}" ARGS profile m.csv --z height -o c.nc EXIT 3 STDERR "has no column 'height'" "its columns are: x, z")
+clsurf_cli_test(NAME profile_of_space SETUP "printf 'x,y,z\\n0,1,2\\n1,2,3\\n2,3,4\\n3,4,5\\n' > m.csv" ARGS profile m.csv -o c.nc EXIT 3 STDERR "is not a profile: its points do not have one y")
+clsurf_cli_test(NAME profile_degree_of_c1 SETUP "${few}" ARGS profile m.csv --degree 1 -o c.nc EXIT 2 STDERR "--degree of --join c1 must be from 2 to 9")
+clsurf_cli_test(NAME profile_short_window SETUP "${few}" ARGS profile m.csv --window 3 -o c.nc EXIT 2 STDERR "--window must be at least 4 points for degree 3")
+clsurf_cli_test(NAME profile_ball_over_jumps SETUP "${few}" ARGS profile m.csv --join none --tool-offset 2 -o c.nc EXIT 2 STDERR "needs a profile without jumps")
+clsurf_cli_test(NAME profile_splines_of_fanuc SETUP "${few}" ARGS profile m.csv --blocks splines --dialect fanuc -o c.nc EXIT 2 STDERR "is of siemens and klartext, not of fanuc")
+clsurf_cli_test(NAME profile_unknown_dialect SETUP "${few}" ARGS profile m.csv --dialect rs -o c.nc EXIT 2 STDERR "rs")
+clsurf_cli_test(NAME profile_over_its_scan SETUP "${few}" ARGS profile m.csv --degree 2 --window 3 -o m.csv EXIT 2)
