@@ -77,9 +77,9 @@ ExitCode run_profile(const po::variables_map& values) {
             Place::of_file(data.name),
             fmt::format("the program would be {:.4f} mm away from the fit, beyond the tolerance: it is not written",
                         report.written.deviation));
+    if (picture) draw_fit(report, cut, *picture);
     output.write(text);
     output.commit();
-    if (picture) draw_fit(report, cut, *picture);
     if (json) {
         write_to_stdout(io::cut_json(report, cut, program.diagnostics));
     } else {

@@ -35,6 +35,8 @@ public:
 
     /// Samples of the path, in their order; x rises where nothing is gouged, and stays where the fit jumps.
     [[nodiscard]] std::span<const Vec2> samples() const { return samples_; }
+    /// Where the ball touches the fit at each sample: places of the fit, in rising x.
+    [[nodiscard]] std::span<const Vec2> contacts() const { return contacts_; }
     /// The deepest place where the ball cuts more than the tolerance below the fit.
     [[nodiscard]] std::optional<Gouge> gouge() const;
     /// Ends of lines that stay within the tolerance of the path. They are samples, the first and the last among them.

@@ -18,6 +18,25 @@ std::vector<ScanPoint> placed_scan(std::span<const Vec3> places, const SensorMou
     return points;
 }
 
+namespace {
+
+/// Throws where polynomials swing away from the points between them, as they do in gaps.
+void check_range(const std::string& name, const CleanScan& scan, const CutPath& path) {
+    const auto [low, high] = std::minmax_element(scan.z.begin(), scan.z.end());
+    const double range = *high - *low;
+    for (const Vec2& place : path.contacts()) {
+        const double beyond = std::max(*low - place.y(), place.y() - *high);
+        constexpr double play = 1;  // mm: of planes, whose range is noise
+        if (!(beyond <= range + play))
+            throw InputError(
+                Place::of_file(name),
+                fmt::format("the fit swings {:.3g} mm beyond all points, at X {:.6g} mm", beyond, place.x()),
+                "points are missing there, or too close together: a lower --degree, or a longer --window");
+    }
+}
+
+}  // namespace
+
 ScanCut scan_cut(const std::string& name, std::span<const ScanPoint> points, const ScanCutRules& rules) {
     CleanScan scan = clean_scan(points, rules.outliers);
     const std::size_t fewest = std::max<std::size_t>(2, static_cast<std::size_t>(rules.fit.degree) + 1);
@@ -26,6 +45,7 @@ ScanCut scan_cut(const std::string& name, std::span<const ScanPoint> points, con
                                                            scan.x.size(), rules.fit.degree, fewest));
     WindowedFit fit = fit_windows(scan.x, scan.z, rules.fit);
     CutPath path(fit, rules.radius, rules.tolerance);
+    check_range(name, scan, path);
     if (const std::optional<Gouge> gouge = path.gouge())
         throw InputError(
             Place::of_file(name),

@@ -39,7 +39,8 @@ struct ScanCut {
     CutPath path;
 };
 
-/// `name`: of the scan, for messages. Throws InputError: too few points for the degree, a ball that would gouge the fit.
+/// `name`: of the scan, for messages. Throws InputError: too few points for the degree, a fit that swings far
+/// beyond the points, a ball that would gouge it.
 [[nodiscard]] ScanCut scan_cut(const std::string& name, std::span<const ScanPoint> points, const ScanCutRules& rules);
 
 }  // namespace clsurf

@@ -2,7 +2,7 @@
 // WindowedFit: least-squares polynomials z(x) of windows of scanned points, one curve.
 //
 // Each polynomial is a Bernstein form over its own piece, so that the equations are well conditioned wherever the points
-// are: in powers of x the normal matrix of a cubic at x = 2 m has a condition of 10²⁵.
+// are: in powers of x the normal matrix of a cubic of ten points about x = 2150 mm has a condition of 3·10³¹.
 
 #include <cstddef>
 #include <cstdint>

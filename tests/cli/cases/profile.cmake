@@ -33,6 +33,7 @@ clsurf_cli_test(NAME profile_gouged SETUP "${scanned} make ."
 
 set(few "printf 'x,z\\n0,1\\n1,2\\n2,3\\n' > m.csv")
 clsurf_cli_test(NAME profile_too_few_points SETUP "${few}" ARGS profile m.csv -o c.nc EXIT 3 STDERR "has 3 points of different x: degree 3 needs 4")
+clsurf_cli_test(NAME profile_across_a_gap SETUP "printf '0 1\\n0.01 1.5\\n0.02 1\\n0.03 2\\n30 1\\n30.01 3\\n' > m.txt" ARGS profile m.txt -o c.nc EXIT 3 NO_FILE c.nc STDERR "the fit swings [0-9.e+]+ mm beyond all points, at X" "hint: points are missing there")
 clsurf_cli_test(NAME profile_bad_number SETUP "printf 'x,z\\n0,1\\n1,oops\\n' > m.csv" ARGS profile m.csv -o c.nc EXIT 3 STDERR "m.csv:3: error: 'oops' in column 'z' is not a number")
 clsurf_cli_test(NAME profile_no_column SETUP "${few}" ARGS profile m.csv --z height -o c.nc EXIT 3 STDERR "has no column 'height'" "its columns are: x, z")
 clsurf_cli_test(NAME profile_of_space SETUP "printf 'x,y,z\\n0,1,2\\n1,2,3\\n2,3,4\\n3,4,5\\n' > m.csv" ARGS profile m.csv -o c.nc EXIT 3 STDERR "is not a profile: its points do not have one y")
