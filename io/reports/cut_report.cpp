@@ -1,5 +1,6 @@
 #include "io/reports/cut_report.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
