@@ -11,6 +11,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkTypeInt64Array.h>
+#include <vtkTypeUInt32Array.h>
 #include <vtkXMLPolyDataWriter.h>
 
 #include "core/error.h"
@@ -55,6 +56,39 @@ vtkNew<vtkCellArray> cell_array(Column<std::int64_t>& offsets, Column<std::int64
     vtkNew<vtkCellArray> cells;
     cells->SetData(o, c);
     return cells;
+}
+
+/// The type of a column of T in memory and in files.
+template <typename T>
+struct Stored;
+template <>
+struct Stored<float> {
+    using Array = vtkFloatArray;
+    static hid_t hdf() { return H5T_NATIVE_FLOAT; }
+};
+template <>
+struct Stored<double> {
+    using Array = vtkDoubleArray;
+    static hid_t hdf() { return H5T_NATIVE_DOUBLE; }
+};
+template <>
+struct Stored<std::uint32_t> {
+    using Array = vtkTypeUInt32Array;
+    static hid_t hdf() { return H5T_NATIVE_UINT32; }
+};
+
+/// `act(column)` with the column in its own type.
+template <typename Act>
+void with_column(const PointData& data, Act&& act) {
+    std::visit([&](const auto* column) { act(*column); }, data.values);
+}
+
+template <typename T>
+void add_array(vtkPointData& to, const std::string& name, const Column<T>& column) {
+    vtkNew<typename Stored<T>::Array> values;
+    values->SetName(name.c_str());
+    values->SetArray(const_cast<T*>(column.data()), static_cast<vtkIdType>(column.size()), 1);
+    to.AddArray(values);
 }
 
 /// An HDF5 object that closes itself.
@@ -114,12 +148,8 @@ void write_vtp(const std::string& path, const ClSurface& surface, const std::vec
     Column<std::int64_t> triangle_offsets(cells.triangles.size() / 3 + 1);
     for (std::size_t i = 0; i < triangle_offsets.size(); ++i) triangle_offsets[i] = static_cast<std::int64_t>(3 * i);
     if (!cells.triangles.empty()) poly->SetPolys(cell_array(triangle_offsets, cells.triangles));
-    for (const PointData& column : data) {
-        vtkNew<vtkFloatArray> values;
-        values->SetName(column.name.c_str());
-        values->SetArray(const_cast<float*>(column.values->data()), static_cast<vtkIdType>(column.values->size()), 1);
-        poly->GetPointData()->AddArray(values);
-    }
+    for (const PointData& column : data)
+        with_column(column, [&](const auto& values) { add_array(*poly->GetPointData(), column.name, values); });
     vtkNew<vtkXMLPolyDataWriter> writer;
     writer->SetInputData(poly);
     writer->SetFileName(path.c_str());
@@ -169,7 +199,9 @@ void write_vtkhdf(const std::string& path, const ClSurface& surface, const std::
     const H5 point_data(H5Gcreate2(root.id(), "PointData", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
                         "PointData");
     for (const PointData& column : data) {
-        put(point_data.id(), column.name.c_str(), H5T_NATIVE_FLOAT, {column.values->size()}, column.values->data());
+        with_column(column, [&]<typename T>(const Column<T>& values) {
+            put(point_data.id(), column.name.c_str(), Stored<T>::hdf(), {values.size()}, values.data());
+        });
     }
     // Closing writes too, and nobody hears of what it could not.
     if (H5Fflush(file.id(), H5F_SCOPE_LOCAL) < 0) throw SystemError("HDF5 cannot write: the disk is full?");

@@ -2,7 +2,9 @@
 // The CL surface with its columns for ParaView and VTK: .vtp (XML PolyData) and .vtkhdf
 // (UnstructuredGrid, VTKHDF 1.0). Passes are polylines, gaps between them triangles.
 
+#include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/column.h"
@@ -10,10 +12,11 @@
 
 namespace clsurf::viz {
 
-/// A column of point data; not copied.
+/// A column of point data, written in its own type: numbers of lines and points need more than the 24 bits of a float.
+/// Not copied.
 struct PointData {
     std::string name;
-    const Column<float>* values = nullptr;
+    std::variant<const Column<float>*, const Column<double>*, const Column<std::uint32_t>*> values;
 };
 
 /// Writes into the file at `path` (an io::AtomicFile's temporary one). Throws SystemError.

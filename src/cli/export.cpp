@@ -1,6 +1,7 @@
 // clsurf export: per-point columns as CSV, BIIP, VTK.
 
 #include "cli/export_columns.h"
+#include "cli/help.h"
 #include "cli/output_format.h"
 #include "cli/part.h"
 #include "io/files/atomic_file.h"
@@ -11,30 +12,38 @@
 namespace clsurf::cli {
 namespace {
 
-/// Columns as 32-bit point data for VTK.
-Column<float> as_floats(const io::ExportColumn& column) {
-    Column<float> values(static_cast<std::size_t>(column.size()));
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        values[i] = !column.counts.empty()  ? static_cast<float>(column.counts[i])
-                    : !column.exact.empty() ? static_cast<float>(column.exact[i])
-                                            : column.values[i];
-    }
-    return values;
+viz::PointData point_data_of(const io::ExportColumn& column) {
+    if (!column.counts.empty()) return {column.name, &column.counts};
+    if (!column.exact.empty()) return {column.name, &column.exact};
+    return {column.name, &column.values};
 }
 
 void write_vtk(const std::string& path, bool hdf, const ClSurface& surface,
                const std::vector<io::ExportColumn>& columns) {
-    std::vector<Column<float>> values;
-    values.reserve(columns.size());
-    for (const io::ExportColumn& column : columns) values.push_back(as_floats(column));
     std::vector<viz::PointData> data;
-    for (std::size_t i = 0; i < columns.size(); ++i) data.push_back({columns[i].name, &values[i]});
+    for (const io::ExportColumn& column : columns) data.push_back(point_data_of(column));
     io::AtomicFile file(path);
     (hdf ? viz::write_vtkhdf : viz::write_vtp)(file.temporary_path(), surface, data);
     file.commit();
 }
 
+/// `--list`: what could be exported of the part.
+ExitCode list_columns(const po::variables_map& values, const Part& part, StageClock& clock) {
+    clock.begin("stitch the surface");
+    const std::vector<io::ListingRow> rows = exportable_columns(part, stitch(part));
+    write_to_stdout(values.count("json") > 0 ? io::listing_json("columns", rows) : listing_text(rows));
+    return ExitCode::done;
+}
+
 ExitCode run_export(const po::variables_map& values) {
+    if (values.count("list") > 0) {
+        if (values.count("output") > 0) throw UsageError("--list writes no file: -o must not be given");
+        StageClock clock(read_common(values), 4);
+        const Part part = load_part(read_part_or_log_options(values), clock);
+        print(part.diagnostics, values);
+        return list_columns(values, part, clock);
+    }
+    if (values.count("json") > 0) throw UsageError("--json is a form of --list", "add --list");
     const std::string output = required(values, "output");
     const std::vector<std::string> names =
         split_names(values.count("columns") > 0 ? values["columns"].as<std::string>() : "point,time,line,x,y,z,speed");
@@ -66,15 +75,19 @@ Subcommand export_subcommand() {
         .description =
             "The file's ending chooses the format. Columns: point, time, line, pass, confidence, x, y, z and\n"
             "every field of `clsurf help fields`. VTK files hold the passes as polylines and the stitched\n"
-            "surface; .hdf is .vtkhdf with the ending that ParaView 5.11 recognises. Without a program, lines\n"
-            "are those of the log.\n\n"
-            "  clsurf export part.nc run.biip -o points.csv --columns line,x,y,z,speed,acceleration",
+            "surface; .hdf is .vtkhdf with the ending that ParaView 5.11 recognises. Lines, points and passes are\n"
+            "32-bit integers there, times and positions 64-bit numbers. Without a program, lines are those of\n"
+            "the log.\n\n"
+            "  clsurf export part.nc run.biip -o points.csv --columns line,x,y,z,speed,acceleration\n"
+            "  clsurf export part.nc run.biip --list",
         .declare =
             [](po::options_description& options) {
                 // clang-format off
                 options.add_options()
                     ("output,o", po::value<std::string>()->value_name("FILE"), "the file: .csv, .biip, .vtp, .vtkhdf or .hdf")
-                    ("columns", po::value<std::string>()->value_name("A,B,…"), "columns to write (default: point,time,line,x,y,z,speed)");
+                    ("columns", po::value<std::string>()->value_name("A,B,…"), "columns to write (default: point,time,line,x,y,z,speed)")
+                    ("list", "list the columns that this part has, fields and channels included, and write no file")
+                    ("json", "--list as one JSON object");
                 // clang-format on
                 declare_part(options);
                 declare_derivative(options);

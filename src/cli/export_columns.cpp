@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "core/block.h"
 #include "mapping/line_agreement.h"
@@ -11,6 +12,15 @@
 
 namespace clsurf::cli {
 namespace {
+
+constexpr std::array<std::array<std::string_view, 3>, 8> own_columns{{{"point", "", "Number of the point, from 0"},
+                                                                      {"time", "s", "Time since the first point"},
+                                                                      {"line", "", "Program line, 0: none"},
+                                                                      {"pass", "", "Pass, from 1, 0: none"},
+                                                                      {"confidence", "", "Confidence of the line"},
+                                                                      {"x", "mm", "X of the tool tip"},
+                                                                      {"y", "mm", "Y of the tool tip"},
+                                                                      {"z", "mm", "Z of the tool tip"}}};
 
 /// What is exported as it is, not as a field; nullopt: none of these.
 std::optional<io::ExportColumn> own_column(const std::string& name, const Part& part, const ClSurface& surface) {
@@ -95,6 +105,19 @@ std::vector<io::ExportColumn> exported_columns(const std::vector<std::string>& n
     std::vector<Field> computed = fields_of(part, surface).get_all(fields);
     for (std::size_t i = 0; i < places.size(); ++i) columns[places[i]] = column_of(std::move(computed[i]));
     return columns;
+}
+
+std::vector<io::ListingRow> exportable_columns(const Part& part, const ClSurface& surface) {
+    std::vector<io::ListingRow> rows;
+    for (const auto& [name, unit, summary] : own_columns)
+        rows.push_back({std::string(name), std::string(unit), std::string(summary)});
+    const FieldSet fields = fields_of(part, surface);
+    for (const FieldInfo& field : fields.fields()) {
+        const bool own = std::ranges::any_of(own_columns, [&](const auto& column) { return column[0] == field.name; });
+        if (!own && fields.can_compute(field.name))
+            rows.push_back({field.name, std::string(field.unit.name), field.label});
+    }
+    return rows;
 }
 
 }  // namespace clsurf::cli

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/reports/export_table.h"
+#include "io/reports/listing_json.h"
 #include "pipeline/part.h"
 
 namespace clsurf::cli {
@@ -13,5 +14,9 @@ namespace clsurf::cli {
 /// lacks what it needs.
 [[nodiscard]] std::vector<io::ExportColumn> exported_columns(const std::vector<std::string>& names, const Part& part,
                                                              const ClSurface& surface);
+
+/// Every name that exported_columns() takes for this part, with unit and meaning: the columns of its own, then the fields
+/// for which nothing is missing, then channels of the log.
+[[nodiscard]] std::vector<io::ListingRow> exportable_columns(const Part& part, const ClSurface& surface);
 
 }  // namespace clsurf::cli

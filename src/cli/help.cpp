@@ -52,14 +52,6 @@ std::string options_text(std::string_view title, const po::options_description& 
     return entries.empty() ? std::string() : fmt::format("\n{}:\n{}", title, two_columns(entries));
 }
 
-std::string vocabulary_text(const Vocabulary& vocabulary) {
-    std::vector<Entry> entries;
-    for (const io::ListingRow& row : vocabulary.rows()) {
-        entries.push_back({row.name, row.unit.empty() ? row.summary : fmt::format("{} [{}]", row.summary, row.unit)});
-    }
-    return two_columns(entries);
-}
-
 ExitCode run_help(const po::variables_map& values) {
     const bool json = read_json(values);
     if (values.count("TOPIC") == 0) {
@@ -72,7 +64,7 @@ ExitCode run_help(const po::variables_map& values) {
     for (const Vocabulary& vocabulary : vocabularies()) {
         known.push_back(vocabulary.name);
         if (vocabulary.name != topic && vocabulary.name != topic + "s") continue;
-        write_to_stdout(json ? io::listing_json(vocabulary.name, vocabulary.rows()) : vocabulary_text(vocabulary));
+        write_to_stdout(json ? io::listing_json(vocabulary.name, vocabulary.rows()) : listing_text(vocabulary.rows()));
         return ExitCode::done;
     }
     for (const Subcommand& subcommand : subcommands()) {
@@ -86,6 +78,13 @@ ExitCode run_help(const po::variables_map& values) {
 }
 
 }  // namespace
+
+std::string listing_text(std::span<const io::ListingRow> rows) {
+    std::vector<Entry> entries;
+    for (const io::ListingRow& row : rows)
+        entries.push_back({row.name, row.unit.empty() ? row.summary : fmt::format("{} [{}]", row.summary, row.unit)});
+    return two_columns(entries);
+}
 
 std::string OptionRow::names() const {
     return fmt::format("{}{}{}{}", short_name.empty() ? "" : short_name + ", ", long_name,

@@ -1,11 +1,13 @@
 #pragma once
 // The option tables as rows that --help, man pages, completion and docs/reference are written from.
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "cli/subcommand.h"
+#include "io/reports/listing_json.h"
 
 namespace clsurf::cli {
 
@@ -38,6 +40,9 @@ struct ExitCodeRow {
     std::string_view meaning;
 };
 [[nodiscard]] std::span<const ExitCodeRow> exit_codes();
+
+/// Names beside what they mean, with units, a row each.
+[[nodiscard]] std::string listing_text(std::span<const io::ListingRow> rows);
 
 inline constexpr std::string_view motto = "sees the mark before the cut";
 

@@ -87,5 +87,40 @@ TEST(ExportVtk, VtkHdfHoldsTheSame) {
     EXPECT_EQ(read->GetPointData()->GetArray("speed")->GetTuple1(17), 17.0);
 }
 
+/// Numbers that 32-bit floats would round to 16,777,216 and 20,000,000.
+struct LargeNumbers {
+    Column<std::uint32_t> lines;
+    Column<double> times;
+    explicit LargeNumbers(PointIndex points)
+        : lines(static_cast<std::size_t>(points), 16777217U), times(static_cast<std::size_t>(points), 20000000.001) {}
+    [[nodiscard]] std::vector<PointData> data() const { return {{"line", &lines}, {"time", &times}}; }
+};
+
+void expect_large_numbers(vtkPointData* data) {
+    ASSERT_NE(data->GetArray("line"), nullptr);
+    EXPECT_EQ(data->GetArray("line")->GetDataTypeSize(), 4);
+    EXPECT_EQ(data->GetArray("line")->GetDataType(), VTK_UNSIGNED_INT);
+    EXPECT_EQ(data->GetArray("line")->GetTuple1(5), 16777217.0);
+    EXPECT_EQ(data->GetArray("time")->GetDataType(), VTK_DOUBLE);
+    EXPECT_EQ(data->GetArray("time")->GetTuple1(5), 20000000.001);
+}
+
+TEST(ExportVtk, NumbersOfLinesAndTimesAreNotRounded) {
+    const Made made;
+    const LargeNumbers large(made.surface.positions.size());
+    const test::TemporaryFolder folder;
+    const std::string path = folder / "a.vtp";
+    write_vtp(path, made.surface, large.data());
+    expect_large_numbers(read_vtp(path)->GetPointData());
+    const std::string hdf = folder / "a.vtkhdf";
+    write_vtkhdf(hdf, made.surface, large.data());
+    vtkNew<vtkHDFReader> reader;
+    reader->SetFileName(hdf.c_str());
+    reader->Update();
+    auto* read = vtkUnstructuredGrid::SafeDownCast(reader->GetOutputDataObject(0));
+    ASSERT_NE(read, nullptr);
+    expect_large_numbers(read->GetPointData());
+}
+
 }  // namespace
 }  // namespace clsurf::viz
