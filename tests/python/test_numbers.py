@@ -102,17 +102,21 @@ def test_the_surface_is_that_of_export(uneven, uneven_files, tmp_path):
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     path = tmp_path / "surface.vtp"
-    subprocess.run([PROGRAM, "export", *uneven_files, "-o", path, "--columns", "speed", "-q"], check=True)
+    subprocess.run([PROGRAM, "export", *uneven_files, "-o", path, "--columns", "speed,point,line,pass,time", "-q"], check=True)
     reader = vtk.vtkXMLPolyDataReader()
     reader.SetFileName(str(path))
     reader.Update()
     written = reader.GetOutput()
     surface = uneven.surface()
-    made = surface.to_vtk(["speed"])
+    made = surface.to_vtk(["speed", "point", "line", "pass", "time"])
     for mesh in (written, made):
         np.testing.assert_array_equal(vtk_to_numpy(mesh.GetPoints().GetData()), surface.points)
         np.testing.assert_array_equal(vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3), surface.triangles)
         np.testing.assert_array_equal(vtk_to_numpy(mesh.GetPointData().GetArray("speed")), uneven.field("speed"))
+        for name, column in (("line", uneven.line), ("point", np.arange(len(uneven), dtype=np.uint32))):
+            values = vtk_to_numpy(mesh.GetPointData().GetArray(name))
+            assert values.dtype == np.uint32
+            np.testing.assert_array_equal(values, column)
     for get in ("GetConnectivityArray", "GetOffsetsArray"):
         np.testing.assert_array_equal(
             vtk_to_numpy(getattr(made.GetLines(), get)()), vtk_to_numpy(getattr(written.GetLines(), get)())

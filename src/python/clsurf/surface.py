@@ -33,6 +33,8 @@ class Surface:
     def to_vtk(self, fields: Iterable[str] = ("speed",)) -> Any:
         """A `vtkPolyData` with passes as lines, triangles, and these fields as point data, in shown units.
 
+        `"point"`, `"line"`, `"pass"` are integers, `"time"` is float64, as `clsurf export` writes them.
+
         Points and fields share their memory with the part; connectivity is copied. Needs VTK (Debian: python3-vtk9).
         """
         from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
@@ -57,8 +59,14 @@ class Surface:
         triangles.SetData(3, numpy_to_vtkIdTypeArray(self.triangles.reshape(-1), deep=True))
         poly.SetPolys(triangles)
 
+        own = {
+            "point": lambda: np.arange(len(self.points), dtype=np.uint32),
+            "line": lambda: self._part.line,
+            "pass": lambda: self._part.pass_number,
+            "time": lambda: self._part.time,
+        }
         for name in fields:
-            values = numpy_to_vtk(self._part.field(name))
+            values = numpy_to_vtk(own[name]() if name in own else self._part.field(name))
             values.SetName(name)
             poly.GetPointData().AddArray(values)
         return poly
