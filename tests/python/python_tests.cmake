@@ -20,6 +20,13 @@ if(TARGET clsurf_python)
     "import sys, clsurf; assert clsurf.__file__.startswith(sys.argv[3]), clsurf.__file__; assert clsurf.Part(*sys.argv[1:3]).picture(size=(320, 240)).png"
     ${PROJECT_SOURCE_DIR}/data/programs/bottle_uneven.nc ${PROJECT_BINARY_DIR}/samples/bottle_uneven.biip ${installed})
   set_tests_properties(python.installed PROPERTIES LABELS python FIXTURES_REQUIRED installed_tree)
+  # The wheel, made as the target clsurf_wheel does.
+  add_test(NAME python.wheel COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/wheel_test ${CMAKE_CURRENT_BINARY_DIR}/python_wheel ${interpreter}
+    ${CMAKE_COMMAND} ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR} ${PROJECT_VERSION})
+  set_tests_properties(python.wheel PROPERTIES LABELS python TIMEOUT 600)
+  # The notebook, cell by cell: what it shows is what comes out.
+  list(APPEND python_tests python.notebook)
+  add_test(NAME python.notebook COMMAND ${interpreter} -B ${CMAKE_CURRENT_LIST_DIR}/run_notebook.py check ${PROJECT_SOURCE_DIR}/docs/notebook/bottle.ipynb)
   set_tests_properties(${python_tests} PROPERTIES LABELS python TIMEOUT 600 ENVIRONMENT
     "PYTHONPATH=${PROJECT_BINARY_DIR}/python;CLSURF=$<TARGET_FILE:clsurf>;CLSURF_DATA=${PROJECT_SOURCE_DIR}/data;CLSURF_SAMPLES=${PROJECT_BINARY_DIR}/samples")
 endif()

@@ -23,6 +23,7 @@ def test_the_picture_is_that_of_render(uneven, uneven_files, tmp_path):
 def test_a_notebook_shows_it(uneven):
     picture = uneven.picture(size=(320, 240))
     assert picture._repr_png_()[:8] == b"\x89PNG\r\n\x1a\n"
+    assert repr(picture) == "<clsurf.Picture: 320 × 240 pixels>"
     assert picture.png == uneven.picture(size=(320, 240)).png
 
 

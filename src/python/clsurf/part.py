@@ -27,6 +27,10 @@ class Picture:
     def __init__(self, png: bytes) -> None:
         self.png = png
 
+    def __repr__(self) -> str:
+        width, height = (int.from_bytes(self.png[at : at + 4], "big") for at in (16, 20))
+        return f"<clsurf.Picture: {width} × {height} pixels>"
+
     def _repr_png_(self) -> bytes:
         return self.png
 
