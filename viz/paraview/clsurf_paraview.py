@@ -111,7 +111,10 @@ def path_of(poly):
 
 
 class ClsurfSource(VTKPythonAlgorithmBase):
-    """What both have in common: files, columns, and `clsurf export`. The result is kept until one of them changes."""
+    """What both have in common: files, columns, and `clsurf export`. The result is kept until one of them changes.
+
+    The property panel has the alphabetical order of methods, from SetInputProgram to UsedColumns.
+    """
 
     def __init__(self):
         super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkPolyData")
@@ -214,7 +217,7 @@ class ClsurfPart(ClsurfSource):
     @smproperty.stringvector(name="Program", number_of_elements=1, default_values="", panel_visibility="default")
     @smdomain.filelist()
     @smhint.filechooser(extensions=["nc", "ngc", "mpf", "h", "i", "tap", "txt"], file_description="NC programs")
-    def SetProgram(self, name):
+    def SetInputProgram(self, name):
         """Empty: the log comes alone."""
         self._set("_program", name)
 
@@ -248,7 +251,7 @@ class ClsurfPart(ClsurfSource):
         self._set("_passes", (first, last))
 
     @smproperty.dataarrayselection(name="Columns")
-    def GetColumns(self):
+    def UsedColumns(self):
         """Fields, channels of the log, and numbers of points, lines and passes."""
         return self._columns
 
@@ -292,7 +295,7 @@ class ClsurfLog(ClsurfSource):
         self._set("_role", role)
 
     @smproperty.dataarrayselection(name="Columns")
-    def GetColumns(self):
+    def UsedColumns(self):
         return self._columns
 
     def _shape(self, poly):
