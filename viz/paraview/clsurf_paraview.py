@@ -22,6 +22,15 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 ROLES = ("", "commanded", "feedback", "actual")
+POSITIONS = """<IntVectorProperty name="Positions" command="SetPositions" number_of_elements="1" default_values="0">
+  <EnumerationDomain name="enum">
+    <Entry value="0" text="Commanded, else what the log has"/>
+    <Entry value="1" text="Commanded"/>
+    <Entry value="2" text="Feedback"/>
+    <Entry value="3" text="Actual"/>
+  </EnumerationDomain>
+  <Documentation>The positions that the surface is made of: --surface of clsurf.</Documentation>
+</IntVectorProperty>"""
 # Read where the user has not chosen columns. The others cost their computation and 4 bytes a point.
 USUAL_COLUMNS = ("point", "line", "pass", "time", "speed", "acceleration", "speed_mismatch")
 
@@ -227,17 +236,7 @@ class ClsurfPart(ClsurfSource):
     def SetLog(self, name):
         self._set("_log", name)
 
-    @smproperty.xml(
-        """<IntVectorProperty name="Positions" command="SetPositions" number_of_elements="1" default_values="0">
-             <EnumerationDomain name="enum">
-               <Entry value="0" text="Commanded, else what the log has"/>
-               <Entry value="1" text="Commanded"/>
-               <Entry value="2" text="Feedback"/>
-               <Entry value="3" text="Actual"/>
-             </EnumerationDomain>
-             <Documentation>The positions that the surface is made of: --surface of clsurf.</Documentation>
-           </IntVectorProperty>"""
-    )
+    @smproperty.xml(POSITIONS)
     def SetPositions(self, role):
         self._set("_role", role)
 
@@ -281,16 +280,7 @@ class ClsurfLog(ClsurfSource):
     def SetFileName(self, name):
         self._set("_log", name)
 
-    @smproperty.xml(
-        """<IntVectorProperty name="Positions" command="SetPositions" number_of_elements="1" default_values="0">
-             <EnumerationDomain name="enum">
-               <Entry value="0" text="Commanded, else what the log has"/>
-               <Entry value="1" text="Commanded"/>
-               <Entry value="2" text="Feedback"/>
-               <Entry value="3" text="Actual"/>
-             </EnumerationDomain>
-           </IntVectorProperty>"""
-    )
+    @smproperty.xml(POSITIONS)
     def SetPositions(self, role):
         self._set("_role", role)
 
