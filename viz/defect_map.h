@@ -43,4 +43,8 @@ inline constexpr std::size_t most_named_defects = 12;
 [[nodiscard]] std::vector<std::size_t> assign_slots(const std::vector<Vec2>& anchors, const std::vector<double>& slots,
                                                     double slot_x);
 
+/// Where a column of `height` [px] begins so that it is beside its anchors, in a room from `lowest` to `highest` [px]. Domain:
+/// the column fits.
+[[nodiscard]] double top_of_names(const std::vector<Vec2>& anchors, double height, double lowest, double highest);
+
 }  // namespace clsurf::viz

@@ -193,11 +193,11 @@ private:
 
     void name(const std::vector<std::optional<Vec2>>& anchors) {
         const double t = layout_.text;
-        const double top = look_.height - layout_.title_height - 0.6 * t;
+        const double highest = look_.height - layout_.title_height - 0.6 * t;
         const double x = look_.width - layout_.legend_width + 1.4 * t;
         const double bottom = std::max(add_key(x, 0.9 * t), axes_height * t);
         const double slot = 2.0 * t;
-        const auto room = static_cast<std::size_t>(std::max(0.0, (top - bottom - 0.8 * t) / slot));
+        const auto room = static_cast<std::size_t>(std::max(0.0, (highest - bottom - 0.8 * t) / slot));
         std::vector<std::size_t> named;
         std::size_t outside = 0;
         for (std::size_t k = 0; k < anchors.size(); ++k) {
@@ -208,6 +208,7 @@ private:
         }
         std::vector<Vec2> from;
         for (const std::size_t k : named) from.push_back(*anchors[k]);
+        const double top = top_of_names(from, slot * static_cast<double>(named.size()), bottom + 0.8 * t, highest);
         std::vector<double> slots;
         for (std::size_t k = 0; k < named.size(); ++k) slots.push_back(top - slot * (static_cast<double>(k) + 0.5));
         const double line_end = x - 1.2 * t;
@@ -306,6 +307,13 @@ std::vector<std::size_t> assign_slots(const std::vector<Vec2>& anchors, const st
         }
     }
     return slot_of;
+}
+
+double top_of_names(const std::vector<Vec2>& anchors, double height, double lowest, double highest) {
+    if (anchors.empty()) return highest;
+    double middle = 0;
+    for (const Vec2& anchor : anchors) middle += anchor.y() / static_cast<double>(anchors.size());
+    return std::clamp(middle + 0.5 * height, std::min(lowest + height, highest), highest);
 }
 
 void add_defects(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const Look& look, const MapLayout& layout) {

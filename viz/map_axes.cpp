@@ -187,12 +187,12 @@ bool has_frame(const Look& look) {
            axis_along(axes.row(1).transpose()) >= 0;
 }
 
-bool has_box(const Look& look) {
+bool is_zoomed(const Look& look) {
     const Zoom whole;
-    const bool zoomed =
-        look.zoom.x0 > whole.x0 || look.zoom.y0 > whole.y0 || look.zoom.x1 < whole.x1 || look.zoom.y1 < whole.y1;
-    return look.legend && look.scales && !has_frame(look) && !zoomed;
+    return look.zoom.x0 > whole.x0 || look.zoom.y0 > whole.y0 || look.zoom.x1 < whole.x1 || look.zoom.y1 < whole.y1;
 }
+
+bool has_box(const Look& look) { return look.legend && look.scales && !has_frame(look) && !is_zoomed(look); }
 
 AxesRoom axes_room(const Look& look, const MapLayout& layout) {
     const double t = layout.small_text;

@@ -12,6 +12,8 @@ namespace clsurf::viz {
 [[nodiscard]] bool has_frame(const Look& look);
 /// Whether a box is drawn: other views, unless they are zoomed.
 [[nodiscard]] bool has_box(const Look& look);
+/// A part of the picture only.
+[[nodiscard]] bool is_zoomed(const Look& look);
 
 /// What a panel leaves free for its ticks and their labels [px].
 struct AxesRoom {

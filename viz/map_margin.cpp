@@ -99,7 +99,7 @@ std::vector<FlatText> note_lines(const std::vector<std::string>& notes, FlatText
 
 }  // namespace
 
-void add_title(Sheet& sheet, const MapTexts& texts, const Look& look, const MapLayout& layout, Rgb ink) {
+void add_title(Sheet& sheet, const MapTexts& texts, double beside, const Look& look, const MapLayout& layout, Rgb ink) {
     const double width = look.width - 2 * layout.margin;
     const double top = look.height - layout.margin;
     sheet.texts.push_back(fitted(
@@ -114,11 +114,11 @@ void add_title(Sheet& sheet, const MapTexts& texts, const Look& look, const MapL
                   Align::left,
                   false,
                   faint(ink, look.background)};
-    const double beside_axes = width - 3.5 * layout.text;
-    std::vector<FlatText> lines = note_lines(texts.notes, note, beside_axes);
+    const double note_width = look.width - layout.margin - beside;
+    std::vector<FlatText> lines = note_lines(texts.notes, note, note_width);
     for (std::size_t k = 0; k < lines.size(); ++k) {
         lines[k].y += 1.25 * layout.small_text * static_cast<double>(lines.size() - 1 - k);
-        sheet.texts.push_back(fitted(std::move(lines[k]), beside_axes));
+        sheet.texts.push_back(fitted(std::move(lines[k]), note_width));
     }
 }
 
@@ -251,7 +251,7 @@ void add_scale_bar(Sheet& sheet, const MeshPanel& panel, const MapLayout& layout
 
 void add_axes(Sheet& sheet, const MeshPanel& panel, const Look& look, const MapLayout& layout, Rgb ink) {
     // Below the legend, where no map can be under it; right of the key where there are names.
-    const double across = look.names ? layout.legend_width - 3.0 * layout.text : 0.42 * layout.legend_width;
+    const double across = look.names ? MapLayout(look).legend_width - 3.0 * layout.text : 0.42 * layout.legend_width;
     const Vec2 origin(panel.rect.x + panel.rect.width + across, 3.4 * layout.text);
     const double length = 2.0 * layout.text;
     for (int axis = 0; axis < 3; ++axis) {

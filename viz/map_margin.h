@@ -11,8 +11,8 @@ struct Beyond {
     bool below = false, above = false, missing = false;
 };
 
-/// Title, subtitle and notes.
-void add_title(Sheet& sheet, const MapTexts& texts, const Look& look, const MapLayout& layout, Rgb ink);
+/// Title, subtitle and notes; the notes end `beside` [px] before the right edge, where other things are.
+void add_title(Sheet& sheet, const MapTexts& texts, double beside, const Look& look, const MapLayout& layout, Rgb ink);
 
 /// The colours with their numbers; an end beyond which there are values is pointed.
 void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, const Beyond& beyond, const Look& look,

@@ -206,8 +206,25 @@ Detail detail_of(const MapPanel& map, const Camera& camera, const Look& look) {
 
 }  // namespace
 
+namespace {
+
+/// The names of defects would be far from a part in the middle of a wide picture: its panel is as wide as it needs.
+bool is_close(const std::vector<MapPanel>& panels, const Look& look) {
+    return panels.front().defects != nullptr && look.legend && !is_zoomed(look);
+}
+
+/// The width of a panel around a part of `needed` pixels [px].
+int close_width(int width, double needed) {
+    constexpr double with_air = 1.4;
+    return std::isfinite(needed) ? std::min(width, static_cast<int>(std::ceil(with_air * std::max(needed, 1.0))))
+                                 : width;
+}
+
+}  // namespace
+
 Camera map_camera(const std::vector<MapPanel>& panels, const Look& look) {
     const MapLayout layout(look);
+    const bool close = is_close(panels, look);
     const Rect rect = panel_rect(panels, 0, look, layout);
     const auto width = static_cast<int>(rect.width);
     const auto height = static_cast<int>(rect.height);
@@ -219,6 +236,16 @@ Camera map_camera(const std::vector<MapPanel>& panels, const Look& look) {
         Camera camera = camera_for(look.view, box, across, up, look.zoom);
         camera.width = width;
         camera.height = height;
+        if (close) {
+            const Vec3 size = box.sizes();
+            const double part = camera.right.cwiseAbs().dot(size) / camera.mm_per_pixel;
+            camera.width = close_width(width, part + room.left + room.right);
+        }
+        return camera;
+    };
+    const auto framed = [&](const Box3& across) {
+        Camera camera = camera_for(axes_of(look.view), across, width, height, look.zoom);
+        if (close) camera.width = close_width(width, across.sizes().x() / camera.mm_per_pixel);
         return camera;
     };
     const auto extent = [&](const ViewAxes& axes) {
@@ -229,8 +256,7 @@ Camera map_camera(const std::vector<MapPanel>& panels, const Look& look) {
     };
     if (look.box.isEmpty()) {
         if (has_box(look)) return boxed(extent(ViewAxes::Identity()));
-        const ViewAxes axes = axes_of(look.view);
-        return camera_for(axes, extent(axes), width, height, look.zoom);
+        return framed(extent(axes_of(look.view)));
     }
     // Where the box is larger than the part, as one may give it along Z, the part is what counts.
     const Box3 filled = look.box.intersection(extent(ViewAxes::Identity()));
@@ -240,7 +266,8 @@ Camera map_camera(const std::vector<MapPanel>& panels, const Look& look) {
 
 Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const ColourScale& scale,
                 const MapTexts& texts, const Look& look) {
-    const MapLayout layout(look);
+    MapLayout layout(look);
+    if (is_close(panels, look)) layout.legend_width += panel_rect(panels, 0, look, layout).width - camera.width;
     const Rgb ink = ink_for(look.background);
     Sheet sheet;
     sheet.width = look.width;
@@ -282,7 +309,10 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const
     if (look.legend) {
         MapTexts all = texts;
         if (without_room > 0) all.notes.push_back(fmt::format("{} labels have no room in this picture", without_room));
-        add_title(sheet, all, look, layout, ink);
+        // The key of a defect map reaches down to the notes, the axes do at the right edge.
+        const double beside =
+            panels.front().defects != nullptr ? layout.legend_width : layout.margin + 3.5 * layout.text;
+        add_title(sheet, all, beside, look, layout, ink);
         if (panels.front().classes != nullptr)
             add_class_legend(sheet, panels.back().classes->shown(), beyond.missing, look, layout, ink);
         else if (panels.front().defects == nullptr)

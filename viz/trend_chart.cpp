@@ -27,6 +27,7 @@ public:
         sheet_.width = look.width;
         sheet_.height = look.height;
         sheet_.background = look.background;
+        sheet_.keep_drawing = look.keep_drawing;
         const double legend = picture.groups.size() > 1 || !picture.groups.front().empty() ? legend_width() : 0;
         frame_.rect = {6.5 * text_, 6.0 * text_, look.width - 8.5 * text_ - legend, look.height - 12.0 * text_};
         frame_.x_low = -0.5;

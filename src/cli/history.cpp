@@ -27,7 +27,7 @@ const HistoryVerb& find_verb(const std::string& word) {
 
 void declare_output(po::options_description& options) {
     options.add_options()("output,o", po::value<std::string>()->value_name("FILE"),
-                          "the picture of trend (.png, .jpg, .tif or .webp) or the page of report (.html)");
+                          "the picture of trend (.png, .jpg, .tif, .webp, .svg or .pdf) or the page of report (.html)");
 }
 
 /// Throws UsageError: an option of another verb on the command line.

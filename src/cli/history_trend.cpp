@@ -73,7 +73,7 @@ ExitCode show_trend(const HistoryCall& call) {
     TrendOptions options = read_trend_options(call.values);
     const bool json = read_json_beside_output(call.values);
     std::optional<PictureOutput> output;
-    if (!options.output.empty()) output.emplace(options.output);
+    if (!options.output.empty()) output.emplace(options.output, "-o", PictureKind::drawing);
     io::guard_input(call.database);
     const io::HistoryDatabase history(call.database);
     std::vector<RunRecord> runs = history.runs(read_run_choice(call.values));
@@ -92,6 +92,7 @@ ExitCode show_trend(const HistoryCall& call) {
         options.look.subtitle = trend.points.size() > 1 ? second_sentence(text) : "";
         options.look.x_label = "run";
         if (!options.by.empty()) options.look.footnote = "marked by " + options.by;
+        options.look.keep_drawing = output->wants_drawing();
         output->write(viz::draw_trend(picture_of(reported), options.look), options.look.title);
     }
     if (json)

@@ -67,7 +67,8 @@ ExitCode run_identify(const po::variables_map& values) {
     const Machine known = options.machine.empty() ? Machine{} : io::read_machine(options.machine);
     io::AtomicFile file(output);
     std::optional<PictureOutput> picture;
-    if (values.count("picture") > 0) picture.emplace(values["picture"].as<std::string>(), "--picture");
+    if (values.count("picture") > 0)
+        picture.emplace(values["picture"].as<std::string>(), "--picture", PictureKind::drawing);
     StageClock clock(read_common(values), 4 * static_cast<int>(files.size() + test_files.size()) + 3);
     Diagnostics diagnostics;
     std::vector<Part> parts = load_parts(files, options, clock, diagnostics);
@@ -115,7 +116,7 @@ Subcommand identify_subcommand() {
                 // clang-format off
                 options.add_options()
                     ("output,o", po::value<std::string>()->value_name("FILE"), "the machine file")
-                    ("picture", po::value<std::string>()->value_name("FILE"), "map of the speed of the simulation minus that of the log, of the run where they differ most: of --test, else of the fit (.png, .jpg, .tif or .webp)")
+                    ("picture", po::value<std::string>()->value_name("FILE"), "map of the speed of the simulation minus that of the log, of the run where they differ most: of --test, else of the fit (.png, .jpg, .tif, .webp, .svg or .pdf)")
                     ("test", po::value<std::vector<std::string>>()->multitoken()->value_name("PROGRAM LOG"), "a run that is not used for the fit but compared with its simulation; repeatable");
                 // clang-format on
                 declare_part(options);

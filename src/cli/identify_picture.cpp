@@ -32,6 +32,7 @@ void draw_speed_residual(const Identification& result, std::span<const Part> par
                              worst->speed_error_p95 * seconds_per_minute);
     LookOptions look;
     look.look.view = viz::parse_view("top");
+    look.look.keep_drawing = output.wants_drawing();
     draw_difference(shown, run.part().path, run.surface(), look, output);
 }
 

@@ -23,7 +23,8 @@ ExitCode run_optimize(const po::variables_map& values) {
     RepairInputs in = read_repair_inputs(values, diagnostics);
     io::AtomicFile output(output_path);
     std::optional<PictureOutput> picture;
-    if (values.count("picture") > 0) picture.emplace(values["picture"].as<std::string>(), "--picture");
+    if (values.count("picture") > 0)
+        picture.emplace(values["picture"].as<std::string>(), "--picture", PictureKind::drawing);
     ProgressBar bar(read_common(values));
     Optimized result = run_repair(values, in, bar.callback(), diagnostics);
     result.machine = in.machine_origin;
@@ -36,7 +37,7 @@ ExitCode run_optimize(const po::variables_map& values) {
     }
     const std::string name = in.program.main().name();
     if (picture) {
-        picture->write(draw_before_and_after(result, name),
+        picture->write(draw_before_and_after(result, name, picture->wants_drawing()),
                        fmt::format("clsurf optimize of {}: speeds before and after", name));
     }
     if (!result.evaluation.accepted) return ExitCode::check_failed;

@@ -21,7 +21,7 @@ void declare_optimize(po::options_description& options) {
     // clang-format off
     options.add_options()
         ("output,o", po::value<std::string>()->value_name("FILE"), "the new program")
-        ("picture", po::value<std::string>()->value_name("FILE"), "picture of the speeds, and of the differences between adjacent passes, before and after (.png, .jpg, .tif or .webp), also if the new program is rejected")
+        ("picture", po::value<std::string>()->value_name("FILE"), "picture of the speeds, and of the differences between adjacent passes, before and after (.png, .jpg, .tif, .webp, .svg or .pdf), also if the new program is rejected")
         ("tolerance", po::value<double>()->value_name("MM"), "largest distance of the new path from the programmed path (default: 0.005)")
         ("feeds", po::value<std::string>()->value_name("searched|intervals"), "feeds of the new program: searched, so that adjacent passes run at equal speeds, or intervals, the planned speed of each constant-speed interval, as clsurf intervals lists them (default: searched)")
         ("machines", po::value<int>()->value_name("N"), "other machines that the new program must be better on, drawn from what the machine file says of its uncertainty (default: 4; 0: none)")

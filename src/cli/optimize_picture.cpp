@@ -16,13 +16,15 @@ namespace clsurf::cli {
 namespace {
 
 /// A field of both runs on one scale.
-viz::Image draw_pair(const Optimized& result, const Field& before, const Field& after, const viz::MapTexts& texts) {
+viz::Image draw_pair(const Optimized& result, const Field& before, const Field& after, const viz::MapTexts& texts,
+                     bool keep_drawing) {
     viz::MapPanel left{&result.before.surface, &before, "before", {}, {}, {}},
         right{&result.after.surface, &after, "after", {}, {}, {}};
     const std::vector<viz::MapPanel> panels{left, right};
     viz::Look look;
     look.view = viz::parse_view("top");
     look.height = 720;
+    look.keep_drawing = keep_drawing;
     const ShownRange a = find_range(before, result.before.surface.passes, {}, {}),
                      b = find_range(after, result.after.surface.passes, {}, {});
     const viz::ColourScale scale = viz::scale_of(before.info, std::min(a.low, b.low), std::max(a.high, b.high));
@@ -42,7 +44,7 @@ Field difference_of(const JudgedRun& run) {
 
 }  // namespace
 
-viz::Image draw_before_and_after(const Optimized& result, const std::string& program) {
+viz::Image draw_before_and_after(const Optimized& result, const std::string& program, bool keep_drawing) {
     const bool ran = std::any_of(result.controller_runs.begin(), result.controller_runs.end(),
                                  [](const ControllerRun& run) { return run.candidate > 0 && run.measured; });
     viz::MapTexts speed, difference;
@@ -55,8 +57,9 @@ viz::Image draw_before_and_after(const Optimized& result, const std::string& pro
     };
     difference.notes = {"before: " + summary(result.before, result.evaluation.defects_before),
                         "after: " + summary(result.after, result.evaluation.defects_after)};
-    return viz::stacked(draw_pair(result, speed_of(result.before), speed_of(result.after), speed),
-                        draw_pair(result, difference_of(result.before), difference_of(result.after), difference));
+    return viz::stacked(
+        draw_pair(result, speed_of(result.before), speed_of(result.after), speed, keep_drawing),
+        draw_pair(result, difference_of(result.before), difference_of(result.after), difference, keep_drawing));
 }
 
 }  // namespace clsurf::cli

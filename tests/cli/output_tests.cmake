@@ -65,8 +65,8 @@ clsurf_ending_test(plot_eps "${drawing_endings}" plot ${part} ${run} -o curve.ep
 clsurf_ending_test(profile_gif "${drawing_endings}" plot ${part} ${run} --profile 0,0,1,1 --tool ball:6 -o cut.gif)
 clsurf_ending_test(diff_eps "${drawing_endings}" diff ${run} ${run} -o map.eps)
 clsurf_ending_test(compare_gif "${picture_endings}" compare ${shot}/speed_iso.png ${shot}/speed_top.png --diff d.gif)
-clsurf_ending_test(identify_picture "${picture_endings}" identify ${part} ${run} -o m.toml --picture residual.svg)
-clsurf_ending_test(optimize_picture "${picture_endings}" optimize ${part} -o better.nc --picture better.svg)
+clsurf_ending_test(identify_picture "${drawing_endings}" identify ${part} ${run} -o m.toml --picture residual.eps)
+clsurf_ending_test(optimize_picture "${drawing_endings}" optimize ${part} -o better.nc --picture better.eps)
 clsurf_ending_test(report_pdf ".html or .htm" report ${part} ${run} -o r.pdf)
 # SVG and PDF: every word is text, and the surface is what the PNG shows.
 find_program(PDFTOTEXT pdftotext)
@@ -78,6 +78,7 @@ clsurf_cli_test(NAME svg_card SETUP "$CLSURF plot ${part} ${run} --defect 1 -o c
 clsurf_cli_test(NAME svg_diff SETUP "$CLSURF diff ${run} ${run} -o map.svg && ${read_svg} map.svg images 1 'minus'" ARGS --version)
 clsurf_cli_test(NAME svg_profile SETUP "$CLSURF plot ${part} ${run} --profile 0,-2,0,2 --tool ball:6 -o cut.svg && ${read_svg} cut.svg images 0 'Roughness'" ARGS --version)
 clsurf_cli_test(NAME svg_before SETUP "$CLSURF render ${part} ${run} --before ${run} --size 800x600 -o map.svg && ${read_svg} map.svg images 2 'before: ' 'after: ' 'after minus before'" ARGS --version)
+clsurf_cli_test(NAME svg_identify SETUP "$CLSURF identify ${part} ${run} -o m.toml --picture residual.svg -q && ${read_svg} residual.svg images 1 'simulation minus' 'used for the fit'" ARGS --version)
 if(PDFTOTEXT AND PDFTOPPM)
   clsurf_cli_test(NAME pdf_map SETUP "$CLSURF render ${part} ${run} --size 800x600 -o map.pdf && ${PDFTOTEXT} map.pdf map.txt && grep -q 'bottle_uneven.nc' map.txt && ${PDFTOPPM} -r 96 -png -singlefile map.pdf map && $CLSURF render ${part} ${run} --size 800x600 -o same.png"
     ARGS compare map.png same.png --json EXIT 1 STDOUT "\"mean_error\": 0.0[01]")

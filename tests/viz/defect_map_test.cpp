@@ -44,5 +44,13 @@ TEST(AssignSlots, OrderOfHeightsAloneWouldCross) {
     EXPECT_EQ(slot_of, (std::vector<std::size_t>{1, 0}));
 }
 
+TEST(TopOfNames, IsBesideTheAnchorsAndInTheRoom) {
+    const std::vector<Vec2> anchors{{0, 90}, {0, 110}};
+    EXPECT_DOUBLE_EQ(top_of_names(anchors, 60, 0, 1000), 130);   // from 70 to 130
+    EXPECT_DOUBLE_EQ(top_of_names(anchors, 60, 80, 1000), 140);  // as low as it can be
+    EXPECT_DOUBLE_EQ(top_of_names(anchors, 60, 0, 120), 120);    // as high as it can be
+    EXPECT_DOUBLE_EQ(top_of_names({}, 0, 0, 500), 500);          // "3 outside the picture" stands at the top
+}
+
 }  // namespace
 }  // namespace clsurf::viz
