@@ -95,6 +95,15 @@ test('the card of a defect stays until it is closed', async () => {
     assert.ok((await card.textContent()).includes(`${defect.depth_um.toFixed(1)} µm ${defect.shape}`));
     await page.click('.program .row >> nth=3');
     assert.ok(await card.isVisible());
+    // Nothing in its head is cut off or wrapped.
+    const [wide, rows] = await card.evaluate((element) => [
+        element.scrollWidth - element.clientWidth,
+        new Set([...element.querySelectorAll('.head button')].map((button) => button.offsetTop)).size,
+    ]);
+    assert.deepEqual([wide, rows], [0, 1]);
+    // The defect, in the middle of the map, is not below it.
+    const [layer, over] = [await page.locator('.layer').first().boundingBox(), await card.boundingBox()];
+    assert.ok(over.x > layer.x + layer.width / 2, `${over.x}`);
     await card.locator('[data-action="card-line"]').first().click();
     await settled(page);
     assert.equal(await chosenLine(page), defect.lines[0][0]);

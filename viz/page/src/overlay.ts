@@ -43,6 +43,7 @@ export interface OverlayScene {
 }
 
 export const legendWidth = 104; // px beside the map
+const wipeLabels = 56; // px from the top: below the title and its caption
 
 export class Overlay {
     constructor(readonly canvas: HTMLCanvasElement) {}
@@ -74,8 +75,9 @@ export class Overlay {
             g.moveTo(x, 0);
             g.lineTo(x, height);
             g.stroke();
-            label(g, 'before', x - 8, 18, ink, halo, 'right');
-            label(g, 'after', x + 8, 18, ink, halo, 'left');
+            const y = wipeLabels;
+            label(g, 'before', x - 8, y, ink, halo, 'right');
+            label(g, 'after', x + 8, y, ink, halo, 'left');
         }
         this.legend(g, camera, scene, ink, halo);
         this.axes(g, camera, ink, halo);
