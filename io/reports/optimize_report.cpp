@@ -158,8 +158,10 @@ std::string optimize_text(const Optimized& r) {
     }
     write_roughness(r, row);
     row("lines", r.evaluation.lines_before, r.evaluation.lines_after, 0);
-    text += fmt::format("{} sections, {} lines changed; off the programmed path by at most {:.4f} mm\n",
-                        r.evaluation.intervals, r.evaluation.changed_lines, r.evaluation.deviation.greatest);
+    const std::string splines =
+        r.evaluation.splines > 0 ? fmt::format(" ({} as splines)", r.evaluation.splines) : std::string();
+    text += fmt::format("{} sections{}, {} lines changed; off the programmed path by at most {:.4f} mm\n",
+                        r.evaluation.intervals, splines, r.evaluation.changed_lines, r.evaluation.deviation.greatest);
     if (r.five_axes)
         text += fmt::format("tool axis deviates from the programmed one by at most {:.4f} deg\n",
                             r.evaluation.deviation.turned * deg_per_rad);
@@ -194,6 +196,7 @@ std::string optimize_json(const Optimized& r, const Diagnostics& diagnostics) {
               {"roughness_before", roughness_json(r.roughness_before)},
               {"roughness_after", roughness_json(r.roughness_after)},
               {"intervals", r.evaluation.intervals},
+              {"splines", r.evaluation.splines},
               {"lines_before", r.evaluation.lines_before},
               {"lines_after", r.evaluation.lines_after},
               {"lines_changed", r.evaluation.changed_lines},

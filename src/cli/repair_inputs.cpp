@@ -14,6 +14,7 @@
 #include "io/readers/machine_file.h"
 #include "io/readers/program_file.h"
 #include "pipeline/placement.h"
+#include "program/dialects/dialect_rules.h"
 
 namespace clsurf::cli {
 
@@ -28,6 +29,10 @@ RepairInputs read_repair_inputs(const po::variables_map& values, Diagnostics& di
     as_programmed.coordinates.reset();
     in.program = io::read_program(source, as_programmed);
     const bool five_axes = runs_on_five_axes(in.program, in.machine);
+    if (in.rules.splines && (five_axes || !in.program.motions.rotary.empty()))
+        throw UsageError("--splines is for programs on three axes");
+    if (in.rules.splines && in.program.dialect->rules->text.splines == SplineForm::none)
+        throw UsageError(fmt::format("--splines: {} has no splines that can be written", in.program.dialect->name));
     in.measured = read_measured(values, five_axes);
     FramePoses poses = read_work_offset(values);
     if (in.measured) poses.zero = zero_of(poses, *in.measured, in.measured->diagnostics);

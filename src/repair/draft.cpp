@@ -19,19 +19,30 @@ Draft Drafter::draft(const DraftLines& lines, std::vector<std::uint8_t> needed) 
     draft.lines = lines;
     LineEditor editor(program_, rules_.least_decimals);
     const double spacing = 0.5 * fitting_spacing(program_, programmed_, lines.chord_error);
-    const std::vector<ResampledSegment> segments = resample(
-        program_, programmed_, editor,
-        {rules_.tolerance, spacing, lines.chord_error, lines.shortest_line, ResampleRules{}.corner_angle, most_turned},
-        needed, orientation_);
+    const std::vector<ResampledSegment> segments =
+        resample(program_, programmed_, editor,
+                 {rules_.tolerance, spacing, lines.chord_error, lines.shortest_line, ResampleRules{}.corner_angle,
+                  most_turned, rules_.splines},
+                 needed, orientation_);
+    const bool all_may_slow = slows_anywhere_ && !rules_.splines;
     std::int64_t old = 0;  // motions so far
+    const auto keep_slowing = [&](std::int64_t first, std::int64_t end) {
+        for (std::int64_t i = first; i < end; ++i)
+            draft.may_slow.push_back(slows_anywhere_ ? 1 : needed[static_cast<std::size_t>(i)]);
+    };
     for (const ResampledSegment& segment : segments) {
-        const std::size_t written = editor.replace(segment.first, segment.last, segment.points, segment.angles);
-        if (slows_anywhere_) continue;
-        draft.may_slow.insert(draft.may_slow.end(), needed.begin() + old, needed.begin() + segment.first);
-        draft.may_slow.insert(draft.may_slow.end(), written, 1);
+        const bool is_spline = segment.spline.has_value();
+        const std::size_t written = is_spline
+                                        ? editor.replace(segment.first, segment.last, *segment.spline)
+                                        : editor.replace(segment.first, segment.last, segment.points, segment.angles);
+        draft.splines += is_spline ? 1 : 0;
+        if (all_may_slow) continue;
+        keep_slowing(old, segment.first);
+        // Feeds are written on lines only.
+        draft.may_slow.insert(draft.may_slow.end(), written, is_spline ? 0 : 1);
         old = segment.last + 1;
     }
-    if (!slows_anywhere_) draft.may_slow.insert(draft.may_slow.end(), needed.begin() + old, needed.end());
+    if (!all_may_slow) keep_slowing(old, program_.motions.size());
     draft.text = editor.text(rules_.header);
     draft.program = read_(draft.text);
     draft.segments = segments.size();
@@ -40,6 +51,6 @@ Draft Drafter::draft(const DraftLines& lines, std::vector<std::uint8_t> needed) 
     return draft;
 }
 
-Draft Drafter::unchanged() const { return {program_, std::string(program_.main().text()), 0, 0, {}, {}, {}}; }
+Draft Drafter::unchanged() const { return {program_, std::string(program_.main().text()), 0, 0, 0, {}, {}, {}}; }
 
 }  // namespace clsurf

@@ -25,7 +25,7 @@ struct DraftLines {
 struct Draft {
     Program program;
     std::string text;
-    std::size_t segments = 0, changed_lines = 0;
+    std::size_t segments = 0, splines = 0, changed_lines = 0;  ///< splines: sections that are one
     DraftLines lines{};
     std::vector<std::uint8_t> needed{};    ///< per motion of the old program: 0 has kept its points
     std::vector<std::uint8_t> may_slow{};  ///< per motion of the draft, whether it may get a feed; empty: all may

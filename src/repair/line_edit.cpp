@@ -10,6 +10,7 @@
 #include "program/feed_per_minute.h"
 #include "program/frame_placement.h"
 #include "program/text/lexer.h"
+#include "repair/spline_lines.h"
 
 namespace clsurf {
 namespace {
@@ -266,6 +267,44 @@ std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const std
     changed_ += old_lines;
     edits_.push_back(std::move(edit));
     return written;
+}
+
+bool LineEditor::may_be_spline(std::int64_t first, const std::vector<Vec3>& points) const {
+    if (rules_->splines != SplineForm::cubic_plane) return rules_->splines != SplineForm::none;
+    const auto words = [&](const Vec3& p) { return in_words(program_->motions, first, p); };
+    const Vec3& begin = points.front();
+    // The inner points of G5 are not turned or scaled with the frame.
+    for (const Vec3& axis : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY())}) {
+        if (!((words(begin + axis) - words(begin) - axis).norm() <= same_coordinate)) return false;
+    }
+    return std::all_of(points.begin(), points.end(),
+                       [&](const Vec3& p) { return std::abs(words(p).z() - words(begin).z()) <= same_coordinate; });
+}
+
+std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const Nurbs& spline) {
+    const Motions& motions = program_->motions;
+    const SourceText& main = program_->main();
+    const std::string_view end_of_line = line_end_of(main.text());
+    const LineNumber first_line = motions.line[static_cast<std::size_t>(first)],
+                     last_line = motions.line[static_cast<std::size_t>(last)];
+    const std::size_t old_lines = last_line - first_line + 1;
+    const OldLines old = read_old(main, first_line, last_line, rules_->straight_word);
+    SplineWords words{decimals_, {old.words[0], old.words[1], old.words[2]}, "G1"};
+    if (!rules_->straight_word.empty()) words.straight.clear();
+    Nurbs counted = spline;
+    for (Vec3& p : counted.points) p = in_words(motions, first, p) / unit_;
+    const std::vector<std::string> lines = spline_lines(counted, rules_->splines, words);
+    Edit edit{first_line, last_line, {}};
+    const bool numbered = old.numbers.size() == old_lines;
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+        const bool is_last = k + 1 == lines.size();
+        if (numbered && (k + 1 < old_lines || is_last)) edit.text += is_last ? old.numbers.back() : old.numbers[k];
+        edit.text += lines[k];
+        edit.text += end_of_line;
+    }
+    changed_ += old_lines;
+    edits_.push_back(std::move(edit));
+    return spans_in(spline);
 }
 
 void LineEditor::set_feeds(const std::vector<float>& feeds) {

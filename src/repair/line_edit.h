@@ -13,11 +13,11 @@
 #include <string_view>
 #include <vector>
 
+#include "numeric/bezier_curve.h"
 #include "program/program.h"
+#include "program/text/text_rules.h"
 
 namespace clsurf {
-
-struct TextRules;
 
 /// What a rewritable line looks like. Words are those of X, Y, Z, A, B, C.
 struct PlainLine {
@@ -62,6 +62,15 @@ public:
     /// `angles`: one entry a point where the lines turn rotary axes, else none.
     std::size_t replace(std::int64_t first, std::int64_t last, const std::vector<Vec3>& points,
                         const std::vector<LineAngles>& angles = {});
+
+    /// In which the dialect has splines.
+    [[nodiscard]] SplineForm spline_form() const { return rules_->splines; }
+    /// Whether a section that begins with motion `first` may be a spline: the dialect has one, in a plane of constant Z
+    /// where its own are planar.
+    [[nodiscard]] bool may_be_spline(std::int64_t first, const std::vector<Vec3>& points) const;
+    /// Puts a cubic spline [mm] from where the motion `first` begins to where `last` ends in place of their lines, as
+    /// replace() does. Returns how many motions it is. Domain: may_be_spline(); weights of 1.
+    std::size_t replace(std::int64_t first, std::int64_t last, const Nurbs& spline);
 
     /// Gives motions a feed [mm/s], one entry a motion of the program, 0: as it is. Only lines that may be
     /// rewritten get one; behind them the programmed feed is set again, on the next line where that may

@@ -32,6 +32,7 @@ enum class FeedChoice : unsigned char {
 
 struct OptimizeRules {
     FeedChoice feeds = FeedChoice::searched;
+    bool splines = false;       ///< sections are written as splines where the dialect has them; three axes
     double tolerance = 0.005;   ///< [mm] from the programmed path
     double more_time = 0;       ///< a share: how much longer the new program may take
     int least_decimals = 0;     ///< of new coordinates; 0: as many as the program has

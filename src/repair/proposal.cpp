@@ -6,6 +6,7 @@
 
 #include "core/parallel.h"
 #include "core/units.h"
+#include "program/dialects/dialect_rules.h"
 #include "repair/feeds/feed_equalisation.h"
 #include "repair/line_edit.h"
 #include "repair/roughness_gauge.h"
@@ -24,6 +25,12 @@ constexpr std::size_t most_finalists_of_large = 1;  ///< … where runs are larg
 /// Share of the time that feeds leave for the other machines. Of candidates that use all of it, the mean of the machines
 /// takes up to 0.03 % longer than before.
 constexpr double time_reserve = 0.001;
+
+std::string no_splines(SplineForm form) {
+    return form == SplineForm::cubic_plane
+               ? "no section can be written as a spline: G5 moves only X and Y, and needs fewer blocks than the lines"
+               : "no section can be written as a spline with fewer blocks than its lines";
+}
 
 }  // namespace
 
@@ -95,6 +102,7 @@ Proposal Evaluator::prove(const std::shared_ptr<const Draft>& draft, std::vector
     result.text = draft->text;
     Evaluation& evaluation = result.evaluation;
     evaluation.intervals = draft->segments;
+    evaluation.splines = draft->splines;
     evaluation.changed_lines = draft->changed_lines;
     if (!result.targets.empty()) {
         LineEditor editor(draft->program);
@@ -131,6 +139,7 @@ Deviation Evaluator::deviation_of(const Program& changed) const {
 /// Why a proposal cannot be taken; empty: it can.
 std::string Evaluator::objection(const Proposal& p) const {
     if (p.evaluation.changed_lines == 0) return "no section of the program can be rewritten";
+    if (rules_.splines && p.evaluation.splines == 0) return no_splines(program_.dialect->rules->text.splines);
     if (p.evaluation.deviation.disordered > 0)
         return fmt::format("line {} would no longer have the same effect", p.evaluation.deviation.disordered);
     if (p.evaluation.deviation.greatest > rules_.tolerance)

@@ -21,6 +21,7 @@ struct Evaluation {
     std::string reason;  ///< why not, or empty
     Deviation deviation;
     std::size_t intervals = 0;  ///< sections that were changed
+    std::size_t splines = 0;    ///< of them, written as splines
     LineNumber lines_before = 0, lines_after = 0;
     std::size_t changed_lines = 0;                      ///< of the old program
     std::size_t defects_before = 0, defects_after = 0;  ///< by the thresholds of the run before

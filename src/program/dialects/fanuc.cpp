@@ -415,7 +415,8 @@ constexpr auto mark_signs = std::to_array<MarkSign>({{Mark::comma_corner, 4},
 }  // namespace fanuc
 
 const DialectRules fanuc_rules{
-    .text = {.counts_centres = true,
+    .text = {.splines = SplineForm::knotted,
+             .counts_centres = true,
              .functions_after_words = false,
              .ranks = OperatorRanks::fanuc,
              .vacant_variables = true,

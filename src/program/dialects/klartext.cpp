@@ -360,6 +360,7 @@ const DialectRules klartext_rules{
              .straight_word = "L",
              .first_block = "BEGIN PGM ",
              .inch_feed = 0.1,
+             .splines = SplineForm::polynomial,
              .caret_power = true,
              .round_brackets = true,
              .numbered_names = "Q",

@@ -373,6 +373,7 @@ constexpr ArcTolerance tolerance_of(double least) {
 const DialectRules linuxcnc_rules{
     .text = {.blanks_in_numbers = true,
              .skip_levels = false,
+             .splines = SplineForm::cubic_plane,
              .polar_signs = true,
              .repeated_words = false,
              .assigns_expressions = false,

@@ -369,6 +369,7 @@ constexpr auto mark_signs = std::to_array<MarkSign>({{Mark::tape_name, 15},
 const DialectRules siemens_rules{
     .text = {.semicolon_comments = true,
              .round_comments = false,
+             .splines = SplineForm::basis,
              .words = WordStyle::names,
              .ranks = OperatorRanks::siemens,
              .round_brackets = true,

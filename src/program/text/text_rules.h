@@ -21,6 +21,15 @@ enum class WordStyle : std::uint8_t {
     names,    ///< also names with '=' or arguments: CR=10, CYCLE832(0.01); parentheses are those of expressions
 };
 
+/// What repaired sections are written as (repair/spline_lines.h).
+enum class SplineForm : std::uint8_t {
+    none,
+    cubic_plane,  ///< G5: a Bézier curve of X and Y, a block each span
+    knotted,      ///< G06.2: a NURBS with its knots
+    basis,        ///< BSPLINE: a B-spline with the lengths of its spans
+    polynomial,   ///< SPL: a cubic in each axis, a block each span
+};
+
 struct TextRules {
     // Lines.
     bool semicolon_comments = false;   ///< the usual comment is "; …", not "( … )"
@@ -34,6 +43,8 @@ struct TextRules {
     std::string_view straight_word{};  ///< what begins every straight line, as L; empty: G1, which stays in force
     std::string_view first_block{};    ///< how the first block of a program begins, after its number
     double inch_feed = 1;              ///< inches that F counts in an inch program
+
+    SplineForm splines = SplineForm::none;  ///< of repaired sections
 
     // Words.
     WordStyle words = WordStyle::letters;

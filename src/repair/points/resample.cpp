@@ -9,6 +9,8 @@
 #include "core/statistics.h"
 #include "numeric/polyline.h"
 #include "repair/points/new_lines.h"
+#include "repair/points/section_spline.h"
+#include "repair/spline_lines.h"
 #include "toolpath/toolpath.h"
 
 namespace clsurf {
@@ -54,6 +56,7 @@ public:
           programmed_(programmed),
           editor_(editor),
           corner_angle_(rules.corner_angle),
+          splines_(rules.splines && orientation == nullptr && program.motions.rotary.empty()),
           lines_(line_rules(rules, spacings, editor.rounding(), editor.turn_rounding())),
           needed_(needed),
           orientation_(orientation),
@@ -141,7 +144,8 @@ private:
         std::optional<TurningSegment> turning;
         if (turns(old)) turning.emplace(old, *orientation_, aligned_points, lines_);
         ResampledSegment segment{motion(pass.ends[begin + 1]), motion(pass.ends[end]), {}};
-        for (const NewPlace& place : new_lines(old, smooth(old, aligned_points, lines_), aligned_points, lines_,
+        const SmoothCurve curve(old, aligned_points, lines_);
+        for (const NewPlace& place : new_lines(old, smooth(old, curve, aligned_points), aligned_points, lines_,
                                                turning ? &*turning : nullptr)) {
             segment.points.push_back(place.position);
             if (turning)
@@ -149,7 +153,17 @@ private:
             else if (!motions_.rotary.empty())
                 segment.angles.push_back(standing(segment.last));
         }
-        if (!stays(old, segment)) segments.push_back(std::move(segment));
+        if (splines_) segment.spline = spline_of(old, curve, segment.first);
+        if (segment.spline || !stays(old, segment)) segments.push_back(std::move(segment));
+    }
+
+    /// The section as a spline, if the dialect has one for it that takes fewer blocks than the old lines.
+    [[nodiscard]] std::optional<Nurbs> spline_of(const OldSegment& old, const SmoothCurve& curve,
+                                                 std::int64_t first) const {
+        if (!editor_.may_be_spline(first, old.points)) return std::nullopt;
+        std::optional<Nurbs> spline = section_spline(old, curve, lines_);
+        if (spline && blocks_of_spline(*spline, editor_.spline_form()) + 1 >= old.points.size()) spline.reset();
+        return spline;
     }
 
     [[nodiscard]] bool turns(const OldSegment& old) const {
@@ -176,6 +190,7 @@ private:
     const ProgrammedSurface& programmed_;
     const LineEditor& editor_;
     double corner_angle_;  ///< [rad]
+    bool splines_;
     LineRules lines_;
     std::span<const std::uint8_t> needed_;  ///< one entry a motion, or none
     const Orientation* orientation_;

@@ -3,9 +3,11 @@
 // inside a tube around the programmed lines.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "numeric/bezier_curve.h"
 #include "repair/line_edit.h"
 #include "repair/points/orientation.h"
 #include "surface/programmed_surface.h"
@@ -21,6 +23,7 @@ struct ResampleRules {
         0;  ///< [mm] that aligned points are chosen for: blocks that are passed faster than the controller reads them slow it down
     double corner_angle = 0.5;  ///< [rad] a point where the path turns by more stays where it is
     double most_turned = 0;     ///< [rad] that the tool axis may be off, all in all
+    bool splines = false;       ///< sections become splines where the dialect has them; three axes
 };
 
 /// Motions first … last (lines that may be rewritten, on one pass) and the points that replace their ends. The last
@@ -29,6 +32,7 @@ struct ResampledSegment {
     std::int64_t first = 0, last = 0;
     std::vector<Vec3> points;          ///< [mm]
     std::vector<LineAngles> angles{};  ///< one a point; none in programs without rotary axes
+    std::optional<Nurbs> spline{};     ///< that takes fewer blocks than the old lines; nullopt: lines to the points
 };
 
 /// The spacing of lines where the path bends most [mm]: for a chord error at the 98th percentile of curvature, between

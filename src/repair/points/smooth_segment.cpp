@@ -95,12 +95,11 @@ Vec3 SmoothCurve::at(double arc_length) const {
                : old_.at(arc_length);
 }
 
-SmoothSegment smooth(const OldSegment& old, const std::vector<AlignedPoint>& aligned_points, const LineRules& rules) {
+SmoothSegment smooth(const OldSegment& old, const SmoothCurve& curve, const std::vector<AlignedPoint>& aligned_points) {
     SmoothSegment result;
     result.arc_length.push_back(0);
     for (const AlignedPoint& s : aligned_points) result.arc_length.push_back(s.arc_length);
     result.arc_length.push_back(old.length());
-    const SmoothCurve curve(old, aligned_points, rules);
     for (const double arc_length : result.arc_length) {
         result.places.push_back(old.at(arc_length));
         result.points.push_back(curve.at(arc_length));

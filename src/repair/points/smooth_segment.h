@@ -33,8 +33,8 @@ private:
     std::vector<CubicSpan> spans_;
 };
 
-/// Such a curve at all aligned points. O(points).
-[[nodiscard]] SmoothSegment smooth(const OldSegment& old, const std::vector<AlignedPoint>& aligned_points,
-                                   const LineRules& rules);
+/// The curve at all aligned points. O(points).
+[[nodiscard]] SmoothSegment smooth(const OldSegment& old, const SmoothCurve& curve,
+                                   const std::vector<AlignedPoint>& aligned_points);
 
 }  // namespace clsurf

@@ -1,0 +1,159 @@
+// Sections as splines: the fit, the blocks of each dialect, and what reading them gives. Answers are worked out on paper;
+// tests/cli/cases/optimize_splines.cmake evaluates whole programs with SciPy.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "repair/line_edit.h"
+#include "repair/parts.h"
+#include "repair/points/deviation.h"
+#include "repair/points/section_spline.h"
+#include "repair/spline_lines.h"
+
+namespace clsurf {
+namespace {
+
+OldSegment segment_of(const std::vector<Vec3>& points) {
+    OldSegment old;
+    for (const Vec3& p : points) {
+        old.arc_length.push_back(old.points.empty() ? 0 : old.arc_length.back() + (p - old.points.back()).norm());
+        old.points.push_back(p);
+        old.motion.push_back(static_cast<std::int64_t>(old.motion.size()));
+    }
+    return old;
+}
+
+LineRules rules_of(double spacing) {
+    LineRules rules;
+    rules.spacing = rules.usual = spacing;
+    rules.chord_error = 0.001;
+    rules.most = 0.004;
+    rules.radius = 0.003;
+    return rules;
+}
+
+std::optional<Nurbs> fitted(const OldSegment& old, const LineRules& rules) {
+    return section_spline(old, SmoothCurve(old, {}, rules), rules);
+}
+
+/// One span: control points (0,0) (1,2) (2,2) (3,0) over knots 0 … 3.
+Nurbs one_span() { return {3, {{0, 0, 5}, {1, 2, 5}, {2, 2, 5}, {3, 0, 5}}, {1, 1, 1, 1}, {0, 0, 0, 0, 3, 3, 3, 3}}; }
+
+Program read_as(const std::string& text, const char* dialect) {
+    auto bytes = std::make_shared<std::string>(text);
+    InterpreterOptions options;
+    options.dialect = find_dialect(dialect);
+    return parse_program(SourceText("part.nc", *bytes, bytes), options);
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+    std::string text;
+    for (const std::string& line : lines) text += line + "\n";
+    return text;
+}
+
+TEST(SectionSpline, OfALineIsOneSpan) {
+    std::vector<Vec3> points;
+    for (int k = 0; k <= 20; ++k) points.emplace_back(0.25 * k, 0.5 * k, 0);
+    const std::optional<Nurbs> spline = fitted(segment_of(points), rules_of(0.3));
+    ASSERT_TRUE(spline);
+    EXPECT_EQ(spline->points.size(), 4U);
+    for (const Vec3& p : spline->points) EXPECT_NEAR(p.y(), 2 * p.x(), 1e-6);
+    EXPECT_EQ(spline->points.front(), points.front());
+    EXPECT_EQ(spline->points.back(), points.back());
+}
+
+// Chords of 0.25 mm leave a circle of radius 10 mm by 0.8 µm. A cubic per radian leaves it by less than 1 µm.
+TEST(SectionSpline, OfACircleNeedsFewSpans) {
+    std::vector<Vec3> points;
+    for (int k = 0; k <= 80; ++k) points.emplace_back(10 * std::cos(0.025 * k), 10 * std::sin(0.025 * k), 0.1 * k);
+    const OldSegment old = segment_of(points);
+    const std::optional<Nurbs> spline = fitted(old, rules_of(0.25));
+    ASSERT_TRUE(spline);
+    EXPECT_LE(spans_in(*spline), 8U);
+    for (const NurbsSpan& span : spans_of(*spline)) {
+        for (double t = 0; t <= 1; t += 0.05) EXPECT_NEAR(span.curve.at(t).head<2>().norm(), 10, 0.004);
+    }
+}
+
+// Points off a line by 3 µm in turn can be smoothed; where only 0.1 µm is allowed, a cubic would need a span for each.
+TEST(SectionSpline, GivesUpWhereSpansWouldBeAsShortAsLines) {
+    std::vector<Vec3> points;
+    for (int k = 0; k <= 60; ++k) points.emplace_back(0.2 * k, k % 2 == 0 ? 0.003 : -0.003, 0);
+    LineRules rules = rules_of(0.2);
+    EXPECT_TRUE(fitted(segment_of(points), rules));
+    rules.most = rules.radius = rules.chord_error = 1e-4;
+    EXPECT_FALSE(fitted(segment_of(points), rules));
+}
+
+TEST(SplineLines, AreThoseOfEachDialect) {
+    const Nurbs spline = one_span();
+    SplineWords words;
+    words.decimals = 1;
+    EXPECT_EQ(joined(spline_lines(spline, SplineForm::knotted, words)),
+              "G06.2 P4 K0.000 X0.0 Y0.0 Z5.0\nK0.000 X1.0 Y2.0 Z5.0\nK0.000 X2.0 Y2.0 Z5.0\nK0.000 X3.0 Y0.0 Z5.0\n"
+              "K3.000\nK3.000\nK3.000\nK3.000\nG1\n");
+    EXPECT_EQ(joined(spline_lines(spline, SplineForm::basis, words)),
+              "BSPLINE SD=3 X1.0 Y2.0 Z5.0 PL=3.000\nX2.0 Y2.0 Z5.0\nX3.0 Y0.0 Z5.0\nG1\n");
+    EXPECT_EQ(joined(spline_lines(spline, SplineForm::cubic_plane, words)),
+              "G5 X3.0 Y0.0 I1.0000 J2.0000 P-1.0000 Q2.0000\nG1\n");
+    words.straight.clear();
+    EXPECT_EQ(joined(spline_lines(spline, SplineForm::polynomial, words)),
+              "SPL X+3.0 Y+0.0 Z+5.0 K3X+0.0000 K2X+0.0000 K1X-3.0000 K3Y+0.0000 K2Y-6.0000 K1Y+6.0000 "
+              "K3Z+0.0000 K2Z+0.0000 K1Z+0.0000\n");
+    for (const SplineForm form : {SplineForm::knotted, SplineForm::basis, SplineForm::cubic_plane})
+        EXPECT_EQ(blocks_of_spline(spline, form), spline_lines(spline, form, {}).size());
+    EXPECT_EQ(blocks_of_spline(spline, SplineForm::polynomial),
+              spline_lines(spline, SplineForm::polynomial, words).size());
+}
+
+// Two spans of different length, in every dialect: the curve that is read is the one that was written.
+TEST(SplineLines, ReadBackAsTheSameCurve) {
+    const Nurbs spline{
+        3, {{0, 0, 5}, {1, 2, 5}, {2, 2, 5}, {4, 1, 5}, {5, 0, 5}}, {1, 1, 1, 1, 1}, {0, 0, 0, 0, 2, 5, 5, 5, 5}};
+    const std::vector<NurbsSpan> spans = spans_of(spline);
+    struct Row {
+        const char *dialect, *before, *after;
+        SplineForm form;
+    };
+    for (const Row& row : {Row{"fanuc", "G21 G90 G17 G94\nG1 X0. Y0. Z5. F600\n", "X9.\nM30\n", SplineForm::knotted},
+                           Row{"siemens", "G71 G90 G17 G94\nG1 X0 Y0 Z5 F600\n", "X9\nM30\n", SplineForm::basis},
+                           Row{"linuxcnc", "G21 G90 G17\nG1 X0 Y0 Z5 F600\n", "X9\nM2\n", SplineForm::cubic_plane},
+                           Row{"klartext", "0 BEGIN PGM A MM\n1 L X+0 Y+0 Z+5 R0 F600\n", "L X+9\nEND PGM A MM\n",
+                               SplineForm::polynomial}}) {
+        SplineWords words;
+        if (row.form == SplineForm::polynomial) words.straight.clear();
+        const Motions motions =
+            read_as(row.before + joined(spline_lines(spline, row.form, words)) + row.after, row.dialect).motions;
+        ASSERT_EQ(motions.curves.size(), 2U) << row.dialect;
+        for (std::size_t k = 0; k < 2; ++k) {
+            for (const double t : {0.0, 0.3, 0.7, 1.0})
+                EXPECT_LT((motions.curves[k].span->at(t) - spans[k].curve.at(t)).norm(), 0.001) << row.dialect;
+        }
+        EXPECT_EQ(motions.kind.back(), MotionKind::feed) << row.dialect;
+        EXPECT_EQ(motions.end.back().x, 9) << row.dialect;
+    }
+}
+
+TEST(LineEditor, WritesG5InPlanesOfConstantZOnly) {
+    const Program program = read_as("G21 G90\nG0 X0 Y0 Z0\nG1 X1 F600\nX2\nX3\nX4\nX5 Z1\nM2\n", "linuxcnc");
+    const LineEditor editor(program);
+    EXPECT_TRUE(editor.may_be_spline(2, {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}}));
+    EXPECT_FALSE(editor.may_be_spline(2, {{1, 0, 0}, {4, 0, 0}, {5, 0, 1}}));
+    const Program fanuc = read_as("G21 G90 G94\nG0 X0. Y0. Z0.\nG1 X1. F600\nX2.\nX5. Z1.\nM30\n", "fanuc");
+    EXPECT_TRUE(LineEditor(fanuc).may_be_spline(2, {{1, 0, 0}, {5, 0, 1}}));
+}
+
+// A Bézier curve with inner points h aside is 3/4 h aside of its chord at most.
+TEST(Deviation, OfASplineInPlaceOfALine) {
+    const Program line = read_as("G21 G90 G17\nG0 X0 Y0 Z0\nG1 X10 F600\nX20\nX30\nM2\n", "linuxcnc");
+    const Program spline =
+        read_as("G21 G90 G17\nG0 X0 Y0 Z0\nG1 F600\nG5 X30 Y0 I10 J0.02 P-10 Q0.02\nM2\n", "linuxcnc");
+    const Deviation deviation = measure_deviation(line, spline);
+    EXPECT_EQ(deviation.disordered, 0U);
+    EXPECT_NEAR(deviation.greatest, 0.015, 1e-6);
+}
+
+}  // namespace
+}  // namespace clsurf
