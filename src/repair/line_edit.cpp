@@ -116,6 +116,19 @@ OldLines read_old(const SourceText& main, LineNumber first, LineNumber last, std
     return old;
 }
 
+/// Whether a text has a word G18 or G19, of another plane than G17, be it in a comment.
+bool has_other_plane(std::string_view text) {
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        if (upper(text[at]) != 'G') continue;
+        std::size_t digit = skip_blanks(text, at + 1);
+        while (digit < text.size() && text[digit] == '0') ++digit;
+        const bool plane =
+            digit + 1 < text.size() && text[digit] == '1' && (text[digit + 1] == '8' || text[digit + 1] == '9');
+        if (plane && (digit + 2 == text.size() || !is_digit(text[digit + 2]))) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 std::optional<PlainLine> read_plain_line(std::string_view text, std::string_view straight_word) {
@@ -159,6 +172,8 @@ std::optional<PlainLine> read_plain_line(std::string_view text, std::string_view
 
 LineEditor::LineEditor(const Program& program, int least_decimals)
     : program_(&program), rules_(&program.dialect->rules->text), decimals_(least_decimals) {
+    splines_ = rules_->splines != SplineForm::cubic_plane || !has_other_plane(program.main().text()) ? rules_->splines
+                                                                                                     : SplineForm::none;
     const Motions& motions = program.motions;
     const auto count = static_cast<std::size_t>(motions.size());
     const SourceText& main = program.main();
@@ -270,7 +285,7 @@ std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const std
 }
 
 bool LineEditor::may_be_spline(std::int64_t first, const std::vector<Vec3>& points) const {
-    if (rules_->splines != SplineForm::cubic_plane) return rules_->splines != SplineForm::none;
+    if (splines_ != SplineForm::cubic_plane) return splines_ != SplineForm::none;
     const auto words = [&](const Vec3& p) { return in_words(program_->motions, first, p); };
     const Vec3& begin = points.front();
     // The inner points of G5 are not turned or scaled with the frame.
@@ -293,7 +308,7 @@ std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const Nur
     if (!rules_->straight_word.empty()) words.straight.clear();
     Nurbs counted = spline;
     for (Vec3& p : counted.points) p = in_words(motions, first, p) / unit_;
-    const std::vector<std::string> lines = spline_lines(counted, rules_->splines, words);
+    const std::vector<std::string> lines = spline_lines(counted, splines_, words);
     Edit edit{first_line, last_line, {}};
     const bool numbered = old.numbers.size() == old_lines;
     for (std::size_t k = 0; k < lines.size(); ++k) {

@@ -63,8 +63,9 @@ public:
     std::size_t replace(std::int64_t first, std::int64_t last, const std::vector<Vec3>& points,
                         const std::vector<LineAngles>& angles = {});
 
-    /// In which the dialect has splines.
-    [[nodiscard]] SplineForm spline_form() const { return rules_->splines; }
+    /// In which form splines may be written; none: the dialect has none, or G5, which needs G17, in a program with G18 or
+    /// G19.
+    [[nodiscard]] SplineForm spline_form() const { return splines_; }
     /// Whether a section that begins with motion `first` may be a spline: the dialect has one, in a plane of constant Z
     /// where its own are planar.
     [[nodiscard]] bool may_be_spline(std::int64_t first, const std::vector<Vec3>& points) const;
@@ -91,6 +92,7 @@ private:
 
     const Program* program_;
     const TextRules* rules_;  ///< of its dialect
+    SplineForm splines_ = SplineForm::none;
     std::vector<std::uint8_t> editable_;
     std::vector<Edit> edits_;
     double unit_ = 1;

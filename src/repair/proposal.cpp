@@ -28,7 +28,7 @@ constexpr double time_reserve = 0.001;
 
 std::string no_splines(SplineForm form) {
     return form == SplineForm::cubic_plane
-               ? "no section can be written as a spline: G5 moves only X and Y, and needs fewer blocks than the lines"
+               ? "no section can be written as a spline: G5 moves only X and Y, in the plane of G17, and needs fewer blocks than the lines"
                : "no section can be written as a spline with fewer blocks than its lines";
 }
 

@@ -141,6 +141,9 @@ TEST(LineEditor, WritesG5InPlanesOfConstantZOnly) {
     const LineEditor editor(program);
     EXPECT_TRUE(editor.may_be_spline(2, {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}}));
     EXPECT_FALSE(editor.may_be_spline(2, {{1, 0, 0}, {4, 0, 0}, {5, 0, 1}}));
+    // G5 needs G17.
+    const Program turned = read_as("G21 G90\nG18\nG0 X0 Y0 Z0\nG1 X1 F600\nX2\nX3\nM2\n", "linuxcnc");
+    EXPECT_FALSE(LineEditor(turned).may_be_spline(2, {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}}));
     const Program fanuc = read_as("G21 G90 G94\nG0 X0. Y0. Z0.\nG1 X1. F600\nX2.\nX5. Z1.\nM30\n", "fanuc");
     EXPECT_TRUE(LineEditor(fanuc).may_be_spline(2, {{1, 0, 0}, {5, 0, 1}}));
 }
