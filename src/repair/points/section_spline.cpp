@@ -17,6 +17,9 @@ constexpr double samples_a_spacing = 4;      ///< at least; a span is no shorter
 constexpr double spacings_a_span = 64;       ///< before spans are halved
 constexpr std::size_t samples_at_least = 8;  ///< of a section
 constexpr double most_samples = 1e6;
+/// Of the chord error: how far a spline may leave the smooth curve. Held to one chord error, it copies the scatter that the
+/// curve keeps, in spans nearly as short as lines.
+constexpr double curve_share = 3;
 
 /// The four B-splines of degree 3 that are not zero in the span between knots k and k + 1, at u (the NURBS Book, A2.2).
 std::array<double, degree + 1> basis_at(const std::vector<double>& knots, std::size_t k, double u) {
@@ -123,7 +126,7 @@ private:
             while (span + 1 < bad.size() && at_[i] >= ends_[span + 1]) ++span;
             if (bad[span] != 0) continue;
             const Vec3 p = value(span, at_[i]);
-            if ((p - places_[i]).norm() > rules_.chord_error ||
+            if ((p - places_[i]).norm() > curve_share * rules_.chord_error ||
                 (p - old_.projection(p, at_[i] * to_old).position).norm() > rules_.most)
                 bad[span] = 1;
         }
