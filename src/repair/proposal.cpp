@@ -203,6 +203,9 @@ std::vector<TriedProposal> Evaluator::finalists() const {
 
 bool Evaluator::better(const Proposal& a, const Proposal& b) const {
     if (a.evaluation.accepted != b.evaluation.accepted) return a.evaluation.accepted;
+    // One without splines would be refused for that alone, which says nothing of those that have some.
+    const bool has = a.evaluation.splines > 0, other_has = b.evaluation.splines > 0;
+    if (rules_.splines && has != other_has) return has;
     return score(a) < score(b);
 }
 

@@ -77,7 +77,7 @@ public:
     /// Nothing: it is not measured.
     [[nodiscard]] const std::optional<PartRoughness>& roughness_before() const { return roughness_before_; }
 
-    /// Accepted proposals are better than others; then the one with less remaining mismatch and fewer defects; of two
+    /// Accepted proposals are better than others; where splines are wanted, those that have some; then the one with less remaining mismatch and fewer defects; of two
     /// nearly equal ones the shorter.
     [[nodiscard]] bool better(const Proposal& a, const Proposal& b) const;
 
