@@ -259,7 +259,7 @@ void MotionEstimate::measure_path_speed(const std::vector<PointRange>& pieces) {
     along_.emplace(model);
 }
 
-/// What three standard deviations must be scaled by to hold 99 % of the errors, from errors that can be measured: of
+/// What three standard deviations must be scaled by to hold 99.73 % of the errors, from errors that can be measured: of
 /// estimates from every second record against the differences of the records held out; of the estimates against the
 /// differences of the records next to them, since between records a speed is not defined better; and against the channel.
 void MotionEstimate::calibrate(const std::vector<PointRange>& pieces) {
@@ -309,6 +309,11 @@ void MotionEstimate::calibrate(const std::vector<PointRange>& pieces) {
             if (path_speed_ != nullptr) compare(2, speed - scratch.path_speed[i], variance + of_channel);
         }
     });
+    set_scale(ratios);
+}
+
+/// By squared errors in units of the variance that is stated of them, of each kind. Changes their order.
+void MotionEstimate::set_scale(std::array<std::vector<double>, 3>& ratios) {
     // While an axis moves by less than a step, its rounding stays: up to half a step, √3 of the standard deviation of steps.
     double scale = rounding_rules_ ? 3 : 1;
     for (std::vector<double>& of : ratios) {
@@ -329,11 +334,14 @@ void MotionEstimate::calibrate(const std::vector<PointRange>& pieces) {
             "use --derivative savgol");
 }
 
+PointIndex MotionEstimate::disturbed_points() const {
+    return static_cast<PointIndex>(std::max(disturbed, disturbed_by_width * std::pow(model_.wandering, -1.0 / 8)));
+}
+
 /// Of points [first, last], where the innovations begin at `from`: the greatest around a point, if they are no chance. A jump
 /// shows in one of them, or in the sum of as many as the estimate averages over.
 void MotionEstimate::set_inflation(PointIndex from, PointIndex first, PointIndex last, Scratch& scratch) const {
-    const auto reach =
-        static_cast<PointIndex>(std::max(disturbed, disturbed_by_width * std::pow(model_.wandering, -1.0 / 8)));
+    const PointIndex reach = disturbed_points();
     scratch.inflation.assign(static_cast<std::size_t>(last - first + 1), 1.0);
     const auto raise = [&](PointIndex around, PointIndex by, double squared) {
         if (!(squared > jump_gate)) return;
@@ -376,7 +384,8 @@ void MotionEstimate::read(PointIndex first, PointIndex last, Scratch& scratch) c
 
 void MotionEstimate::estimate(PointRange piece, PointIndex first, PointIndex last, Scratch& scratch,
                               std::array<std::array<std::vector<double>, 3>, 4>& out) const {
-    const PointIndex reach = std::max(across_->reach(), along_ ? along_->reach() : 0);
+    // Jumps beside the points disturb them, too, and their innovations need settled gains.
+    const PointIndex reach = std::max(across_->reach(), along_ ? along_->reach() : 0) + 2 * disturbed_points();
     const PointIndex from = std::max(piece.first, first - reach);
     const PointIndex to = std::min(piece.last, last + reach);
     read(from, to, scratch);

@@ -16,7 +16,7 @@
 // standard deviations grow with it (Mehra 1972, "Approaches to adaptive filtering": the innovations tell whether a
 // filter is consistent). What then remains is measured: from every second record the speeds at these records are
 // estimated and compared with the differences of the records held out, and the path's speed with its channel. All
-// standard deviations are scaled so that three of them hold 99 % of these errors. Where their mean square then still
+// standard deviations are scaled so that three of them hold 99.73 % of these errors. Where their mean square then still
 // exceeds twice what is stated (the normalised estimation error squared of Bar-Shalom et al. 2001, section 5.4), the
 // estimate is refused.
 
@@ -77,7 +77,9 @@ private:
     void measure_components(const std::vector<PointRange>& pieces);
     void measure_path_speed(const std::vector<PointRange>& pieces);
     void calibrate(const std::vector<PointRange>& pieces);
+    void set_scale(std::array<std::vector<double>, 3>& ratios);
     void read(PointIndex first, PointIndex last, Scratch& scratch) const;
+    [[nodiscard]] PointIndex disturbed_points() const;
     void set_inflation(PointIndex from, PointIndex first, PointIndex last, Scratch& scratch) const;
     /// Calls visit(scratch, i) for the points of the sampled sections, smoothed by their positions alone.
     template <typename Visit>

@@ -193,6 +193,23 @@ TEST(MotionEstimate, ThreeDeviationsHoldTheErrors) {
     }
 }
 
+TEST(MotionEstimate, APartOfARunIsKnownAsWellAsInTheWhole) {
+    const Ramps ramps(1e-4, false);
+    const Trajectory path = reconstruct(ramps.log, Role::commanded, Vec3::Zero());
+    const MotionEstimate estimate(ramps.log, path, ramps.pieces);
+    MotionEstimate::Scratch scratch;
+    std::array<std::array<std::vector<double>, 3>, 4> out;
+    std::vector<double> whole(Ramps::count), part(50);
+    estimate.estimate(ramps.pieces[0], 0, Ramps::count - 1, scratch, out);
+    estimate.sigmas(1, ramps.pieces[0], 0, scratch, whole);
+    for (PointIndex first = 1000; first < 1650; first += 7) {  // two ramps and what is between them
+        estimate.estimate(ramps.pieces[0], first, first + 49, scratch, out);
+        estimate.sigmas(1, ramps.pieces[0], first, scratch, part);
+        for (std::size_t i = 0; i < part.size(); ++i)
+            ASSERT_NEAR(part[i], whole[static_cast<std::size_t>(first) + i], 1e-3 * part[i]) << first << ' ' << i;
+    }
+}
+
 // A programmed feed has the name of the speed in some logs.
 TEST(MotionEstimate, AChannelThatIsNotTheSpeedTeachesNothing) {
     Ramps ramps(0.001, true);
