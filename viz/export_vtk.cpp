@@ -153,9 +153,10 @@ void write_vtp(const std::string& path, const ClSurface& surface, const std::vec
     vtkNew<vtkXMLPolyDataWriter> writer;
     writer->SetInputData(poly);
     writer->SetFileName(path.c_str());
-    // Not appended: VTK 9.1 and ParaView 5.11 cannot read that with expat 2.6, or 2.5.0-1+deb12u2 of Debian 12
-    // (gitlab.kitware.com/vtk/vtk/-/issues/19258).
-    writer->SetDataModeToBinary();
+    writer->SetDataModeToAppended();
+    // Not raw: VTK 9.1 and ParaView 5.11 cannot read that with expat 2.6, or 2.5.0-1+deb12u2 of Debian 12
+    // (gitlab.kitware.com/vtk/vtk/-/issues/19258). Not inline: that writer crashes on a full disk.
+    writer->EncodeAppendedDataOn();
     // A full disk is told by the error code alone, with a page of text on standard error.
     const int warnings = vtkObject::GetGlobalWarningDisplay();
     vtkObject::GlobalWarningDisplayOff();
