@@ -116,6 +116,26 @@ OldLines read_old(const SourceText& main, LineNumber first, LineNumber last, std
     return old;
 }
 
+/// The lines that new ones replace.
+struct Replaced {
+    LineNumber first, last;
+    OldLines old;
+
+    Replaced(const Program& program, std::int64_t first_motion, std::int64_t last_motion,
+             std::string_view straight_word)
+        : first(program.motions.line[static_cast<std::size_t>(first_motion)]),
+          last(program.motions.line[static_cast<std::size_t>(last_motion)]),
+          old(read_old(program.main(), first, last, straight_word)) {}
+
+    [[nodiscard]] std::size_t count() const { return last - first + 1; }
+    /// What new line k begins with: the number of old line k, the last one that of the last; empty: not all had one.
+    [[nodiscard]] std::string number(std::size_t k, bool is_last) const {
+        if (old.numbers.size() != count()) return {};
+        if (is_last) return std::string(old.numbers.back());
+        return k + 1 < count() ? std::string(old.numbers[k]) : std::string();
+    }
+};
+
 /// Whether a text has a word G18 or G19, of another plane than G17, be it in a comment.
 bool has_other_plane(std::string_view text) {
     for (std::size_t at = 0; at < text.size(); ++at) {
@@ -228,12 +248,10 @@ std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const std
     const Motions& motions = program_->motions;
     const SourceText& main = program_->main();
     const std::string_view end_of_line = line_end_of(main.text());
-    const LineNumber first_line = motions.line[static_cast<std::size_t>(first)],
-                     last_line = motions.line[static_cast<std::size_t>(last)];
-    const std::size_t old_lines = last_line - first_line + 1;
+    const Replaced replaced(*program_, first, last, rules_->straight_word);
     const std::size_t used = angles.empty() ? linear : axes;
-    const OldLines old = read_old(main, first_line, last_line, rules_->straight_word);
-    Edit edit{first_line, last_line, {}};
+    const OldLines& old = replaced.old;
+    Edit edit{replaced.first, replaced.last, {}};
     std::array<std::string, axes> modal;
     const auto text_of = [&](std::size_t axis, const Vec3& position, const Vec3& turned) {
         const int k = static_cast<int>(axis % linear);
@@ -243,7 +261,6 @@ std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const std
     };
     const Vec3 begin = in_words(motions, first, motions.begin_of(first).vec());
     for (std::size_t a = 0; a < used; ++a) modal[a] = text_of(a, begin, angles_before(motions, first));
-    const bool numbered = old.numbers.size() == old_lines;
     bool code_written = false;
     std::size_t written = 0;
     for (std::size_t k = 0; k < points.size(); ++k) {
@@ -253,7 +270,7 @@ std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const std
             if (old.blanks && !text.empty() && !is_blank(text.back())) text += ' ';
             text += word;
         };
-        if (numbered && (k + 1 < old_lines || is_last)) text += is_last ? old.numbers.back() : old.numbers[k];
+        text += replaced.number(k, is_last);
         if (old.code_everywhere || !code_written) text += old.first_code;
         bool moves = false;
         const Vec3 position = in_words(motions, first, points[k]);
@@ -279,7 +296,7 @@ std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const std
         edit.text += text;
         edit.text += end_of_line;
     }
-    changed_ += old_lines;
+    changed_ += replaced.count();
     edits_.push_back(std::move(edit));
     return written;
 }
@@ -298,26 +315,21 @@ bool LineEditor::may_be_spline(std::int64_t first, const std::vector<Vec3>& poin
 
 std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const Nurbs& spline) {
     const Motions& motions = program_->motions;
-    const SourceText& main = program_->main();
-    const std::string_view end_of_line = line_end_of(main.text());
-    const LineNumber first_line = motions.line[static_cast<std::size_t>(first)],
-                     last_line = motions.line[static_cast<std::size_t>(last)];
-    const std::size_t old_lines = last_line - first_line + 1;
-    const OldLines old = read_old(main, first_line, last_line, rules_->straight_word);
+    const std::string_view end_of_line = line_end_of(program_->main().text());
+    const Replaced replaced(*program_, first, last, rules_->straight_word);
+    const OldLines& old = replaced.old;
     SplineWords words{decimals_, {old.words[0], old.words[1], old.words[2]}, "G1"};
     if (!rules_->straight_word.empty()) words.straight.clear();
     Nurbs counted = spline;
     for (Vec3& p : counted.points) p = in_words(motions, first, p) / unit_;
     const std::vector<std::string> lines = spline_lines(counted, splines_, words);
-    Edit edit{first_line, last_line, {}};
-    const bool numbered = old.numbers.size() == old_lines;
+    Edit edit{replaced.first, replaced.last, {}};
     for (std::size_t k = 0; k < lines.size(); ++k) {
-        const bool is_last = k + 1 == lines.size();
-        if (numbered && (k + 1 < old_lines || is_last)) edit.text += is_last ? old.numbers.back() : old.numbers[k];
+        edit.text += replaced.number(k, k + 1 == lines.size());
         edit.text += lines[k];
         edit.text += end_of_line;
     }
-    changed_ += old_lines;
+    changed_ += replaced.count();
     edits_.push_back(std::move(edit));
     return spans_in(spline);
 }
