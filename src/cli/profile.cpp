@@ -41,12 +41,12 @@ Program read_written(const std::string& name, const std::string& text, const std
     return io::read_program(source, options);
 }
 
-std::string program_of(const ScanCut& cut, const ProfileOptions& options, const MeasuredData& data) {
+std::string program_of(const ScanCut& cut, const ProfileOptions& options, const MeasuredData& data, double plane) {
     const auto highest = std::max_element(cut.path.samples().begin(), cut.path.samples().end(),
                                           [](const Vec2& a, const Vec2& b) { return a.y() < b.y(); });
     const std::string name = file_name(data.name);
     const CutProgramRules rules{options.dialect, name, options.feed, std::ceil(highest->y() + options.clearance),
-                                plane_of(data)};
+                                plane};
     return options.splines ? span_program(cut.path.spans(), rules) : line_program(cut.path.points(), rules);
 }
 
@@ -57,13 +57,13 @@ ExitCode run_profile(const po::variables_map& values) {
     const ProfileOptions options = read_profile_options(values);
     require_program_ending(path);
     const MeasuredData data = io::read_measured(scan, options.columns);
-    (void)plane_of(data);
+    const double plane = plane_of(data);
     io::AtomicFile output(path);
     std::optional<PictureOutput> picture;
     if (values.count("picture") > 0)
         picture.emplace(values["picture"].as<std::string>(), "--picture", PictureKind::drawing);
     const ScanCut cut = scan_cut(data.name, placed_scan(data.points, options.mount), options.cut);
-    const std::string text = program_of(cut, options, data);
+    const std::string text = program_of(cut, options, data, plane);
     const Program program = read_written(path, text, options.dialect);
     io::CutReport report{data.name,
                          path,
@@ -105,7 +105,7 @@ Subcommand profile_subcommand() {
             "plane. It is read again and compared with the fit before the file appears. Tool, spindle and work offset are for\n"
             "you to add.\n\n"
             "The window decides what is form and what is noise: a long one is smooth and misses short waves. --picture shows\n"
-            "what is left between points and fit.\n\n"
+            "the residuals.\n\n"
             "With --tool-offset a ball leaves the profile. If it would cut below it, because the profile is tighter than the\n"
             "ball, the message says where, and no program is written.\n\n"
             "  clsurf profile scan.csv -o cut.ngc\n"

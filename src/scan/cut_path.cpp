@@ -8,7 +8,7 @@
 namespace clsurf {
 namespace {
 
-/// How many chords keep within `error` of a piece, and of the path of a ball beside it.
+/// How many chords stay within `error` of a piece, and of the path of a ball that follows it.
 std::size_t chords_of(const FitPiece& piece, double radius, double error) {
     constexpr int looked_at = 8;
     double second = 0;
