@@ -57,9 +57,10 @@ MeasuredData map_of(const Source& source, const Header& header, std::size_t most
 /// The next height of a map [in units of the header], NaN: not measured.
 void put(MeasuredData& map, const Header& header, double value) {
     const auto k = static_cast<std::int64_t>(map.points.size());
+    const std::int64_t column = k % map.columns, row = k / map.columns;
     if (!std::isfinite(value)) ++map.missing;
-    map.points.emplace_back(static_cast<double>(k % map.columns) * map.spacing.x(),
-                            static_cast<double>(k / map.columns) * map.spacing.y(), value * header.z * mm_per_m);
+    map.points.emplace_back(static_cast<double>(column) * map.spacing.x(), static_cast<double>(row) * map.spacing.y(),
+                            value * header.z * mm_per_m);
 }
 
 // ---- text ----

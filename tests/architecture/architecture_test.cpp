@@ -142,6 +142,17 @@ Complaints check_form(const SourceFile& file) {
     return complaints;
 }
 
+// x.cpp begins with x.h: where each source is compiled by itself (tests/sanitize), the header then compiles alone.
+// headers_alone.cmake relies on it. src/ is the folder that includes count from.
+Complaints check_own_header_first(const SourceFile& source, bool has_header) {
+    if (!has_header || !source.path.ends_with(".cpp")) return {};
+    const std::string from_root = fs::path(source.path).replace_extension(".h").generic_string();
+    const std::string own = from_root.starts_with("src/") ? from_root.substr(4) : from_root;
+    const std::vector<Include> includes = includes_of(source);
+    if (!includes.empty() && includes.front().own && includes.front().header == own) return {};
+    return {source.path + " does not include " + own + " first"};
+}
+
 // A file is built when the CMakeLists.txt of its folder, or the nearest above, names it.
 Complaints check_listed(const SourceFile& file, const std::string& cmake_folder, const std::string& cmake_text) {
     const std::string name = fs::relative(file.path, cmake_folder).generic_string();
@@ -213,6 +224,22 @@ TEST(Form, IsKeptByEveryFile) {
     // Programs in data/programs may end in .h too: HEIDENHAIN's Klartext.
     for (const SourceFile& file : sources_in({"src", "io", "viz", "tests", "data/tools"}))
         expect_none(check_form(file));
+}
+
+TEST(OwnHeader, ThatIsNotFirstIsFound) {
+    EXPECT_TRUE(
+        check_own_header_first({"src/core/b.cpp", "// b\n#include \"core/b.h\"\n#include <cmath>\n"}, true).empty());
+    EXPECT_TRUE(check_own_header_first({"io/b.cpp", "#include \"io/b.h\"\n"}, true).empty());
+    EXPECT_EQ(check_own_header_first({"src/core/b.cpp", "#include <cmath>\n#include \"core/b.h\"\n"}, true).size(), 1U);
+    EXPECT_EQ(check_own_header_first({"src/core/b.cpp", "int b = 0;\n"}, true).size(), 1U);
+    EXPECT_TRUE(check_own_header_first({"src/core/b.cpp", "int b = 0;\n"}, false).empty());
+}
+
+TEST(OwnHeader, IsIncludedFirst) {
+    for (const SourceFile& file : sources_in({"src", "io", "viz"})) {
+        const fs::path header = (fs::path(PROJECT_ROOT) / file.path).replace_extension(".h");
+        expect_none(check_own_header_first(file, fs::exists(header)));
+    }
 }
 
 TEST(Listing, AFileThatNobodyBuildsIsFound) {

@@ -1,6 +1,9 @@
 # Every header compiles by itself: a source per header that includes nothing else, twice (for the
 # guard); and all headers compile together. Built by the test of that name.
 #
+# A header with a source of its own, x.h of x.cpp, has no other source here: x.cpp begins with it (architecture_test),
+# and tests/sanitize compiles x.cpp by itself. src/python is not part of that build.
+#
 # What the large libraries' headers cost is most of it. Those that reach core/geometry.h (Eigen) or
 # cli/options.h (Boost.Program_options) share a precompiled one: it stands before all that they say in any case.
 set(shared_options src/cli/options.h)
@@ -42,6 +45,10 @@ else()
 endif()
 
 foreach(header ${headers})
+  string(REGEX REPLACE "[.]h$" ".cpp" own_source ${header})
+  if(EXISTS ${PROJECT_SOURCE_DIR}/${own_source} AND NOT header MATCHES "^src/python/")
+    continue()
+  endif()
   string(REGEX REPLACE "^src/" "" include ${header})
   set(source ${CMAKE_CURRENT_BINARY_DIR}/headers_alone/${header}.cpp)
   file(CONFIGURE OUTPUT ${source} CONTENT "#include \"@include@\"\n#include \"@include@\"  // NOLINT\n" @ONLY)

@@ -1,6 +1,6 @@
 # One line in CI: exit codes by severity and depth, several logs, one shape of JSON.
-clsurf_cli_test(NAME ci_fail_on ARGS check ${part} ${run} --fail-on 2 -q EXIT 1 NO_STDOUT ".")
-clsurf_cli_test(NAME ci_fail_on_a_word ARGS check ${part} ${run} --fail-on visible EXIT 1 STDOUT "max_severity +[234] of 1 +NOT HELD")
+clsurf_cli_test(NAME ci_fail_on ARGS check ${part} ${run} --tool none --fail-on 2 -q EXIT 1 NO_STDOUT ".")
+clsurf_cli_test(NAME ci_fail_on_a_word ARGS check ${part} ${run} --tool none --fail-on visible EXIT 1 STDOUT "max_severity +[234] of 1 +NOT HELD")
 clsurf_cli_test(NAME ci_fail_on_what_is_not_there ARGS check @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip --fail-on reject STDOUT "max_severity +[0-3] of 3 +held")
 clsurf_cli_test(NAME ci_fail_on_an_unknown_word ARGS check ${part} ${run} --fail-on bad EXIT 2 STDERR "--fail-on: 'bad' is not one of trace, visible, distinct, reject, 1, 2, 3, 4")
 clsurf_cli_test(NAME ci_max_depth ARGS check ${part} ${run} --max-depth 5um EXIT 1 STDOUT "max_depth_um +[0-9.]+ of 5 +NOT HELD")
@@ -18,6 +18,6 @@ clsurf_cli_test(NAME ci_several_logs_csv SETUP "${two_logs}" ARGS check ${plante
 clsurf_cli_test(NAME ci_several_logs_sarif SETUP "${two_logs}; $CLSURF check ${planted} a.biip b.biip -o two.sarif; python3 -c \"import json; runs = json.load(open('two.sarif'))['runs']; assert len(runs) == 2 and len(runs[0]['results']) == len(runs[1]['results']) > 0 and runs[0]['automationDetails'] != runs[1]['automationDetails']\""
   ARGS check ${planted} a.biip -o one.sarif FILE one.sarif)
 # A step that only the second one has.
-clsurf_cli_test(NAME ci_worst_of_several_logs SETUP "cp ${run} b.biip; head -c 100000 b.biip > a.biip" ARGS check ${part} a.biip b.biip --max-depth 5um -q EXIT 5 NO_STDOUT ".")
+clsurf_cli_test(NAME ci_worst_of_several_logs SETUP "cp ${run} b.biip; head -c 100000 b.biip > a.biip" ARGS check ${part} a.biip b.biip --tool none --max-depth 5um -q EXIT 5 NO_STDOUT ".")
 clsurf_cli_test(NAME ci_one_of_several_logs_missing SETUP "${two_logs}" ARGS check ${planted} a.biip nowhere.biip -o report.json EXIT 3 STDERR "nowhere.biip: error: cannot open" NO_FILE report.json)
 clsurf_cli_test(NAME ci_program_from_standard_input SETUP "${two_logs}; cp ${planted} stdin" ARGS check - a.biip b.biip EXIT 2 STDERR "the program of several logs cannot come from standard input")

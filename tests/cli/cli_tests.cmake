@@ -350,7 +350,7 @@ clsurf_cli_test(NAME kalman_renders ARGS render ${part} ${run} --derivative kalm
 clsurf_cli_test(NAME uncertainty_needs_kalman ARGS export ${part} ${run} -o out.csv --columns speed_uncertainty EXIT 2 STDERR "--derivative kalman")
 clsurf_cli_test(NAME kalman_check ARGS check @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip --derivative kalman -v STDOUT "85 % slower" "speed by a Kalman smoother")
 clsurf_cli_test(NAME kalman_diff ARGS diff @LOGS@/bottle_uneven.biip @LOGS@/bottle_uneven.biip --derivative kalman STDOUT "speed .mm/min. +0.00 +0.00 +0.00")
-clsurf_cli_test(NAME kalman_report ARGS report @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip --derivative kalman -o page.html FILE page.html)
+clsurf_cli_test(NAME kalman_report ARGS report @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip --tool none --derivative kalman -o page.html FILE page.html)
 clsurf_cli_test(NAME derivative_unknown ARGS query ${part} ${run} --point 1 --derivative kalmann EXIT 2 STDERR "not one of savgol, kalman")
 
 # ---- controller simulation ----
@@ -488,7 +488,7 @@ clsurf_cli_test(NAME optimize_without_output ARGS optimize ${uneven} EXIT 2 STDE
 clsurf_cli_test(NAME optimize_wrong_tolerance ARGS optimize ${uneven} -o better.nc --tolerance -1 EXIT 2 STDERR "--tolerance must be above 0 mm" NO_FILE better.nc)
 
 # ---- the linked page (what it does in a browser: tests/page) ----
-clsurf_cli_test(NAME report_writes_one_file ARGS report ${part} ${run} -o r.html FILE r.html)
+clsurf_cli_test(NAME report_writes_one_file ARGS report ${part} ${run} --tool none -o r.html FILE r.html)
 clsurf_cli_test(NAME report_of_chosen_fields ARGS report ${part} ${run} -o r.html --fields speed,jerk --color jerk --tool ball:6 --max-size 4 FILE r.html)
 clsurf_cli_test(NAME report_without_output ARGS report ${part} ${run} EXIT 2 STDERR "output")
 clsurf_cli_test(NAME report_unknown_field ARGS report ${part} ${run} -o r.html --fields sped EXIT 2 STDERR "did you mean 'speed'")

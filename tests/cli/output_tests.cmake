@@ -92,17 +92,17 @@ clsurf_ending_test(check_tsv ".txt, .json, .csv, .sarif, .sarif.json or .xml" ch
 clsurf_ending_test(lint_csv ".txt, .json, .sarif or .sarif.json" lint ${part} -o marks.csv)
 clsurf_ending_test(moves_txt ".csv" moves ${part} -o moves.txt)
 clsurf_cli_test(NAME ending_of_a_program ARGS optimize ${part} -o better.png EXIT 2 STDERR "'better.png' is a name for png, but an NC program is written")
-clsurf_cli_test(NAME ending_check_json SETUP "$CLSURF check ${part} ${run} -o out.json; head -c 1 out.json | grep -q '{'" ARGS check ${part} ${run} -o out.txt FILE out.json out.txt)
-clsurf_cli_test(NAME ending_check_sarif SETUP "$CLSURF check ${part} ${run} -o out.sarif; grep -q '\"version\": \"2.1.0\"' out.sarif; $CLSURF check ${part} ${run} -o out.sarif.json; cmp out.sarif out.sarif.json; ! grep -q schema_version out.sarif"
-  ARGS check ${part} ${run} -o out.csv FILE out.csv)
+clsurf_cli_test(NAME ending_check_json SETUP "$CLSURF check ${part} ${run} --tool none -o out.json; head -c 1 out.json | grep -q '{'" ARGS check ${part} ${run} --tool none -o out.txt FILE out.json out.txt)
+clsurf_cli_test(NAME ending_check_sarif SETUP "$CLSURF check ${part} ${run} --tool none -o out.sarif; grep -q '\"version\": \"2.1.0\"' out.sarif; $CLSURF check ${part} ${run} --tool none -o out.sarif.json; cmp out.sarif out.sarif.json; ! grep -q schema_version out.sarif"
+  ARGS check ${part} ${run} --tool none -o out.csv FILE out.csv)
 clsurf_cli_test(NAME ending_against_format ARGS check ${part} ${run} --format sarif -o out.json EXIT 2 STDERR "'out.json' is a name for json, but --format asks for sarif")
-clsurf_cli_test(NAME ending_unknown_with_format ARGS check ${part} ${run} --format json -o out.dat FILE out.dat)
+clsurf_cli_test(NAME ending_unknown_with_format ARGS check ${part} ${run} --tool none --format json -o out.dat FILE out.dat)
 clsurf_cli_test(NAME moves_into_a_file SETUP "$CLSURF moves ${part} > a.csv; $CLSURF moves ${part} -o b.csv; cmp a.csv b.csv" ARGS moves ${part} -o - STDOUT "line,kind")
 clsurf_cli_test(NAME intervals_into_a_file SETUP "$CLSURF intervals ${part} -o a.csv; grep -q 'own_speed .mm/min.' a.csv" ARGS intervals ${part} -o a.json FILE a.json)
 
 # ---- quiet: errors only; what was asked for as data is written ----
-clsurf_cli_test(NAME quiet_check ARGS check ${part} ${run} -q NO_STDOUT ".")
-clsurf_cli_test(NAME quiet_check_json ARGS check ${part} ${run} -q --json STDOUT "\"defects\"")
+clsurf_cli_test(NAME quiet_check ARGS check ${part} ${run} --tool none -q NO_STDOUT ".")
+clsurf_cli_test(NAME quiet_check_json ARGS check ${part} ${run} --tool none -q --json STDOUT "\"defects\"")
 clsurf_cli_test(NAME quiet_lint ARGS lint ${part} -q EXIT 1 NO_STDOUT ".")
 clsurf_cli_test(NAME quiet_diff ARGS diff ${run} ${run} -q NO_STDOUT ".")
 clsurf_cli_test(NAME quiet_simulate ARGS simulate ${part} -o s.biip -q NO_STDOUT "." FILE s.biip)
@@ -116,7 +116,7 @@ clsurf_cli_test(NAME simulate_json_and_log_to_standard_output ARGS simulate ${pa
 # ---- one JSON shape ----
 clsurf_cli_test(NAME json_of_one_file ARGS info ${run} --json STDOUT "\"schema_version\": 2" "\"records\": 27517.*\"files\": " NO_STDOUT "schema_version.*schema_version")
 clsurf_cli_test(NAME json_of_two_files ARGS info ${run} ${run} --json STDOUT "^.[^a-z]*\"schema_version\": 2[^a-z]*\"files\": " NO_STDOUT "schema_version.*schema_version")
-foreach(words "check ${part} ${run} --json" "lint ${part} --json" "query ${part} ${run} --point 5 --json" "intervals ${part} --json" "diff ${run} ${run} --json"
+foreach(words "check ${part} ${run} --tool none --json" "lint ${part} --json" "query ${part} ${run} --point 5 --json" "intervals ${part} --json" "diff ${run} ${run} --json"
               "compare ${shot}/speed_iso.png ${shot}/speed_iso.png --json" "help fields --json" "simulate ${part} -o s.biip --json")
   string(REPLACE " " ";" words "${words}")
   list(GET words 0 name)

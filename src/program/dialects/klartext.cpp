@@ -2,6 +2,8 @@
 // Facts: HEIDENHAIN, TNC 620 and iTNC 530, User's Manuals "Klartext Programming" and "Cycle Programming". Cycles, frames
 // and planes: klartext_cycles.cpp; Q parameters: klartext_q.cpp; words: klartext_words.cpp.
 
+#include "program/dialects/klartext.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +11,6 @@
 
 #include <fmt/format.h>
 
-#include "program/dialects/klartext.h"
 #include "program/interpret/interpreter_state.h"
 
 namespace clsurf {

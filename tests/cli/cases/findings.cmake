@@ -20,7 +20,7 @@ clsurf_cli_test(NAME not_judged_in_sarif SETUP "${short_passes}" ARGS check part
 clsurf_cli_test(NAME not_judged_on_the_page
   SETUP "${short_passes} && $CLSURF report part.nc run.biip -o page.html 2> /dev/null && grep -q 'class=.alarm. role=.alert.><b>Not judged' page.html && (! grep -q 'speed nan' page.html)"
   ARGS check part.nc run.biip EXIT 5 FILE page.html)
-clsurf_cli_test(NAME judged_in_json ARGS check ${part} ${run} --json STDOUT "\"judged\": true" "\"not_judged_reasons\": ..,")
+clsurf_cli_test(NAME judged_in_json ARGS check ${part} ${run} --tool none --json STDOUT "\"judged\": true" "\"not_judged_reasons\": ..,")
 
 # ---- order: what stands farthest out comes first ----
 # The five slow passes of the sample part, and then the lag of all passes as one finding.
@@ -54,37 +54,37 @@ clsurf_cli_test(NAME sarif_speaks_in_sentences ARGS check ${part} ${run} --forma
 
 # ---- accepted defects ----
 # A file of them as the page saves it: `accepted RANK… > FILE` takes the fingerprints of a report.
-set(accept_two "$CLSURF check ${part} ${run} --json > all.json && python3 -c \"import json; d = json.load(open('all.json'))['defects']; json.dump({'clsurf_accepted': 1, 'defects': [{'fingerprint': x['fingerprint'], 'severity': x['severity'], 'comment': 'polished by hand'} for x in d[:2]]}, open('ok.json', 'w'))\"")
-clsurf_cli_test(NAME accepted_defects_are_listed SETUP "${accept_two}" ARGS check ${part} ${run} --accepted ok.json
+set(accept_two "$CLSURF check ${part} ${run} --tool none --json > all.json && python3 -c \"import json; d = json.load(open('all.json'))['defects']; json.dump({'clsurf_accepted': 1, 'defects': [{'fingerprint': x['fingerprint'], 'severity': x['severity'], 'comment': 'polished by hand'} for x in d[:2]]}, open('ok.json', 'w'))\"")
+clsurf_cli_test(NAME accepted_defects_are_listed SETUP "${accept_two}" ARGS check ${part} ${run} --tool none --accepted ok.json
   STDOUT "^1[0-9] defects" "   1 distinct point_spacing" "accepted: 1 .polished by hand., 2 .polished by hand.")
-clsurf_cli_test(NAME accepted_defects_in_json SETUP "${accept_two}" ARGS check ${part} ${run} --accepted ok.json --json
+clsurf_cli_test(NAME accepted_defects_in_json SETUP "${accept_two}" ARGS check ${part} ${run} --tool none --accepted ok.json --json
   STDOUT "\"accepted\": 2" "\"state\": \"accepted\"" "\"comment\": \"polished by hand\"")
-clsurf_cli_test(NAME accepted_defects_are_suppressed_in_sarif SETUP "${accept_two} && $CLSURF check ${part} ${run} --accepted ok.json -o part.sarif && python3 -c \"import json; r = json.load(open('part.sarif'))['runs'][0]['results']; assert [i for i, x in enumerate(r) if 'suppressions' in x] == [0, 1]; assert r[0]['suppressions'][0]['justification'] == 'polished by hand'\""
+clsurf_cli_test(NAME accepted_defects_are_suppressed_in_sarif SETUP "${accept_two} && $CLSURF check ${part} ${run} --tool none --accepted ok.json -o part.sarif && python3 -c \"import json; r = json.load(open('part.sarif'))['runs'][0]['results']; assert [i for i, x in enumerate(r) if 'suppressions' in x] == [0, 1]; assert r[0]['suppressions'][0]['justification'] == 'polished by hand'\""
   ARGS --version)
-clsurf_cli_test(NAME accepted_defects_in_csv SETUP "${accept_two} && $CLSURF check ${part} ${run} --accepted ok.json -o part.csv && python3 -c \"import csv; rows = list(csv.DictReader(open('part.csv'))); assert all(None not in x for x in rows); assert {x['id'] for x in rows if x['accepted'] == 'true'} == {'1', '2'}\""
+clsurf_cli_test(NAME accepted_defects_in_csv SETUP "${accept_two} && $CLSURF check ${part} ${run} --tool none --accepted ok.json -o part.csv && python3 -c \"import csv; rows = list(csv.DictReader(open('part.csv'))); assert all(None not in x for x in rows); assert {x['id'] for x in rows if x['accepted'] == 'true'} == {'1', '2'}\""
   ARGS --version)
 # Only what is not accepted counts: of a budget of all but two, one less is too few.
 set(all_but "${accept_two} && python3 -c \"import json; print('max_defects =', len(json.load(open('all.json'))['defects']) - COUNT)\" > budget.toml")
 string(REPLACE COUNT 2 all_but_two "${all_but}")
 string(REPLACE COUNT 3 all_but_three "${all_but}")
-clsurf_cli_test(NAME accepted_defects_do_not_count SETUP "${all_but_two}" ARGS check ${part} ${run} --accepted ok.json --budget budget.toml STDOUT "max_defects .* held")
-clsurf_cli_test(NAME defects_count_unless_accepted SETUP "${all_but_two}" ARGS check ${part} ${run} --budget budget.toml EXIT 1 STDOUT "max_defects .* NOT HELD")
-clsurf_cli_test(NAME others_count_beside_accepted SETUP "${all_but_three}" ARGS check ${part} ${run} --accepted ok.json --budget budget.toml EXIT 1 STDOUT "max_defects .* NOT HELD")
-set(accept_all "$CLSURF check ${part} ${run} --json > all.json && python3 -c \"import json; d = json.load(open('all.json'))['defects']; json.dump({'clsurf_accepted': 1, 'defects': [{'fingerprint': x['fingerprint'], 'severity': SEVERITY} for x in d]}, open('ok.json', 'w'))\"")
+clsurf_cli_test(NAME accepted_defects_do_not_count SETUP "${all_but_two}" ARGS check ${part} ${run} --tool none --accepted ok.json --budget budget.toml STDOUT "max_defects .* held")
+clsurf_cli_test(NAME defects_count_unless_accepted SETUP "${all_but_two}" ARGS check ${part} ${run} --tool none --budget budget.toml EXIT 1 STDOUT "max_defects .* NOT HELD")
+clsurf_cli_test(NAME others_count_beside_accepted SETUP "${all_but_three}" ARGS check ${part} ${run} --tool none --accepted ok.json --budget budget.toml EXIT 1 STDOUT "max_defects .* NOT HELD")
+set(accept_all "$CLSURF check ${part} ${run} --tool none --json > all.json && python3 -c \"import json; d = json.load(open('all.json'))['defects']; json.dump({'clsurf_accepted': 1, 'defects': [{'fingerprint': x['fingerprint'], 'severity': SEVERITY} for x in d]}, open('ok.json', 'w'))\"")
 string(REPLACE SEVERITY "x['severity']" accept_as_they_are "${accept_all}")
 string(REPLACE SEVERITY "max(1, x['severity'] - 1)" accept_as_milder "${accept_all}")
-clsurf_cli_test(NAME nothing_fails_where_all_is_accepted SETUP "${accept_as_they_are}" ARGS check ${part} ${run} --accepted ok.json --fail-on trace STDOUT "accepted: 1, 2, 3")
-clsurf_cli_test(NAME what_became_worse_counts_again SETUP "${accept_as_milder}" ARGS check ${part} ${run} --accepted ok.json --fail-on visible EXIT 1
+clsurf_cli_test(NAME nothing_fails_where_all_is_accepted SETUP "${accept_as_they_are}" ARGS check ${part} ${run} --tool none --accepted ok.json --fail-on trace STDOUT "accepted: 1, 2, 3")
+clsurf_cli_test(NAME what_became_worse_counts_again SETUP "${accept_as_milder}" ARGS check ${part} ${run} --tool none --accepted ok.json --fail-on visible EXIT 1
   STDERR "warning: defect 1 was accepted as visible and is distinct now: it counts")
-clsurf_cli_test(NAME unknown_fingerprint_is_said SETUP "echo '{\"clsurf_accepted\": 1, \"defects\": [{\"fingerprint\": \"feed_drop/speed/99/0/0/0\", \"finding\": \"Pass 99 runs slower\"}]}' > ok.json" ARGS check ${part} ${run} --accepted ok.json
+clsurf_cli_test(NAME unknown_fingerprint_is_said SETUP "echo '{\"clsurf_accepted\": 1, \"defects\": [{\"fingerprint\": \"feed_drop/speed/99/0/0/0\", \"finding\": \"Pass 99 runs slower\"}]}' > ok.json" ARGS check ${part} ${run} --tool none --accepted ok.json
   STDERR "ok.json: warning: no defect has the fingerprint feed_drop/speed/99/0/0/0 .Pass 99 runs slower.")
 set(hint_of_accepted "hint: save it from the page")
 set(head_of_accepted "echo '{\"clsurf_accepted\": 1, \"defects\": [")
-clsurf_cli_test(NAME accepted_no_json SETUP "echo '{' > ok.json" ARGS check ${part} ${run} --accepted ok.json EXIT 3 STDERR "ok.json: error: is no JSON" "${hint_of_accepted}")
-clsurf_cli_test(NAME accepted_no_file_of_ours SETUP "echo '{}' > ok.json" ARGS check ${part} ${run} --accepted ok.json EXIT 3 STDERR "ok.json: error: is no file of accepted defects" "${hint_of_accepted}")
-clsurf_cli_test(NAME accepted_no_list SETUP "echo '{\"clsurf_accepted\": 1}' > ok.json" ARGS check ${part} ${run} --accepted ok.json EXIT 3 STDERR "ok.json: error: has no list" "${hint_of_accepted}")
-clsurf_cli_test(NAME accepted_another_version SETUP "echo '{\"clsurf_accepted\": 2}' > ok.json" ARGS check ${part} ${run} --accepted ok.json EXIT 3 STDERR "ok.json: error: .*another version" "${hint_of_accepted}")
-clsurf_cli_test(NAME accepted_no_fingerprint SETUP "${head_of_accepted}{}]}' > ok.json" ARGS check ${part} ${run} --accepted ok.json EXIT 3 STDERR "ok.json: error: defect 1 of the list has no 'fingerprint'" "${hint_of_accepted}")
-clsurf_cli_test(NAME accepted_no_number SETUP "${head_of_accepted}{\"fingerprint\": \"a\", \"severity\": \"high\"}]}' > ok.json" ARGS check ${part} ${run} --accepted ok.json EXIT 3 STDERR "ok.json: error: defect 1 of the list: 'severity' must be a whole number" "${hint_of_accepted}")
-clsurf_cli_test(NAME accepted_twice SETUP "${head_of_accepted}{\"fingerprint\": \"a\"}, {\"fingerprint\": \"a\"}]}' > ok.json" ARGS check ${part} ${run} --accepted ok.json EXIT 3 STDERR "ok.json: error: 'a' is there twice" "${hint_of_accepted}")
-clsurf_cli_test(NAME report_begins_with_accepted SETUP "${accept_two} && $CLSURF report ${part} ${run} --accepted ok.json -o page.html -q && grep -q '1[0-9], 2 accepted' page.html && grep -q 'accepted: polished by hand' page.html" ARGS --version)
+clsurf_cli_test(NAME accepted_no_json SETUP "echo '{' > ok.json" ARGS check ${part} ${run} --tool none --accepted ok.json EXIT 3 STDERR "ok.json: error: is no JSON" "${hint_of_accepted}")
+clsurf_cli_test(NAME accepted_no_file_of_ours SETUP "echo '{}' > ok.json" ARGS check ${part} ${run} --tool none --accepted ok.json EXIT 3 STDERR "ok.json: error: is no file of accepted defects" "${hint_of_accepted}")
+clsurf_cli_test(NAME accepted_no_list SETUP "echo '{\"clsurf_accepted\": 1}' > ok.json" ARGS check ${part} ${run} --tool none --accepted ok.json EXIT 3 STDERR "ok.json: error: has no list" "${hint_of_accepted}")
+clsurf_cli_test(NAME accepted_another_version SETUP "echo '{\"clsurf_accepted\": 2}' > ok.json" ARGS check ${part} ${run} --tool none --accepted ok.json EXIT 3 STDERR "ok.json: error: .*another version" "${hint_of_accepted}")
+clsurf_cli_test(NAME accepted_no_fingerprint SETUP "${head_of_accepted}{}]}' > ok.json" ARGS check ${part} ${run} --tool none --accepted ok.json EXIT 3 STDERR "ok.json: error: defect 1 of the list has no 'fingerprint'" "${hint_of_accepted}")
+clsurf_cli_test(NAME accepted_no_number SETUP "${head_of_accepted}{\"fingerprint\": \"a\", \"severity\": \"high\"}]}' > ok.json" ARGS check ${part} ${run} --tool none --accepted ok.json EXIT 3 STDERR "ok.json: error: defect 1 of the list: 'severity' must be a whole number" "${hint_of_accepted}")
+clsurf_cli_test(NAME accepted_twice SETUP "${head_of_accepted}{\"fingerprint\": \"a\"}, {\"fingerprint\": \"a\"}]}' > ok.json" ARGS check ${part} ${run} --tool none --accepted ok.json EXIT 3 STDERR "ok.json: error: 'a' is there twice" "${hint_of_accepted}")
+clsurf_cli_test(NAME report_begins_with_accepted SETUP "${accept_two} && $CLSURF report ${part} ${run} --tool none --accepted ok.json -o page.html -q && grep -q '1[0-9], 2 accepted' page.html && grep -q 'accepted: polished by hand' page.html" ARGS --version)
