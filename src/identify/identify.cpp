@@ -62,7 +62,8 @@ Identification identify_parts(std::span<const Part> parts, const Machine& known)
         runs.push_back({&part.log, part.lines.get(), part.path.kinematics != nullptr ? &part.path : nullptr});
     Identification result = identify(runs, known);
     if (const std::string reason = why_not_simulated(parts, known); !reason.empty()) {
-        for (const char* key : {"planner", "lookahead_blocks", "corner", "curve", "tolerance", "block_time"})
+        for (const char* key :
+             {"planner", "lookahead_blocks", "corner", "curve", "tolerance", "block_time", "feed", "whole_periods"})
             result.unidentified.push_back({key, "controller", reason});
         return result;
     }

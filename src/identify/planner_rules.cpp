@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "core/units.h"
 #include "identify/rule_search.h"
 
 namespace clsurf {
@@ -19,6 +22,11 @@ constexpr double gain_of_later_passes = 0.25;  // of the speed error: they corre
 
 bool is_trapezoidal(const Machine& machine) { return machine.controller.planner == PlannerKind::trapezoidal; }
 
+/// Whether corners are not rounded, so that no tolerance counts.
+bool passes_corners(const Machine& machine) {
+    return !is_trapezoidal(machine) && machine.controller.corner == CornerMode::junction;
+}
+
 /// A rule of numbers, the present one among them. `unit`: of the machine file, in ours.
 template <typename Number, typename Member>
 Rule rule_of_numbers(const char* name, const char* axis, const Machine& machine, std::vector<Number> numbers,
@@ -29,15 +37,17 @@ Rule rule_of_numbers(const char* name, const char* axis, const Machine& machine,
     std::sort(numbers.begin(), numbers.end());
     Rule rule{name, axis, {}, {}};
     for (const Number number : numbers)
-        rule.values.push_back({fmt::format("{}", number / unit), [=](Machine& m) { member(m) = number; }});
+        rule.values.push_back({fmt::format("{:.6g}", static_cast<double>(number) / static_cast<double>(unit)),
+                               [=](Machine& m) { member(m) = number; }});
     return rule;
 }
 
-/// A rule of numbers between which others are possible.
+/// A rule of numbers between which others are possible. `unit`: of the machine file, in ours.
 template <typename Member>
 Rule continuous_rule(const char* name, const char* axis, const Machine& machine, std::vector<double> numbers,
-                     Member member) {
-    Rule rule = rule_of_numbers(name, axis, machine, std::move(numbers), member);
+                     Member member, double unit = 1) {
+    Rule rule = rule_of_numbers(name, axis, machine, std::move(numbers), member, unit);
+    rule.continuous.unit = unit;
     for (const RuleValue& value : rule.values) {
         Machine with = machine;
         value.apply(with);
@@ -47,29 +57,73 @@ Rule continuous_rule(const char* name, const char* axis, const Machine& machine,
     return rule;
 }
 
-Rule planner_rule() {
-    const auto optimal = [](CornerMode corner) {
-        return [corner](Machine& m) {
-            m.controller.planner = PlannerKind::time_optimal;
-            m.controller.corner = corner;
-        };
-    };
-    const auto trapezoidal = [](bool arcs) {
-        return [arcs](Machine& m) {
-            m.controller.planner = PlannerKind::trapezoidal;
-            m.controller.trapezoid.arc_blends = arcs;
-            m.path.max_acceleration = m.path.max_normal_acceleration = no_limit;
-            for (MachineAxis& axis : m.axes) axis.max_jerk = 0;
-        };
-    };
-    return {"planner",
-            "controller",
-            {{"time-optimal, corner arc", optimal(CornerMode::arc)},
-             {"time-optimal, corner spline", optimal(CornerMode::spline)},
-             {"time-optimal, corner stop", optimal(CornerMode::stop)},
-             {"trapezoidal, arc blends", trapezoidal(true)},
-             {"trapezoidal, parabolic blends", trapezoidal(false)}},
-            {}};
+/// Kinds of planner that are alike: their other rules are the same.
+struct PlannerFamily {
+    Rule rule{"planner", "controller", {}, {}};
+    std::size_t present =
+        std::numeric_limits<std::size_t>::max();  ///< the machine's own kind, where it is of the family
+
+    void add(std::string name, bool is_present, std::function<void(Machine&)> apply) {
+        if (is_present) present = rule.values.size();
+        rule.values.push_back({std::move(name), std::move(apply)});
+    }
+    [[nodiscard]] bool has_present() const { return present < rule.values.size(); }
+};
+
+PlannerFamily rounded_corners(const Machine& machine) {
+    PlannerFamily family;
+    for (const CornerMode corner : {CornerMode::arc, CornerMode::spline, CornerMode::stop}) {
+        family.add(fmt::format("time-optimal, corner {}", name_of(corner)),
+                   !is_trapezoidal(machine) && machine.controller.corner == corner, [corner](Machine& m) {
+                       m.controller.planner = PlannerKind::time_optimal;
+                       m.controller.corner = corner;
+                   });
+    }
+    return family;
+}
+
+void add_junction(PlannerFamily& family, const std::string& name, const JunctionSettings& junction, bool is_present) {
+    family.add("time-optimal, corner junction" + name, is_present, [junction](Machine& m) {
+        m.controller.planner = PlannerKind::time_optimal;
+        m.controller.corner = CornerMode::junction;
+        m.controller.junction = junction;
+    });
+}
+
+/// Corners that are not rounded, at speeds of which the next rules find the right one. Either rule may hide the other, so
+/// each has a family.
+std::vector<PlannerFamily> passed_corners(const Machine& machine) {
+    if (passes_corners(machine)) {
+        PlannerFamily own;
+        add_junction(own, "", machine.controller.junction, true);
+        return {own};
+    }
+    constexpr double usual_step = 300 / seconds_per_minute;
+    PlannerFamily by_deviation, by_speed_step;
+    add_junction(by_deviation, " by deviation", {}, false);
+    add_junction(by_speed_step, " by speed step", {.deviation = 0, .speed_step = usual_step}, false);
+    return {by_deviation, by_speed_step};
+}
+
+PlannerFamily trapezoidal_planners(const Machine& machine) {
+    PlannerFamily family;
+    for (const bool arcs : {true, false}) {
+        family.add(arcs ? "trapezoidal, arc blends" : "trapezoidal, parabolic blends",
+                   is_trapezoidal(machine) && machine.controller.trapezoid.arc_blends == arcs, [arcs](Machine& m) {
+                       m.controller.planner = PlannerKind::trapezoidal;
+                       m.controller.trapezoid.arc_blends = arcs;
+                       m.path.max_acceleration = m.path.max_normal_acceleration = no_limit;
+                       for (MachineAxis& axis : m.axes) axis.max_jerk = 0;
+                   });
+    }
+    return family;
+}
+
+std::vector<PlannerFamily> planner_families(const Machine& machine) {
+    std::vector<PlannerFamily> families = passed_corners(machine);
+    families.push_back(rounded_corners(machine));
+    families.push_back(trapezoidal_planners(machine));
+    return families;
 }
 
 Rule path_acceleration_rule(const PathLimits& identified) {
@@ -128,13 +182,49 @@ Rule curve_rule() {
     return rule;
 }
 
+Rule feed_rule() {
+    Rule rule{"feed", "controller", {}, {}};
+    for (const FeedRule feed : {FeedRule::programmed, FeedRule::intervals})
+        rule.values.push_back({std::string(name_of(feed)), [feed](Machine& m) { m.controller.feed = feed; }});
+    return rule;
+}
+
+Rule whole_periods_rule() {
+    return {"whole_periods",
+            "controller",
+            {{"false", [](Machine& m) { m.controller.whole_periods = false; }},
+             {"true", [](Machine& m) { m.controller.whole_periods = true; }}},
+            {}};
+}
+
+/// How fast corners are passed that are not rounded.
+Rule junction_deviation_rule(const Machine& machine) {
+    return continuous_rule("junction_deviation", "controller", machine, {0, 0.002, 0.005, 0.01, 0.02, 0.05},
+                           [](Machine& m) -> double& { return m.controller.junction.deviation; });
+}
+
+Rule junction_speed_step_rule(const Machine& machine) {
+    constexpr double per_minute = 1 / seconds_per_minute;
+    std::vector<double> steps;
+    for (const double step : {0, 50, 100, 200, 500, 1000, 2000}) steps.push_back(step * per_minute);
+    return continuous_rule(
+        "junction_speed_step", "controller", machine, std::move(steps),
+        [](Machine& m) -> double& { return m.controller.junction.speed_step; }, per_minute);
+}
+
 /// The rules that a planner of this kind has; each is searched with the others as they were found before.
 std::vector<std::function<Rule(const Machine&)>> rules_of(const Machine& machine, const PathLimits& identified) {
     std::vector<std::function<Rule(const Machine&)>> rules;
-    rules.emplace_back([](const Machine& m) {
-        return continuous_rule("tolerance", "controller", m, std::vector{0.002, 0.005, 0.01, 0.02, 0.05},
-                               [](Machine& x) -> double& { return x.controller.tolerance; });
-    });
+    if (passes_corners(machine)) {
+        rules.emplace_back(junction_speed_step_rule);
+        rules.emplace_back(junction_deviation_rule);
+        if (!(machine.controller.junction.speed_step > 0)) std::swap(rules[0], rules[1]);
+    } else {
+        rules.emplace_back([](const Machine& m) {
+            return continuous_rule("tolerance", "controller", m, std::vector{0.002, 0.005, 0.01, 0.02, 0.05},
+                                   [](Machine& x) -> double& { return x.controller.tolerance; });
+        });
+    }
     rules.emplace_back([](const Machine& m) {
         return rule_of_numbers("lookahead_blocks", "controller", m, std::vector{5, 7, 10, 14, 20, 50, 200, 1000},
                                [](Machine& x) -> int& { return x.controller.lookahead_blocks; });
@@ -152,7 +242,7 @@ std::vector<std::function<Rule(const Machine&)>> rules_of(const Machine& machine
                                    [](Machine& x) -> int& { return x.controller.trapezoid.blocks_per_period; });
         });
     } else {
-        rules.emplace_back([](const Machine&) { return curve_rule(); });
+        if (!passes_corners(machine)) rules.emplace_back([](const Machine&) { return curve_rule(); });
         rules.emplace_back([](const Machine& m) {
             return continuous_rule("block_time", "controller", m, std::vector{0.0, 0.001, 0.002, 0.005},
                                    [](Machine& x) -> double& { return x.controller.block_time; });
@@ -162,21 +252,19 @@ std::vector<std::function<Rule(const Machine&)>> rules_of(const Machine& machine
                                    std::vector{500.0, 1000.0, 1500.0, 2000.0, 4000.0},
                                    [](Machine& x) -> double& { return x.path.max_normal_acceleration; });
         });
+        rules.emplace_back([](const Machine&) { return feed_rule(); });
+        rules.emplace_back([](const Machine&) { return whole_periods_rule(); });
     }
     return rules;
-}
-
-std::size_t present_planner(const Machine& machine) {
-    if (is_trapezoidal(machine)) return machine.controller.trapezoid.arc_blends ? 3 : 4;
-    return machine.controller.corner == CornerMode::arc ? 0 : machine.controller.corner == CornerMode::spline ? 1 : 2;
 }
 
 /// Whether two machines have the same values of all rules.
 bool plan_alike(const Machine& one, const Machine& other) {
     const ControllerSettings &a = one.controller, &b = other.controller;
     return a.planner == b.planner && a.corner == b.corner && a.tolerance == b.tolerance &&
-           a.lookahead_blocks == b.lookahead_blocks && a.curve == b.curve && a.block_time == b.block_time &&
-           a.trapezoid.arc_blends == b.trapezoid.arc_blends &&
+           a.junction.deviation == b.junction.deviation && a.junction.speed_step == b.junction.speed_step &&
+           a.feed == b.feed && a.whole_periods == b.whole_periods && a.lookahead_blocks == b.lookahead_blocks &&
+           a.curve == b.curve && a.block_time == b.block_time && a.trapezoid.arc_blends == b.trapezoid.arc_blends &&
            a.trapezoid.cubic_interpolation == b.trapezoid.cubic_interpolation &&
            a.trapezoid.max_feed_override == b.trapezoid.max_feed_override &&
            a.trapezoid.blocks_per_period == b.trapezoid.blocks_per_period &&
@@ -197,9 +285,9 @@ std::size_t present_value(const Rule& rule, const Machine& machine) {
     return static_cast<std::size_t>(std::find_if(rule.values.begin(), rule.values.end(), same) - rule.values.begin());
 }
 
-/// Searches every rule once, each with the others as they are. `identified`: limits of the path before any rule.
-void search_all(const PathLimits& identified, double least_gain, RuleScores& scores, Identification& result) {
-    search_rule(planner_rule(), present_planner(result.machine), least_gain, scores, result);
+/// Searches every rule but the planner's once, each with the others as they are. `identified`: limits of the path before
+/// any rule.
+void search_rules(const PathLimits& identified, double least_gain, RuleScores& scores, Identification& result) {
     if (is_trapezoidal(result.machine)) {
         const Rule accelerations = axis_accelerations_rule(result);
         if (accelerations.values.size() > 1)
@@ -209,6 +297,51 @@ void search_all(const PathLimits& identified, double least_gain, RuleScores& sco
         const Rule rule = make(result.machine);
         search_rule(rule, present_value(rule, result.machine), least_gain, scores, result);
     }
+}
+
+/// The families, each with the kind that explains the runs best with the machine's other rules, and those families first
+/// that explain them better.
+std::vector<RuleValue> best_of_families(RuleScores& scores, const Machine& machine) {
+    std::vector<std::pair<double, RuleValue>> best;
+    for (const PlannerFamily& family : planner_families(machine)) {
+        Identification trial;
+        trial.machine = machine;
+        search_rule(family.rule, family.present, 0, scores, trial);
+        const auto kind =
+            std::find_if(trial.rules.begin(), trial.rules.end(), [](const RuleCandidate& c) { return c.chosen; });
+        best.emplace_back(kind->speed_error, family.rule.values[static_cast<std::size_t>(kind - trial.rules.begin())]);
+    }
+    std::stable_sort(best.begin(), best.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<RuleValue> values;
+    for (auto& [error, value] : best) values.push_back(std::move(value));
+    return values;
+}
+
+/// Compares the families, each with its own rules: with those of the machine, a wrong kind of planner may explain the runs
+/// better than the right one with a wrong look-ahead. A family that explains the runs as well as any planner can is the
+/// last one. Returns the rows of those that are not chosen.
+std::vector<RuleCandidate> choose_family(RuleScores& scores, Identification& result) {
+    std::vector<Identification> found;
+    Rule planner{"planner", "controller", {}, {}};
+    for (const RuleValue& kind : best_of_families(scores, result.machine)) {
+        Identification trial = result;
+        kind.apply(trial.machine);
+        search_rules(result.machine.path, 0, scores, trial);
+        const auto last =
+            std::find_if(trial.rules.rbegin(), trial.rules.rend(), [](const RuleCandidate& c) { return c.chosen; });
+        planner.values.push_back({kind.name, [machine = trial.machine](Machine& m) { m = machine; }});
+        const bool explains_all = last->speed_error <= scores.resolution();
+        found.push_back(std::move(trial));
+        if (explains_all) break;
+    }
+    Identification compared;
+    compared.machine = result.machine;
+    search_rule(planner, planner.values.size(), 0, scores, compared);
+    const auto best =
+        std::find_if(compared.rules.begin(), compared.rules.end(), [](const RuleCandidate& c) { return c.chosen; });
+    result = std::move(found[static_cast<std::size_t>(best - compared.rules.begin())]);
+    compared.rules.erase(best);
+    return compared.rules;
 }
 
 /// Parameters of limits that the rules have changed.
@@ -232,17 +365,26 @@ void restate_accelerations(Identification& result) {
 void identify_rules(std::span<const RecordedRun> runs, Identification& result) {
     RuleScores scores(runs);
     const PathLimits identified = result.machine.path;
-    const std::size_t known_missing = result.unidentified.size();
+    const std::vector<UnidentifiedParameter> known_missing = result.unidentified;
+    const std::vector<RuleCandidate> other_families = choose_family(scores, result);
     // One rule may hide another: a short look-ahead slows short lines down, as a block time does.
-    for (int pass = 0; pass < most_passes; ++pass) {
+    for (int pass = 1; pass < most_passes; ++pass) {
         const Machine before = result.machine;
-        result.rules.clear();
-        result.unidentified.resize(known_missing);
-        search_all(identified, pass == 0 ? 0 : gain_of_later_passes, scores, result);
+        Identification next = result;
+        next.rules.clear();
+        next.unidentified = known_missing;
+        const std::vector<PlannerFamily> families = planner_families(before);
+        const auto own = std::find_if(families.begin(), families.end(), [](const auto& f) { return f.has_present(); });
+        search_rule(own->rule, own->present, gain_of_later_passes, scores, next);
+        search_rules(identified, gain_of_later_passes, scores, next);
+        result = std::move(next);
         if (plan_alike(before, result.machine)) break;
     }
+    result.rules.insert(result.rules.begin(), other_families.begin(), other_families.end());
     if (is_trapezoidal(result.machine)) restate_accelerations(result);
-    result.unidentified.push_back({"merging_tolerance", "controller", "a program sets it (Q of G64); not searched"});
+    if (is_trapezoidal(result.machine))
+        result.unidentified.push_back(
+            {"merging_tolerance", "controller", "a program sets it (Q of G64); not searched"});
 }
 
 }  // namespace clsurf

@@ -18,10 +18,9 @@ constexpr double decisive = 10;          // of the criterion: "very strong" evid
 constexpr PointIndex sample_every = 32;  // records
 
 /// Scores of candidates over the samples that any of them has.
-void score(const std::vector<std::vector<float>>& residuals, double usual_speed, std::span<RuleCandidate> candidates) {
-    constexpr double of_positions = 0.005;   // mm/s: differences of rounded positions are no better …
-    constexpr double of_the_model = 0.0005;  // … nor is any model, of the speed
-    const double resolution = std::max(of_positions, of_the_model * usual_speed);
+void score(const std::vector<std::vector<float>>& residuals, const RuleScores& scores,
+           std::span<RuleCandidate> candidates) {
+    const double usual_speed = scores.usual_speed(), resolution = scores.resolution();
     std::vector<double> sums(residuals.size(), 0);
     std::size_t samples = 0;
     for (std::size_t i = 0; i < residuals.front().size(); ++i) {
@@ -67,20 +66,22 @@ void refine(const Rule& rule, std::size_t chosen, RuleScores& scores, Machine& m
     };
     const auto score_of = [&](const std::vector<float>& residuals) {
         RuleCandidate candidate;
-        score({residuals}, scores.usual_speed(), {&candidate, 1});
+        score({residuals}, scores, {&candidate, 1});
         return candidate.score;
     };
     const double below = chosen > 0 ? numbers[chosen - 1] : 0.5 * numbers[chosen],
                  above = chosen + 1 < numbers.size() ? numbers[chosen + 1] : 2 * numbers[chosen];
     std::uintmax_t runs = most_runs;
-    const double best = rounded(
+    const double shown = rounded(
         boost::math::tools::brent_find_minima(
             [&](double number) { return score_of(scores.residuals(machine_with(number))); }, below, above, bits, runs)
-            .first);
-    RuleCandidate refined{.rule = rule.name, .value = fmt::format("{}", best), .axis = rule.axis};
+            .first /
+        rule.continuous.unit);
+    const double best = shown * rule.continuous.unit;
+    RuleCandidate refined{.rule = rule.name, .value = fmt::format("{}", shown), .axis = rule.axis};
     const std::vector<std::vector<float>> both{scores.residuals(machine), scores.residuals(machine_with(best))};
     std::vector<RuleCandidate> pair{candidates[chosen], refined};
-    score(both, scores.usual_speed(), pair);
+    score(both, scores, pair);
     if (pair[1].score > pair[0].score - decisive) return;
     candidates[chosen].chosen = candidates[chosen].equal = false;
     pair[1].chosen = pair[1].equal = true;
@@ -114,6 +115,12 @@ std::vector<float> RuleScores::residuals(const Machine& machine) {
     return all;
 }
 
+double RuleScores::resolution() const {
+    constexpr double of_positions = 0.005;   // mm/s: differences of rounded positions are no better …
+    constexpr double of_the_model = 0.0005;  // … nor is any model, of the speed
+    return std::max(of_positions, of_the_model * usual_speed());
+}
+
 void search_rule(const Rule& rule, std::size_t present, double least_gain, RuleScores& scores, Identification& result) {
     std::vector<RuleCandidate> candidates;
     std::vector<std::vector<float>> residuals;
@@ -123,7 +130,7 @@ void search_rule(const Rule& rule, std::size_t present, double least_gain, RuleS
         residuals.push_back(scores.residuals(machine));
         candidates.push_back({.rule = rule.name, .value = value.name, .axis = rule.axis});
     }
-    score(residuals, scores.usual_speed(), candidates);
+    score(residuals, scores, candidates);
     const std::vector<std::size_t> equal = equal_to_best(candidates);
     const bool keeps = std::find(equal.begin(), equal.end(), present) != equal.end();
     std::size_t chosen =

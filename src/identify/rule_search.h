@@ -21,6 +21,7 @@ struct RuleValue {
 struct ContinuousValues {
     std::vector<double> numbers{};  ///< empty: there are no others
     std::function<void(Machine&, double)> set{};
+    double unit = 1;  ///< of the machine file, in ours
 };
 
 struct Rule {
@@ -39,6 +40,8 @@ public:
     [[nodiscard]] std::vector<float> residuals(const Machine& machine);
     /// The speed that a place counts as wrong by where the simulation does not go there [mm/s].
     [[nodiscard]] double usual_speed() const { return static_cast<double>(usual_speed_); }
+    /// No smaller mean difference [mm/s] tells planners apart.
+    [[nodiscard]] double resolution() const;
 
 private:
     std::vector<const RecordedRun*> runs_;

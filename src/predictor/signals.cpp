@@ -407,27 +407,27 @@ std::vector<std::string> reasons_against(const Trajectory& path) {
 }  // namespace
 
 Signals derive_signals(const ClSurface& surface, const Trajectory& path, const Trajectory* measured,
-                       const std::vector<PointRange>& smooth, double end_zone, const MotionEstimate* estimate) {
+                       const std::vector<PointRange>& pieces, double end_zone, const MotionEstimate* estimate) {
     Signals signals;
     // Where loops are joined the speed sideways is not that of the pass.
-    std::vector<PointRange> pieces;
+    std::vector<PointRange> parts;
     StepOverMoveCutter cutter(surface.step_over_moves);
-    for (const PointRange& piece : smooth)
-        cutter.cut(piece, [&](const PointRange& part, bool) { pieces.push_back(part); });
+    for (const PointRange& piece : pieces)
+        cutter.cut(piece, [&](const PointRange& part, bool) { parts.push_back(part); });
     signals.samples.resize(static_cast<std::size_t>(path.count));
     signals.measured = measured != nullptr;
-    signals.pieces = pieces;
+    signals.pieces = parts;
     const float quantum = quantum_of_axes(path);
     signals.quantum = measured != nullptr ? std::max(quantum, quantum_of_axes(*measured)) : quantum;
     const Deriver deriver(surface, path, measured, estimate, usual_speed_of(surface, path.period), quantum, signals);
     deriver.note_windows(signals);
     signals.unfit = reasons_against(path);
-    deriver.note_noise(quantum, position_noise(path, pieces), signals);
-    for_each_section(path.count, pieces, [&](PointRange piece, PointIndex first, PointIndex last) {
+    deriver.note_noise(quantum, position_noise(path, parts), signals);
+    for_each_section(path.count, parts, [&](PointRange piece, PointIndex first, PointIndex last) {
         deriver.derive_motion(piece, first, last);
     });
-    mark_zones(surface, pieces, end_zone, path.period, signals);
-    for_each_section(path.count, pieces, [&](PointRange piece, PointIndex first, PointIndex last) {
+    mark_zones(surface, parts, end_zone, path.period, signals);
+    for_each_section(path.count, parts, [&](PointRange piece, PointIndex first, PointIndex last) {
         deriver.derive_heights(piece, first, last);
     });
     return signals;

@@ -9,8 +9,10 @@ namespace clsurf {
 ProgramReader::ProgramReader(const SourceText& text, const InterpreterOptions& options, std::int64_t piece)
     : interpreter_(std::make_unique<Interpreter>(text, options)), piece_(piece) {
     read_piece();
-    first_is_read_ = interpreter_->ended();
-    if (first_is_read_) return;
+    if (interpreter_->ended()) {
+        first_is_read_ = true;
+        return;
+    }
     while (size_ > 0) read_piece();
     InterpreterOptions again = options;
     again.dialect = program().dialect;

@@ -38,7 +38,7 @@ py::object number_at(const Place& place, Place::Kind kind) {
 
 void translate(std::exception_ptr thrown) {
     try {
-        std::rethrow_exception(thrown);
+        std::rethrow_exception(std::move(thrown));
     } catch (const InputError& error) {
         const Diagnostic& d = error.diagnostic();
         const py::object column = d.where.column > 0 ? py::object(py::int_(d.where.column)) : py::object(py::none());

@@ -190,10 +190,21 @@ std::optional<PlainLine> read_plain_line(std::string_view text, std::string_view
     return moves ? std::optional(line) : std::nullopt;
 }
 
+namespace {
+
+/// The dialect's splines, unless they lie in one plane and the program leaves it.
+SplineForm usable_splines(const TextRules& rules, const Program& program) {
+    const bool other_plane = rules.splines == SplineForm::cubic_plane && has_other_plane(program.main().text());
+    return other_plane ? SplineForm::none : rules.splines;
+}
+
+}  // namespace
+
 LineEditor::LineEditor(const Program& program, int least_decimals)
-    : program_(&program), rules_(&program.dialect->rules->text), decimals_(least_decimals) {
-    splines_ = rules_->splines != SplineForm::cubic_plane || !has_other_plane(program.main().text()) ? rules_->splines
-                                                                                                     : SplineForm::none;
+    : program_(&program),
+      rules_(&program.dialect->rules->text),
+      splines_(usable_splines(*rules_, program)),
+      decimals_(least_decimals) {
     const Motions& motions = program.motions;
     const auto count = static_cast<std::size_t>(motions.size());
     const SourceText& main = program.main();

@@ -3,9 +3,13 @@
 #include "identify/planner_rules.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/units.h"
 #include "pipeline/simulated_log.h"
 #include "repair/parts.h"
 
@@ -73,6 +77,41 @@ TEST(PlannerRules, AShortLookAheadIsFound) {
     text.replace(text.find("G64 P0.005"), 10, "G64 P0.005 Q0");  // no line is merged
     const Part part = run_on(real, read_text(text));
     EXPECT_EQ(identified(part, known).machine.controller.lookahead_blocks, 7);
+}
+
+/// Three polygons of 36 corners of 10° each.
+Program polygons() {
+    std::string text = "G21 G90 G17 G64\nG0 X0 Y0 Z0\nF3000\n";
+    for (int round = 0; round < 3; ++round) {
+        for (int k = 0; k <= 36; ++k) {
+            const double angle = k * std::numbers::pi / 18, radius = 10 + 0.3 * round;
+            text += fmt::format("G1 X{:.4f} Y{:.4f} Z0\n", radius * std::sin(angle), radius * (1 - std::cos(angle)));
+        }
+    }
+    return read_text(text + "M2\n");
+}
+
+// At F3000 a corner of 10° would step the speed of an axis by up to 523 mm/min. 400 mm/min is not among the tried values.
+TEST(PlannerRules, TheSpeedStepOfCornersThatAreNotRoundedIsFound) {
+    Machine real;
+    real.controller.corner = CornerMode::junction;
+    real.controller.junction = {.deviation = 0, .speed_step = 400 / seconds_per_minute};
+    for (MachineAxis& axis : real.axes) axis.max_jerk = 0;
+    Machine known = real;
+    known.controller.corner = CornerMode::arc;
+    known.controller.junction = {};
+    const Part part = run_on(real, polygons());
+    const Identification result = identified(part, known);
+    EXPECT_EQ(result.machine.controller.corner, CornerMode::junction);
+    EXPECT_NEAR(result.machine.controller.junction.speed_step * seconds_per_minute, 400, 8);
+}
+
+TEST(PlannerRules, FeedsByConstantSpeedIntervalsAreFound) {
+    Machine real, known;
+    real.controller.feed = FeedRule::intervals;
+    const Part part = run_on(real);
+    const Identification result = identified(part, known);
+    EXPECT_EQ(result.machine.controller.feed, FeedRule::intervals);
 }
 
 TEST(PlannerRules, WhatTheRunDoesNotShowKeepsItsValueAndIsNamed) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -250,7 +251,7 @@ private:
         letters_ |= Words::bit(letter);
         if (letter == 'G' && has_number && g_count_ < g_.size() && number >= 0 && number < 1e4) {
             g_text_[g_count_] = shown;
-            g_[g_count_++] = static_cast<int>(number * 10 + 0.5);
+            g_[g_count_++] = static_cast<int>(std::lround(number * 10));
         }
         const auto is = [&](double m) { return letter == 'M' && has_number && number == m; };
         if (is(98) || is(99)) mark(Mark::subprogram_m, shown);

@@ -130,7 +130,8 @@ void move_with(Line& line, const KlartextWords& words, int code) {
     Interpreter& in = line.in;
     Block& block = in.block_;
     block.clear();
-    (void)add_g(block.words, code / 10, line.start + 1);
+    const int g = code / 10;  // codes are in tenths
+    (void)add_g(block.words, g, line.start + 1);
     fill(line, words, block);
     if (words.reads_plane_angles && in.five_axis_.tilted) {
         // The angles that PLANE has found: the tool stands upright on the plane.

@@ -205,10 +205,10 @@ void CutterCompensation::join(CompensatedStep& step, const Vec2& corner, const V
     next.begin = next.beside;
 }
 
-bool CutterCompensation::inside_corner(double turn, const Open& next) const {
-    if (turn < -flat_corner || turn > pi + flat_corner) return true;
+bool CutterCompensation::inside_corner(double angle, const Open& next) const {
+    if (angle < -flat_corner || angle > pi + flat_corner) return true;
     // Back along the way it came, beside an arc that it went around: not about the corner's far side.
-    if (turn <= pi - flat_corner) return false;
+    if (angle <= pi - flat_corner) return false;
     return next.is_arc ? !inside(next.counter_clockwise) : open_.is_arc && !inside(open_.counter_clockwise);
 }
 

@@ -289,7 +289,7 @@ public:
     void repeat(const Control& control, const Statement& statement);
     void choose_branch(const Control& control, const Statement& statement);
     [[nodiscard]] bool branch_taken(const Control& branch) const;
-    void siemens_definition(const std::string& statement);                     ///< DEF
+    void siemens_definition(const std::string& definition);                    ///< DEF
     void call_by_number(const Block& block, int least_repeats, bool counted);  ///< M98 P L
     void return_to_block(const Block& block);                                  ///< M99 P
     void call(const std::string& name, int repeats, bool locals, const std::vector<double>& arguments);

@@ -55,8 +55,12 @@ Vec3 great_circle(const Vec3& a, const Vec3& b, double part) {
 
 ToolAxisPath::ToolAxisPath(const Kinematics& kinematics, const RotaryAngles& from, const RotaryAngles& to,
                            const AngleRange& tilt, double ratio, double tolerance)
-    : kinematics_(&kinematics), from_(from), to_(to), begin_(kinematics.axis_of(from)), end_(kinematics.axis_of(to)) {
-    angle_ = angle_between(begin_, end_);
+    : kinematics_(&kinematics),
+      from_(from),
+      to_(to),
+      begin_(kinematics.axis_of(from)),
+      end_(kinematics.axis_of(to)),
+      angle_(angle_between(begin_, end_)) {
     const bool turns = angle_ > least_angle && angle_ < std::numbers::pi - opposite;
     if (kinematics.interpolation == ToolAxisInterpolation::linear || !turns) return;
     // From the pole every great circle begins with a rotation of its own: that is turned on the way.

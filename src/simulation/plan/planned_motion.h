@@ -23,8 +23,8 @@ struct ProfileSegment {
 struct CellMotion {
     double length = 0, speed = 0, acceleration = 0, curve = 0;
     [[nodiscard]] double duration() const;
-    /// Arc length after a time [mm]; `speed` there.
-    [[nodiscard]] double arc_length_at(double time, double& speed) const;
+    /// Arc length after a time [mm]; `v`: the speed there.
+    [[nodiscard]] double arc_length_at(double time, double& v) const;
 };
 
 /// What a cell runs over: parts of spans.

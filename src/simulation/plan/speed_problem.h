@@ -151,7 +151,5 @@ private:
 };
 
 using SpeedProblem = AxisSpeedProblem<3>;
-extern template class AxisSpeedProblem<3>;
-extern template class AxisSpeedProblem<5>;
 
 }  // namespace clsurf

@@ -138,9 +138,10 @@ private:
     void emit() {
         const Sample& sample = waiting_[half_width];
         RotaryAngles angles{0, 0};
-        for (int k = 1 - half_width; k < half_width; ++k) {
-            const double weight = static_cast<double>(half_width - std::abs(k)) / (half_width * half_width);
-            const RotaryAngles& other = waiting_[static_cast<std::size_t>(half_width + k)].angles;
+        for (int k = 1; k < 2 * half_width; ++k) {
+            const double weight =
+                static_cast<double>(half_width - std::abs(k - half_width)) / (half_width * half_width);
+            const RotaryAngles& other = waiting_[static_cast<std::size_t>(k)].angles;
             angles.tilt += weight * other.tilt;
             angles.rotation += weight * other.rotation;
         }
