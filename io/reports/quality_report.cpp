@@ -67,6 +67,14 @@ Json accepted_json(const ReportedQuality& q) {
     return all;
 }
 
+void add_motion(Json& summary, const MotionQuality& m) {
+    summary["time_in_motion_s"] = number(m.duration, 6);
+    summary["speed_difference_p95_mm_min"] = number(m.mismatch * seconds_per_minute, 3);
+    summary["speed_difference_rms_mm_min"] = number(m.mismatch_rms * seconds_per_minute, 3);
+    summary["jerk_p95_mm_s3"] = number(m.jerk, 1);
+    summary["jerk_rms_mm_s3"] = number(m.jerk_rms, 1);
+}
+
 void add_roughness(Json& summary, const PartRoughness& f) {
     const auto known = [&](double mm) { return f.patches.empty() ? Json(nullptr) : number(um(mm), 3); };
     summary["ra_um"] = known(f.ra);
@@ -273,6 +281,7 @@ std::string quality_json(const ReportedQuality& q) {
         summary["gone_defects"] = q.baseline->gone.size();
     }
     if (q.as_machined != nullptr) add_roughness(summary, q.as_machined->roughness);
+    if (q.motion) add_motion(summary, *q.motion);
     Json json{{"defects", looked_at_defects(q)},
               {"expected", list_defects(q.report->expected, q.scallop)},
               {"accepted", accepted_json(q)},

@@ -13,6 +13,7 @@
 #include "limits/limit_report.h"
 #include "machined/as_machined_report.h"
 #include "machined/tool.h"
+#include "pipeline/motion_quality.h"
 #include "predictor/defects.h"
 #include "predictor/verdict.h"
 #include "program/program.h"
@@ -28,6 +29,7 @@ struct ReportedQuality {
     double scallop = 0;                      ///< [mm] between clean passes; 0: not known
     std::vector<double> colour_differences;  ///< ΔE00 of each defect's speed and that beside it, in the map of speeds
     const AsMachinedReport* as_machined = nullptr;  ///< nullptr: the tool is not known
+    std::optional<MotionQuality> motion;            ///< in JSON only; nothing: not asked for
     const LimitReport* limits = nullptr;            ///< nullptr: no limits are stated
     const Acceptance* acceptance = nullptr;         ///< nullptr: no file of accepted defects
     std::vector<BudgetLine> budget;

@@ -40,7 +40,7 @@ struct CheckRules {
 
 Checked check_log(const PartOptions& options, CheckRules& rules, const po::variables_map& values) {
     StageClock clock(read_common(values), 8);
-    CheckedRun run = check_run(options, rules.measured, rules.budget, clock);
+    CheckedRun run = check_run(options, rules.measured, rules.budget, clock, rules.format == "json");
     if (rules.recorder) {
         const io::AddedRun added = rules.recorder->add(options, run);
         if (!read_common(values).quiet) write_message("recorded as " + rules.recorder->text_of(added) + "\n");
@@ -59,6 +59,7 @@ Checked check_log(const PartOptions& options, CheckRules& rules, const po::varia
     reported.scallop = run.quality.scallop;
     if (rules.format == "json") reported.colour_differences = colour_differences(run.quality.report, run.part);
     reported.as_machined = run.quality.as_machined ? &*run.quality.as_machined : nullptr;
+    reported.motion = run.quality.motion;
     if (run.states_limits) reported.limits = &run.limits;
     reported.budget = run.budget;
     reported.origin = io::simulation_origin(run.part.log);

@@ -7,12 +7,12 @@
 namespace clsurf::cli {
 
 CheckedRun check_run(const PartOptions& options, std::optional<Role> measured, const CheckBudget& budget,
-                     StageClock& clock) {
+                     StageClock& clock, bool with_motion) {
     CheckedRun run;
     run.part = load_part(options, clock);
     clock.begin("stitch the surface");
     run.surface = stitch(run.part);
-    run.quality = judge(run.part, run.surface, measured, {}, clock.stages());
+    run.quality = judge(run.part, run.surface, measured, {}, clock.stages(), with_motion);
     run.part.diagnostics.append(run.quality.diagnostics);
     if (const std::vector<StatedLimit> stated = stated_limits(run.part.limits, budget); !stated.empty()) {
         clock.begin("compare with the limits");

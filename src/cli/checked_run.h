@@ -25,9 +25,9 @@ struct CheckedRun {
     [[nodiscard]] bool within_budget() const { return quality.report.judgement.judged() && all_held(budget); }
 };
 
-/// Reads and judges. Throws as load_part() does.
+/// Reads and judges. `with_motion`: Quality::motion is asked for. Throws as load_part() does.
 [[nodiscard]] CheckedRun check_run(const PartOptions& options, std::optional<Role> measured, const CheckBudget& budget,
-                                   StageClock& clock);
+                                   StageClock& clock, bool with_motion = false);
 
 /// --tool, --budget, --fail-on, --max-depth, --accepted, and the options of a part: all that says how a run is judged.
 void declare_judging(po::options_description& options);

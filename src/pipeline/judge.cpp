@@ -7,6 +7,7 @@
 #include "pipeline/as_machined_part.h"
 #include "pipeline/contacts.h"
 #include "predictor/axis_delay.h"
+#include "predictor/quality_fields.h"
 
 namespace clsurf {
 namespace {
@@ -50,13 +51,16 @@ void note_reasons(const QualityReport& report, const Part& part, Diagnostics& di
 }
 
 Quality judge(const Part& part, const ClSurface& surface, std::optional<Role> measured, const QualityRules& rules,
-              const Stages& stages) {
+              const Stages& stages, bool with_motion) {
     Quality quality;
     begin_stage(stages, "derive the signals");
     const PartSignals read = signals_of(part, surface, measured);
     begin_stage(stages, "find the defects");
     quality.report = find_defects(part, surface, read, rules);
     note_reasons(quality.report, part, quality.diagnostics);
+    if (with_motion)
+        quality.motion = motion_quality(part.log, part.path, surface, speed_differences(surface, read.signals),
+                                        estimate_motion(part, surface.passes));
     if (!part.tool || surface.step_over <= 0) return quality;
     begin_stage(stages, "measure the formed surface");
     const PartContacts contacts(part, surface, *part.tool);

@@ -5,6 +5,7 @@
 
 #include "core/diagnostic.h"
 #include "machined/as_machined_report.h"
+#include "pipeline/motion_quality.h"
 #include "pipeline/part.h"
 #include "pipeline/signals_of.h"
 #include "pipeline/stages.h"
@@ -16,6 +17,7 @@ struct Quality {
     QualityReport report;
     double scallop = 0;                           ///< [mm] 0: not known
     std::optional<AsMachinedReport> as_machined;  ///< where the tool is known
+    std::optional<MotionQuality> motion;          ///< where it is asked for
     Diagnostics diagnostics;  ///< `quality.…`: why nothing is judged, what is not known of the tool
 };
 
@@ -31,8 +33,9 @@ struct Quality {
 void note_reasons(const QualityReport& report, const Part& part, Diagnostics& diagnostics);
 
 /// The whole of it, at contact points where the tool is known. `surface` is that of the part; `measured`: the positions
-/// that heights are measured from (pipeline/roles.h). O(points), parallel; the formed surface costs most.
+/// that heights are measured from (pipeline/roles.h). `with_motion`: asks for Quality::motion. O(points), parallel; the formed
+/// surface costs most.
 [[nodiscard]] Quality judge(const Part& part, const ClSurface& surface, std::optional<Role> measured = std::nullopt,
-                            const QualityRules& rules = {}, const Stages& stages = {});
+                            const QualityRules& rules = {}, const Stages& stages = {}, bool with_motion = false);
 
 }  // namespace clsurf
