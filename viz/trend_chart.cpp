@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "viz/chart_frame.h"
+#include "viz/symbol.h"
 
 namespace clsurf::viz {
 namespace {
@@ -162,21 +163,9 @@ private:
         }
     }
 
-    /// A disc, a diamond, a square or a triangle, made of strips: a line's width has square ends.
     void add_symbol(const Vec2& at, std::size_t group, double r) {
-        constexpr int strips = 14;
-        for (int k = 0; k < strips; ++k) {
-            const double v = 2 * (k + 0.5) / strips - 1;
-            double half = std::sqrt(std::max(0.0, 1 - v * v));
-            if (group % trend_shapes == 1) half = 1.15 * (1 - std::abs(v));
-            if (group % trend_shapes == 2) half = 0.85;
-            if (group % trend_shapes == 3) half = 0.5 * (1 - v) * 1.2;
-            const Vec2 middle = at + Vec2(0, v * r);
-            sheet_.lines.push_back({{middle - Vec2(half * r, 0), middle + Vec2(half * r, 0)},
-                                    2 * r / strips + 0.3,
-                                    group_colours[group % std::size(group_colours)],
-                                    Level::dot});
-        }
+        viz::add_symbol(sheet_, at, static_cast<SymbolShape>(group % trend_shapes), r,
+                        group_colours[group % std::size(group_colours)]);
     }
 
     const TrendPicture& picture_;

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -11,11 +12,13 @@
 
 namespace clsurf::io {
 
-TomlFile::TomlFile(const std::string& path) {
-    const Source source = map_file(path);
-    name_ = source.name;
+TomlFile::TomlFile(const std::string& path) : TomlFile(map_file(path)) {}
+
+TomlFile::TomlFile(const Source& source) : TomlFile(source.text(), source.name) {}
+
+TomlFile::TomlFile(std::string_view text, std::string name) : name_(std::move(name)) {
     try {
-        root_ = toml::parse(source.text(), source.name);
+        root_ = toml::parse(text, name_);
     } catch (const toml::parse_error& error) {  // the library's only way to say so
         const toml::source_position at = error.source().begin;
         throw InputError(Place::of_line(name_, at.line, static_cast<std::uint32_t>(at.column)),

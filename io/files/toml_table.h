@@ -18,6 +18,8 @@ class TomlFile {
 public:
     /// Throws InputError (missing, malformed).
     explicit TomlFile(const std::string& path);
+    /// The content of a file of that name. Throws InputError (malformed).
+    TomlFile(std::string_view text, std::string name);
 
     [[nodiscard]] const toml::table& root() const { return root_; }
     /// Throws InputError at the place of a node.
@@ -40,6 +42,8 @@ public:
     [[nodiscard]] const toml::array* tables(const toml::table& table, std::string_view key) const;
 
 private:
+    explicit TomlFile(const Source& source);
+
     std::string name_;
     toml::table root_;
 };

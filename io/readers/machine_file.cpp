@@ -272,10 +272,7 @@ std::string quoted(const std::string& text) {
     return out.str();
 }
 
-}  // namespace
-
-Machine read_machine(const std::string& path) {
-    const TomlFile file(path);
+Machine read_machine(const TomlFile& file) {
     const toml::table& root = file.root();
     file.allow(root, {"name", "controller", "path", "axis", "kinematics", "fidelity", "uncertainty"});
     Machine machine;
@@ -302,6 +299,12 @@ Machine read_machine(const std::string& path) {
     if (const toml::array* rows = file.tables(root, "uncertainty")) machine.uncertainty = read_uncertainty(file, *rows);
     return machine;
 }
+
+}  // namespace
+
+Machine read_machine(const std::string& path) { return read_machine(TomlFile(path)); }
+
+Machine machine_of_text(const std::string& text, const std::string& name) { return read_machine(TomlFile(text, name)); }
 
 std::vector<StatedLimit> read_stated_limits(const std::string& path) {
     const Machine machine = read_machine(path);

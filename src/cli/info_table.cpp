@@ -30,7 +30,7 @@ bool suggest_mapping_asked(const po::variables_map& values) {
     const auto files = values["FILE"].as<std::vector<std::string>>();
     if (files.size() != 1) throw UsageError("--suggest-mapping needs one file");
     const std::string path = values.count("output") > 0 ? required(values, "output") : "-";
-    (void)output_format(path, mapping_formats());
+    (void)output_format(path, toml_formats());
     const io::Source source = io::open_source(files.front());
     const std::optional<io::ForeignTable> table = io::recognise_table(source);
     if (!table) throw InputError(Place::of_file(source.name), "is not a table of numbers: no mapping can be suggested");

@@ -24,6 +24,14 @@ constexpr std::array drawing_table{OutputFormat{"png", ".png", true},
                                    OutputFormat{"webp", ".webp", true},
                                    OutputFormat{"svg", ".svg"},
                                    OutputFormat{"pdf", ".pdf", true}};
+constexpr std::array front_table{OutputFormat{"png", ".png", true},
+                                 OutputFormat{"jpeg", ".jpg .jpeg", true},
+                                 OutputFormat{"tiff", ".tif .tiff", true},
+                                 OutputFormat{"webp", ".webp", true},
+                                 OutputFormat{"svg", ".svg"},
+                                 OutputFormat{"pdf", ".pdf", true},
+                                 OutputFormat{"csv", ".csv"},
+                                 OutputFormat{"json", ".json"}};
 constexpr std::array page_table{OutputFormat{"html", ".html .htm"}};
 constexpr std::array log_table{OutputFormat{"biip", ".biip", true}};
 constexpr std::array column_table{OutputFormat{"csv", ".csv"}, OutputFormat{"biip", ".biip", true},
@@ -33,7 +41,7 @@ constexpr std::array report_table{OutputFormat{"text", ".txt"}, OutputFormat{"js
                                   OutputFormat{"junit", ".xml"}};
 constexpr std::array motion_table{OutputFormat{"csv", ".csv"}};
 
-constexpr std::array mapping_table{OutputFormat{"toml", ".toml"}};
+constexpr std::array toml_table{OutputFormat{"toml", ".toml"}};
 
 constexpr OutputFormats all_kinds[] = {drawing_table, page_table, log_table, column_table, report_table};
 
@@ -83,11 +91,12 @@ const OutputFormat& by_name(std::string_view name, OutputFormats formats) {
 
 OutputFormats picture_formats() { return picture_table; }
 OutputFormats drawing_formats() { return drawing_table; }
+OutputFormats front_formats() { return front_table; }
 OutputFormats page_formats() { return page_table; }
 OutputFormats log_formats() { return log_table; }
 OutputFormats table_formats() { return column_table; }
 OutputFormats report_formats() { return report_table; }
-OutputFormats mapping_formats() { return mapping_table; }
+OutputFormats toml_formats() { return toml_table; }
 OutputFormats motion_formats() { return motion_table; }
 
 std::string endings_of(OutputFormats formats) {

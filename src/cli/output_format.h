@@ -19,12 +19,13 @@ using OutputFormats = std::span<const OutputFormat>;
 
 [[nodiscard]] OutputFormats picture_formats();  ///< those that viz::encode_image() writes
 [[nodiscard]] OutputFormats drawing_formats();  ///< these, and SVG and PDF
+[[nodiscard]] OutputFormats front_formats();    ///< drawings, and tables of a Pareto front: CSV and JSON
 [[nodiscard]] OutputFormats page_formats();
 [[nodiscard]] OutputFormats log_formats();
-[[nodiscard]] OutputFormats table_formats();    ///< of per-point columns
-[[nodiscard]] OutputFormats report_formats();   ///< text, json, csv, sarif
-[[nodiscard]] OutputFormats mapping_formats();  ///< mapping files
-[[nodiscard]] OutputFormats motion_formats();   ///< rows a motion, as CSV
+[[nodiscard]] OutputFormats table_formats();   ///< of per-point columns
+[[nodiscard]] OutputFormats report_formats();  ///< text, json, csv, sarif
+[[nodiscard]] OutputFormats toml_formats();    ///< mappings, machine files
+[[nodiscard]] OutputFormats motion_formats();  ///< rows a motion, as CSV
 
 /// ".png, .jpg or .jpeg"
 [[nodiscard]] std::string endings_of(OutputFormats formats);

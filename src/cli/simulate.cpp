@@ -3,45 +3,20 @@
 #include "cli/controller_runs.h"
 #include "cli/options.h"
 #include "cli/output_format.h"
-#include "cli/progress_bar.h"
+#include "cli/settings_tradeoff.h"
 #include "cli/simulation_text.h"
 #include "cli/work_frames.h"
-#include "intervals/interval_feeds.h"
-#include "io/files/compressed.h"
-#include "io/formats/program_identity.h"
+#include "cli/written_run.h"
 #include "io/readers/machine_file.h"
-#include "io/readers/program_file.h"
 #include "io/reports/fidelity_report.h"
 #include "io/reports/simulated_log.h"
-#include "io/reports/simulation_origin.h"
-#include "pipeline/simulated_log.h"
 
 namespace clsurf::cli {
 namespace {
 
-/// The program is traversed repeatedly, so it is kept in memory.
-ExitCode run_five_axis(const Program& program, const Machine& machine, const Vec3& zero, const Vec3& start,
-                       io::SimulatedLogWriter& log, const po::variables_map& values) {
-    ProgressBar bar(read_common(values));
-    const FiveAxisSummary summary = simulate_five_axis(
-        program, machine, zero, start, [&](std::span<const FiveAxisPoint> points) { log.append(points); },
-        bar.callback());
-    log.close();
-    bar.clear();
-    Diagnostics diagnostics = program.diagnostics;
-    diagnostics.append(summary.run.diagnostics);
-    if (read_json(values)) {
-        write_to_stdout(io::simulation_json(summary, machine.kinematics, diagnostics, machine.fidelity));
-    } else {
-        print(diagnostics, values);
-        write_answer(
-            summary_text(summary.run) + rotary_text(summary, machine.kinematics) + io::fidelity_line(machine.fidelity),
-            values);
-    }
-    return ExitCode::done;
-}
-
 ExitCode run_simulate(const po::variables_map& values) {
+    if (trades_off(values)) return trade_off_settings(values);
+    refuse_settings_options(values);
     const std::string output = required(values, "output");
     (void)output_format(output, log_formats());
     (void)read_json_beside_output(values);
@@ -49,51 +24,17 @@ ExitCode run_simulate(const po::variables_map& values) {
         return record_on_controller(*command, required(values, "PROGRAM"), output, values);
     const Machine machine =
         values.count("machine") > 0 ? io::read_machine(values["machine"].as<std::string>()) : Machine{};
-    const Vec3 start = read_start(values);
-    const std::string path = required(values, "PROGRAM");
-    const io::Source source = io::open_source(path);
-    const bool five_axes = machine.kinematics.has_rotary();
-    const FramePoses poses = five_axes ? read_work_offset(values) : FramePoses{};
-    if (given(values, "work-offset") && !five_axes)
-        throw UsageError("--work-offset is for machines with rotary axes; of three the program's own offsets count");
-    const auto open_log = [&](const std::optional<Eigen::Isometry3d>& pose) {
-        const std::string metadata =
-            io::with_programs(pose_metadata(pose), std::vector<ProgramReference>{io::identify(source)});
-        return io::SimulatedLogWriter(output, machine, io::with_simulation(metadata, machine));
-    };
-    if (five_axes) {
-        io::ProgramOptions options = read_program_options(values);
-        options.coordinates.reset();
-        Program program = io::read_program(source, options);
-        const Eigen::Isometry3d pose = prepare_five_axes(program, machine, poses);
-        if (machine.controller.feed == FeedRule::intervals) hold_interval_speeds(program, machine);
-        const bool known = poses.zero || !pose.translation().isZero(0);
-        io::SimulatedLogWriter log = open_log(known ? std::optional(poses.zero.value_or(pose)) : std::nullopt);
-        return run_five_axis(program, machine, pose.translation(), start, log, values);
-    }
-    io::SimulatedLogWriter log = open_log(std::nullopt);
-    ProgressBar bar(read_common(values));
-    const PointSink append = [&](std::span<const SimulatedPoint> points) { log.append(points); };
-    SimulationSummary summary;
-    Diagnostics diagnostics;
-    if (machine.controller.feed == FeedRule::intervals) {
-        Program program = io::read_program(source, read_program_options(values));
-        hold_interval_speeds(program, machine);
-        summary = simulate(program, machine, start, append, bar.callback());
-        diagnostics = program.diagnostics;
-    } else {
-        const std::unique_ptr<ProgramReader> program = io::open_program(source, read_program_options(values));
-        summary = simulate(*program, machine, start, append, bar.callback());
-        diagnostics = program->program().diagnostics;
-    }
-    log.close();
-    bar.clear();
-    diagnostics.append(summary.diagnostics);
+    const WrittenRun run = write_run(machine, output, values);
+    const SimulationSummary& summary = run.summary.run;
     if (read_json(values)) {
-        write_to_stdout(io::simulation_json(summary, diagnostics, machine.fidelity));
+        write_to_stdout(run.five_axes
+                            ? io::simulation_json(run.summary, machine.kinematics, run.diagnostics, machine.fidelity)
+                            : io::simulation_json(summary, run.diagnostics, machine.fidelity));
     } else {
-        print(diagnostics, values);
-        write_answer(summary_text(summary) + io::fidelity_line(machine.fidelity), values);
+        print(run.diagnostics, values);
+        write_answer(summary_text(summary) + (run.five_axes ? rotary_text(run.summary, machine.kinematics) : "") +
+                         io::fidelity_line(machine.fidelity),
+                     values);
     }
     return ExitCode::done;
 }
@@ -115,9 +56,15 @@ Subcommand simulate_subcommand() {
             "are zero. With a machine file that has rotary axes, the log has all five axes, --work-offset is\n"
             "the position of the program's zero with both angles at zero, and blocks that an axis cannot\n"
             "follow run slower. With --controller, your own controller runs the program instead, and its log is\n"
-            "kept.\n\n"
+            "kept.\n"
+            "With --tradeoff or --weight the program is simulated at many settings: shares of the limits of jerk and\n"
+            "acceleration, of the feeds, and feeds of constant-speed intervals. The Pareto front of time, speed\n"
+            "difference between adjacent passes and jerk is drawn, and --weight W chooses from it: the settings of\n"
+            "least (1 - W) t + W (m + j) / 2, where t, m and j are time, difference and jerk (95th percentiles)\n"
+            "relative to those of the machine file. -o writes the log of that run, --settings its machine file.\n\n"
             "  clsurf simulate part.nc --machine mill.toml -o run.biip\n"
             "  clsurf simulate part.nc --controller 'run_on_kernel.sh {program} {log}' -o run.biip\n"
+            "  clsurf simulate part.nc --machine mill.toml --tradeoff front.png --weight 0.5 --settings finish.toml -o run.biip\n"
             "  clsurf render part.nc run.biip --color limit -o why_slow.png",
         .declare =
             [](po::options_description& options) {
@@ -125,6 +72,7 @@ Subcommand simulate_subcommand() {
                 options.add_options()
                     ("output,o", po::value<std::string>()->value_name("FILE"), "the BIIP log");
                 // clang-format on
+                declare_settings_tradeoff(options);
                 declare_simulation(options);
                 declare_controller(options);
                 declare_work_offset(options);
