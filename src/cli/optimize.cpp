@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/front_output.h"
 #include "cli/optimize_options.h"
 #include "cli/optimize_picture.h"
 #include "cli/options.h"
@@ -9,8 +10,10 @@
 #include "cli/picture_output.h"
 #include "cli/progress_bar.h"
 #include "cli/repair_inputs.h"
+#include "core/file_name.h"
 #include "io/files/atomic_file.h"
 #include "io/reports/optimize_report.h"
+#include "io/reports/tradeoff_report.h"
 
 namespace clsurf::cli {
 namespace {
@@ -25,6 +28,7 @@ ExitCode run_optimize(const po::variables_map& values) {
     std::optional<PictureOutput> picture;
     if (values.count("picture") > 0)
         picture.emplace(values["picture"].as<std::string>(), "--picture", PictureKind::drawing);
+    FrontOutput front_output(values);
     ProgressBar bar(read_common(values));
     Optimized result = run_repair(values, in, bar.callback(), diagnostics);
     result.machine = in.machine_origin;
@@ -33,13 +37,18 @@ ExitCode run_optimize(const po::variables_map& values) {
         write_to_stdout(io::optimize_json(result, diagnostics));
     } else {
         print(diagnostics, values);
-        write_answer(io::optimize_text(result), values);
+        const std::string front =
+            trades_off(values) ? io::tradeoff_text(result.front, {"candidates", "candidate", true}) : std::string();
+        write_answer(io::optimize_text(result) + front, values);
     }
     const std::string name = in.program.main().name();
     if (picture) {
         picture->write(draw_before_and_after(result, name, picture->wants_drawing()),
                        fmt::format("clsurf optimize of {}: speeds before and after", name));
     }
+    if (trades_off(values))
+        front_output.write(result.front, {}, fmt::format("Time against surface: repairs of {}", file_name(name)),
+                           diagnostics);
     if (!result.evaluation.accepted) return ExitCode::check_failed;
     output.write(result.text);
     output.commit();
@@ -65,7 +74,11 @@ Subcommand optimize_subcommand() {
             "program and the best candidates, --runs times in all, and its logs decide. After a new program has\n"
             "run, --round adds it and its log: the next program is better than it, or there is none.\n"
             "Programs that move rotary axes need a machine file that has them. Passes are then those of the\n"
-            "tool tip, and the tool axis stays within a hundredth of a degree of the programmed one.\n\n"
+            "tool tip, and the tool axis stays within a hundredth of a degree of the programmed one.\n"
+            "--tradeoff shows what the search found: the Pareto front of its acceptable candidates by time, speed\n"
+            "difference between adjacent passes and jerk. --weight W chooses from it: the candidate of least\n"
+            "(1 - W) t + W (m + j) / 2, where t, m and j are time, difference and jerk (95th percentiles)\n"
+            "relative to those of the program.\n\n"
             "  clsurf optimize part.nc --machine mill.toml --tolerance 0.005 -o better.nc --picture better.png\n"
             "  clsurf optimize part.nc --log run.biip -o better.nc\n"
             "  clsurf optimize part.nc --log run.biip --round better.nc better_run.biip -o better2.nc\n"

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/controller_command.h"
+#include "cli/front_output.h"
 #include "cli/known_tool.h"
 #include "cli/part.h"
 #include "cli/work_frames.h"
@@ -41,6 +42,10 @@ void declare_optimize(po::options_description& options) {
     declare_controller(options);
     options.add_options()("runs", po::value<int>()->value_name("N"),
                           "how often --controller runs, the program itself included if it has no --log (default: 3)");
+    declare_front(
+        options,
+        "the Pareto front of the candidates of the search by time, speed difference between adjacent passes, and jerk: a picture (.png, .jpg, .tif, .webp, .svg or .pdf) or a table (.csv or .json)",
+        "chooses the new program from this front: 0 time alone … 1 surface alone (default: by the objective)");
     declare_log_options(options);
     declare_work_offset(options);
     declare_derivative(options);
@@ -61,6 +66,10 @@ OptimizeRules read_optimize_rules(const po::variables_map& values) {
     if (rules.machines < 0 || rules.machines > 100) throw UsageError("--machines must be 0 to 100");
     if (values.count("feeds") > 0 && values["feeds"].as<std::string>() == "intervals")
         rules.feeds = FeedChoice::intervals;
+    rules.keeps_front = trades_off(values);
+    rules.weight = read_weight(values);
+    if (rules.keeps_front && values.count("controller") + values.count("round") > 0)
+        throw UsageError("--tradeoff and --weight choose by simulation: they do not go with --controller and --round");
     rules.derivative = read_derivative(values);
     rules.splines = values.count("splines") > 0;
     if (rules.splines && rules.feeds == FeedChoice::intervals)

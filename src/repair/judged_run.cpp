@@ -7,6 +7,7 @@
 
 #include "core/statistics.h"
 #include "mapping/map_lines.h"
+#include "pipeline/motion_quality.h"
 #include "pipeline/placement.h"
 #include "pipeline/roles.h"
 #include "pipeline/signals_of.h"
@@ -15,29 +16,13 @@
 #include "surface/stitch.h"
 
 namespace clsurf {
-namespace {
-
-/// [s] from the first to the last motion: a recording may begin early and end late.
-double time_in_motion(const ClSurface& surface, double period) {
-    const PointIndex count = surface.positions.size();
-    PointIndex first = 0, last = count - 1;
-    const auto rests = [&](PointIndex a, PointIndex b) {
-        return surface.positions.absolute(a) == surface.positions.absolute(b);
-    };
-    while (first < last && rests(first, first + 1)) ++first;
-    while (last > first && rests(last, last - 1)) --last;
-    return static_cast<double>(std::max<PointIndex>(0, last - first)) * period;
-}
-
-}  // namespace
-
 std::size_t defects_by_check(const JudgedRun& run, const Program& program) {
     return find_defects(run.surface, run.signals, *run.lines, program, run.log.period, QualityRules{}).defects.size();
 }
 
 JudgedRun judge_run(Log log, const Program& program, const QualityRules& rules, Diagnostics& diagnostics,
-                    std::shared_ptr<const Kinematics> kinematics, ProgramIdentity identity,
-                    DerivativeMethod derivative) {
+                    std::shared_ptr<const Kinematics> kinematics, ProgramIdentity identity, DerivativeMethod derivative,
+                    bool with_motion) {
     JudgedRun run;
     run.log = std::move(log);
     const Eigen::Isometry3d pose = pose_of(run.log).value_or(Eigen::Isometry3d::Identity());
@@ -50,6 +35,7 @@ JudgedRun judge_run(Log log, const Program& program, const QualityRules& rules, 
     run.report = find_defects(run.surface, run.signals, *run.lines, program, run.log.period, rules);
     run.duration = time_in_motion(run.surface, run.log.period);
     run.speed_differences = speed_differences(run.surface, run.signals);
+    if (with_motion) run.motion = motion_quality(run.log, run.path, run.surface, run.speed_differences, estimate);
     std::vector<float> sizes;
     for (const float value : run.speed_differences) {
         if (value == value) sizes.push_back(std::abs(value));

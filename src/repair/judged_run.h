@@ -2,11 +2,13 @@
 // JudgedRun: a run of a program, simulated or recorded, with what the predictor says of it.
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "log/log.h"
 #include "machine/machine.h"
 #include "mapping/line_map.h"
+#include "pipeline/motion_quality.h"
 #include "pipeline/simulated_log.h"
 #include "predictor/defects.h"
 #include "repair/objective.h"
@@ -25,6 +27,7 @@ struct JudgedRun {
     Column<float>
         speed_differences;         ///< [mm/s] per point, to the neighbour pass that differs most; NaN: none beside it
     double greatest_mismatch = 0;  ///< [mm/s] 99.9th percentile of it
+    std::optional<MotionQuality> motion{};  ///< where it is asked for
 
     [[nodiscard]] RunMeasures measures() const {
         return {mismatch, static_cast<double>(report.defects.size()), duration,
@@ -37,10 +40,11 @@ struct JudgedRun {
 
 /// Stitches the surface of a log and judges it by `rules`. Adds diagnostics about lines to `diagnostics`. `kinematics`: of a
 /// machine whose rotary axes the log has; the program's motions are then those of the tip. `identity`: what is known of
-/// the program that ran; `same` for a simulation. `derivative`: how speeds and accelerations are derived. O(points), parallel.
+/// the program that ran; `same` for a simulation. `derivative`: how speeds and accelerations are derived. `with_motion`: asks for
+/// JudgedRun::motion. O(points), parallel.
 [[nodiscard]] JudgedRun judge_run(Log log, const Program& program, const QualityRules& rules, Diagnostics& diagnostics,
                                   std::shared_ptr<const Kinematics> kinematics = nullptr,
                                   ProgramIdentity identity = ProgramIdentity::same,
-                                  DerivativeMethod derivative = DerivativeMethod::savgol);
+                                  DerivativeMethod derivative = DerivativeMethod::savgol, bool with_motion = false);
 
 }  // namespace clsurf

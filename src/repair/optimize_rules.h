@@ -41,8 +41,10 @@ struct OptimizeRules {
     QualityRules quality = judged_place_by_place();
     DerivativeMethod derivative = DerivativeMethod::savgol;  ///< of the runs that are judged
     std::optional<CuttingTool> tool;                         ///< whose surface must not get rougher; three axes
-    int machines = 4;            ///< of the ensemble that must be better; 0: the nominal machine alone decides
-    bool all_finalists = false;  ///< lists all, instead of the best that the ensemble accepts
+    int machines = 4;                ///< of the ensemble that must be better; 0: the nominal machine alone decides
+    bool keeps_front = false;        ///< all candidates that pass are compared by time, mismatch and jerk
+    std::optional<double> weight{};  ///< chooses from these (tradeoff/front.h); nothing: the objective does
+    bool all_finalists = false;      ///< lists all, instead of the best that the ensemble accepts
     ProgramIdentity identity = ProgramIdentity::unknown;  ///< of the program that a recorded run ran
     std::string header;  ///< text of the comment that says where the program comes from
 };

@@ -73,7 +73,9 @@ public:
         result.fidelity = machine_.fidelity;
         result.five_axes = evaluator_.orientation() != nullptr;
         result.run_before = evaluator_.summary_before();
+        if (rules_.weight) evaluator_.prefer(*rules_.weight);
         Proposal& best = *choose(result);
+        if (rules_.keeps_front) result.front = evaluator_.front(best.evaluation.accepted ? &best : nullptr);
         result.before = evaluator_.take_before();
         result.roughness_before = evaluator_.roughness_before();
         result.roughness_after = std::move(best.roughness);

@@ -9,6 +9,7 @@
 
 #include "repair/ensemble.h"
 #include "repair/proposal.h"
+#include "tradeoff/front.h"
 
 namespace clsurf {
 
@@ -53,6 +54,9 @@ struct Optimized {
     EnsembleResult ensemble;           ///< of the new program; no runs: no proposal came so far
     /// That the ensemble accepts, the best first: its first one is `text`. With OptimizeRules::all_finalists the others follow.
     std::vector<Finalist> finalists;
+    /// With OptimizeRules::keeps_front: the program, and the candidates that pass all that one simulation decides; chosen is the one
+    /// whose text this is.
+    TradeoffFront front;
     std::vector<ControllerRun> controller_runs;
     bool on_controller = false;  ///< its runs decided; false: simulation did
 };

@@ -26,6 +26,10 @@ constexpr std::size_t most_finalists_of_large = 1;  ///< … where runs are larg
 /// takes up to 0.03 % longer than before.
 constexpr double time_reserve = 0.001;
 
+double line_ratio(const Evaluation& e) {
+    return static_cast<double>(e.lines_after) / static_cast<double>(e.lines_before);
+}
+
 std::string no_splines(SplineForm form) {
     return form == SplineForm::cubic_plane
                ? "no section can be written as a spline: G5 moves only X and Y, in the plane of G17, and needs fewer blocks than the lines"
@@ -44,7 +48,7 @@ Evaluator::Evaluator(const Program& program, const ReadProgram& read, const Mach
     SimulatedRun simulated = simulate_to_log(program_, machine_, rules_.start, progress_, rules_.zero);
     summary_before_ = std::move(simulated.summary);
     before_ = judge_run(std::move(simulated.log), program_, rules_.quality, diagnostics_, kinematics_,
-                        ProgramIdentity::same, rules_.derivative);
+                        ProgramIdentity::same, rules_.derivative, rules_.keeps_front);
 }
 
 bool Evaluator::has_time(double share) const {
@@ -86,6 +90,8 @@ TriedProposal Evaluator::propose(const std::shared_ptr<const Draft>& draft, std:
     ++tried_;
     say(candidate_text());
     const auto tried = std::make_shared<Proposal>(prove(draft, std::move(targets)));
+    tried->number = tried_;
+    if (rules_.keeps_front) keep_candidate(*tried);
     ++in_vain_;
     if (!best_ || better(*tried, *best_)) {
         best_ = tried;
@@ -122,7 +128,7 @@ Proposal Evaluator::prove(const std::shared_ptr<const Draft>& draft, std::vector
     QualityRules as_before = rules_.quality;
     as_before.fixed = before_.report.thresholds;
     result.run = judge_run(std::move(simulated.log), changed, as_before, diagnostics_, kinematics_,
-                           ProgramIdentity::same, rules_.derivative);
+                           ProgramIdentity::same, rules_.derivative, rules_.keeps_front);
     evaluation.defects_before = before_.report.defects.size();
     evaluation.defects_after = result.run.report.defects.size();
     evaluation.reason = objection(result);
@@ -138,31 +144,31 @@ Deviation Evaluator::deviation_of(const Program& changed) const {
 
 /// Why a proposal cannot be taken; empty: it can.
 std::string Evaluator::objection(const Proposal& p) const {
-    if (p.evaluation.changed_lines == 0) return "no section of the program can be rewritten";
-    if (rules_.splines && p.evaluation.splines == 0) return no_splines(program_.dialect->rules->text.splines);
-    if (p.evaluation.deviation.disordered > 0)
-        return fmt::format("line {} would no longer have the same effect", p.evaluation.deviation.disordered);
-    if (p.evaluation.deviation.greatest > rules_.tolerance)
-        return fmt::format("it would leave the programmed path by {:.4f} mm at line {}",
-                           p.evaluation.deviation.greatest, p.evaluation.deviation.line);
-    if (p.evaluation.deviation.turned > most_turned)
+    return objection(p.evaluation, measures_before(), p.measures(), p.summary.limits_ok);
+}
+
+std::string Evaluator::objection(const Evaluation& e, const RunMeasures& before, const RunMeasures& after,
+                                 bool limits_ok) const {
+    if (e.changed_lines == 0) return "no section of the program can be rewritten";
+    if (rules_.splines && e.splines == 0) return no_splines(program_.dialect->rules->text.splines);
+    if (e.deviation.disordered > 0)
+        return fmt::format("line {} would no longer have the same effect", e.deviation.disordered);
+    if (e.deviation.greatest > rules_.tolerance)
+        return fmt::format("it would leave the programmed path by {:.4f} mm at line {}", e.deviation.greatest,
+                           e.deviation.line);
+    if (e.deviation.turned > most_turned)
         return fmt::format("it would turn the tool axis away from the programmed one by {:.4f} deg at line {}",
-                           p.evaluation.deviation.turned * deg_per_rad, p.evaluation.deviation.turned_line);
+                           e.deviation.turned * deg_per_rad, e.deviation.turned_line);
     // Some controllers exceed them by themselves, as where blocks overlap in corners.
-    if (!p.summary.limits_ok && summary_before_.limits_ok) return "the machine's limits would not be kept";
-    if (std::string reason = why_not_better(measures_before(), p.measures(), more_time_); !reason.empty())
-        return reason;
-    const double gain = gain_of(measures_before(), p.measures(), line_ratio(p), more_time_);
+    if (!limits_ok && summary_before_.limits_ok) return "the machine's limits would not be kept";
+    if (std::string reason = why_not_better(before, after, more_time_); !reason.empty()) return reason;
+    const double gain = gain_of(before, after, line_ratio(e), more_time_);
     if (gain < least_gain) return fmt::format("the gain is {:.1f} %, less than {:.0f} %", 100 * gain, 100 * least_gain);
     return {};
 }
 
-double Evaluator::line_ratio(const Proposal& p) const {
-    return static_cast<double>(p.evaluation.lines_after) / static_cast<double>(p.evaluation.lines_before);
-}
-
 double Evaluator::score(const Proposal& p) const {
-    return objective(measures_before(), p.measures(), line_ratio(p), more_time_);
+    return objective(measures_before(), p.measures(), line_ratio(p.evaluation), more_time_);
 }
 
 void Evaluator::keep_finalist(const TriedProposal& proposal, std::vector<TriedProposal>& finalists) const {
@@ -194,6 +200,7 @@ void Evaluator::measure_roughness(const CuttingTool& tool) {
 }
 
 std::vector<TriedProposal> Evaluator::finalists() const {
+    if (!preferred_.empty()) return preferred_;
     std::vector<TriedProposal> all = with_feeds_;
     all.insert(all.end(), without_feeds_.begin(), without_feeds_.end());
     std::stable_sort(all.begin(), all.end(),

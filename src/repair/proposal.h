@@ -12,6 +12,7 @@
 #include "repair/judged_run.h"
 #include "repair/optimize_rules.h"
 #include "repair/points/deviation.h"
+#include "tradeoff/front.h"
 
 namespace clsurf {
 
@@ -36,6 +37,7 @@ struct Proposal {
     JudgedRun run;
     SimulationSummary summary;
     std::optional<PartRoughness> roughness{};  ///< of a finalist, where the tool is known
+    int number = 0;                            ///< in the order in which they were tried, from 1
 
     [[nodiscard]] RunMeasures measures() const;
 };
@@ -71,6 +73,13 @@ public:
     /// where there are such.
     [[nodiscard]] std::vector<TriedProposal> finalists() const;
 
+    /// Makes those candidates of the front the finalists that a weight prefers, the best one first, and runs them again. Domain:
+    /// OptimizeRules::keeps_front.
+    void prefer(double weight);
+    /// The program and the candidates that are accepted, in rising order of time but the program first; `chosen`: one of them, or
+    /// nullptr. Domain: OptimizeRules::keeps_front.
+    [[nodiscard]] TradeoffFront front(const Proposal* chosen) const;
+
     /// Measures the roughness that the program and the finalists leave; it counts in scores and for acceptance from then
     /// on. Of programs on three axes.
     void measure_roughness(const CuttingTool& tool);
@@ -88,6 +97,20 @@ public:
     [[nodiscard]] double score(const Proposal& proposal) const;
 
 private:
+    /// What is kept of a proposal so that it can be compared and run again.
+    struct Candidate {
+        int number = 0;
+        std::shared_ptr<const Draft> draft;
+        std::vector<float> targets;
+        Evaluation evaluation;
+        RunMeasures measures;
+        bool limits_ok = false;
+        TradeoffRow row;
+    };
+    /// Of those that are accepted, in rising order of time.
+    [[nodiscard]] std::vector<const Candidate*> accepted_candidates() const;
+    [[nodiscard]] TradeoffFront front_of(const std::vector<const Candidate*>& candidates) const;
+    void keep_candidate(const Proposal& proposal);
     [[nodiscard]] Proposal prove(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
     [[nodiscard]] Deviation deviation_of(const Program& changed) const;
     [[nodiscard]] double most_points() const;
@@ -95,7 +118,8 @@ private:
     [[nodiscard]] std::string candidate_text() const;
     [[nodiscard]] RunMeasures measures_before() const;
     [[nodiscard]] std::string objection(const Proposal& proposal) const;
-    [[nodiscard]] double line_ratio(const Proposal& proposal) const;
+    [[nodiscard]] std::string objection(const Evaluation& evaluation, const RunMeasures& before,
+                                        const RunMeasures& after, bool limits_ok) const;
     void keep_finalist(const TriedProposal& proposal, std::vector<TriedProposal>& finalists) const;
     const Program& program_;
     const ReadProgram& read_;
@@ -110,6 +134,8 @@ private:
     std::optional<PartRoughness> roughness_before_;
     TriedProposal best_;
     std::vector<TriedProposal> with_feeds_, without_feeds_;  ///< finalists
+    std::vector<TriedProposal> preferred_;                   ///< by a weight, instead of them
+    std::vector<Candidate> candidates_;                      ///< all, with OptimizeRules::keeps_front
     double more_time_ = 0;                                   ///< a share
     double points_ = 0;                                      ///< simulated so far
     int in_vain_ = 0;                                        ///< proposals since the best one
