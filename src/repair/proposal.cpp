@@ -26,6 +26,10 @@ constexpr std::size_t most_finalists_of_large = 1;  ///< … where runs are larg
 /// takes up to 0.03 % longer than before.
 constexpr double time_reserve = 0.001;
 
+std::string text_of(const LineOfEither& place) {
+    return fmt::format("line {}{}", place.line, place.of_first ? " of the program as it was" : "");
+}
+
 double line_ratio(const Evaluation& e) {
     return static_cast<double>(e.lines_after) / static_cast<double>(e.lines_before);
 }
@@ -154,11 +158,11 @@ std::string Evaluator::objection(const Evaluation& e, const RunMeasures& before,
     if (e.deviation.disordered > 0)
         return fmt::format("line {} would no longer have the same effect", e.deviation.disordered);
     if (e.deviation.greatest > rules_.tolerance)
-        return fmt::format("it would leave the programmed path by {:.4f} mm at line {}", e.deviation.greatest,
-                           e.deviation.line);
+        return fmt::format("it would leave the programmed path by {:.4f} mm at {}", e.deviation.greatest,
+                           text_of(e.deviation.line));
     if (e.deviation.turned > most_turned)
-        return fmt::format("it would turn the tool axis away from the programmed one by {:.4f} deg at line {}",
-                           e.deviation.turned * deg_per_rad, e.deviation.turned_line);
+        return fmt::format("it would turn the tool axis away from the programmed one by {:.4f} deg at {}",
+                           e.deviation.turned * deg_per_rad, text_of(e.deviation.turned_line));
     // Some controllers exceed them by themselves, as where blocks overlap in corners.
     if (!limits_ok && summary_before_.limits_ok) return "the machine's limits would not be kept";
     if (std::string reason = why_not_better(before, after, more_time_); !reason.empty()) return reason;

@@ -130,7 +130,7 @@ TEST(Deviation, IsThatOfAPlantedTurn) {
     EXPECT_NEAR(same.turned, 0, 1e-9) << "the turn in place is before and behind the same point";
     const Deviation tilted = deviation_of(head + "X10 A-21\nX20\n" + tail, head + "X10 A-21.02\nX20\n" + tail);
     EXPECT_NEAR(tilted.turned, 0.02 * rad_per_deg, 1e-9);
-    EXPECT_EQ(tilted.turned_line, 5U);
+    EXPECT_EQ(tilted.turned_line.line, 5U);
     EXPECT_NEAR(tilted.greatest, 0, 1e-9);
     // Where the tool leans by 21°, a turn of the table is less of the tool: 2 sin⁻¹(sin 21° sin 0.05°).
     const Deviation turned =

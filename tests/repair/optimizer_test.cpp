@@ -159,7 +159,7 @@ TEST(Deviation, IsThatOfAPlantedBump) {
     const Program bumped = read_text("G0 X0 Y0 Z0\nG1 X10 F600\nX15 Y0.02\nX20 Y0\nX30\n");
     const Deviation deviation = measure_deviation(straight, bumped);
     EXPECT_NEAR(deviation.greatest, 0.02, 1e-9);
-    EXPECT_EQ(deviation.line, 3U);
+    EXPECT_EQ(deviation.line.line, 3U);
     EXPECT_EQ(measure_deviation(straight, straight).greatest, 0);
 }
 
@@ -167,7 +167,10 @@ TEST(Deviation, IsThatOfAPlantedBump) {
 TEST(Deviation, SeesAPassThatIsLeftOut) {
     const Program whole = read_text("G0 X0 Y0 Z0\nG1 X20 F600\nY0.4\nX0\nY0.8\nX20\n");
     const Program cut = read_text("G0 X0 Y0 Z0\nG1 X20 F600\nY0.8\nX20\n");
-    EXPECT_GT(measure_deviation(whole, cut).greatest, 0.39);
+    const Deviation deviation = measure_deviation(whole, cut);
+    EXPECT_GT(deviation.greatest, 0.39);
+    EXPECT_EQ(deviation.line.line, 5U);
+    EXPECT_TRUE(deviation.line.of_first) << "the second program has no line there";
 }
 
 TEST(Deviation, SeesRapidsArcsAndDwellsThatChanged) {

@@ -191,7 +191,7 @@ Deviation measure_deviation(const Program& before, const Program& after, double 
     const Course old{old_path, orientations.before}, now{new_path, orientations.after};
     Deviation deviation;
     deviation.disordered = first_disorder(old, now);
-    const auto take = [&](LineNumber line, const Vec3& p, const Apart& apart) {
+    const auto take = [&](const LineOfEither& line, const Vec3& p, const Apart& apart) {
         if (apart.distance > deviation.greatest) {
             deviation.greatest = apart.distance;
             deviation.line = line;
@@ -201,12 +201,15 @@ Deviation measure_deviation(const Program& before, const Program& after, double 
             deviation.turned = apart.turned;
             deviation.turned_line = line;
         }
-        if (apart.wound > most_wound && deviation.disordered == 0) deviation.disordered = std::max<LineNumber>(1, line);
+        if (apart.wound > most_wound && deviation.disordered == 0)
+            deviation.disordered = line.of_first ? 1 : std::max<LineNumber>(1, line.line);
     };
     compare(now, old, step, [&](std::int64_t i, const Vec3& p, const Apart& apart) {
-        take(after.motions.line[static_cast<std::size_t>(i)], p, apart);
+        take({after.motions.line[static_cast<std::size_t>(i)], false}, p, apart);
     });
-    compare(old, now, step, [&](std::int64_t, const Vec3& p, const Apart& apart) { take(0, p, apart); });
+    compare(old, now, step, [&](std::int64_t i, const Vec3& p, const Apart& apart) {
+        take({before.motions.line[static_cast<std::size_t>(i)], true}, p, apart);
+    });
     return deviation;
 }
 

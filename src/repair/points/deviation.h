@@ -7,14 +7,20 @@
 
 namespace clsurf {
 
+/// A line of either program.
+struct LineOfEither {
+    LineNumber line = 0;
+    bool of_first = false;
+};
+
 struct Deviation {
     static constexpr double usual_step = 0.05;  ///< [mm] of arc length between measured points
 
     double greatest = 0;           ///< [mm]
-    LineNumber line = 0;           ///< of the second program, there
+    LineOfEither line;             ///< of the program that is farthest from the other, there
     Vec3 position = Vec3::Zero();  ///< [mm] there
     double turned = 0;             ///< [rad] greatest angle between the tool axes
-    LineNumber turned_line = 0;    ///< of the second program, there
+    LineOfEither turned_line;      ///< there
     /// The line of the second program with the first rapid, dwell, arc or rotation in place that differs between both,
     /// or with a path on which an axis is more than a quarter turn away; its last line if the second program has fewer
     /// of them; 0: all agree.
