@@ -1,5 +1,9 @@
 #include "repair/draft.h"
 
+#include <stdexcept>
+
+#include <fmt/format.h>
+
 #include "repair/line_edit.h"
 #include "repair/points/resample.h"
 
@@ -27,8 +31,12 @@ Draft Drafter::draft(const DraftLines& lines, std::vector<std::uint8_t> needed) 
     const bool all_may_slow = slows_anywhere_ && !rules_.splines;
     std::int64_t old = 0;  // motions so far
     const auto keep_slowing = [&](std::int64_t first, std::int64_t end) {
-        for (std::int64_t i = first; i < end; ++i)
-            draft.may_slow.push_back(slows_anywhere_ ? 1 : needed[static_cast<std::size_t>(i)]);
+        for (std::int64_t i = first; i < end; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            // Splines of the program stay as they are.
+            const bool is_spline = program_.motions.kind[k] == MotionKind::spline;
+            draft.may_slow.push_back(is_spline ? 0 : slows_anywhere_ ? 1 : needed[k]);
+        }
     };
     for (const ResampledSegment& segment : segments) {
         const bool is_spline = segment.spline.has_value();
@@ -38,13 +46,15 @@ Draft Drafter::draft(const DraftLines& lines, std::vector<std::uint8_t> needed) 
         draft.splines += is_spline ? 1 : 0;
         if (all_may_slow) continue;
         keep_slowing(old, segment.first);
-        // Feeds are written on lines only.
-        draft.may_slow.insert(draft.may_slow.end(), written, is_spline ? 0 : 1);
+        draft.may_slow.insert(draft.may_slow.end(), written, 1);
         old = segment.last + 1;
     }
     if (!all_may_slow) keep_slowing(old, program_.motions.size());
     draft.text = editor.text(rules_.header);
     draft.program = read_(draft.text);
+    const auto motions = static_cast<std::size_t>(draft.program.motions.size());
+    if (!draft.may_slow.empty() && draft.may_slow.size() != motions)
+        throw std::logic_error(fmt::format("a draft has {} motions, not {}", motions, draft.may_slow.size()));
     draft.segments = segments.size();
     draft.changed_lines = editor.changed_lines();
     draft.needed = std::move(needed);

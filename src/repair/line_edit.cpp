@@ -10,6 +10,7 @@
 #include "program/feed_per_minute.h"
 #include "program/frame_placement.h"
 #include "program/text/lexer.h"
+#include "program/text/nc_text.h"
 #include "repair/spline_lines.h"
 
 namespace clsurf {
@@ -19,7 +20,6 @@ constexpr double same_coordinate = 1e-7;  ///< [mm] a word and where its motion 
 constexpr double same_axis_angle = 1e-9;  ///< [rad]
 constexpr std::string_view letters = "XYZABC";
 constexpr std::size_t linear = 3, axes = 6;  ///< words: X, Y, Z and A, B, C behind them
-constexpr double feed_steps = 10;            ///< per unit and minute of a feed word
 
 std::size_t skip_blanks(std::string_view text, std::size_t at) {
     while (at < text.size() && is_blank(text[at])) ++at;
@@ -30,13 +30,6 @@ std::size_t skip_blanks(std::string_view text, std::size_t at) {
 int decimals_of(std::string_view number) {
     const std::size_t point = number.find('.');
     return point == std::string_view::npos ? 0 : static_cast<int>(number.size() - point - 1);
-}
-
-/// A number as the lines around write theirs: with a point where they had decimals.
-std::string number_text(double value, int decimals) {
-    std::string text = fmt::format("{:.{}f}", value, decimals);
-    if (text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
-    return text;
 }
 
 bool cuts_in_a_line(const Motions& motions, std::size_t i) { return motions.kind[i] == MotionKind::feed; }
@@ -56,12 +49,6 @@ bool says_its_angles(const PlainLine& line, const Motions& motions, std::size_t 
         if (!(std::abs(end[axis] - expected) <= same_axis_angle)) return false;
     }
     return begin == end || motions.begin_of(static_cast<std::int64_t>(i)) != motions.end[i];
-}
-
-/// The line's end as the program has it.
-std::string_view line_end_of(std::string_view text) {
-    const std::size_t end = text.find('\n');
-    return end != std::string_view::npos && end > 0 && text[end - 1] == '\r' ? "\r\n" : "\n";
 }
 
 /// A point of the path as the words of a motion count it: in the motion's work system, before what the program turns,
@@ -209,6 +196,7 @@ LineEditor::LineEditor(const Program& program, int least_decimals)
     const auto count = static_cast<std::size_t>(motions.size());
     const SourceText& main = program.main();
     editable_.assign(count, 0);
+    spans_.assign(count, 0);
     std::vector<std::uint8_t> motions_of_line(std::size_t{main.line_count()} + 1, 0);
     const auto in_main = [&](std::size_t i) { return motions.file.empty() || motions.file[i] == 0; };
     for (std::size_t i = 0; i < count; ++i) {
@@ -222,6 +210,8 @@ LineEditor::LineEditor(const Program& program, int least_decimals)
         FeedPerMinute per_minute(program);
         for (std::size_t i = 0; i < count; ++i) {
             if (!per_minute.on(static_cast<std::int64_t>(i))) continue;
+            if (motions.kind[i] == MotionKind::spline && in_main(i) && motions_of_line[motions.line[i]] == 1)
+                spans_[i] = 1;
             if (!cuts_in_a_line(motions, i) || !in_main(i) || motions_of_line[motions.line[i]] != 1) continue;
             const std::optional<PlainLine> line = read_plain_line(main.line(motions.line[i]), rules_->straight_word);
             if (!line || !says_its_angles(*line, motions, i)) continue;
@@ -246,7 +236,9 @@ LineEditor::LineEditor(const Program& program, int least_decimals)
                 turn_decimals_ = std::max(turn_decimals_, *std::max_element(angles, line->decimals.end()));
             }
         }
-        if (turn == 0) unit_ = fits[1] > fits[0] ? units[1] : units[0];
+        if (turn > 0) continue;
+        unit_ = fits[1] > fits[0] ? units[1] : units[0];
+        knows_unit_ = fits[0] + fits[1] > 0;
     }
 }
 
@@ -266,9 +258,8 @@ std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const std
     std::array<std::string, axes> modal;
     const auto text_of = [&](std::size_t axis, const Vec3& position, const Vec3& turned) {
         const int k = static_cast<int>(axis % linear);
-        const std::string number = axis < linear ? number_text(position[k] / unit_, decimals_)
-                                                 : number_text(turned[k] * deg_per_rad, turn_decimals_);
-        return rules_->straight_word.empty() || number.starts_with('-') ? number : "+" + number;
+        const auto number = rules_->straight_word.empty() ? nc_number : signed_nc_number;
+        return axis < linear ? number(position[k] / unit_, decimals_) : number(turned[k] * deg_per_rad, turn_decimals_);
     };
     const Vec3 begin = in_words(motions, first, motions.begin_of(first).vec());
     for (std::size_t a = 0; a < used; ++a) modal[a] = text_of(a, begin, angles_before(motions, first));
@@ -342,39 +333,7 @@ std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const Nur
     }
     changed_ += replaced.count();
     edits_.push_back(std::move(edit));
-    return spans_in(spline);
-}
-
-void LineEditor::set_feeds(const std::vector<float>& feeds) {
-    const Motions& motions = program_->motions;
-    const SourceText& main = program_->main();
-    const std::string_view end_of_line = line_end_of(main.text());
-    const auto feed_text = [&](double f) {
-        const double unit = unit_ == 1 ? 1 : unit_ * rules_->inch_feed;
-        return fmt::format("F{}", std::round(f * seconds_per_minute / unit * feed_steps) / feed_steps);
-    };
-    const std::string statement = rules_->straight_word.empty() ? "" : std::string(rules_->straight_word) + " ";
-    std::string modal;  // what the controller has now, where that is not what was programmed
-    for (std::int64_t i = 0; i < motions.size(); ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        if (!editable(i)) continue;
-        const std::string programmed = feed_text(motions.feed[k]);
-        const std::string wanted = feeds[k] > 0 && feeds[k] < motions.feed[k] ? feed_text(feeds[k]) : programmed;
-        if (modal.empty()) modal = programmed;
-        const bool more = i + 1 < motions.size() && editable(i + 1) && motions.line[k + 1] == motions.line[k] + 1;
-        const bool restores = !more && wanted != programmed;
-        if (wanted != modal || restores) {
-            std::string_view text = main.line(motions.line[k]);
-            while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-            Edit edit{motions.line[k], motions.line[k], std::string(text)};
-            if (wanted != modal) edit.text += (text.find(' ') == std::string_view::npos ? "" : " ") + wanted;
-            edit.text += end_of_line;
-            if (restores) edit.text += statement + programmed + std::string(end_of_line);
-            edits_.push_back(std::move(edit));
-            ++changed_;
-        }
-        modal = more ? wanted : std::string();
-    }
+    return motions_of_spline(spline, splines_);
 }
 
 std::string LineEditor::text(std::string_view header) const {

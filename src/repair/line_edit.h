@@ -73,10 +73,12 @@ public:
     /// replace() does. Returns how many motions it is. Domain: may_be_spline(); weights of 1.
     std::size_t replace(std::int64_t first, std::int64_t last, const Nurbs& spline);
 
-    /// Gives motions a feed [mm/s], one entry a motion of the program, 0: as it is. Only lines that may be
-    /// rewritten get one; behind them the programmed feed is set again, on the next line where that may
-    /// be rewritten, else on a line of its own. Instead of replace(), not besides it.
-    void set_feeds(const std::vector<float>& feeds);
+    /// Gives motions a feed [mm/s], one entry a motion of the program, 0: as it is. Only lines that may be rewritten get one, and
+    /// the blocks that replace() wrote for the spans of a spline; the program is then one that was read back from text().
+    /// `spans`: one entry a motion, not 0 where it may be such a span; empty: there is none. Behind them the programmed feed is
+    /// set again: on the next such line, on the G1 behind a spline, else on a line of its own. G06.2 has one feed, in its
+    /// first block: the lowest of its spans. Instead of replace(), not besides it.
+    void set_feeds(const std::vector<float>& feeds, const std::vector<std::uint8_t>& spans = {});
 
     /// The new text, with a comment near its beginning (empty: none).
     [[nodiscard]] std::string text(std::string_view header) const;
@@ -90,12 +92,20 @@ private:
         std::string text;                ///< whole lines with their ends
     };
 
+    struct FedMotion;
+    [[nodiscard]] std::vector<FedMotion> fed_motions(const std::vector<float>& feeds,
+                                                     const std::vector<std::uint8_t>& spans) const;
+    [[nodiscard]] std::string feed_word(double feed) const;
+    void append(LineNumber line, const std::string& words, const std::string& line_behind);
+
     const Program* program_;
     const TextRules* rules_;  ///< of its dialect
     SplineForm splines_ = SplineForm::none;
     std::vector<std::uint8_t> editable_;
+    std::vector<std::uint8_t> spans_;  ///< per motion: a span of a spline that has a block of its own
     std::vector<Edit> edits_;
     double unit_ = 1;
+    bool knows_unit_ = false;               ///< some line says it
     int decimals_ = 0, turn_decimals_ = 0;  ///< of new coordinates and angles
     std::size_t changed_ = 0;
 };

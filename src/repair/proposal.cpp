@@ -116,7 +116,8 @@ Proposal Evaluator::prove(const std::shared_ptr<const Draft>& draft, std::vector
     evaluation.changed_lines = draft->changed_lines;
     if (!result.targets.empty()) {
         LineEditor editor(draft->program);
-        editor.set_feeds(equalised_feeds(result.targets, draft->may_slow, interval_width));
+        editor.set_feeds(equalised_feeds(result.targets, draft->may_slow, interval_width),
+                         draft->splines > 0 ? draft->may_slow : std::vector<std::uint8_t>{});
         result.text = editor.text("");
         evaluation.changed_lines += editor.changed_lines();
     }

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "program/text/nc_text.h"
+
 namespace clsurf {
 namespace {
 
@@ -11,22 +13,10 @@ constexpr int degree = 3;
 constexpr int knot_decimals = 3;   ///< section_spline() has knots on such steps
 constexpr int finer_decimals = 3;  ///< more than coordinates have: of directions and coefficients, which set corners
 
-std::string number(double value, int decimals) {
-    std::string text = fmt::format("{:.{}f}", value, decimals);
-    if (text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
-    return text;
-}
-
-/// A number as Klartext has it, with its sign.
-std::string signed_number(double value, int decimals) {
-    const std::string text = number(value, decimals);
-    return text.starts_with('-') ? text : "+" + text;
-}
-
 std::string point(const Vec3& p, const SplineWords& w) {
     std::string text;
     for (std::size_t a = 0; a < 3; ++a)
-        text += fmt::format("{}{}{}", a > 0 ? " " : "", w.words[a], number(p[static_cast<int>(a)], w.decimals));
+        text += fmt::format("{}{}{}", a > 0 ? " " : "", w.words[a], nc_number(p[static_cast<int>(a)], w.decimals));
     return text;
 }
 
@@ -34,10 +24,10 @@ std::string point(const Vec3& p, const SplineWords& w) {
 std::vector<std::string> knotted_lines(const Nurbs& spline, const SplineWords& w) {
     std::vector<std::string> lines;
     for (std::size_t k = 0; k < spline.points.size(); ++k)
-        lines.push_back(fmt::format("{}K{} {}", k == 0 ? "G06.2 P4 " : "", number(spline.knots[k], knot_decimals),
+        lines.push_back(fmt::format("{}K{} {}", k == 0 ? "G06.2 P4 " : "", nc_number(spline.knots[k], knot_decimals),
                                     point(spline.points[k], w)));
     for (std::size_t k = spline.points.size(); k < spline.knots.size(); ++k)
-        lines.push_back("K" + number(spline.knots[k], knot_decimals));
+        lines.push_back("K" + nc_number(spline.knots[k], knot_decimals));
     return lines;
 }
 
@@ -47,7 +37,8 @@ std::vector<std::string> basis_lines(const Nurbs& spline, const SplineWords& w) 
     const std::size_t spans = spans_in(spline);
     for (std::size_t k = 1; k < spline.points.size(); ++k) {
         std::string line = (k == 1 ? "BSPLINE SD=3 " : "") + point(spline.points[k], w);
-        if (k <= spans) line += " PL=" + number(spline.knots[degree + k] - spline.knots[degree + k - 1], knot_decimals);
+        if (k <= spans)
+            line += " PL=" + nc_number(spline.knots[degree + k] - spline.knots[degree + k - 1], knot_decimals);
         lines.push_back(std::move(line));
     }
     return lines;
@@ -68,20 +59,20 @@ std::vector<std::string> span_lines(const Nurbs& spline, SplineForm form, const 
         const Vec3 &first = span.curve.point(1), &second = span.curve.point(2);
         if (form == SplineForm::cubic_plane) {
             const Vec3 out = first - begin, in = second - end;
-            lines.push_back(fmt::format("G5 {}{} {}{} I{} J{} P{} Q{}", w.words[0], number(end.x(), w.decimals),
-                                        w.words[1], number(end.y(), w.decimals), number(out.x(), finer),
-                                        number(out.y(), finer), number(in.x(), finer), number(in.y(), finer)));
+            lines.push_back(fmt::format("G5 {}{} {}{} I{} J{} P{} Q{}", w.words[0], nc_number(end.x(), w.decimals),
+                                        w.words[1], nc_number(end.y(), w.decimals), nc_number(out.x(), finer),
+                                        nc_number(out.y(), finer), nc_number(in.x(), finer), nc_number(in.y(), finer)));
             continue;
         }
         const std::array<Vec3, 3> factors{3 * (second - end), 3 * (first - 2 * second + end),
                                           begin - 3 * first + 3 * second - end};
         std::string line = "SPL";
         for (std::size_t a = 0; a < 3; ++a)
-            line += fmt::format(" {}{}", "XYZ"[a], signed_number(end[static_cast<int>(a)], w.decimals));
+            line += fmt::format(" {}{}", "XYZ"[a], signed_nc_number(end[static_cast<int>(a)], w.decimals));
         for (std::size_t a = 0; a < 3; ++a) {
             for (std::size_t power = 3; power > 0; --power)
                 line += fmt::format(" K{}{}{}", power, "XYZ"[a],
-                                    signed_number(factors[power - 1][static_cast<int>(a)], finer));
+                                    signed_nc_number(factors[power - 1][static_cast<int>(a)], finer));
         }
         lines.push_back(std::move(line));
     }
@@ -99,6 +90,23 @@ std::size_t blocks_of_spline(const Nurbs& spline, SplineForm form) {
         case SplineForm::polynomial: return spans_in(spline);
     }
     return 0;
+}
+
+std::size_t blocks_before_spans(SplineForm form) {
+    switch (form) {
+        case SplineForm::knotted: return degree;
+        case SplineForm::basis: return degree - 1;
+        default: return 0;
+    }
+}
+
+std::size_t blocks_behind_spans(SplineForm form) {
+    switch (form) {
+        case SplineForm::knotted: return degree + 2;
+        case SplineForm::basis:
+        case SplineForm::cubic_plane: return 1;
+        default: return 0;
+    }
 }
 
 std::vector<std::string> spline_lines(const Nurbs& spline, SplineForm form, const SplineWords& words) {

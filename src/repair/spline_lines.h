@@ -22,10 +22,20 @@ struct SplineWords {
 /// form that is not none.
 [[nodiscard]] std::vector<std::string> spline_lines(const Nurbs& spline, SplineForm form, const SplineWords& words);
 
-/// How many motions these blocks are: its spans.
 [[nodiscard]] inline std::size_t spans_in(const Nurbs& spline) { return spline.points.size() - 3; }
+
+/// How many motions these blocks are: its spans, and in linuxcnc the G1 behind them, which has no length.
+[[nodiscard]] inline std::size_t motions_of_spline(const Nurbs& spline, SplineForm form) {
+    return spans_in(spline) + (form == SplineForm::cubic_plane ? 1 : 0);
+}
 
 /// How many blocks spline_lines() makes. O(1).
 [[nodiscard]] std::size_t blocks_of_spline(const Nurbs& spline, SplineForm form);
+
+/// Blocks of a section before the one that its first span belongs to (docs/formats/programs.md): the points that only shape it.
+[[nodiscard]] std::size_t blocks_before_spans(SplineForm form);
+/// Blocks of a section behind the one that its last span belongs to: the last knots, and the one that sets the mode of lines
+/// again, which is the last; 0: there is none.
+[[nodiscard]] std::size_t blocks_behind_spans(SplineForm form);
 
 }  // namespace clsurf

@@ -6,15 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "program/text/nc_text.h"
+
 namespace clsurf {
 namespace {
 
 std::string number(double value, bool plus) {
-    std::string text = fmt::format("{:.{}f}", value, cut_decimals);
-    if (std::stod(text) == 0) text = fmt::format("{:.{}f}", 0.0, cut_decimals);
-    while (text.back() == '0') text.pop_back();
-    if (text.back() == '.') text.pop_back();
-    return plus && text.front() != '-' ? "+" + text : text;
+    return without_end_zeros(plus ? signed_nc_number(value, cut_decimals) : nc_number(value, cut_decimals));
 }
 
 /// Letters, digits and a few marks: what no dialect takes for anything but a comment.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
 
 #include "repair/line_edit.h"
 #include "repair/parts.h"
@@ -133,6 +134,161 @@ TEST(SplineLines, ReadBackAsTheSameCurve) {
         }
         EXPECT_EQ(motions.kind.back(), MotionKind::feed) << row.dialect;
         EXPECT_EQ(motions.end.back().x, 9) << row.dialect;
+    }
+}
+
+/// A section of two spans between two lines, as each dialect has it, and what its motions are fed.
+struct FedSection {
+    const char *dialect, *before, *after;
+    SplineForm form;
+    std::vector<std::string> with_words;  ///< lines that get an F word where a line follows that may be rewritten
+    std::vector<float> feeds;             ///< [mm/s] of lines, spans and line, as they are read back
+};
+
+const std::vector<FedSection>& fed_sections() {
+    // F600 is 10 mm/s. The line before is wanted at 9, the spans at 5 and 8.
+    static const std::vector<FedSection> all{
+        {"fanuc",
+         "G21 G90 G17 G94\nG1 X-1. Y0. Z5. F600\nX0. Y0.\n",
+         "X9. Y0.\n",
+         SplineForm::knotted,
+         {"X0. Y0. F540", "G06.2 P4 K0.000 X0.0 Y0.0 Z5.0 F300", "X9. Y0. F600"},
+         {10, 9, 5, 5, 10}},
+        {"siemens",
+         "G71 G90 G17 G94\nG1 X-1 Y0 Z5 F600\nX0 Y0\n",
+         "X9 Y0\n",
+         SplineForm::basis,
+         {"X0 Y0 F540", "BSPLINE SD=3 X1.0 Y2.0 Z5.0 PL=2.000 F300", "X5.0 Y0.0 Z5.0 F480", "X9 Y0 F600"},
+         {10, 9, 5, 8, 10}},
+        {"linuxcnc",
+         "G21 G90 G17\nG1 X-1 Y0 Z5 F600\nX0 Y0\n",
+         "X9 Y0\n",
+         SplineForm::cubic_plane,
+         {"X0 Y0 F540", "P-0.6000 Q0.2000 F300", "Q1.0000 F480", "X9 Y0 F600"},
+         {10, 9, 5, 8, 10}},
+        {"klartext",
+         "0 BEGIN PGM A MM\n1 L X-1 Y+0 Z+5 R0 F600\nL X+0 Y+0\n",
+         "L X+9 Y+0\n",
+         SplineForm::polynomial,
+         {"L X+0 Y+0 F540", "K1Z+0.0000 F300", "K1Z+0.0000 F480", "L X+9 Y+0 F600"},
+         {10, 9, 5, 8, 10}},
+    };
+    return all;
+}
+
+/// The lines of a text that end with a word.
+std::vector<std::string> lines_with_feeds(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream all(text);
+    for (std::string line; std::getline(all, line);) {
+        if (line.find(" F") != std::string::npos) lines.push_back(line);
+    }
+    return lines;
+}
+
+/// Motions that go somewhere: in linuxcnc a G1 alone is one that does not.
+std::vector<std::size_t> moving(const Motions& motions) {
+    std::vector<std::size_t> all;
+    for (std::int64_t i = 0; i < motions.size(); ++i) {
+        if (i == 0 || motions.begin_of(i) != motions.end[static_cast<std::size_t>(i)])
+            all.push_back(static_cast<std::size_t>(i));
+    }
+    return all;
+}
+
+/// Feeds of those, in the place of all; 0 elsewhere.
+std::vector<float> feeds_of_moving(const Motions& motions, const std::vector<float>& feeds) {
+    std::vector<float> all(static_cast<std::size_t>(motions.size()), 0);
+    const std::vector<std::size_t> of = moving(motions);
+    EXPECT_EQ(of.size(), feeds.size());
+    for (std::size_t k = 0; k < std::min(of.size(), feeds.size()); ++k) all[of[k]] = feeds[k];
+    return all;
+}
+
+void expect_feeds(const std::string& text, const char* dialect, const std::vector<float>& expected) {
+    const Motions motions = read_as(text, dialect).motions;
+    const std::vector<std::size_t> of = moving(motions);
+    ASSERT_EQ(of.size(), expected.size()) << text;
+    for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_FLOAT_EQ(motions.feed[of[k]], expected[k]) << text;
+}
+
+std::vector<std::uint8_t> all_of(const Program& program) {
+    return std::vector<std::uint8_t>(static_cast<std::size_t>(program.motions.size()), 1);
+}
+
+std::string section_text(const FedSection& row) {
+    const Nurbs spline{
+        3, {{0, 0, 5}, {1, 2, 5}, {2, 2, 5}, {4, 1, 5}, {5, 0, 5}}, {1, 1, 1, 1, 1}, {0, 0, 0, 0, 2, 5, 5, 5, 5}};
+    SplineWords words;
+    words.decimals = 1;
+    if (row.form == SplineForm::polynomial) words.straight.clear();
+    return joined(spline_lines(spline, row.form, words));
+}
+
+TEST(LineEditor, SetsFeedsOfSpans) {
+    for (const FedSection& row : fed_sections()) {
+        const bool klartext = row.form == SplineForm::polynomial;
+        const std::string end = klartext ? "L M30\nEND PGM A MM\n" : "M30\n";
+        const Program program = read_as(row.before + section_text(row) + row.after + end, row.dialect);
+        LineEditor editor(program);
+        editor.set_feeds(feeds_of_moving(program.motions, {0, 9, 5, 8, 0}), all_of(program));
+        const std::string text = editor.text("");
+        std::vector<std::string> lines = lines_with_feeds(text);
+        ASSERT_EQ(lines.size(), row.with_words.size() + 1) << text;
+        for (std::size_t k = 0; k < row.with_words.size(); ++k)
+            EXPECT_TRUE(lines[k + 1].ends_with(row.with_words[k])) << lines[k + 1] << "\n" << row.with_words[k];
+        expect_feeds(text, row.dialect, row.feeds);
+        const Motions again = read_as(text, row.dialect).motions;
+        for (std::size_t k = 0; k < 2; ++k) {
+            for (const double t : {0.0, 0.4, 1.0})
+                EXPECT_EQ(again.curves[k].span->at(t), program.motions.curves[k].span->at(t)) << row.dialect;
+        }
+    }
+}
+
+// Behind the section stands what may not be rewritten: G1 sets the feed again, behind SPL a line of its own does. Of G06.2 that
+// is behind the last knots.
+TEST(LineEditor, SetsTheProgrammedFeedBehindASpline) {
+    for (const FedSection& row : fed_sections()) {
+        const bool klartext = row.form == SplineForm::polynomial;
+        const std::string end = klartext ? "L M8\nL X+9 Y+0\nEND PGM A MM\n" : "M8\nX9. Y0.\nM30\n";
+        const Program program = read_as(row.before + section_text(row) + end, row.dialect);
+        LineEditor editor(program);
+        editor.set_feeds(feeds_of_moving(program.motions, {0, 0, 5, 5, 0}), all_of(program));
+        const std::string text = editor.text("");
+        EXPECT_NE(text.find(klartext ? "F300\nSPL" : "\nG1 F600\nM8"), std::string::npos) << text;
+        if (klartext) { EXPECT_NE(text.find("\nL F600\nL M8"), std::string::npos) << text; }
+        expect_feeds(text, row.dialect, {10, 10, 5, 5, 10});
+    }
+}
+
+// Two sections, one behind the other, each with a feed.
+TEST(LineEditor, SetsFeedsOfSectionsThatFollowEachOther) {
+    for (const FedSection& row : fed_sections()) {
+        const bool klartext = row.form == SplineForm::polynomial;
+        const std::string back = klartext ? "L X+0 Y+0\n" : "X0. Y0.\n", end = klartext ? "END PGM A MM\n" : "M30\n";
+        const Program program =
+            read_as(row.before + section_text(row) + back + section_text(row) + back + end, row.dialect);
+        LineEditor editor(program);
+        editor.set_feeds(feeds_of_moving(program.motions, {0, 0, 5, 5, 6, 7, 7, 0}), all_of(program));
+        expect_feeds(editor.text(""), row.dialect, {10, 10, 5, 5, 6, 7, 7, 10});
+    }
+}
+
+// Splines that the program had stay byte for byte, even where the line before them gets a feed.
+TEST(LineEditor, SetsNoFeedsOfSplinesThatItDidNotWrite) {
+    for (const FedSection& row : fed_sections()) {
+        const std::string section = section_text(row);
+        const bool klartext = row.form == SplineForm::polynomial;
+        const Program program =
+            read_as(row.before + section + row.after + (klartext ? "END PGM A MM\n" : "M30\n"), row.dialect);
+        std::vector<std::uint8_t> lines_alone = all_of(program);
+        lines_alone[2] = lines_alone[3] = 0;
+        for (const std::vector<std::uint8_t>& spans : {std::vector<std::uint8_t>{}, lines_alone}) {
+            LineEditor editor(program);
+            editor.set_feeds(feeds_of_moving(program.motions, {0, 9, 5, 8, 0}), spans);
+            EXPECT_NE(editor.text("").find(section), std::string::npos) << editor.text("");
+        }
     }
 }
 
