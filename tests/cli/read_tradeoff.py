@@ -1,11 +1,12 @@
 """Whether a front of `clsurf simulate --tradeoff`, or of `clsurf optimize --tradeoff`, is what its runs alone give.
 
 usage: read_tradeoff.py settings FRONT.json PROGRAM MACHINE WEIGHT
+       read_tradeoff.py choice FRONT.json PROGRAM MACHINE WEIGHT
        read_tradeoff.py repair FRONT.json NEW_PROGRAM MACHINE WEIGHT
 
 settings: the machine file of each row is made from MACHINE by scaling the numbers in its text; `simulate` and `check` run
-and judge it alone. repair: the program that was written is run and judged, and must be the chosen row. Both: which rows
-are on the front, and which one the weight chooses, by brute force. $CLSURF is the program.
+and judge it alone. choice: the same of the chosen row only. repair: the program that was written is run and judged, and must be
+the chosen row. All: which rows are on the front, and which one the weight chooses, by brute force. $CLSURF is the program.
 """
 
 import json
@@ -79,7 +80,7 @@ def main():
         assert row["front"] != beaten, f"row {row['number']} is{'' if row['front'] else ' not'} on the front"
     chosen = [row for row in rows if row["chosen"]]
     assert len(chosen) == 1 and chosen[0]["number"] == front["chosen"] and chosen[0]["front"]
-    candidates = [row for row in rows if row["front"] and (kind == "settings" or row["number"] > 1)]
+    candidates = [row for row in rows if row["front"] and (kind != "repair" or row["number"] > 1)]
     order = sorted(candidates, key=lambda row: cost(row, rows[0], float(weight)))
     if kind == "repair":
         compare(chosen[0], judged(program, machine), counts=False)
@@ -88,7 +89,7 @@ def main():
         return
     assert cost(chosen[0], rows[0], float(weight)) <= cost(order[0], rows[0], float(weight)) + 1e-9
     text = open(machine).read()
-    for row in rows:
+    for row in rows if kind == "settings" else chosen:
         with open("alone.toml", "w") as file:
             file.write(scaled(text, row["settings"]))
         compare(row, judged(program, "alone.toml"), counts=True)
