@@ -76,6 +76,15 @@ void read_trapezoid(const TomlFile& file, const toml::table& table, TrapezoidSet
     take(file, table, "max_feed_override", t.max_feed_override, Low::above_zero, percent, 1000);
 }
 
+/// When arcs take the place of corners where axes have jerk limits; the period is known.
+void read_arc_steps(const TomlFile& file, const toml::table& table, ControllerSettings& c) {
+    take(file, table, "arc_step_time", c.arc_step_time, Low::zero, 1.0, 1.0);
+    if (c.arc_step_time > 0 && c.arc_step_time < c.period)
+        file.fail(
+            *table.get("arc_step_time"),
+            fmt::format("'arc_step_time' is {}, expected 0 or at least the period, {}", c.arc_step_time, c.period));
+}
+
 /// Rules for corners that are not rounded.
 void read_junction(const TomlFile& file, const toml::table& table, JunctionSettings& junction) {
     take(file, table, "junction_deviation", junction.deviation, Low::zero);
@@ -103,11 +112,13 @@ void read_controller(const TomlFile& file, const toml::table& table, ControllerS
         } else {
             keys.insert(keys.end(), {"curve", "tolerance"});
         }
+        if (c.corner == CornerMode::arc) keys.emplace_back("arc_step_time");
         file.allow(table, keys);
         read_junction(file, table, c.junction);
     }
     take_mode<2>(file, table, "feed", c.feed);
     take(file, table, "period", c.period, Low::above_zero, 1.0, 1.0);
+    read_arc_steps(file, table, c);
     if (const auto blocks = file.integer(table, "lookahead_blocks", 2, 100000))
         c.lookahead_blocks = static_cast<int>(*blocks);
     take_mode<3>(file, table, "curve", c.curve);
@@ -240,7 +251,7 @@ std::string controller_text(const ControllerSettings& c) {
         return text + fmt::format("cubic_interpolation = {} # set points on a cubic B-spline\n", t.cubic_interpolation);
     }
     text += fmt::format(
-        "corner = \"{}\"                # rounded inside the tolerance: by arcs, with a jerk limit by a spline; spline: always; stop: exact stop; junction: passed without rounding\n",
+        "corner = \"{}\"                # rounded inside the tolerance: by arcs, with jerk limits of axes see arc_step_time; spline: by splines; stop: exact stop; junction: passed without rounding\n",
         name_of(c.corner));
     if (c.corner == CornerMode::junction) {
         text += fmt::format("junction_deviation = {}      # of the arc whose speed a corner has; 0: no rule\n",
@@ -251,6 +262,11 @@ std::string controller_text(const ControllerSettings& c) {
         text += fmt::format("curve = \"{}\"                   # through short lines: akima, least-squares or none\n",
                             name_of(c.curve));
         text += tolerance;
+    }
+    if (c.corner == CornerMode::arc) {
+        text += fmt::format(
+            "arc_step_time = {}             # s, arcs also with jerk limits of axes, whose accelerations step in it; 0: splines\n",
+            c.arc_step_time);
     }
     text += fmt::format("chord_tolerance = {}       # of the steps of a period against arcs\n", c.chord_tolerance);
     text += fmt::format("block_time = {}                # s, a block takes no less; 0: not limited\n", c.block_time);
@@ -290,6 +306,8 @@ Machine read_machine(const TomlFile& file) {
             file.fail(*table, "the trapezoidal planner is for three axes", "planner = \"time-optimal\" runs five");
         if (machine.controller.corner == CornerMode::junction && machine.kinematics.has_rotary())
             file.fail(*table, "corner = \"junction\" is for three axes", "corner = \"spline\" runs five");
+        if (machine.controller.arc_step_time > 0 && machine.kinematics.has_rotary())
+            file.fail(*table, "arc_step_time is for three axes", "corner = \"spline\" runs five");
     }
     if (const toml::array* axes = file.tables(root, "axis")) {
         std::vector<std::string_view> seen;

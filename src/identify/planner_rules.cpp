@@ -12,6 +12,7 @@
 
 #include "core/units.h"
 #include "identify/rule_search.h"
+#include "simulation/path/junction.h"
 
 namespace clsurf {
 namespace {
@@ -72,13 +73,23 @@ struct PlannerFamily {
 
 PlannerFamily rounded_corners(const Machine& machine) {
     PlannerFamily family;
-    for (const CornerMode corner : {CornerMode::arc, CornerMode::spline, CornerMode::stop}) {
-        family.add(fmt::format("time-optimal, corner {}", name_of(corner)),
-                   !is_trapezoidal(machine) && machine.controller.corner == corner, [corner](Machine& m) {
+    const ControllerSettings& now = machine.controller;
+    const auto add = [&](CornerMode corner, double arc_step_time, const std::string& more = {}) {
+        const bool is_present =
+            !is_trapezoidal(machine) && now.corner == corner &&
+            (corner != CornerMode::arc || only_path_jerk(machine) || now.arc_step_time == arc_step_time);
+        family.add(fmt::format("time-optimal, corner {}{}", name_of(corner), more), is_present,
+                   [corner, arc_step_time](Machine& m) {
                        m.controller.planner = PlannerKind::time_optimal;
                        m.controller.corner = corner;
+                       m.controller.arc_step_time = arc_step_time;
                    });
-    }
+    };
+    for (const CornerMode corner : {CornerMode::arc, CornerMode::spline, CornerMode::stop}) add(corner, 0);
+    // Without jerk limits of axes it is the first one.
+    if (only_path_jerk(machine)) return family;
+    const double time = std::max(now.arc_step_time, now.period);
+    add(CornerMode::arc, time, fmt::format(", steps in {} s", time));
     return family;
 }
 
@@ -261,10 +272,11 @@ std::vector<std::function<Rule(const Machine&)>> rules_of(const Machine& machine
 /// Whether two machines have the same values of all rules.
 bool plan_alike(const Machine& one, const Machine& other) {
     const ControllerSettings &a = one.controller, &b = other.controller;
-    return a.planner == b.planner && a.corner == b.corner && a.tolerance == b.tolerance &&
-           a.junction.deviation == b.junction.deviation && a.junction.speed_step == b.junction.speed_step &&
-           a.feed == b.feed && a.whole_periods == b.whole_periods && a.lookahead_blocks == b.lookahead_blocks &&
-           a.curve == b.curve && a.block_time == b.block_time && a.trapezoid.arc_blends == b.trapezoid.arc_blends &&
+    return a.planner == b.planner && a.corner == b.corner && a.arc_step_time == b.arc_step_time &&
+           a.tolerance == b.tolerance && a.junction.deviation == b.junction.deviation &&
+           a.junction.speed_step == b.junction.speed_step && a.feed == b.feed && a.whole_periods == b.whole_periods &&
+           a.lookahead_blocks == b.lookahead_blocks && a.curve == b.curve && a.block_time == b.block_time &&
+           a.trapezoid.arc_blends == b.trapezoid.arc_blends &&
            a.trapezoid.cubic_interpolation == b.trapezoid.cubic_interpolation &&
            a.trapezoid.max_feed_override == b.trapezoid.max_feed_override &&
            a.trapezoid.blocks_per_period == b.trapezoid.blocks_per_period &&

@@ -38,7 +38,7 @@ struct MachineAxis {
 
 enum class CornerMode : unsigned char {
     spline,    ///< rounded inside the tolerance by a curve of continuous curvature
-    arc,       ///< rounded inside the tolerance by circular arcs; as `spline` where an axis has a jerk limit
+    arc,       ///< rounded inside the tolerance by circular arcs; where an axis has a jerk limit as arc_step_time says
     stop,      ///< exact stop at every corner
     junction,  ///< not rounded: passed at the speed of JunctionSettings, so that axis speeds step
 };
@@ -96,6 +96,9 @@ struct ControllerSettings {
     double lookahead_distance = 0;  ///< known after the block that runs [mm]; 0: not limited
     int replan_blocks = 0;          ///< that run before speeds are planned again; 0: half of those known
     CornerMode corner = CornerMode::arc;
+    /// Where an axis has a jerk limit: over which a step of its acceleration at the end of an arc counts as spread [s];
+    /// 0: splines take the place of arcs.
+    double arc_step_time = 0;
     JunctionSettings junction;
     CurveMode curve = CurveMode::none;
     double tolerance = 0.01;         ///< of corners and path [mm]; G64 P replaces it

@@ -21,8 +21,8 @@ class Maker {
 public:
     explicit Maker(std::uint64_t seed) : random_(seed) {}
 
-    /// `jerk`: a limit of it that counts.
-    Machine machine(CornerMode corner, CurveMode curve, bool jerk) {
+    /// `jerk`: a limit of it that counts; `steps`: arcs although axes limit it.
+    Machine machine(CornerMode corner, CurveMode curve, bool jerk, bool steps) {
         Machine machine;
         machine.controller.corner = corner;
         machine.controller.curve = curve;
@@ -37,7 +37,8 @@ public:
             machine.controller.whole_periods = chance(0.3);
         }
         machine.path = {spread(20, 500), spread(200, 5000), spread(200, 5000), spread(5000, 200000)};
-        const bool any_jerk = !jerk || corner == CornerMode::arc || chance(0.1);
+        const bool any_jerk = !jerk || (corner == CornerMode::arc && !steps) || (!steps && chance(0.1));
+        if (steps) machine.controller.arc_step_time = machine.controller.period;
         if (!jerk) machine.path.max_jerk = 1e9;
         for (MachineAxis& axis : machine.axes) {
             axis.max_speed = spread(20, 500);
@@ -136,13 +137,14 @@ struct Modes {
     CornerMode corner;
     CurveMode curve;
     bool jerk = true;
+    bool steps = false;  ///< arcs although axes limit the jerk
 };
 
 class RandomPrograms : public testing::TestWithParam<Modes> {};
 
 /// Random programs in a mode: CLSURF_RANDOM_PROGRAMS of them in all modes together, else what the suite has time for.
 int rounds_of_a_mode() {
-    constexpr int modes = 12, usual = 12000;
+    constexpr int modes = 14, usual = 14000;
     const char* wanted = std::getenv("CLSURF_RANDOM_PROGRAMS");
     return (wanted != nullptr ? std::atoi(wanted) : usual) / modes;
 }
@@ -155,7 +157,7 @@ TEST_P(RandomPrograms, HoldLimitsToleranceAndEnd) {
     const int rounds = rounds_of_a_mode();
     std::int64_t blocks = 0;
     for (int round = 0; round < rounds; ++round) {
-        const Machine machine = maker.machine(GetParam().corner, GetParam().curve, GetParam().jerk);
+        const Machine machine = maker.machine(GetParam().corner, GetParam().curve, GetParam().jerk, GetParam().steps);
         const std::string text = maker.program();
         const Program program = program_of(text);
         const Recorded r = run_program(program, machine);
@@ -187,10 +189,13 @@ INSTANTIATE_TEST_SUITE_P(
                     Modes{CornerMode::spline, CurveMode::least_squares}, Modes{CornerMode::arc, CurveMode::akima},
                     Modes{CornerMode::spline, CurveMode::none, false}, Modes{CornerMode::arc, CurveMode::none, false},
                     Modes{CornerMode::stop, CurveMode::none, false}, Modes{CornerMode::spline, CurveMode::akima, false},
-                    Modes{CornerMode::junction, CurveMode::none}, Modes{CornerMode::junction, CurveMode::none, false}),
+                    Modes{CornerMode::junction, CurveMode::none}, Modes{CornerMode::junction, CurveMode::none, false},
+                    Modes{CornerMode::arc, CurveMode::none, true, true},
+                    Modes{CornerMode::arc, CurveMode::akima, true, true}),
     [](const auto& modes) {
-        std::string name = fmt::format("{}_{}{}", name_of(modes.param.corner), name_of(modes.param.curve),
-                                       modes.param.jerk ? "" : "_without_jerk_limit");
+        std::string name =
+            fmt::format("{}_{}{}{}", name_of(modes.param.corner), name_of(modes.param.curve),
+                        modes.param.jerk ? "" : "_without_jerk_limit", modes.param.steps ? "_with_steps" : "");
         std::replace(name.begin(), name.end(), '-', '_');
         return name;
     });

@@ -22,6 +22,11 @@ bool only_path_jerk(const Machine& machine) {
                         [](const MachineAxis& axis) { return axis.max_jerk > 0; });
 }
 
+bool drives_arcs(const Machine& machine) {
+    return machine.controller.corner == CornerMode::arc &&
+           (only_path_jerk(machine) || machine.controller.arc_step_time > 0);
+}
+
 bool limits_jerk_in_bends(const Machine& machine) {
     return only_path_jerk(machine) && machine.controller.corner != CornerMode::arc;
 }

@@ -23,6 +23,9 @@ namespace clsurf {
 /// No axis has a jerk limit.
 [[nodiscard]] bool only_path_jerk(const Machine& machine);
 
+/// Arcs take the place of corners. Where an axis has a jerk limit, the steps of its acceleration need a time.
+[[nodiscard]] bool drives_arcs(const Machine& machine);
+
 /// The jerk limit of the path counts in bends, too: no axis has one, and corners are not arcs, whose ends no such limit
 /// holds at.
 [[nodiscard]] bool limits_jerk_in_bends(const Machine& machine);

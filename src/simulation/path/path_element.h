@@ -46,6 +46,8 @@ struct PathElement {
     double block_length = 0;                                          ///< [mm]
     double deviation = 0;                                             ///< of the element from the block, at most [mm]
     double greatest_speed = std::numeric_limits<double>::infinity();  ///< that its shape is good for [mm/s]
+    double jerk_share = 1;    ///< of the axes' jerk limits, for changes of speed
+    bool corner_arc = false;  ///< takes the place of a corner
 
     [[nodiscard]] bool straight() const { return !arc && !cubic && spline == nullptr; }
     [[nodiscard]] Vec3 at(double arc_length) const;

@@ -37,17 +37,17 @@ Vec3 Span::at(double tau, double& deviation, double& pace) const {
 
 PathStream::PathStream(MotionSource& source, const Machine& machine, const Vec3& start)
     : machine_(&machine), blocks_(source, machine, start), source_(&blocks_) {
-    // Only drives that bear any jerk bear the jumps of curvature at the ends of arcs.
-    const bool arcs = machine.controller.corner == CornerMode::arc && only_path_jerk(machine);
+    const bool arcs = drives_arcs(machine);
     const bool curves = machine.controller.curve != CurveMode::none;
-    if (!arcs && (curves || source.outline().curved)) bend_share_ = share_of_bends;
+    // Only drives that bear any jerk bear every jump of curvature.
+    if ((!arcs || !only_path_jerk(machine)) && (curves || source.outline().curved)) bend_share_ = share_of_bends;
     if (limits_jerk_in_bends(machine) && !jerks_freely(machine)) top_ = top_share;
     if (curves) {
         curves_ = std::make_unique<CurveBlocks>(*source_, machine.controller.curve);
         source_ = curves_.get();
     }
     if (arcs) {
-        arcs_ = std::make_unique<CornerArcs>(*source_, machine.controller.period);
+        arcs_ = std::make_unique<CornerArcs>(*source_, machine);
         source_ = arcs_.get();
     }
 }
@@ -62,7 +62,8 @@ void PathStream::add_joint(const PathElement& before, const PathElement& after) 
     joint.tolerance = std::min(before.tolerance, after.tolerance);
     // A corner that has no arc keeps off the arcs of others, which take the tolerance for themselves.
     joint.widest = arcs_ ? std::min(before.length, after.length) : std::numeric_limits<double>::infinity();
-    if (bend_share_ > 0) joint.bend = after.second_derivative(0) - before.second_derivative(before.length);
+    if (bend_share_ > 0 && !before.corner_arc && !after.corner_arc)
+        joint.bend = after.second_derivative(0) - before.second_derivative(before.length);
     const double bend = joint.bend.norm();
     if (bend > (splines ? least_bend_jump_of_splines : least_bend_jump)) {
         // |d (v − |d|)³/(12 v²)| is greatest at v/4: 27/3072 v². The halves of a block keep the

@@ -9,7 +9,7 @@
 // where |d| < w (< v). The first is what smoothing p with a triangle of half-width w adds at a corner;
 // the second takes the jump out of the second derivative. The sum is C² with a bounded third
 // derivative, so that a speed profile with bounded jerk gives axis positions with bounded jerk (a
-// circular transition arc, whose curvature jumps, does not). Neighbouring roundings may overlap: dense
+// circular transition arc, whose curvature jumps, does not: arc_steps.h). Neighbouring roundings may overlap: dense
 // polylines are smoothed over many blocks.
 //
 // Where no axis limits the jerk, but the path does, the triangle becomes a trapezoid, whose top has the half-width
@@ -135,6 +135,7 @@ private:
     void find_roundings(std::int64_t element, double begin, double end);
     void add_roundings(Span& span, double begin) const;
     void set_limits(Span& span) const;
+    void hold_back(Span& span) const;
 
     Joint& joint(std::int64_t i) { return joints_[static_cast<std::size_t>(i - first_joint_)]; }
     [[nodiscard]] const Joint& joint(std::int64_t i) const {

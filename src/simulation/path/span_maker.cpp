@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/not_finite.h"
+#include "simulation/path/arc_steps.h"
 #include "simulation/path/junction.h"
 #include "simulation/path/path_stream.h"
 
@@ -238,6 +239,7 @@ void PathStream::make_spans(std::int64_t element) {
         span.length = cuts_[k] - from;
         add_roundings(span, begin + from);
         set_limits(span);
+        if (span.base.jerk_share < 1) hold_back(span);
         if (from == 0 && element > 0 && machine_->controller.corner == CornerMode::junction)
             span.begin_cap = junction_speed(joint(element - 1).turn, *machine_);
         from = cuts_[k];
@@ -277,6 +279,17 @@ void PathStream::add_roundings(Span& span, double begin) const {
     }
 }
 
+/// Next to the step of an arc: a change of the speed in a bend costs jerk, too, 3 y″ v a.
+void PathStream::hold_back(Span& span) const {
+    span.free_cap = span.cap;
+    span.free_limiting = span.limiting;
+    for (int i = 0; i < 3; ++i) {
+        const double jerk = ArcSteps::twist_share * machine_->axes[static_cast<std::size_t>(i)].max_jerk;
+        if (jerk > 0 && span.bend[i] > 0)
+            span.acceleration = std::min(span.acceleration, jerk / (3 * span.bend[i] * span.cap));
+    }
+}
+
 void PathStream::set_limits(Span& span) const {
     const PathLimits& path = machine_->path;
     const double override_factor = machine_->controller.feed_override;
@@ -306,19 +319,20 @@ void PathStream::set_limits(Span& span) const {
     span.acceleration = path.max_acceleration;
     span.jerk = path.max_jerk;
     const bool corner = span.rounded && span.base.straight();
+    const double twist_share = span.base.jerk_share < 1 && !span.base.corner_arc ? ArcSteps::twist_share : 1;
     for (int i = 0; i < 3; ++i) {
         const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(i)];
         if (span.slope[i] > 0) {
             span.acceleration = std::min(span.acceleration, axis.max_acceleration / span.slope[i]);
-            if (axis.max_jerk > 0) span.jerk = std::min(span.jerk, axis.max_jerk / span.slope[i]);
+            if (axis.max_jerk > 0)
+                span.jerk = std::min(span.jerk, span.base.jerk_share * axis.max_jerk / span.slope[i]);
         }
         // Roots only of what may be broken.
         if (span.bend[i] * span.cap * span.cap > nearly * axis.max_acceleration)
             limit(std::sqrt(axis.max_acceleration / span.bend[i]), LimitingFactor::axis_acceleration);
-        const bool jerks = axis.max_jerk > 0 && span.twist[i] * span.cap * span.cap * span.cap > nearly * axis.max_jerk;
-        if (jerks)
-            limit(std::cbrt(axis.max_jerk / span.twist[i]),
-                  corner ? LimitingFactor::corner_tolerance : LimitingFactor::jerk);
+        const double jerk = twist_share * axis.max_jerk;
+        if (jerk > 0 && span.twist[i] * span.cap * span.cap * span.cap > nearly * jerk)
+            limit(std::cbrt(jerk / span.twist[i]), corner ? LimitingFactor::corner_tolerance : LimitingFactor::jerk);
     }
     if (span.pace_slope * span.cap * span.cap > nearly * path.max_acceleration)
         limit(std::sqrt(path.max_acceleration / span.pace_slope), LimitingFactor::axis_acceleration);

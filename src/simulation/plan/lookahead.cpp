@@ -176,9 +176,13 @@ void WindowPlanner::cut(std::span<const Span> spans, std::span<const std::size_t
     for (std::size_t n = 0; n <= nodes.size(); ++n) {
         const std::size_t last = n < nodes.size() ? nodes[n] : spans.size();
         while (begin < last) {
-            // A corner that is not rounded is a node, too.
+            // A corner that is not rounded is a node, too. What lies next to the step of an arc would slow the ramps beside it.
+            const auto joins = [&](std::size_t span) {
+                return spans[span].begin_cap >= std::min(spans[span - 1].cap, spans[span].cap) &&
+                       spans[span].base.jerk_share == spans[span - 1].base.jerk_share;
+            };
             std::size_t end = begin + 1;
-            while (end < last && spans[end].begin_cap >= std::min(spans[end - 1].cap, spans[end].cap)) ++end;
+            while (end < last && joins(end)) ++end;
             SpeedRun run;
             run.first = begin;
             run.last = end;

@@ -281,11 +281,14 @@ void Refiner::add_part(const CellPart& part, double begin, CellLimits& limits) {
         if (speed < limits.cap) limits.cap = speed, open_.at_cap = why;
     };
     cap(span.free_cap, span.free_limiting);
-    if (span.straight()) {
+    if (span.straight() || span.base.jerk_share < 1) {
         limits.acceleration = std::min(limits.acceleration, span.acceleration);
         limits.jerk = std::min(limits.jerk, span.jerk);
-        return;
+    } else if (!span.rounded) {
+        limits.acceleration = std::min(limits.acceleration, machine_->path.max_acceleration);
+        limits.jerk = std::min(limits.jerk, machine_->path.max_jerk);
     }
+    if (span.straight()) return;
     const double periods = part.length / (machine_->controller.period * std::max(end_.speed, open_.end.speed));
     const double turn = part.length * turn_rate(span.derivatives(part.from + 0.5 * part.length));
     const int pieces = turn >= 2 * slight                    ? 8
@@ -293,10 +296,6 @@ void Refiner::add_part(const CellPart& part, double begin, CellLimits& limits) {
                        : periods < brief                     ? 2
                        : periods < middling                  ? 4
                                                              : 8;
-    if (!span.rounded) {
-        limits.acceleration = std::min(limits.acceleration, machine_->path.max_acceleration);
-        limits.jerk = std::min(limits.jerk, machine_->path.max_jerk);
-    }
     PathSample sample;
     for (int k = 0; k <= pieces; ++k) {
         const double arc_length = part.length * k / pieces;

@@ -15,7 +15,7 @@ namespace {
 /// Arcs in corners are for drives that bear steps of the curvature: where one meets the rounding of another corner, the
 /// tangential acceleration steps, too.
 bool limits_tangential_jerk(const Machine& machine) {
-    const bool arcs = machine.controller.corner == CornerMode::arc && only_path_jerk(machine);
+    const bool arcs = drives_arcs(machine) && only_path_jerk(machine);
     return machine.controller.planner == PlannerKind::time_optimal && !arcs;
 }
 

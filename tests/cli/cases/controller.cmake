@@ -79,3 +79,15 @@ clsurf_cli_test(NAME optimize_half_a_round EXIT 2
   ARGS optimize ${dome} --log @LOGS@/dome_loops.biip --round ${dome} -o better.nc STDERR "--round takes two files")
 clsurf_cli_test(NAME optimize_rounds_without_the_log EXIT 2
   ARGS optimize ${dome} --round ${dome} @LOGS@/dome_loops.biip -o better.nc STDERR "--round needs the log of the program itself")
+
+# Arcs in corners where axes have jerk limits.
+clsurf_cli_test(NAME machine_arc_steps_within_a_period SETUP "printf '[controller]\\nperiod = 0.002\\narc_step_time = 0.001\\n' > m.toml" ARGS machine --check m.toml
+  EXIT 3 STDERR "m.toml:3:17: error: 'arc_step_time' is 0.001, expected 0 or at least the period, 0.002")
+clsurf_cli_test(NAME machine_arc_steps_of_splines SETUP "printf '[controller]\\ncorner = \"spline\"\\narc_step_time = 0.001\\n' > m.toml" ARGS machine --check m.toml
+  EXIT 3 STDERR "unknown key 'arc_step_time'")
+clsurf_cli_test(NAME machine_arc_steps_of_five_axes SETUP "printf '[controller]\\narc_step_time = 0.001\\n[kinematics]\\ntype = \"table-table\"\\n' > m.toml" ARGS machine --check m.toml
+  EXIT 3 STDERR "arc_step_time is for three axes")
+# On three_axis_mill, 90° with a tolerance of 0.01 mm: r = 24.142 µm, v = √(80000 r · 0.001) = 1.38974 mm/s (arc_steps_test.cpp: 1.1328 s).
+clsurf_cli_test(NAME simulate_arcs_with_jerk_limits
+  SETUP "sed 's/^arc_step_time = 0 /arc_step_time = 0.001 /' @DATA@/machines/three_axis_mill.toml > m.toml && printf 'G21 G90 G64\\nG1 X10 F3000\\nY10\\nX0\\nY0\\nM2\\n' > square.nc"
+  ARGS simulate square.nc --machine m.toml --json -o run.biip STDOUT "\"duration_s\": 1.133" "\"limits_ok\": true")
