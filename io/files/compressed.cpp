@@ -155,19 +155,27 @@ constexpr auto packings = std::to_array<Packing>({
     {{0xfd, '7', 'z', 'X', 'Z', 0x00}, 6, unpack_xz},
 });
 
+/// What the bytes are packed by; nullptr: nothing that is known.
+const Packing* packing_of(std::span<const std::byte> bytes) {
+    for (const Packing& packing : packings) {
+        if (bytes.size() < packing.magic_bytes) continue;
+        const auto same = [](unsigned char magic, std::byte b) { return std::byte{magic} == b; };
+        if (std::equal(packing.magic.begin(), packing.magic.begin() + static_cast<std::ptrdiff_t>(packing.magic_bytes),
+                       bytes.begin(), same)) {
+            return &packing;
+        }
+    }
+    return nullptr;
+}
+
 }  // namespace
 
 Source unpacked(Source source) {
-    for (const Packing& packing : packings) {
-        if (source.bytes.size() < packing.magic_bytes) continue;
-        const auto same = [](unsigned char magic, std::byte b) { return std::byte{magic} == b; };
-        if (std::equal(packing.magic.begin(), packing.magic.begin() + static_cast<std::ptrdiff_t>(packing.magic_bytes),
-                       source.bytes.begin(), same)) {
-            return packing.unpack(source);
-        }
-    }
-    return source;
+    const Packing* packing = packing_of(source.bytes);
+    return packing != nullptr ? packing->unpack(source) : source;
 }
+
+bool is_compressed(std::span<const std::byte> bytes) { return packing_of(bytes) != nullptr; }
 
 Source open_source(const std::string& path) { return unpacked(map_file(path)); }
 

@@ -15,6 +15,9 @@ namespace clsurf::io {
 /// (a decompression bomb); a dictionary that is not there. Memory: bounded by that limit.
 [[nodiscard]] Source unpacked(Source source);
 
+/// The bytes begin as those of a compressed file.
+[[nodiscard]] bool is_compressed(std::span<const std::byte> bytes);
+
 /// Maps a file and unpacks it where it is compressed. Throws InputError.
 [[nodiscard]] Source open_source(const std::string& path);
 

@@ -155,16 +155,24 @@ Source map_file(const std::string& path) {
     if (S_ISDIR(status.st_mode)) throw InputError(Place::of_file(path), "is a folder, expected a file");
     if (!S_ISREG(status.st_mode)) return read_stream(path, file.get());
     guard_input(path, status);
+    return map_descriptor(path, file.get());
+}
+
+Source map_descriptor(const std::string& name, int descriptor) {
+    struct stat status {};
+    if (::fstat(descriptor, &status) != 0) {
+        throw InputError(Place::of_file(name), std::string("cannot read: ") + std::strerror(errno));
+    }
     const auto size = static_cast<std::size_t>(status.st_size);
-    if (size == 0) return {path, {}, nullptr};
-    void* address = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.get(), 0);
-    if (address == MAP_FAILED) return read_stream(path, file.get());
-    MappedRegion* entry = enter(path, address, size, file.get());
+    if (size == 0) return {name, {}, nullptr};
+    void* address = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
+    if (address == MAP_FAILED) return read_stream(name, descriptor);
+    MappedRegion* entry = enter(name, address, size, descriptor);
     const std::shared_ptr<const void> keep_alive(address, [size, entry](const void* mapped) {
         leave(entry);
         ::munmap(const_cast<void*>(mapped), size);
     });
-    return {path, {static_cast<const std::byte*>(address), size}, keep_alive};
+    return {name, {static_cast<const std::byte*>(address), size}, keep_alive};
 }
 
 }  // namespace clsurf::io

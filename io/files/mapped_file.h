@@ -22,6 +22,9 @@ struct Source {
 /// Maps a file. Throws InputError (missing, a directory, not readable).
 [[nodiscard]] Source map_file(const std::string& path);
 
+/// Maps a regular file that is open, as long as it is now. Throws InputError.
+[[nodiscard]] Source map_descriptor(const std::string& name, int descriptor);
+
 /// From now on a file that is cut short while it is mapped ends the program with a message and exit code
 /// 3, where reading behind its end would have killed it. For programs; called once.
 void guard_mapped_files();

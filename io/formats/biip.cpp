@@ -26,6 +26,7 @@ static_assert(std::endian::native == std::endian::little, "BIIP is read in place
 
 constexpr std::array<unsigned char, 8> magic{0x89, 'B', 'I', 'I', 'P', 0x0D, 0x0A, 0x1A};
 constexpr std::size_t fixed_bytes = 48;
+constexpr std::size_t count_at = 24;
 constexpr std::size_t entry_bytes = 48;
 constexpr std::size_t name_bytes = 24;
 constexpr std::size_t unit_bytes = 8;
@@ -56,7 +57,7 @@ public:
         header_bytes_ = get<std::uint32_t>(bytes_, 12);
         record_bytes_ = get<std::uint32_t>(bytes_, 16);
         channel_count_ = get<std::uint32_t>(bytes_, 20);
-        record_count_ = get<std::uint64_t>(bytes_, 24);
+        record_count_ = get<std::uint64_t>(bytes_, count_at);
         period_ = get<double>(bytes_, 32);
         metadata_bytes_ = get<std::uint32_t>(bytes_, 40);
         if (major_ != 1) fail(8, fmt::format("BIIP version {}.{}, expected 1.x", major_, minor_));
@@ -116,6 +117,7 @@ public:
     [[nodiscard]] std::uint32_t channel_count() const { return channel_count_; }
     [[nodiscard]] double period() const { return period_; }
     [[nodiscard]] std::uint16_t minor() const { return minor_; }
+    [[nodiscard]] RecordFrame frame() const { return {header_bytes_, record_bytes_, false, count_at}; }
 
 private:
     void check_crc() const {
@@ -184,11 +186,24 @@ int probe_biip(std::span<const std::byte> head, const LogOptions&) {
     return std::memcmp(head.data(), magic.data(), 5) == 0 ? 90 : 0;
 }
 
-Log open_biip(const Source& source, const LogOptions&) {
+namespace {
+
+void refuse_damaged_signature(const Source& source) {
     if (source.bytes.size() >= 8 && std::memcmp(source.bytes.data(), magic.data(), magic.size()) != 0) {
         throw InputError(Place::of_byte(source.name, 5), "the BIIP signature is damaged, as after a copy in text mode",
                          "copy the log in binary mode");
     }
+}
+
+}  // namespace
+
+RecordFrame frame_biip(const Source& beginning, const LogOptions&) {
+    refuse_damaged_signature(beginning);
+    return Header(beginning).frame();
+}
+
+Log open_biip(const Source& source, const LogOptions&) {
+    refuse_damaged_signature(source);
     const Header header(source);
     Log log;
     log.name = source.name;
@@ -204,7 +219,7 @@ Log open_biip(const Source& source, const LogOptions&) {
         log.diagnostics.add(
             {Severity::warning,
              "log.unclosed",
-             Place::of_byte(source.name, 24),
+             Place::of_byte(source.name, count_at),
              fmt::format(
                  "the log was not closed: its header gives {} records, the file has {} complete ones and {} more bytes",
                  said, there, header.bytes_left()),
@@ -305,7 +320,7 @@ void BiipWriter::append(std::span<const std::byte> records) {
 
 void BiipWriter::close() {
     // The count last: a file without it was not finished.
-    file_.write_at(24, std::as_bytes(std::span(&records_, 1)));
+    file_.write_at(count_at, std::as_bytes(std::span(&records_, 1)));
     file_.commit();
 }
 

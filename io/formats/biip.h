@@ -15,6 +15,9 @@ namespace clsurf::io {
 /// `log.unclosed`, `log.minor-version`.
 [[nodiscard]] Log open_biip(const Source& source, const LogOptions& options);
 
+/// Throws InputError: the header is not whole, or wrong.
+[[nodiscard]] RecordFrame frame_biip(const Source& beginning, const LogOptions& options);
+
 /// How a channel is stored; value = raw · scale.
 struct StoredChannel {
     std::string name;  ///< at most 23 bytes

@@ -72,4 +72,9 @@ Log open_halsampler(const Source& source, const LogOptions& options) {
     return open_text(source, options, "halsampler");
 }
 
+RecordFrame frame_text(const Source& beginning, const LogOptions& options) {
+    const std::optional<Mapping> mapping = mapping_of_growing(options);
+    return {plan_text(beginning, mapping ? &*mapping : nullptr).data_begin, 0, mapping && mapping->halsampler, {}};
+}
+
 }  // namespace clsurf::io

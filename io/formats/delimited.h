@@ -15,4 +15,7 @@ namespace clsurf::io {
 [[nodiscard]] Log open_delimited(const Source& source, const LogOptions& options);
 [[nodiscard]] Log open_halsampler(const Source& source, const LogOptions& options);
 
+/// Of both. Throws InputError; UsageError: the mapping names block events.
+[[nodiscard]] RecordFrame frame_text(const Source& beginning, const LogOptions& options);
+
 }  // namespace clsurf::io

@@ -113,6 +113,12 @@ TextPlan plan_table(const Source& source, const Mapping* mapping) {
     return plan;
 }
 
+TextPlan plan_of(const Source& source, const Mapping* mapping) {
+    std::string_view rest = text_of(source.bytes);
+    const std::string_view line = first_line(rest);
+    return line.starts_with('#') ? plan_table(source, mapping) : plan_named_values(source, rest, mapping);
+}
+
 }  // namespace
 
 int probe_halscope(std::span<const std::byte> head, const LogOptions&) {
@@ -125,14 +131,17 @@ Log open_halscope(const Source& source, const LogOptions& options) {
     const std::optional<Mapping> mapping = mapping_of(options);
     const Mapping* map = mapping ? &*mapping : nullptr;
     std::string_view rest = text_of(source.bytes);
-    const std::string_view line = first_line(rest);
-    const double period = period_of(line, source);
-    const TextPlan plan = line.starts_with('#') ? plan_table(source, map) : plan_named_values(source, rest, map);
-    Log log = read_table(source, plan, "halscope");
+    const double period = period_of(first_line(rest), source);
+    Log log = read_table(source, plan_of(source, map), "halscope");
     log.period = period;
     settle_period(log, options, map);
     add_event_lines(log, map);
     return log;
+}
+
+RecordFrame frame_halscope(const Source& beginning, const LogOptions& options) {
+    const std::optional<Mapping> mapping = mapping_of_growing(options);
+    return {plan_of(beginning, mapping ? &*mapping : nullptr).data_begin, 0, false, {}};
 }
 
 }  // namespace clsurf::io

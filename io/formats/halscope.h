@@ -10,4 +10,7 @@ namespace clsurf::io {
 /// Channels are named after their HAL pins, or by a mapping. Throws InputError with the line.
 [[nodiscard]] Log open_halscope(const Source& source, const LogOptions& options);
 
+/// Throws InputError; UsageError: the mapping names block events.
+[[nodiscard]] RecordFrame frame_halscope(const Source& beginning, const LogOptions& options);
+
 }  // namespace clsurf::io

@@ -14,6 +14,14 @@ namespace clsurf::io {
 
 struct LogOptions;
 
+/// Where the records of a log begin, and how long each is: what is needed to read a log that still grows.
+struct RecordFrame {
+    std::size_t head_bytes = 0;           ///< before the first record
+    std::size_t record_bytes = 0;         ///< of each record; 0: a record is a line of text that is no comment
+    bool overruns = false;                ///< lines "overrun" are no records
+    std::optional<std::size_t> count_at;  ///< byte of the number of records (u64), 0 until the log is closed
+};
+
 struct LogFormat {
     std::string_view name;
     std::string_view summary;
@@ -21,6 +29,9 @@ struct LogFormat {
     int (*probe)(std::span<const std::byte> head, const LogOptions& options);
     /// Throws InputError with the place.
     Log (*open)(const Source& source, const LogOptions& options);
+    /// The frame of a log whose beginning that is: its head and some records. Throws InputError: the head is not whole, or
+    /// wrong. nullptr: the format cannot be read before it is whole.
+    RecordFrame (*frame)(const Source& beginning, const LogOptions& options) = nullptr;
 };
 
 /// What the user may say about a log that the log does not say itself.
@@ -42,6 +53,9 @@ struct LogOptions {
 
 /// The format that the content looks most like, ours or one of options.more_formats, or nullptr.
 [[nodiscard]] const LogFormat* recognise_log(const Source& source, const LogOptions& options);
+
+/// Opens a log in that format. Throws InputError.
+[[nodiscard]] Log open_log_as(const LogFormat& format, const Source& source, const LogOptions& options);
 
 /// Opens a log of any format. Throws InputError; unknown content names the formats tried.
 [[nodiscard]] Log open_log(const std::string& path, const LogOptions& options);

@@ -19,14 +19,16 @@ namespace {
 
 /// One line a format. Later lines win only with a better score.
 constexpr auto known_formats = std::to_array<LogFormat>({
-    {"biip", "BIIP v1: self-describing fixed records (docs/formats/biip.md)", probe_biip, open_biip},
-    {"layout", "fixed binary records, described by --layout FILE", probe_layout, open_layout},
-    {"halsampler", "LinuxCNC halsampler text, columns named by --mapping FILE", probe_halsampler, open_halsampler},
-    {"halscope", "LinuxCNC halscope's saved log", probe_halscope, open_halscope},
+    {"biip", "BIIP v1: self-describing fixed records (docs/formats/biip.md)", probe_biip, open_biip, frame_biip},
+    {"layout", "fixed binary records, described by --layout FILE", probe_layout, open_layout, frame_layout},
+    {"halsampler", "LinuxCNC halsampler text, columns named by --mapping FILE", probe_halsampler, open_halsampler,
+     frame_text},
+    {"halscope", "LinuxCNC halscope's saved log", probe_halscope, open_halscope, frame_halscope},
     {"twincat", "TwinCAT Scope's text export", probe_twincat, open_twincat},
     {"edge", "SINUMERIK Edge high-frequency recording (JSON)", probe_edge, open_edge},
     {"sinumerik-xml", "SINUMERIK Operate trace session (XML)", probe_sinumerik_xml, open_sinumerik_xml},
-    {"delimited", "CSV or TSV with a header of channel names, or with --mapping FILE", probe_delimited, open_delimited},
+    {"delimited", "CSV or TSV with a header of channel names, or with --mapping FILE", probe_delimited, open_delimited,
+     frame_text},
 });
 
 /// A lathe has no Y; a typing error in a mapping looks the same.
@@ -89,7 +91,11 @@ Log open_log(const Source& source, const LogOptions& options) {
         throw InputError(Place::of_file(source.name), "is not a log in a known format (" + names + ")",
                          "binary records need --layout FILE, a text without channel names needs --mapping FILE");
     }
-    Log log = format->open(source, options);
+    return open_log_as(*format, source, options);
+}
+
+Log open_log_as(const LogFormat& format, const Source& source, const LogOptions& options) {
+    Log log = format.open(source, options);
     settle_names(log);
     settle_units(log);
     note_still_axes(log);

@@ -96,4 +96,14 @@ Log open_layout(const Source& source, const LogOptions& options) {
     return log;
 }
 
+RecordFrame frame_layout(const Source& beginning, const LogOptions& options) {
+    (void)open_layout(beginning, options);
+    const TomlFile file(options.layout);
+    const toml::table& head = *file.section(file.root(), "log");
+    RecordFrame frame;
+    frame.head_bytes = static_cast<std::size_t>(file.integer(head, "header_bytes", 0, most_bytes).value_or(0));
+    frame.record_bytes = static_cast<std::size_t>(file.integer(head, "record_bytes", 1, most_bytes).value_or(1));
+    return frame;
+}
+
 }  // namespace clsurf::io

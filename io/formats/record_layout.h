@@ -11,4 +11,7 @@ namespace clsurf::io {
 /// Views on the records as the layout says. Throws InputError; adds `log.unclosed` for left-over bytes.
 [[nodiscard]] Log open_layout(const Source& source, const LogOptions& options);
 
+/// Throws InputError.
+[[nodiscard]] RecordFrame frame_layout(const Source& beginning, const LogOptions& options);
+
 }  // namespace clsurf::io

@@ -190,6 +190,15 @@ TextPlan plan_text(const Source& source, const Mapping* mapping) {
     return plan;
 }
 
+std::optional<Mapping> mapping_of_growing(const LogOptions& options) {
+    std::optional<Mapping> mapping = mapping_of(options);
+    if (mapping && mapping->events)
+        throw UsageError(
+            fmt::format("{} names block events in a file of their own: such a log cannot be followed", options.mapping),
+            "judge it when it is complete, without --follow");
+    return mapping;
+}
+
 void settle_period(Log& log, const LogOptions& options, const Mapping* mapping) {
     if (options.period)
         log.period = *options.period;

@@ -62,6 +62,9 @@ struct SourceColumn {
 /// mapping, a column that is not there, a clock that is to be scaled.
 [[nodiscard]] TextPlan plan_text(const Source& source, const Mapping* mapping);
 
+/// The mapping of a log that still grows. Throws UsageError: it names block events, which a second file would have to keep up with.
+[[nodiscard]] std::optional<Mapping> mapping_of_growing(const LogOptions& options);
+
 /// Sets the period: that of the options, else the mapping's, else leaves it.
 void settle_period(Log& log, const LogOptions& options, const Mapping* mapping);
 

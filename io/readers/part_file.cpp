@@ -14,6 +14,14 @@
 #include "io/readers/tool_table_file.h"
 
 namespace clsurf::io {
+namespace {
+
+Log open_log_of(const PartFiles& files) {
+    return files.log_source ? open_log(*files.log_source, files.log_options) : open_log(files.log, files.log_options);
+}
+
+}  // namespace
+
 std::optional<CuttingTool> tool_of_log(const Log& log) {
     const std::string recorded = tool_of_metadata(log.metadata);
     if (recorded.empty()) return std::nullopt;
@@ -52,7 +60,7 @@ void use_machine(const std::string& path, PartRules& rules) {
 Part read_part(const PartFiles& files, PartRules rules, const Stages& stages) {
     if (files.program.empty()) {
         begin_stage(stages, "open the log");
-        return assemble(open_log(files.log, files.log_options), rules);
+        return assemble(open_log_of(files), rules);
     }
     begin_stage(stages, "read the program");
     const Source source = open_source(files.program);
@@ -60,7 +68,7 @@ Part read_part(const PartFiles& files, PartRules rules, const Stages& stages) {
     as_programmed.coordinates.reset();  // the log may say where the program's zero lies
     Program program = read_program(source, as_programmed);
     begin_stage(stages, "open the log");
-    Log log = open_log(files.log, files.log_options);
+    Log log = open_log_of(files);
     rules.identity = check_identity(source, log, log.diagnostics);
     begin_stage(stages, "map points to lines");
     Part part = assemble(std::move(program), std::move(log), rules);

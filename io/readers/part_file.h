@@ -17,6 +17,7 @@ struct PartFiles {
     ProgramOptions program_options;  ///< `coordinates` is not asked: a part's are those of the workpiece
     LogOptions log_options;
     bool recorded_tool = true;  ///< where the rules name no tool, the one of the log's metadata or the tool table
+    std::optional<Source> log_source = std::nullopt;  ///< bytes of the log; nullopt: those of the file `log`
 };
 
 /// The tool that a log's metadata name; nullopt: they name none. Throws InputError: not a tool.

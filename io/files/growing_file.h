@@ -1,0 +1,50 @@
+#pragma once
+// GrowingFile: the bytes of a file, a pipe or standard input that another program still writes.
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "io/files/mapped_file.h"
+
+namespace clsurf::io {
+
+class GrowingFile {
+public:
+    /// "-" is standard input. A named pipe need not have a writer yet. What comes from a stream is copied to a file without a
+    /// name in the folder for temporary files, so that whole() can read it again. Throws InputError (missing, a folder, not
+    /// readable), SystemError (no such copy).
+    explicit GrowingFile(const std::string& path);
+    GrowingFile(const GrowingFile&) = delete;
+    GrowingFile& operator=(const GrowingFile&) = delete;
+    ~GrowingFile();
+
+    [[nodiscard]] const std::string& name() const { return name_; }
+    /// Appends at most `most` new bytes to `out`. Returns how many; 0: there are none now. Throws InputError: the file became
+    /// shorter than what was read of it, or another file has its name; SystemError: the copy of a stream cannot be written.
+    std::size_t read(std::size_t most, std::vector<std::byte>& out);
+    /// Bytes that were read before, of a regular file as they are now; fewer where it ends.
+    [[nodiscard]] std::vector<std::byte> read_again(std::size_t begin, std::size_t size) const;
+    /// No more will come: the writer of a stream has closed it, or the file has no name any more.
+    [[nodiscard]] bool ended() const { return ended_; }
+    /// Waits until there may be more, `seconds` at the longest, or until a signal comes.
+    void wait(double seconds) const;
+    /// All bytes that there are now, mapped. Throws InputError.
+    [[nodiscard]] Source whole() const;
+
+private:
+    void check_name();
+    std::size_t read_file(std::size_t most, std::vector<std::byte>& out);
+    std::size_t read_stream(std::size_t most, std::vector<std::byte>& out);
+    void keep(const std::byte* bytes, std::size_t size) const;
+
+    std::string path_, name_;
+    int descriptor_ = -1;
+    int copy_ = -1;  ///< of a stream; −1: a regular file
+    std::size_t read_ = 0;
+    bool ended_ = false;
+};
+
+}  // namespace clsurf::io
