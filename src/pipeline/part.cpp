@@ -88,6 +88,20 @@ Part assemble(Program program, Log log, const PartRules& rules) {
     return part;
 }
 
+void exchange_log(Part& part, Log log, const PartRules& rules) {
+    if (log.records == 0) throw InputError(Place::of_file(log.name), "holds no records");
+    Diagnostics diagnostics = log.diagnostics;
+    if (part.path.kinematics == nullptr) note_rotary(log, part.path.role, diagnostics);
+    Trajectory path = reconstruct(log, part.path.role, part.path.pose(), part.path.kinematics);
+    const Trajectory mapped = reconstruct_like(log, mapping_role(log, path.role), path);
+    LineMap lines = map_lines(mapped, log, part.program, rules.use_line_channel, diagnostics, rules.identity);
+    if (diagnostics.count("path.rotary") > 0) forget_path(lines);
+    part.log = std::move(log);
+    part.path = std::move(path);
+    part.lines = std::make_shared<const LineMap>(std::move(lines));
+    part.diagnostics = std::move(diagnostics);
+}
+
 ClSurface stitch(const Part& part) { return stitch(gather(part.path), *part.lines); }
 
 std::vector<Trajectory> other_roles(const Part& part) {

@@ -54,6 +54,11 @@ struct Part {
 /// kinematics, or does not belong to the program (unless accept_foreign). O(points + motions), parallel.
 [[nodiscard]] Part assemble(Program program, Log log, const PartRules& rules = {});
 
+/// Puts another piece of the same recording into a part that assemble() made with these rules: program, placement, role,
+/// tool and limits stay, and the diagnostics are those of the piece alone. A piece that does not belong to the program is no
+/// error: its lines say so. Throws InputError: the piece is empty or lacks channels. O(points + motions), parallel.
+void exchange_log(Part& part, Log log, const PartRules& rules);
+
 /// A log alone: lines are those of its channel, or none, and all points cut but where that channel names no block.
 /// Throws InputError: the log is empty or lacks channels.
 [[nodiscard]] Part assemble(Log log, const PartRules& rules = {});

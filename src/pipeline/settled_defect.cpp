@@ -1,0 +1,89 @@
+#include "pipeline/settled_defect.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "predictor/candidates.h"
+#include "surface/path_location.h"
+
+namespace clsurf {
+namespace {
+
+constexpr std::size_t passes_that_tell = 3;       ///< on one side, which of two passes is at fault
+constexpr std::size_t passes_that_tell_lag = 8;   ///< on one side, whether a lag is systematic
+constexpr std::size_t passes_beside_a_fault = 3;  ///< on both sides, where one of them is at fault too
+
+/// The points beside a place on the passes of one side, the adjacent one first.
+std::vector<PointIndex> points_aside(const DefectSurroundings& around, PointIndex point, Side side) {
+    std::vector<PointIndex> points;
+    PathLocation before{point, 0};
+    PathLocation at = beside(around.surface, before, around.signals.feed(point), side);
+    while (at.exists() && points.size() < passes_that_tell_lag && around.signals[at.nearest()].zone != Zone::outside) {
+        points.push_back(at.nearest());
+        const PathLocation next = beyond(around.surface, before, at, around.signals.feed(at.nearest()));
+        before = at;
+        at = next;
+    }
+    return points;
+}
+
+/// The last of the first `count` points.
+PointIndex last_of(const std::vector<PointIndex>& points, std::size_t count) {
+    return *std::max_element(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
+/// The last of the points on the adjacent passes beside a point, and of the point itself.
+PointIndex last_beside(const ClSurface& surface, PointIndex point) {
+    PointIndex last = point;
+    for (const Side side : {Side::left, Side::right}) {
+        if (surface.neighbours.has(side, point)) last = std::max(last, surface.neighbours.neighbour(side, point));
+    }
+    return last;
+}
+
+/// The last of the points round the strongest place that tell which pass is at fault; nullopt: there are too few passes.
+std::optional<PointIndex> last_that_tells(const Defect& defect, const DefectSurroundings& around) {
+    const std::array<std::vector<PointIndex>, 2> sides{points_aside(around, defect.point, Side::left),
+                                                       points_aside(around, defect.point, Side::right)};
+    const bool lag = defect.quantity == Quantity::lag && !defect.systematic;
+    const bool beside_fault = std::any_of(sides.begin(), sides.end(), [&](const std::vector<PointIndex>& side) {
+        const std::size_t looked_at = std::min<std::size_t>(side.size(), passes_beside_a_fault - 1);
+        return std::any_of(side.begin(), side.begin() + static_cast<std::ptrdiff_t>(looked_at), around.at_fault);
+    });
+    const std::size_t on_both = lag || beside_fault ? passes_beside_a_fault : 1;
+    const std::size_t on_one = lag ? passes_that_tell_lag : passes_that_tell;
+    if (std::min(sides[0].size(), sides[1].size()) < on_both) return std::nullopt;
+    std::optional<PointIndex> last;
+    for (const std::vector<PointIndex>& side : sides) {
+        if (side.size() >= on_one && (!last || last_of(side, on_one) < *last)) last = last_of(side, on_one);
+    }
+    if (!last) return std::nullopt;
+    return std::max({*last, last_of(sides[0], on_both), last_of(sides[1], on_both)});
+}
+
+}  // namespace
+
+double settling_way(const ClSurface& surface, double record) {
+    return usual_end_zone(surface.step_over) + joined_along(surface, record);
+}
+
+std::optional<PointIndex> last_point_needed(const Defect& defect, const DefectSurroundings& around) {
+    const std::optional<PointIndex> tells = last_that_tells(defect, around);
+    if (!tells) return std::nullopt;
+    PointIndex last = std::max(*tells, defect.point);
+    for (const DefectRun& run : defect.runs)
+        last = std::max(
+            {last, last_beside(around.surface, run.points.first), last_beside(around.surface, run.points.last)});
+    const PointIndex newest = around.surface.positions.size() - 1;
+    if (!around.arc_length.at_least(last, newest, around.settling)) return std::nullopt;
+    // The first point at which the way is long enough, by halving.
+    PointIndex not_enough = last, enough = newest;
+    while (enough - not_enough > 1) {
+        const PointIndex middle = not_enough + (enough - not_enough) / 2;
+        (around.arc_length.at_least(last, middle, around.settling) ? enough : not_enough) = middle;
+    }
+    return enough;
+}
+
+}  // namespace clsurf
