@@ -7,6 +7,7 @@
 
 #include "cli/checked_run.h"
 #include "cli/defect_colours.h"
+#include "cli/followed_check.h"
 #include "cli/measured_check.h"
 #include "cli/quality_writer.h"
 #include "cli/report_output.h"
@@ -26,6 +27,7 @@ constexpr const char* check_formats = "text|json|csv|sarif|junit";
 struct Checked {
     std::string text;
     ExitCode code = ExitCode::done;
+    ResolvedFindings resolved;  ///< of a log that was followed
 };
 
 /// What one log is checked for, besides how it is read.
@@ -36,6 +38,7 @@ struct CheckRules {
     std::optional<RunRecorder> recorder;
     std::unique_ptr<MeasuredInput> measured_part;  ///< nullptr: nothing was measured
     std::string format;
+    std::unique_ptr<FollowedCheck> followed;  ///< nullptr: the log is complete
 };
 
 Checked check_log(const PartOptions& options, CheckRules& rules, const po::variables_map& values) {
@@ -71,7 +74,21 @@ Checked check_log(const PartOptions& options, CheckRules& rules, const po::varia
     if (values.count("output") == 0) reported.columns = table_columns();
     if (rules.format != "json") print(run.part.diagnostics, values);
     const ExitCode code = worse ? ExitCode::check_failed : run.code;
-    return {quality_writer(rules.format)(reported), code == ExitCode::done && !aligned ? ExitCode::not_judged : code};
+    return {quality_writer(rules.format)(reported), code == ExitCode::done && !aligned ? ExitCode::not_judged : code,
+            rules.followed ? rules.followed->resolve(run.quality.report) : ResolvedFindings{}};
+}
+
+/// nullptr: --follow is not given. Throws UsageError.
+std::unique_ptr<FollowedCheck> read_followed(const po::variables_map& values, const std::string& format,
+                                             std::size_t logs) {
+    const std::optional<FollowOptions> follow = read_follow(values);
+    if (!follow) return nullptr;
+    if (logs > 1) throw UsageError("--follow follows one log");
+    if (format != "text" && format != "json" && values.count("output") == 0)
+        throw UsageError("--follow writes its findings to standard output, as text or JSON",
+                         "give the " + format + " report a file with -o");
+    const bool json = format == "json" && values.count("output") == 0;
+    return std::make_unique<FollowedCheck>(*follow, json, read_common(values).quiet);
 }
 
 ExitCode run_check(const po::variables_map& values) {
@@ -87,15 +104,20 @@ ExitCode run_check(const po::variables_map& values) {
     ReportOutput output(values, check_formats);
     rules.format = output.format();
     rules.measured_part = read_measured_input(values, rules.format, logs.size());
+    rules.followed = read_followed(values, rules.format, logs.size());
     std::vector<std::string> texts;
     ExitCode worst = ExitCode::done;
+    Checked checked;
     for (const std::string& log : logs) {
         options.log = log;
-        Checked checked = check_log(options, rules, values);
-        texts.push_back(std::move(checked.text));
+        if (rules.followed) rules.followed->follow(options, rules.measured);
+        checked = check_log(options, rules, values);
+        texts.push_back(checked.text);
         worst = std::max(worst, checked.code);
     }
     const std::string report = joined_reports(logs, texts, output.format());
+    if (rules.followed) rules.followed->write_end(checked.resolved, report, worst);
+    if (rules.followed && rules.followed->json()) return worst;
     const bool to_terminal = output.format() == "text" && values.count("output") == 0;
     output.write(to_terminal ? fit_terminal(report) : report);
     return worst;
@@ -124,9 +146,13 @@ Subcommand check_subcommand() {
             "--record adds the run to a history, whatever the verdict.\n"
             "--measured compares a profile or an areal map that was measured on the part with the predicted surface: aligned\n"
             "(`clsurf align`), with the same form and filters, Ra, Rq and Rz of both, the correlation of the roughness profiles,\n"
-            "and which predicted marks are there. The exit code is 5 if the data do not determine the pose.\n\n"
+            "and which predicted marks are there. The exit code is 5 if the data do not determine the pose.\n"
+            "--follow reads a log that is still written: a file, a named pipe or standard input (-). Its findings are\n"
+            "provisional, because thresholds depend on the whole run. When the log ends, the verdict and the exit code are\n"
+            "those of a check of the complete log, which confirms or withdraws each finding.\n\n"
             "  clsurf check part.nc run.biip --tool ball:6\n"
             "  clsurf check part.nc run.biip --tool ball:6 --measured stylus.csv --measured-at 12.5,3,90 --picture profile.png\n"
+            "  clsurf check part.nc run.biip --follow\n"
             "  clsurf check part.nc run.biip --machine mill.toml --budget limits.toml\n"
             "  clsurf check part.nc monday.biip friday.biip --fail-on distinct --max-depth 5um -q\n"
             "  clsurf check part.nc run.biip --tool ball:6 --budget part.toml --format sarif -o part.sarif",
@@ -141,6 +167,9 @@ Subcommand check_subcommand() {
                                       "add the run to that history (`clsurf history`)");
                 declare_recording(options);
                 declare_measured_check(options);
+                declare_follow(
+                    options,
+                    "the log is still written: report each defect as soon as the passes beside it are there, and the verdict when the log ends; with --json one object a line (docs/howto/follow.md)");
             },
         .positional = {"PROGRAM", "LOG…"},
         .run = run_check,

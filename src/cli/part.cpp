@@ -108,7 +108,8 @@ PartRules rules_of(const PartOptions& options) {
 }
 
 Part load_part(const PartOptions& options, StageClock& clock) {
-    const io::PartFiles files{options.program, options.log, options.program_options, options.log_options, false};
+    const io::PartFiles files{options.program,     options.log, options.program_options,
+                              options.log_options, false,       options.log_source};
     PartRules rules = rules_of(options);
     Part part = io::read_part(files, std::move(rules), clock.stages());
     if (!options.program.empty()) part.tool = find_tool(options.tool, &part.log, &part.program, part.diagnostics);

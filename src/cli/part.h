@@ -23,6 +23,7 @@ struct PartOptions {
     bool force = false;  ///< go on with a log that does not belong to the program
     ToolChoice tool;
     DerivativeMethod derivative = DerivativeMethod::savgol;
+    std::optional<io::Source> log_source = std::nullopt;  ///< what was followed; nullopt: the file `log`
 };
 
 /// --dialect, --block-delete, --tools, --layout, --mapping, --period, --surface, --work-offset, --machine, --ignore-lines.

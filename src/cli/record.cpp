@@ -1,27 +1,16 @@
 // clsurf record: registers of a Modbus device, as slow channels of a log.
 
-#include <csignal>
-
 #include <fmt/format.h>
 
 #include "cli/options.h"
 #include "cli/output_format.h"
 #include "cli/progress_bar.h"
+#include "cli/stop_signal.h"
 #include "io/modbus/modbus_recording.h"
 #include "io/reports/recording_report.h"
 
 namespace clsurf::cli {
 namespace {
-
-volatile std::sig_atomic_t stop_asked = 0;
-
-/// The first of these signals ends the recording, a second one the program.
-void catch_stop_signals() {
-    struct sigaction action {};
-    action.sa_handler = [](int) { stop_asked = 1; };
-    action.sa_flags = SA_RESETHAND;
-    for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::sigaction(number, &action, nullptr);
-}
 
 double number_between(double least, double most, const po::variables_map& values, const char* name) {
     const double value = values[name].as<double>();
@@ -37,7 +26,7 @@ io::RecordingRules read_rules(const po::variables_map& values) {
     if (values.count("for") > 0) rules.duration = number_between(millisecond, year, values, "for");
     rules.timeout = number_between(millisecond, hour, values, "timeout");
     rules.patience = number_between(millisecond, year, values, "patience");
-    rules.stopped = [] { return stop_asked != 0; };
+    rules.stopped = stop_asked;
     return rules;
 }
 

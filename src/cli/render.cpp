@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cli/change_map.h"
+#include "cli/followed_output.h"
 #include "cli/look.h"
 #include "cli/map_content.h"
 #include "cli/picture_output.h"
@@ -60,8 +61,8 @@ viz::Image draw_maps(const std::vector<viz::MapPanel>& panels, const Shown& afte
     return change ? viz::stacked(draw(), *change) : draw();
 }
 
-ExitCode run_render(const po::variables_map& values) {
-    RenderOptions options = read_render_options(values);
+/// `last`: the log is complete. Problems of the part are said then.
+ExitCode draw_once(RenderOptions options, const po::variables_map& values, bool last) {
     PictureOutput output(options.output, "-o", PictureKind::drawing);
     options.shown.look.keep_drawing = output.wants_drawing();
     const int stages_of_a_part = options.defects ? 7 : 5;
@@ -69,7 +70,7 @@ ExitCode run_render(const po::variables_map& values) {
     Shown after = load_shown(options.part, options.field, options.defects, clock);
     if (options.part.as_machined) show_as_machined(after, options, clock);
     show_selection(after, options.selection);
-    print(after.part.diagnostics, values);
+    if (last) print(after.part.diagnostics, values);
     if (has_classes(after.field.info)) {
         refuse_scale_options(after.field.info, options.shown);
         if (!options.before.empty() && after.field.info.classes.empty())
@@ -91,9 +92,10 @@ ExitCode run_render(const po::variables_map& values) {
     if (!options.before.empty()) {
         PartOptions other = options.part;
         other.log = options.before;
+        other.log_source.reset();
         before = load_shown(other, options.field, options.defects, clock);
         if (other.as_machined) show_as_machined(*before, options, clock);
-        print(before->part.diagnostics, values);
+        if (last) print(before->part.diagnostics, values);
         panels.push_back(panel_of(*before, options, "before: " + file_name(options.before)));
     }
     panels.push_back(panel_of(after, options, before ? "after: " + file_name(options.part.log) : ""));
@@ -108,6 +110,14 @@ ExitCode run_render(const po::variables_map& values) {
     output.write(image, fmt::format("clsurf map of {} from {}: {}{}", file_name(options.part.program),
                                     run_name(after, options), after.field.info.name, shown.words));
     return ExitCode::done;
+}
+
+ExitCode run_render(const po::variables_map& values) {
+    RenderOptions options = read_render_options(values);
+    const std::optional<FollowOptions> follow = read_follow(values);
+    if (!follow) return draw_once(std::move(options), values, true);
+    return make_while_it_grows(options.part, *follow, options.output,
+                               [&](bool last) { return draw_once(options, values, last); });
 }
 
 }  // namespace

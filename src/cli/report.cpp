@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cli/followed_output.h"
 #include "cli/output_format.h"
 #include "cli/report_content.h"
 #include "cli/report_log.h"
@@ -20,8 +21,8 @@ void keep_common_fields(std::vector<Field>& fields, const std::vector<Field>& ot
     });
 }
 
-ExitCode run_report(const po::variables_map& values) {
-    const ReportOptions options = read_report_options(values);
+/// `last`: the log is complete. Problems of the part are said then.
+ExitCode write_page(const ReportOptions& options, const po::variables_map& values, bool last) {
     (void)output_format(options.output, page_formats());
     io::AtomicFile output(options.output);  // a name that cannot be written fails before the work
     const viz::ImageLibraryPreload preload;
@@ -33,12 +34,13 @@ ExitCode run_report(const po::variables_map& values) {
         judged.acceptance = io::accept(judged.quality.report, *options.accepted);
         io::note_changes(*judged.acceptance, judged.quality.report, judged.part.diagnostics);
     }
-    print(logs.front().part.diagnostics, values);
+    if (last) print(logs.front().part.diagnostics, values);
     if (!options.before.empty()) {
         PartOptions other = options.part;
         other.log = options.before;
+        other.log_source.reset();
         logs.push_back(load_report_log(other, options, clock));
-        print(logs.back().part.diagnostics, values);
+        if (last) print(logs.back().part.diagnostics, values);
         keep_common_fields(logs.front().fields, logs.back().fields);
         keep_common_fields(logs.back().fields, logs.front().fields);
         clock.begin("compare the logs");
@@ -67,6 +69,14 @@ ExitCode run_report(const po::variables_map& values) {
     output.write(fit_page(page, logs));
     output.commit();
     return ExitCode::done;
+}
+
+ExitCode run_report(const po::variables_map& values) {
+    ReportOptions options = read_report_options(values);
+    const std::optional<FollowOptions> follow = read_follow(values);
+    if (!follow) return write_page(options, values, true);
+    return make_while_it_grows(options.part, *follow, options.output,
+                               [&](bool last) { return write_page(options, values, last); });
 }
 
 }  // namespace

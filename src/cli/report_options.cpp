@@ -1,5 +1,6 @@
 #include "cli/report_options.h"
 
+#include "cli/follow.h"
 #include "core/error.h"
 
 namespace clsurf::cli {
@@ -28,6 +29,7 @@ void declare_report(po::options_description& options) {
     declare_tool(options);
     declare_part(options);
     declare_derivative(options);
+    declare_follow(options, "the log is still written: write the page again every few seconds until the log ends");
 }
 
 ReportOptions read_report_options(const po::variables_map& values) {
