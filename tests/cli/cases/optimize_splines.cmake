@@ -19,6 +19,13 @@ foreach(row "fanuc as_fanuc fanuc" "siemens as_siemens siemens" "klartext as_kla
     SETUP "${waves}; ${${change}}; $CLSURF optimize part.nc --dialect ${dialect} ${mill} --splines -o better.nc -q && ${read_splines} part.nc better.nc 0.005 12"
     ARGS info better.nc --dialect ${dialect} STDOUT "[1-9][0-9]* splines" FILE better.nc)
 endforeach()
+# Feeds on the blocks of spans, and the programmed one behind the section.
+clsurf_cli_test(NAME optimize_splines_feeds_klartext
+  SETUP "${waves}; ${as_klartext}; $CLSURF optimize part.nc --dialect klartext --machine @DATA@/machines/three_axis_mill.toml --machines 0 --no-config --splines -o better.nc -q && grep -qE '^SPL .* F2[0-9.]+$' better.nc && ${read_splines} part.nc better.nc 0.005 12"
+  ARGS info better.nc --dialect klartext STDOUT "[1-9][0-9]* splines" FILE better.nc)
+clsurf_cli_test(NAME optimize_splines_feeds_linuxcnc
+  SETUP "${waves}; ${as_plane}; $CLSURF optimize part.nc --dialect linuxcnc --machine @DATA@/machines/three_axis_mill.toml --machines 0 --no-config --splines -o better.nc -q && grep -qE '^G5 .* F2[0-9.]+$' better.nc && ${read_splines} part.nc better.nc 0.005 12"
+  ARGS info better.nc --dialect linuxcnc STDOUT "[1-9][0-9]* splines" FILE better.nc)
 clsurf_cli_test(NAME optimize_splines_text SETUP "${waves}; ${as_fanuc}"
   ARGS optimize part.nc --dialect fanuc --machine @DATA@/machines/three_axis_mill.toml --machines 1 --splines -o better.nc
   STDOUT "lines +263 +1[0-9][0-9] +-[0-9.]+ %" "6 sections .[1-6] as splines., [0-9]+ lines changed. off the programmed path by at most 0[.]00[0-4]" "accepted" FILE better.nc)
