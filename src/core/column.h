@@ -4,6 +4,11 @@
 // Results of 10^7 … 10^8 points are kept in columns. std::vector would write every page twice (once
 // to zero it, once with the value) and would copy on growth; realloc() lets the kernel move pages of
 // large blocks instead, so that a column that grows never needs twice its memory.
+//
+// A sparse column has a size and takes memory for those pages only that are written; a borrowed one shows memory of
+// someone else, such as a mapped file. Both are there for logs of which only a part is looked at (core/block_fill.h).
+
+#include <sys/mman.h>
 
 #include <cstddef>
 #include <cstdlib>
@@ -27,6 +32,27 @@ public:
         resize(size);
         for (std::size_t i = 0; i < size; ++i) data_[i] = value;
     }
+    /// A column of `size` zeros that takes memory where it is written. It does not grow.
+    [[nodiscard]] static Column sparse(std::size_t size) {
+        Column column;
+        if (size == 0) return column;
+        if (size > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_alloc();
+        void* const pages = ::mmap(nullptr, size * sizeof(T), PROT_READ | PROT_WRITE,
+                                   MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+        if (pages == MAP_FAILED) throw std::bad_alloc();
+        column.data_ = static_cast<T*>(pages);
+        column.size_ = column.capacity_ = size;
+        column.storage_ = Storage::sparse;
+        return column;
+    }
+    /// A column that reads these values, which must outlive it. It is not written, and does not grow.
+    [[nodiscard]] static Column borrowed(std::span<const T> values) {
+        Column column;
+        column.data_ = const_cast<T*>(values.data());
+        column.size_ = column.capacity_ = values.size();
+        column.storage_ = Storage::borrowed;
+        return column;
+    }
     Column(const Column& other) {
         resize(other.size_);
         if (size_ > 0) std::memcpy(static_cast<void*>(data_), other.data_, size_ * sizeof(T));
@@ -34,14 +60,24 @@ public:
     Column(Column&& other) noexcept
         : data_(std::exchange(other.data_, nullptr)),
           size_(std::exchange(other.size_, 0)),
-          capacity_(std::exchange(other.capacity_, 0)) {}
+          capacity_(std::exchange(other.capacity_, 0)),
+          storage_(std::exchange(other.storage_, Storage::owned)) {}
     Column& operator=(Column other) noexcept {
         std::swap(data_, other.data_);
         std::swap(size_, other.size_);
         std::swap(capacity_, other.capacity_);
+        std::swap(storage_, other.storage_);
         return *this;
     }
-    ~Column() { std::free(data_); }
+    ~Column() {
+        if (storage_ == Storage::owned) std::free(data_);
+        if (storage_ == Storage::sparse) ::munmap(static_cast<void*>(data_), capacity_ * sizeof(T));
+    }
+
+    /// Of a sparse column: all values are zero again, and take no memory.
+    void forget() noexcept {
+        if (storage_ == Storage::sparse) ::madvise(static_cast<void*>(data_), capacity_ * sizeof(T), MADV_DONTNEED);
+    }
 
     /// Grows or shrinks; new elements are not set.
     void resize(std::size_t size) {
@@ -51,6 +87,7 @@ public:
     void reserve(std::size_t capacity) {
         if (capacity <= capacity_) return;
         if (capacity > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_alloc();
+        if (storage_ != Storage::owned) throw std::bad_alloc();
         void* grown = std::realloc(static_cast<void*>(data_), capacity * sizeof(T));
         if (grown == nullptr) throw std::bad_alloc();
         data_ = static_cast<T*>(grown);
@@ -67,7 +104,7 @@ public:
     }
     /// Gives the memory beyond size() back.
     void shrink_to_fit() {
-        if (size_ == capacity_) return;
+        if (size_ == capacity_ || storage_ != Storage::owned) return;
         if (size_ == 0) {
             std::free(std::exchange(data_, nullptr));
             capacity_ = 0;
@@ -104,9 +141,12 @@ public:
     operator std::span<T>() noexcept { return {data_, size_}; }
 
 private:
+    enum class Storage : unsigned char { owned, sparse, borrowed };
+
     T* data_ = nullptr;
     std::size_t size_ = 0;
     std::size_t capacity_ = 0;
+    Storage storage_ = Storage::owned;
 };
 
 }  // namespace clsurf

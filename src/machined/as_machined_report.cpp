@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "core/statistics.h"
 #include "machined/across_feed.h"
+#include "machined/contact.h"
 #include "machined/scallop.h"
 
 namespace clsurf {
@@ -65,6 +66,8 @@ bool agree(double as_machined, double alone) {
     return std::abs(as_machined - alone) <= std::max(agreement, agreement_share * alone);
 }
 
+double median_or_none(std::vector<double> heights) { return heights.empty() ? 0 : median(heights); }
+
 /// What there is to say of a mark whose pass alone would leave `alone` mm.
 AsMachinedMark with_note(AsMachinedMark mark, const Defect& defect) {
     const double alone = std::abs(defect.depth);
@@ -110,20 +113,24 @@ std::string_view name_of(MarkNote note) {
     return "";
 }
 
-double usual_scallop(const AsMachinedSurface& as_machined, const Signals& signals) {
-    if (as_machined.tool().kind != ToolKind::ball) return 0;
-    const double ball = as_machined.tool().radius;
-    const Adjacency& neighbours = as_machined.surface().neighbours;
-    const PointIndex stride = std::max<PointIndex>(1, signals.size() / scallop_places);
+std::vector<double> scallop_heights(const ClSurface& surface, const Signals& signals, const CuttingTool& tool,
+                                    const PointRange& points) {
     std::vector<double> heights;
-    for (PointIndex i = 0; i < signals.size(); i += stride) {
-        const Vec3 here = as_machined.contact(i);
+    if (tool.kind != ToolKind::ball) return heights;
+    const double ball = tool.radius;
+    const Adjacency& neighbours = surface.neighbours;
+    const PointIndex stride = std::max<PointIndex>(1, signals.size() / scallop_places);
+    const auto contact = [&](PointIndex i) {
+        return Vec3(surface.positions.absolute(i) + contact_offset(tool, signals.normal(i).cast<double>()));
+    };
+    for (PointIndex i = (points.first + stride - 1) / stride * stride; i <= points.last; i += stride) {
+        const Vec3 here = contact(i);
         if (signals[i].zone < Zone::near_end || !here.allFinite()) continue;
         const Vec3 feed = signals.feed(i).cast<double>();
         for (const Side side : {Side::left, Side::right}) {
             if (!neighbours.has(side, i)) continue;
             const PointIndex j = neighbours.neighbour(side, i);
-            Vec3 apart = as_machined.contact(j) - here;
+            Vec3 apart = contact(j) - here;
             apart -= apart.dot(feed) * feed;
             const double chord = apart.norm();
             const double turn = (signals.normal(j) - signals.normal(i)).cast<double>().dot(apart);
@@ -134,7 +141,11 @@ double usual_scallop(const AsMachinedSurface& as_machined, const Signals& signal
                 scallop_height(ball, chord, curvature != 0 ? 1 / curvature : std::numeric_limits<double>::infinity()));
         }
     }
-    return heights.empty() ? 0 : median(heights);
+    return heights;
+}
+
+double usual_scallop(const AsMachinedSurface& as_machined, const Signals& signals) {
+    return median_or_none(scallop_heights(as_machined.surface(), signals, as_machined.tool(), {0, signals.size() - 1}));
 }
 
 namespace {
@@ -156,12 +167,13 @@ AsMachinedMark mark_of(const AsMachinedSurface& as_machined, const Signals& sign
 }  // namespace
 
 AsMachinedReport measure_as_machined(const AsMachinedSurface& as_machined, const Signals& signals,
-                                     const QualityReport& report, const AsMachinedSurface* commanded) {
+                                     const QualityReport& report, const AsMachinedSurface* commanded,
+                                     const std::vector<double>* scallops) {
     AsMachinedReport result;
     result.marks.assign(report.defects.size(), AsMachinedMark{missing<double>, MarkNote::unknown_form});
     if (as_machined.surface().step_over <= 0) return result;
     result.roughness = measure_roughness({as_machined, as_machined, commanded}, roughness_places(as_machined, signals));
-    result.scallop = usual_scallop(as_machined, signals);
+    result.scallop = scallops != nullptr ? median_or_none(*scallops) : usual_scallop(as_machined, signals);
     parallel_for(static_cast<std::int64_t>(report.defects.size()), 1, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t k = begin; k < end; ++k) {
             const auto mark = static_cast<std::size_t>(k);

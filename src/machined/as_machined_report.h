@@ -48,9 +48,15 @@ struct AsMachinedReport {
 /// ball, or no place has neighbours. O(10⁴ points).
 [[nodiscard]] double usual_scallop(const AsMachinedSurface& as_machined, const Signals& signals);
 
-/// Of a surface and every defect of `report`. `commanded`: swept along the commanded positions; nullptr: not known. Parallel.
+/// The heights [mm] of which usual_scallop() is the median, at those of its places that are among `points`.
+[[nodiscard]] std::vector<double> scallop_heights(const ClSurface& surface, const Signals& signals,
+                                                  const CuttingTool& tool, const PointRange& points);
+
+/// Of a surface and every defect of `report`. `commanded`: swept along the commanded positions; nullptr: not known.
+/// `scallops`: scallop_heights() of all points; nullptr: they are looked for. Parallel.
 [[nodiscard]] AsMachinedReport measure_as_machined(const AsMachinedSurface& as_machined, const Signals& signals,
                                                    const QualityReport& report,
-                                                   const AsMachinedSurface* commanded = nullptr);
+                                                   const AsMachinedSurface* commanded = nullptr,
+                                                   const std::vector<double>* scallops = nullptr);
 
 }  // namespace clsurf

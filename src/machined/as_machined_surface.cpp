@@ -17,6 +17,8 @@ namespace {
 
 constexpr double smooth_seconds = 0.015;  ///< as heights are (signals.cpp)
 constexpr PointIndex section_points = 64;
+constexpr std::int64_t section_group = 256;  ///< sections that are measured together
+constexpr float rough_room = 1;  ///< [mm] by which smoothed positions may lie beside those that they were smoothed from
 constexpr std::int64_t tile_cells = 256;    ///< a side: 256 kB, which the L2 cache holds
 constexpr std::int64_t tile_of_row = 4096;  ///< cells where there are hardly any rows: all look at the same sections
 constexpr std::int64_t few_rows = 4;
@@ -46,14 +48,17 @@ AsMachinedSurface::AsMachinedSurface(const ClSurface& surface, const Signals& si
         fmt::format("{} positions{}", name_of(swept.role),
                     smoothed_ ? fmt::format(" over {} points ({:.3g} ms)", points, 1e3 * points * swept.period) : "");
     auto pass = surface.passes.begin();
+    const auto low = [&] {
+        return surface.low_links.empty() ? stays_low(surface.positions, *pass, surface.step_over)
+                                         : surface.low_links[static_cast<std::size_t>(pass - surface.passes.begin())];
+    };
     for (const PointRange& piece : pieces) {
         while (pass != surface.passes.end() && pass->last < piece.first) ++pass;
         if (pass == surface.passes.end()) break;
-        if (pass->kind == PassKind::cut ||
-            (pass->kind == PassKind::link && stays_low(surface.positions, *pass, surface.step_over)))
-            pieces_.push_back(piece);
+        if (pass->kind == PassKind::cut || (pass->kind == PassKind::link && low())) pieces_.push_back(piece);
     }
     cut_sections();
+    measure_sections();
 }
 
 void AsMachinedSurface::cut_sections() {
@@ -70,11 +75,21 @@ void AsMachinedSurface::cut_sections() {
             sections_.push_back(section);
         }
     }
-    parallel_for(static_cast<std::int64_t>(sections_.size()), 256, [&](std::int64_t first, std::int64_t last) {
+}
+
+void AsMachinedSurface::measure_sections() {
+    const auto count = static_cast<std::int64_t>(sections_.size());
+    const auto measure_some = [this](std::int64_t first, std::int64_t last) {
         for (std::int64_t k = first; k < last; ++k) measure(sections_[static_cast<std::size_t>(k)]);
-    });
+    };
     Eigen::AlignedBox2f all;
-    for (const Section& section : sections_) all.extend(section.cuts);
+    if (surface_.positions.fill) {
+        measured_ = {count, {}, section_group};
+        all = rough_box(0, sections_.size());
+    } else {
+        parallel_for(count, section_group, measure_some);
+        for (const Section& section : sections_) all.extend(section.cuts);
+    }
     const Vec2 origin = surface_.positions.origin.head<2>();
     const Vec2 beside = Vec2::Constant(std::max(surface_.step_over, usual_cell()));
     if (!all.isEmpty())
@@ -150,10 +165,35 @@ std::vector<std::size_t> AsMachinedSurface::sections_in(const Box2& box, double 
     const Eigen::AlignedBox2f near((box.min() - origin - room).cast<float>(),
                                    (box.max() - origin + room).cast<float>());
     std::vector<std::size_t> found;
-    for (std::size_t k = 0; k < sections_.size(); ++k) {
-        if (!sections_[k].tips.isEmpty() && sections_[k].tips.intersects(near)) found.push_back(k);
+    constexpr auto group = static_cast<std::size_t>(section_group);
+    for (std::size_t first = 0; first < sections_.size(); first += group) {
+        const std::size_t last = std::min(sections_.size(), first + group);
+        if (measured_) {
+            if (!rough_box(first, last).intersects(near)) continue;
+            measured_->need(static_cast<PointIndex>(first), [this](PointIndex begin, PointIndex end) {
+                for (PointIndex k = begin; k < end; ++k) measure(sections_[static_cast<std::size_t>(k)]);
+            });
+        }
+        for (std::size_t k = first; k < last; ++k) {
+            if (!sections_[k].tips.isEmpty() && sections_[k].tips.intersects(near)) found.push_back(k);
+        }
     }
     return found;
+}
+
+Eigen::AlignedBox2f AsMachinedSurface::rough_box(std::size_t first, std::size_t last) const {
+    Eigen::AlignedBox2f box;
+    if (first >= last) return box;
+    const PointIndex reach = smoother_.reach() + 1;
+    const PointIndex begin = std::max<PointIndex>(0, sections_[first].first - reach) / block_points;
+    const PointIndex end = std::min(swept_.count - 1, sections_[last - 1].last + reach) / block_points;
+    for (PointIndex block = begin; block <= end; ++block) {
+        const Eigen::AlignedBox3f& points = surface_.boxes[static_cast<std::size_t>(block)];
+        if (points.isEmpty()) continue;
+        box.extend(Eigen::Vector2f(points.min().head<2>().array() - rough_room));
+        box.extend(Eigen::Vector2f(points.max().head<2>().array() + rough_room));
+    }
+    return box;
 }
 
 void AsMachinedSurface::map(const MapFrame& frame, const TakeRows& take) const {

@@ -85,6 +85,9 @@ private:
     using Gather = std::function<void(const Section&, const FrameAxes&, SweptPieces&)>;
 
     void cut_sections();
+    void measure_sections();
+    /// Where the sections of a group may lie, before they are measured.
+    [[nodiscard]] Eigen::AlignedBox2f rough_box(std::size_t first, std::size_t last) const;
     void measure(Section& section) const;
     void read_swept(const Section& section, std::vector<double> (&axes)[3]) const;
     void add_swept(const Section& section, const FrameAxes& axes, SweptPieces& pieces) const;
@@ -98,7 +101,8 @@ private:
     const Trajectory& swept_;
     CuttingTool tool_;
     std::vector<PointRange> pieces_;  ///< those that are swept
-    std::vector<Section> sections_;
+    mutable std::vector<Section> sections_;
+    BlockFillPointer measured_;  ///< of a surface that is read in parts: sections are measured when they are asked for
     Differentiator smoother_;
     bool smoothed_ = false;
     Box2 bounds_;

@@ -36,6 +36,7 @@ Vec3 no_normal() { return Vec3::Constant(missing<double>); }
 bool stays_low(const Positions& p, const Pass& link, double step_over) {
     const auto before = static_cast<std::size_t>(std::max<PointIndex>(0, link.first - 1));
     const auto after = static_cast<std::size_t>(std::min(p.size() - 1, link.last + 1));
+    p.fill.need(static_cast<PointIndex>(before), static_cast<PointIndex>(after));
     const float most = std::max(p.z[before], p.z[after]) + static_cast<float>(step_over);
     for (PointIndex i = link.first; i <= link.last; ++i) {
         if (!(p.z[static_cast<std::size_t>(i)] <= most)) return false;

@@ -105,6 +105,7 @@ void PassesBetween::smooth_into(PointRange points, std::vector<Eigen::Vector3f>&
         const PointIndex last = std::min(points.last, piece->last);
         const PointIndex from = std::max(piece->first, first - smoother_->reach());
         const PointIndex to = std::min(piece->last, last + smoother_->reach());
+        p.fill.need(from, to);
         for (int axis = 0; axis < 3; ++axis) {
             const Column<float>& column = axis == 0 ? p.x : axis == 1 ? p.y : p.z;
             samples.assign(column.data() + from, column.data() + to + 1);

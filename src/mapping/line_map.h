@@ -69,6 +69,11 @@ public:
     /// edited. confidences() adds what the geometry says.
     [[nodiscard]] double confidence_at(PointIndex point) const;
 
+    /// What it was made from: the numbers of a channel (from_log()), a motion and a confidence per point; empty: none.
+    [[nodiscard]] const ChannelView& channel() const { return channel_; }
+    [[nodiscard]] const Column<std::uint32_t>& point_motions() const { return motion_of_point_; }
+    [[nodiscard]] const Column<std::uint8_t>& confidences() const { return confidence_; }
+
     /// Whether the log belongs to the program.
     [[nodiscard]] const ProgramMatch& match() const { return match_; }
     void set_match(ProgramMatch match) { match_ = std::move(match); }

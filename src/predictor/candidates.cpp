@@ -93,13 +93,12 @@ std::size_t pass_of(const Passes& passes, PointIndex point) {
     return static_cast<std::size_t>(after - passes.begin()) - 1;
 }
 
-PointIndex count_compared(const ClSurface& surface, const Signals& signals) {
-    const PointIndex count = surface.positions.size();
-    std::vector<PointIndex> of_block(static_cast<std::size_t>((count + block_points - 1) / block_points));
-    for_each_block(count, [&](PointIndex first, PointIndex last) {
+PointIndex count_compared(const ClSurface& surface, const Signals& signals, const PointRange& points) {
+    std::vector<PointIndex> of_block(static_cast<std::size_t>((points.last + block_points) / block_points));
+    for_each_block(points, [&](PointIndex first, PointIndex last) {
         PointIndex& mine = of_block[static_cast<std::size_t>(first / block_points)];
         for (PointIndex i = first; i < last; ++i) {
-            if (signals[i].zone != Zone::outside && surface.neighbours.has(Side::left, i) &&
+            if (signals.without_heights(i).zone != Zone::outside && surface.neighbours.has(Side::left, i) &&
                 surface.neighbours.has(Side::right, i))
                 ++mine;
         }
@@ -122,8 +121,10 @@ public:
           sites_(surface, signals),
           judged_(static_cast<std::size_t>(signals.size()), false) {}
 
-    FoundCandidates find() {
-        std::vector<PointIndex> frontier = judge(sites_with_step());
+    std::vector<PointIndex> find_starts(const PointRange& points) { return judge(sites_with_step(points)); }
+
+    FoundCandidates find(const std::vector<PointIndex>& sites) {
+        std::vector<PointIndex> frontier = judge(sites);
         const auto in_order = static_cast<std::ptrdiff_t>(frontier.size());
         while (!frontier.empty()) frontier = judge(beside_all(frontier));
         for (const std::vector<DefectCandidate>& piece : found_.kept) {
@@ -136,13 +137,11 @@ public:
         return std::move(found_);
     }
 
-private:
-    /// Sites whose step to an adjacent pass is half a threshold or more.
-    [[nodiscard]] std::vector<PointIndex> sites_with_step() const {
-        const PointIndex count = signals_.size();
+    /// Sites among `points` whose step to an adjacent pass is half a threshold or more.
+    [[nodiscard]] std::vector<PointIndex> sites_with_step(const PointRange& points) const {
         std::vector<std::vector<PointIndex>> of_block(
-            static_cast<std::size_t>((count + block_points - 1) / block_points));
-        for_each_block(count, [&](PointIndex first, PointIndex last) {
+            static_cast<std::size_t>((points.last + block_points) / block_points));
+        for_each_block(points, [&](PointIndex first, PointIndex last) {
             std::vector<PointIndex>& mine = of_block[static_cast<std::size_t>(first / block_points)];
             sites_.for_each(first, last, [&](PointIndex i) {
                 const Comparison c = comparer_.compare(sites_.place(i), 1);
@@ -157,6 +156,7 @@ private:
         return sites;
     }
 
+private:
     /// The sites on both sides of candidates.
     [[nodiscard]] std::vector<PointIndex> beside_all(const std::vector<PointIndex>& points) const {
         std::vector<PointIndex> sites;
@@ -295,7 +295,18 @@ private:
 
 FoundCandidates find_candidates(const ClSurface& surface, const Signals& signals, const ArcLength& arc_length,
                                 const Thresholds& thresholds) {
-    return CandidateFinder(surface, signals, arc_length, thresholds).find();
+    CandidateFinder finder(surface, signals, arc_length, thresholds);
+    return finder.find(finder.sites_with_step({0, signals.size() - 1}));
+}
+
+std::vector<PointIndex> find_starts(const ClSurface& surface, const Signals& signals, const ArcLength& arc_length,
+                                    const Thresholds& thresholds, const PointRange& points) {
+    return CandidateFinder(surface, signals, arc_length, thresholds).find_starts(points);
+}
+
+FoundCandidates find_candidates(const ClSurface& surface, const Signals& signals, const ArcLength& arc_length,
+                                const Thresholds& thresholds, const std::vector<PointIndex>& starts) {
+    return CandidateFinder(surface, signals, arc_length, thresholds).find(starts);
 }
 
 double joined_along(const ClSurface& surface, double record) {

@@ -28,8 +28,8 @@ struct DefectCandidate {
 /// The pass that holds a point. O(log passes).
 [[nodiscard]] std::size_t pass_of(const Passes& passes, PointIndex point);
 
-/// Points of cut passes that have a neighbour on both sides and lie away from the ends. O(points).
-[[nodiscard]] PointIndex count_compared(const ClSurface& surface, const Signals& signals);
+/// Points of cut passes that have a neighbour on both sides and lie away from the ends, among `points`. O(points).
+[[nodiscard]] PointIndex count_compared(const ClSurface& surface, const Signals& signals, const PointRange& points);
 
 /// Some candidates, in the order of their points. They stay where they were found: each is 150 bytes, and
 /// a bad part has a million.
@@ -46,6 +46,15 @@ struct FoundCandidates {
 /// have no step of their own. O(points), parallel; the same for any number of threads.
 [[nodiscard]] FoundCandidates find_candidates(const ClSurface& surface, const Signals& signals,
                                               const ArcLength& arc_length, const Thresholds& thresholds);
+
+/// The search in two parts: the candidates among `points` that have a step, in order …
+[[nodiscard]] std::vector<PointIndex> find_starts(const ClSurface& surface, const Signals& signals,
+                                                  const ArcLength& arc_length, const Thresholds& thresholds,
+                                                  const PointRange& points);
+/// … and all candidates, from those of all points. Only what lies about them is looked at.
+[[nodiscard]] FoundCandidates find_candidates(const ClSurface& surface, const Signals& signals,
+                                              const ArcLength& arc_length, const Thresholds& thresholds,
+                                              const std::vector<PointIndex>& starts);
 
 /// How much arc length [mm] may lie between candidates of one pass that belong together: a millimetre, two step-overs or two records, with room.
 /// `record`: the length of one at the usual speed.

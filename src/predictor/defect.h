@@ -66,11 +66,19 @@ struct Defect {
     std::vector<DefectRun> neighbours;  ///< the clean passes beside them
 };
 
+/// What was found in the shards of a log before the defects are built.
+struct FoundInShards {
+    PointIndex compared = 0;         ///< count_compared() of all points
+    std::vector<PointIndex> starts;  ///< find_starts() of all points, in order
+    std::vector<double> scallops;    ///< [mm] scallop_heights() of all points (machined/as_machined_report.h)
+};
+
 struct QualityRules {
     ThresholdRule thresholds;
     std::optional<Thresholds> fixed;  ///< those that another run was judged by, instead of the run's own
     SeverityRule severity;
-    bool group_systematic = true;  ///< systematic lag is one defect; else each of its places is
+    std::optional<FoundInShards> found;  ///< of the whole log; nothing: it is looked for
+    bool group_systematic = true;        ///< systematic lag is one defect; else each of its places is
 };
 
 struct QualityReport {

@@ -200,10 +200,7 @@ public:
             k = end;
         }
         const double arc_length = add_up_runs(defect);
-        double all = 0;
-        for (const Pass& pass : surface_.passes)
-            all += pass.kind == PassKind::cut ? arc_length_.to(pass.last) - arc_length_.to(pass.first) : 0;
-        defect.share = arc_length / all;
+        defect.share = arc_length / cut_arc_length(surface_, arc_length_);
         keep_longest(most_systematic_runs, defect.runs);
         defect.severity = severity_of({defect.depth, defect.score, false, true}, rules_.severity);
         return defect;
@@ -434,11 +431,13 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
     report.passes = builder.cut_passes();
     for (const Pass& pass : surface.passes) report.points += pass.kind == PassKind::cut ? pass.size() : 0;
     report.not_finishing = surface.not_finishing;
-    report.compared = count_compared(surface, signals);
+    report.compared = rules.found ? rules.found->compared : count_compared(surface, signals, {0, signals.size() - 1});
     for (const std::string& reason : signals.unfit) report.judgement.refuse(reason);
     judge_coverage(report.thresholds.usual_speed * period, report);
 
-    FoundCandidates found = find_candidates(surface, signals, arc_length, report.thresholds);
+    FoundCandidates found = rules.found
+                                ? find_candidates(surface, signals, arc_length, report.thresholds, rules.found->starts)
+                                : find_candidates(surface, signals, arc_length, report.thresholds);
     const SystematicLag systematic =
         rules.group_systematic ? take_systematic_lag(surface, signals, arc_length, report.thresholds, joined, found)
                                : SystematicLag{};

@@ -1,6 +1,7 @@
 #include "predictor/mismatch.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -119,25 +120,72 @@ float quantile(std::vector<float>& values, double share) {
     return values.empty() ? missing<float> : quantile_below(values, share);
 }
 
+/// f(points) for all points of a log, in portions between which signals are forgotten that are derived when they are
+/// read; of others all at once.
+template <typename F>
+void in_portions(PointIndex count, const std::function<void()>& forget, F&& f) {
+    constexpr PointIndex portion = 256 * block_points;
+    if (!forget) return f(PointRange{0, count - 1});
+    for (PointIndex first = 0; first < count; first += portion) {
+        f(PointRange{first, std::min(count, first + portion) - 1});
+        forget();
+    }
+}
+
 /// Evenly spaced judged points, some `sampled_points`. O(points), parallel.
-std::vector<PointIndex> sample_judged(const Signals& signals) {
+std::vector<PointIndex> sample_judged(const Signals& signals, const std::function<void()>& forget) {
     const PointIndex count = signals.size();
-    const auto judged = [&](PointIndex i) { return signals[i].zone != Zone::outside; };
     const auto block_of = [](PointIndex first) { return static_cast<std::size_t>(first / block_points); };
     std::vector<PointIndex> before(block_of(count + block_points - 1) + 1);  // judged points before each block
-    for_each_block(count, [&](PointIndex first, PointIndex last) {
-        for (PointIndex i = first; i < last; ++i) before[block_of(first) + 1] += judged(i) ? 1 : 0;
+    Column<std::uint64_t> judged(static_cast<std::size_t>((count + 63) / 64), 0);
+    in_portions(count, forget, [&](const PointRange& portion) {
+        for_each_block(portion, [&](PointIndex first, PointIndex last) {
+            for (PointIndex i = first; i < last; ++i) {
+                if (signals.without_heights(i).zone == Zone::outside) continue;
+                judged[static_cast<std::size_t>(i / 64)] |= std::uint64_t{1} << (i % 64);
+                ++before[block_of(first) + 1];
+            }
+        });
     });
     std::partial_sum(before.begin(), before.end(), before.begin());
     const PointIndex stride = std::max<PointIndex>(1, before.back() / static_cast<PointIndex>(sampled_points));
     std::vector<PointIndex> points(static_cast<std::size_t>((before.back() + stride - 1) / stride));
     for_each_block(count, [&](PointIndex first, PointIndex last) {
         PointIndex seen = before[block_of(first)];
-        for (PointIndex i = first; i < last; ++i) {
-            if (judged(i) && seen++ % stride == 0) points[static_cast<std::size_t>((seen - 1) / stride)] = i;
+        for (PointIndex word = first / 64; word * 64 < last; ++word) {
+            for (std::uint64_t left = judged[static_cast<std::size_t>(word)]; left != 0; left &= left - 1, ++seen) {
+                if (seen % stride == 0)
+                    points[static_cast<std::size_t>(seen / stride)] = word * 64 + std::countr_zero(left);
+            }
         }
     });
     return points;
+}
+
+/// f(k) for every one of `points`, which rise; in parallel, and in portions.
+template <typename F>
+void for_each_sample(const std::vector<PointIndex>& points, PointIndex count, const std::function<void()>& forget,
+                     F&& f) {
+    in_portions(count, forget, [&](const PointRange& portion) {
+        const auto begin = std::lower_bound(points.begin(), points.end(), portion.first) - points.begin();
+        const auto end = std::upper_bound(points.begin(), points.end(), portion.last) - points.begin();
+        parallel_for(end - begin, 4096, [&](std::int64_t first, std::int64_t last) {
+            for (auto k = static_cast<std::size_t>(begin + first); k < static_cast<std::size_t>(begin + last); ++k)
+                f(k);
+        });
+    });
+}
+
+/// Those of values that are there.
+template <typename Value>
+std::vector<float> known(std::size_t count, Value&& value) {
+    std::vector<float> values;
+    values.reserve(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        const float v = value(k);
+        if (v == v) values.push_back(v);
+    }
+    return values;
 }
 
 /// The passes beside a place, the adjacent one first, on the left and on the right.
@@ -321,20 +369,19 @@ Comparison Comparer::compare_with(Peers peers, const PathLocation& here, int asi
     return result;
 }
 
-Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals, const ThresholdRule& rule) {
+Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals, const ThresholdRule& rule,
+                              const std::function<void()>& forget) {
     Thresholds thresholds;
-    const std::vector<PointIndex> points = sample_judged(signals);
-    std::vector<float> values;
-    for (const PointIndex i : points) {
-        const float speed = signals[i].speed;
-        if (speed == speed) values.push_back(speed);
-    }
+    const PointIndex count = signals.size();
+    const std::vector<PointIndex> points = sample_judged(signals, forget);
+    std::vector<std::array<float, 2>> motion(points.size());
+    for_each_sample(points, count, forget, [&](std::size_t k) {
+        const Sample& sample = signals.motion_of(points[k]);
+        motion[k] = {sample.speed, vector_of(sample.acceleration).norm()};
+    });
+    std::vector<float> values = known(points.size(), [&](std::size_t k) { return motion[k][0]; });
     thresholds.usual_speed = quantile(values, 0.95);
-    values.clear();
-    for (const PointIndex i : points) {
-        const float a = signals.acceleration(i).norm();
-        if (a == a) values.push_back(a);
-    }
+    values = known(points.size(), [&](std::size_t k) { return motion[k][1]; });
     thresholds.usual_acceleration = quantile(values, 0.99);
 
     const std::array<float, quantities> least{
@@ -347,15 +394,9 @@ Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals, 
 
     const Comparer comparer(surface, signals, thresholds.least_speed);
     std::vector<std::array<float, quantities>> steps(points.size());
-    parallel_for(static_cast<std::int64_t>(points.size()), 4096, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t k = first; k < last; ++k)
-            steps[static_cast<std::size_t>(k)] = comparer.compare({points[static_cast<std::size_t>(k)], 0}, 1).step;
-    });
+    for_each_sample(points, count, forget, [&](std::size_t k) { steps[k] = comparer.compare({points[k], 0}, 1).step; });
     for (std::size_t q = 0; q < quantities; ++q) {
-        values.clear();
-        for (const auto& step : steps) {
-            if (step[q] == step[q]) values.push_back(step[q]);
-        }
+        values = known(points.size(), [&](std::size_t k) { return steps[k][q]; });
         thresholds.p99[q] = quantile(values, 0.99);
         const float median = quantile(values, 0.5);
         for (float& v : values) v = std::abs(v - median);

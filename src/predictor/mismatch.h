@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string_view>
 
 #include "predictor/compared.h"
@@ -93,8 +94,9 @@ struct ThresholdRule {
     float most = 3;                  ///< … but at most so many times the least one: a bad part must not hide itself
 };
 
-/// Thresholds from some 50,000 evenly spaced judged points. The same for any number of threads.
-[[nodiscard]] Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals,
-                                            const ThresholdRule& rule);
+/// Thresholds from some 50,000 evenly spaced judged points. The same for any number of threads. `forget`: called now
+/// and then where signals are derived when they are read, to forget them; nothing: they stay.
+[[nodiscard]] Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals, const ThresholdRule& rule,
+                                            const std::function<void()>& forget = {});
 
 }  // namespace clsurf

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,6 +16,7 @@
 #include "log/placeholder.h"
 #include "log/quantum.h"
 #include "predictor/position_noise.h"
+#include "predictor/zone_marker.h"
 #include "surface/path_location.h"
 #include "toolpath/arc_length.h"
 
@@ -35,12 +38,9 @@ constexpr float least_upward =
 constexpr float least_chord_share =
     0.33F;  ///< of the chord between both neighbours, on either side of a point that has a relief
 constexpr PointIndex longest_reach = 4096;
-constexpr PointIndex lead = 16;         ///< points that it may come before: logs that were put together
-constexpr float farthest_lag = 2.0F;    ///< step-overs; farther, the paths have nothing to do with each other
-constexpr double longest_ramp = 20.0;   ///< [mm] 100 mm/s are reached over 17 mm at 300 mm/s²
-constexpr double rise_seconds = 0.005;  ///< in which the speed of a ramp rises …
-constexpr float least_rise = 0.005F;    ///< … by this share at least
-constexpr float slowest = 1e-3F;        ///< [mm/s]; slower, the feed has no direction
+constexpr PointIndex lead = 16;       ///< points that it may come before: logs that were put together
+constexpr float farthest_lag = 2.0F;  ///< step-overs; farther, the paths have nothing to do with each other
+constexpr float slowest = 1e-3F;      ///< [mm/s]; slower, the feed has no direction
 
 int window_points(double seconds, double period, int least) {
     return std::max(least, static_cast<int>(std::lround(std::min(seconds / period, 2000.0))) | 1);
@@ -110,26 +110,30 @@ private:
     int half_;
 };
 
-/// f(piece, first, last) for every section of every piece, last inclusive, in parallel.
+/// f(piece, first, last) for the sections of pieces inside a block, last inclusive.
+template <typename F>
+void for_each_piece(const std::vector<PointRange>& pieces, PointIndex begin, PointIndex end, F&& f) {
+    auto piece = std::upper_bound(pieces.begin(), pieces.end(), begin,
+                                  [](PointIndex p, const PointRange& r) { return p < r.first; });
+    if (piece != pieces.begin()) --piece;
+    for (; piece != pieces.end() && piece->first < end; ++piece) {
+        const PointIndex first = std::max(begin, piece->first);
+        const PointIndex last = std::min(end - 1, piece->last);
+        if (first <= last) f(*piece, first, last);
+    }
+}
+
+/// The same for all blocks, in parallel.
 template <typename F>
 void for_each_section(PointIndex count, const std::vector<PointRange>& pieces, F&& f) {
-    for_each_block(count, [&](PointIndex begin, PointIndex end) {
-        auto piece = std::upper_bound(pieces.begin(), pieces.end(), begin,
-                                      [](PointIndex p, const PointRange& r) { return p < r.first; });
-        if (piece != pieces.begin()) --piece;
-        for (; piece != pieces.end() && piece->first < end; ++piece) {
-            const PointIndex first = std::max(begin, piece->first);
-            const PointIndex last = std::min(end - 1, piece->last);
-            if (first <= last) f(*piece, first, last);
-        }
-    });
+    for_each_block(count, [&](PointIndex begin, PointIndex end) { for_each_piece(pieces, begin, end, f); });
 }
 
 class Deriver {
 public:
     /// `usual_speed` [mm/s]; `quantum` [mm] of the path's positions.
     Deriver(const ClSurface& surface, const Trajectory& path, const Trajectory* measured,
-            const MotionEstimate* estimate, double usual_speed, double quantum, Signals& out)
+            const MotionEstimate* estimate, double usual_speed, double quantum, SamplesInWork out)
         : surface_(surface),
           path_(path),
           measured_(measured),
@@ -193,7 +197,7 @@ public:
         }
     }
 
-    /// Normals and heights; after derive_motion() and mark_zones() of everything.
+    /// Normals and heights; after derive_motion() and the zones of all that is looked at.
     void derive_heights(PointRange piece, PointIndex first, PointIndex last) const {
         const PointIndex from = std::max(piece.first, first - smoother_.reach());
         const PointIndex to = std::min(piece.last, last + smoother_.reach());
@@ -258,7 +262,7 @@ private:
         if (normal.z() < -least_upward) normal = -normal;
         if (!left.exists() || !right.exists()) return missing<float>;
         // Where a pass is interrupted, by an island, what lies beside is its retract or its end.
-        if (out_[left.nearest()].zone == Zone::outside || out_[right.nearest()].zone == Zone::outside)
+        if (out_.zone(left.nearest()) == Zone::outside || out_.zone(right.nearest()) == Zone::outside)
             return missing<float>;
         const float share = (here - b).dot(across) / across.squaredNorm();
         if (!(share > least_chord_share && share < 1 - least_chord_share)) return missing<float>;
@@ -302,7 +306,7 @@ private:
     const Trajectory& path_;
     const Trajectory* measured_;
     const MotionEstimate* estimate_;
-    Signals& out_;
+    SamplesInWork out_;
     Differentiator speed_, acceleration_;
     Smoother smoother_;
     PointIndex reach_;
@@ -336,46 +340,6 @@ float quantum_of_axes(const Trajectory& role) {
     return static_cast<float>(finest);
 }
 
-/// The zones at one end of a piece, walked from `end` inwards in `direction`.
-void mark_end(PointIndex end, PointIndex count, int direction, double end_zone, PointIndex stride,
-              const ArcLength& arc_length, Signals& signals) {
-    double gone = 0;
-    float before = 0;
-    bool ramp = true;
-    for (PointIndex k = 0; k < count; ++k) {
-        const PointIndex i = end + direction * k;
-        Sample& sample = signals[i];
-        ramp = ramp && gone < end_zone + longest_ramp;
-        if (gone < end_zone)
-            sample.zone = Zone::outside;
-        else if (gone > 2 * end_zone + longest_ramp)
-            return;
-        else if (sample.zone != Zone::outside)
-            sample.zone = std::min(sample.zone, ramp ? Zone::ramp : Zone::near_end);
-        if (k % stride == 0) {
-            const float speed = sample.speed;
-            if (gone >= end_zone && !(speed > (1 + least_rise) * before)) ramp = false;
-            before = speed;
-        }
-        if (k + 1 < count) gone += arc_length.step(direction > 0 ? i : i - 1);
-    }
-}
-
-/// Marks what may be compared with what.
-void mark_zones(const ClSurface& surface, const std::vector<PointRange>& pieces, double end_zone, double period,
-                Signals& signals) {
-    const ArcLength arc_length(surface.positions);
-    for (const Pass& pass : surface.passes) {
-        const Zone zone = pass.kind == PassKind::cut ? Zone::inner : Zone::outside;
-        for (PointIndex i = pass.first; i <= pass.last; ++i) signals[i].zone = zone;
-    }
-    const auto stride = std::max<PointIndex>(1, std::lround(std::min(rise_seconds / period, 1e6)));
-    for (const PointRange& piece : pieces) {
-        mark_end(piece.first, piece.size(), +1, end_zone, stride, arc_length, signals);
-        mark_end(piece.last, piece.size(), -1, end_zone, stride, arc_length, signals);
-    }
-}
-
 }  // namespace
 
 double usual_end_zone(double step_over) {
@@ -406,30 +370,111 @@ std::vector<std::string> reasons_against(const Trajectory& path) {
 
 }  // namespace
 
+namespace {
+
+/// Where loops are joined the speed sideways is not that of the pass.
+std::vector<PointRange> without_moves(const ClSurface& surface, const std::vector<PointRange>& smooth) {
+    std::vector<PointRange> pieces;
+    StepOverMoveCutter cutter(surface.step_over_moves);
+    for (const PointRange& piece : smooth)
+        cutter.cut(piece, [&](const PointRange& part, bool) { pieces.push_back(part); });
+    return pieces;
+}
+
+SignalFacts facts_of(const ClSurface& surface, const Trajectory& path, const Trajectory* measured,
+                     const std::vector<PointRange>& pieces) {
+    SignalFacts facts;
+    facts.usual_speed = usual_speed_of(surface, path.period);
+    facts.path_quantum = quantum_of_axes(path);
+    facts.quantum = measured != nullptr ? std::max(facts.path_quantum, quantum_of_axes(*measured)) : facts.path_quantum;
+    facts.scatter = position_noise(path, pieces);
+    facts.unfit = reasons_against(path);
+    return facts;
+}
+
+/// All of signals that concerns the whole log.
+void note_facts(const Deriver& deriver, const SignalFacts& facts, Signals& signals) {
+    signals.quantum = facts.quantum;
+    signals.unfit = facts.unfit;
+    deriver.note_windows(signals);
+    deriver.note_noise(facts.path_quantum, facts.scatter, signals);
+}
+
+/// What derives signals when they are read.
+struct Derivation {
+    Trajectory path;
+    std::optional<Trajectory> measured;
+    std::vector<PointRange> pieces;
+    ArcLength arc_length;
+    std::optional<Deriver> deriver;
+    std::optional<ZoneMarker> marker;
+};
+
+}  // namespace
+
+void Signals::forget() {
+    for (const BlockFillPointer* fill : {&motion, &zones, &heights}) {
+        if (*fill) (*fill)->forget();
+    }
+    samples.forget();
+}
+
+SignalFacts measure_facts(const ClSurface& surface, const Trajectory& path, const Trajectory* measured,
+                          const std::vector<PointRange>& pieces) {
+    return facts_of(surface, path, measured, without_moves(surface, pieces));
+}
+
 Signals derive_signals(const ClSurface& surface, const Trajectory& path, const Trajectory* measured,
                        const std::vector<PointRange>& pieces, double end_zone, const MotionEstimate* estimate) {
     Signals signals;
-    // Where loops are joined the speed sideways is not that of the pass.
-    std::vector<PointRange> parts;
-    StepOverMoveCutter cutter(surface.step_over_moves);
-    for (const PointRange& piece : pieces)
-        cutter.cut(piece, [&](const PointRange& part, bool) { parts.push_back(part); });
+    const std::vector<PointRange> parts = without_moves(surface, pieces);
     signals.samples.resize(static_cast<std::size_t>(path.count));
     signals.measured = measured != nullptr;
     signals.pieces = parts;
-    const float quantum = quantum_of_axes(path);
-    signals.quantum = measured != nullptr ? std::max(quantum, quantum_of_axes(*measured)) : quantum;
-    const Deriver deriver(surface, path, measured, estimate, usual_speed_of(surface, path.period), quantum, signals);
-    deriver.note_windows(signals);
-    signals.unfit = reasons_against(path);
-    deriver.note_noise(quantum, position_noise(path, parts), signals);
+    const SignalFacts facts = facts_of(surface, path, measured, parts);
+    const SamplesInWork samples(signals.samples.data());
+    const Deriver deriver(surface, path, measured, estimate, facts.usual_speed, facts.path_quantum, samples);
+    note_facts(deriver, facts, signals);
     for_each_section(path.count, parts, [&](PointRange piece, PointIndex first, PointIndex last) {
         deriver.derive_motion(piece, first, last);
     });
-    mark_zones(surface, parts, end_zone, path.period, signals);
+    const ArcLength arc_length(surface.positions);
+    ZoneMarker(surface.passes, parts, arc_length, end_zone, path.period, samples).mark({0, path.count - 1});
     for_each_section(path.count, parts, [&](PointRange piece, PointIndex first, PointIndex last) {
         deriver.derive_heights(piece, first, last);
     });
+    return signals;
+}
+
+Signals derive_when_read(const ClSurface& surface, const Trajectory& path, const Trajectory* measured,
+                         const std::vector<PointRange>& pieces, double end_zone, const SignalFacts& facts) {
+    Signals signals;
+    signals.samples = Column<Sample>::sparse(static_cast<std::size_t>(path.count));
+    signals.measured = measured != nullptr;
+    signals.pieces = without_moves(surface, pieces);
+    auto work = std::make_shared<Derivation>(
+        Derivation{path, {}, signals.pieces, ArcLength(surface.positions), std::nullopt, std::nullopt});
+    if (measured != nullptr) work->measured = *measured;
+    signals.motion = {path.count, [work](PointIndex first, PointIndex last) {
+                          for_each_piece(work->pieces, first, last, [&](PointRange piece, PointIndex a, PointIndex b) {
+                              work->deriver->derive_motion(piece, a, b);
+                          });
+                      }};
+    signals.zones = {path.count, [work, motion = signals.motion.get()](PointIndex first, PointIndex last) {
+                         motion->need(first);
+                         work->marker->mark({first, last - 1});
+                     }};
+    signals.heights = {path.count, [work, zones = signals.zones.get()](PointIndex first, PointIndex last) {
+                           zones->need(first);
+                           for_each_piece(work->pieces, first, last, [&](PointRange piece, PointIndex a, PointIndex b) {
+                               work->deriver->derive_heights(piece, a, b);
+                           });
+                       }};
+    const SamplesInWork samples(signals.samples.data(), signals.motion.get(), signals.zones.get());
+    work->deriver.emplace(surface, work->path, work->measured ? &*work->measured : nullptr, nullptr, facts.usual_speed,
+                          facts.path_quantum, samples);
+    work->marker.emplace(surface.passes, work->pieces, work->arc_length, end_zone, path.period, samples);
+    note_facts(*work->deriver, facts, signals);
     return signals;
 }
 

@@ -6,36 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "core/block_fill.h"
+#include "core/column.h"
 #include "numeric/derivative.h"
+#include "predictor/sample.h"
 #include "surface/cl_surface.h"
 #include "toolpath/motion_estimate.h"
 #include "toolpath/trajectory.h"
 
 namespace clsurf {
-
-/// Where on a pass a point lies.
-enum class Zone : std::uint8_t {
-    outside,   ///< not on a cut pass, or next to where a pass begins or ends: not compared
-    ramp,      ///< the tool still speeds up from the pass's beginning, or slows down to its end
-    near_end,  ///< as near to an end as ramps are found, but it does neither
-    inner,     ///< the pass goes on
-};
-
-/// What is known of a point, side by side: whoever compares passes looks at all of it at once, on a
-/// dozen passes at a time, and pays for every cache line.
-struct Sample {
-    float speed;   ///< [mm/s] of the surface's own positions
-    float lag;     ///< [mm] how far the measured path runs above (+) the commanded one, along the normal; NaN: none
-    float relief;  ///< [mm] how far the point lies above the chord between its neighbours, along the normal
-    float acceleration[3];  ///< [mm/s²]
-    float feed[3];          ///< unit vector; NaN where the tool stands
-    float normal[3];        ///< unit vector of the CL surface, feed × (left − right); NaN: no neighbour
-    Zone zone;
-};
-
-[[nodiscard]] inline Eigen::Map<const Eigen::Vector3f> vector_of(const float (&v)[3]) {
-    return Eigen::Map<const Eigen::Vector3f>(v);
-}
 
 struct Signals {
     Column<Sample> samples;  ///< one per point
@@ -47,15 +26,45 @@ struct Signals {
     std::vector<PointRange> pieces;  ///< of the path, between which nothing is smoothed: they end where passes do
     std::vector<std::string> unfit;  ///< why the data cannot show marks, as sentences; empty: they can
     std::string speed_note, acceleration_note, height_note;  ///< the windows, "speed over 11 points (11 ms)"
+    /// Of signals that are derived when they are read, each step from those before it; elsewhere nothing. Who reads
+    /// `samples` themselves needs them first.
+    BlockFillPointer motion, zones, heights;
 
     [[nodiscard]] PointIndex size() const { return static_cast<PointIndex>(samples.size()); }
-    [[nodiscard]] const Sample& operator[](PointIndex i) const { return samples[static_cast<std::size_t>(i)]; }
-    [[nodiscard]] Sample& operator[](PointIndex i) { return samples[static_cast<std::size_t>(i)]; }
+    [[nodiscard]] const Sample& operator[](PointIndex i) const {
+        heights.need(i);
+        return samples[static_cast<std::size_t>(i)];
+    }
+    [[nodiscard]] Sample& operator[](PointIndex i) {
+        heights.need(i);
+        return samples[static_cast<std::size_t>(i)];
+    }
+    /// A sample whose motion and zone are known, for who does not ask for normals and heights.
+    [[nodiscard]] const Sample& without_heights(PointIndex i) const {
+        zones.need(i);
+        return samples[static_cast<std::size_t>(i)];
+    }
+    /// A sample whose motion is known.
+    [[nodiscard]] const Sample& motion_of(PointIndex i) const {
+        motion.need(i);
+        return samples[static_cast<std::size_t>(i)];
+    }
+    /// Of signals that are derived when they are read: none is known any more, and they take no memory.
+    void forget();
     [[nodiscard]] Eigen::Map<const Eigen::Vector3f> feed(PointIndex i) const { return vector_of((*this)[i].feed); }
     [[nodiscard]] Eigen::Map<const Eigen::Vector3f> acceleration(PointIndex i) const {
         return vector_of((*this)[i].acceleration);
     }
     [[nodiscard]] Eigen::Map<const Eigen::Vector3f> normal(PointIndex i) const { return vector_of((*this)[i].normal); }
+};
+
+/// What signals depend on that is known of the whole log only.
+struct SignalFacts {
+    double usual_speed = 0;          ///< [mm/s] that a twentieth of the points exceeds; 0: none moves
+    float path_quantum = 0;          ///< [mm] finest step of the axes of the path …
+    float quantum = 0;               ///< … the coarser one of path and measured positions; 0: none seen
+    double scatter = 0;              ///< [mm] position_noise()
+    std::vector<std::string> unfit;  ///< as Signals has them
 };
 
 /// How much [mm] of the ends of passes is not judged by default: what the tool does there, it does on
@@ -73,5 +82,15 @@ struct Signals {
 [[nodiscard]] Signals derive_signals(const ClSurface& surface, const Trajectory& path, const Trajectory* measured,
                                      const std::vector<PointRange>& pieces, double end_zone,
                                      const MotionEstimate* estimate = nullptr);
+
+/// The facts that derive_signals() finds. O(points), parallel.
+[[nodiscard]] SignalFacts measure_facts(const ClSurface& surface, const Trajectory& path, const Trajectory* measured,
+                                        const std::vector<PointRange>& pieces);
+
+/// The same signals, over windows, but those of a block are derived when one of them is first read. `surface` must
+/// outlive them, and stay where it is. O(pieces).
+[[nodiscard]] Signals derive_when_read(const ClSurface& surface, const Trajectory& path, const Trajectory* measured,
+                                       const std::vector<PointRange>& pieces, double end_zone,
+                                       const SignalFacts& facts);
 
 }  // namespace clsurf

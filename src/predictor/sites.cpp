@@ -21,26 +21,35 @@ Sites::Sites(const ClSurface& surface, const Signals& signals)
     : surface_(surface),
       signals_(signals),
       most_halvings_(static_cast<int>(
-          std::clamp(std::floor(std::log2(site_length / (site_arc_length * surface.step_over))), 0.0, 30.0))),
-      words_(static_cast<std::size_t>((signals.size() + 63) / 64), 0) {
-    for_each_block(signals.size(), [&](PointIndex first, PointIndex last) {
+          std::clamp(std::floor(std::log2(site_length / (site_arc_length * surface.step_over))), 0.0, 30.0))) {
+    const auto words = static_cast<std::size_t>((signals.size() + 63) / 64);
+    words_ = signals.heights ? Column<std::uint64_t>::sparse(words) : Column<std::uint64_t>(words, 0);
+    const auto find = [&surface, &signals, halvings = most_halvings_, out = words_.data()](PointIndex first,
+                                                                                           PointIndex last) {
         for (PointIndex i = std::max<PointIndex>(first, 1); i < last; ++i) {
-            if (signals[i].zone != Zone::outside && crossing(i).crosses)
-                words_[static_cast<std::size_t>(i / 64)] |= std::uint64_t{1} << (i % 64);
+            if (signals.without_heights(i).zone != Zone::outside && crossing(surface, signals, halvings, i).crosses)
+                out[i / 64] |= std::uint64_t{1} << (i % 64);
         }
-    });
+    };
+    if (signals.heights)
+        fill_ = {signals.size(), find};
+    else
+        for_each_block(signals.size(), find);
 }
 
-Sites::Crossing Sites::crossing(PointIndex point) const {
-    const float speed = signals_[point].speed;
+Sites::Crossing Sites::crossing(PointIndex point) const { return crossing(surface_, signals_, most_halvings_, point); }
+
+Sites::Crossing Sites::crossing(const ClSurface& surface, const Signals& signals, int most_halvings, PointIndex point) {
+    const Sample& sample = signals.without_heights(point);
+    const float speed = sample.speed;
     if (!(speed > 0)) return {};
-    const Eigen::Vector3f feed = signals_.feed(point);
+    const Eigen::Vector3f feed = vector_of(sample.feed);
     Eigen::Index axis = 0;
     feed.cwiseAbs().maxCoeff(&axis);
     // The distance is halved where the tool is slow, so that there are the same planes and more.
-    const int halvings = std::clamp(std::ilogb(slow_from / speed), 0, most_halvings_);
+    const int halvings = std::clamp(std::ilogb(slow_from / speed), 0, most_halvings);
     const double planes = std::ldexp(1 / site_length, halvings);  // a millimetre
-    const Positions& p = surface_.positions;
+    const Positions& p = surface.positions;
     const double before = (p.origin[axis] + static_cast<double>(p[point - 1][axis])) * planes,
                  now = (p.origin[axis] + static_cast<double>(p[point][axis])) * planes;
     const double plane = std::floor(std::max(before, now));

@@ -16,22 +16,27 @@ class Sites {
 public:
     /// A site is the first point of a cut pass behind a plane across that axis along which the tool moves most there. The planes are
     /// 0.2 mm apart, below 35 mm/s half of it, below 18 mm/s a quarter …, but no less than a tenth of a step-over.
-    /// O(points), parallel.
+    /// O(points), parallel; of signals that are derived when they are read O(1), and a block of points when it is asked for.
     Sites(const ClSurface& surface, const Signals& signals);
 
     [[nodiscard]] bool at(PointIndex point) const {
+        fill_.need(point);
         return (words_[static_cast<std::size_t>(point / 64)] >> (point % 64) & 1) != 0;
     }
     /// Where the plane is crossed before a site. Domain: at(site).
     [[nodiscard]] PathLocation place(PointIndex site) const;
     /// The site nearest to a point; −1: none is near.
     [[nodiscard]] PointIndex nearest(PointIndex point) const;
-    /// f(site) for those from `first` to `last`, `last` exclusive, in order. Both are multiples of 64, or the end.
+    /// f(site) for those from `first` to `last`, `last` exclusive, in order.
     template <typename F>
     void for_each(PointIndex first, PointIndex last, F&& f) const {
+        if (first >= last) return;
+        fill_.need(first, last - 1);
         for (PointIndex word = first / 64; word * 64 < last; ++word) {
-            for (std::uint64_t left = words_[static_cast<std::size_t>(word)]; left != 0; left &= left - 1)
-                f(word * 64 + std::countr_zero(left));
+            for (std::uint64_t left = words_[static_cast<std::size_t>(word)]; left != 0; left &= left - 1) {
+                const PointIndex site = word * 64 + std::countr_zero(left);
+                if (site >= first && site < last) f(site);
+            }
         }
     }
 
@@ -41,11 +46,13 @@ private:
         float fraction = 0;  ///< of the path from the point before
     };
     [[nodiscard]] Crossing crossing(PointIndex point) const;
+    static Crossing crossing(const ClSurface& surface, const Signals& signals, int most_halvings, PointIndex point);
 
     const ClSurface& surface_;
     const Signals& signals_;
     int most_halvings_;
     Column<std::uint64_t> words_;  ///< a bit a point
+    BlockFillPointer fill_;
 };
 
 }  // namespace clsurf

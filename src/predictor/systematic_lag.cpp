@@ -170,14 +170,6 @@ std::vector<Candidate> find_candidates(const LagComparer& comparer, const Thresh
     return all;
 }
 
-double cut_arc_length(const ClSurface& surface, const ArcLength& arc_length) {
-    double sum = 0;
-    for (const Pass& pass : surface.passes) {
-        if (pass.kind == PassKind::cut) sum += arc_length.to(pass.last) - arc_length.to(pass.first);
-    }
-    return sum;
-}
-
 /// The way between sites of one pass that follow each other [mm].
 double arc_length_of(std::span<const AlternatingSite> sites, const ArcLength& arc_length, double joined) {
     double sum = 0;

@@ -4,6 +4,7 @@
 // into a depth all come from it.
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,7 +22,21 @@ struct ClSurface {
     double step_over = 0;  ///< [mm]; 0: a single pass, no neighbours
     /// Points that cut and belong to no finishing pass (surface/finishing.h); among the passes they count as rapid.
     PointIndex not_finishing = 0;
+    /// What was measured before, of a surface of which only parts are looked at; elsewhere nothing.
+    std::optional<double> cut_length;        ///< [mm] of all cut passes
+    std::vector<bool> low_links;             ///< by pass: stays_low() (machined/contact_points.h)
+    std::vector<Eigen::AlignedBox3f> boxes;  ///< [mm] of the positions shown and measured, by block
 };
+
+/// Arc length of all cut passes [mm]. O(passes).
+[[nodiscard]] inline double cut_arc_length(const ClSurface& surface, const ArcLength& arc_length) {
+    if (surface.cut_length) return *surface.cut_length;
+    double sum = 0;
+    for (const Pass& pass : surface.passes) {
+        if (pass.kind == PassKind::cut) sum += arc_length.to(pass.last) - arc_length.to(pass.first);
+    }
+    return sum;
+}
 
 /// The parts of ranges, which rise, between steps sideways and inside them.
 class StepOverMoveCutter {

@@ -23,6 +23,10 @@ CLSURF_VECTORISED void measure(const float* x, const float* y, const float* z, f
 }  // namespace
 
 ArcLength::ArcLength(const Positions& positions) {
+    if (positions.fill) {
+        measure_when_read(positions);
+        return;
+    }
     const PointIndex count = positions.size();
     steps_.resize(static_cast<std::size_t>(count));
     sums_ = Column<double>(static_cast<std::size_t>((count + stride - 1) / stride + 1), 0.0);
@@ -37,6 +41,17 @@ ArcLength::ArcLength(const Positions& positions) {
         }
     });
     for (std::size_t k = 1; k < sums_.size(); ++k) sums_[k] += sums_[k - 1];
+}
+
+void ArcLength::measure_when_read(const Positions& positions) {
+    const PointIndex count = positions.size();
+    sums_ = Column<double>::borrowed(positions.arc_lengths);
+    steps_ = Column<float>::sparse(static_cast<std::size_t>(count));
+    fill_ = {count, [&positions, count, steps = steps_.data()](PointIndex first, PointIndex last) {
+                 positions.fill.need(first, std::min(last, count - 1));
+                 measure(positions.x.data(), positions.y.data(), positions.z.data(), steps, first,
+                         std::min(last, count - 1));
+             }};
 }
 
 double ArcLength::to(PointIndex i) const {

@@ -9,11 +9,17 @@ namespace clsurf {
 
 class ArcLength {
 public:
-    /// O(points), parallel.
+    /// `positions` must outlive it where they are gathered when they are read. O(points), parallel; then O(1).
     explicit ArcLength(const Positions& positions);
 
     /// Arc length from point i to the next [mm]; 0 from or to a missing position.
-    [[nodiscard]] float step(PointIndex i) const { return steps_[static_cast<std::size_t>(i)]; }
+    [[nodiscard]] float step(PointIndex i) const {
+        fill_.need(i);
+        return steps_[static_cast<std::size_t>(i)];
+    }
+
+    /// Arc length to point 64 k, for each k, and to the end [mm].
+    [[nodiscard]] const Column<double>& sums() const { return sums_; }
 
     /// Arc length from the first point to point i [mm]. O(64).
     [[nodiscard]] double to(PointIndex i) const;
@@ -24,8 +30,11 @@ public:
 private:
     static constexpr PointIndex stride = 64;
 
+    void measure_when_read(const Positions& positions);
+
     Column<float> steps_;
     Column<double> sums_;  ///< arc length to point 64 k
+    BlockFillPointer fill_;
 };
 
 }  // namespace clsurf

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/block.h"
 
@@ -26,32 +27,54 @@ Vec3 first_finite(const Trajectory& trajectory) {
     return Vec3::Zero();
 }
 
+/// Where the columns are that are gathered into.
+using GatheredColumns = std::array<float*, 3>;
+
+void gather_block(const Trajectory& trajectory, const Vec3& from, const GatheredColumns& columns, PointIndex first,
+                  PointIndex last) {
+    // A quarter of a block at a time: the three axes of a record share its cache lines, which
+    // must still be there when the second and third axis are gathered.
+    constexpr PointIndex step = 2048;
+    std::array<std::array<double, step>, 3> scratch;
+    for (PointIndex begin = first; begin < last; begin += step) {
+        const auto n = static_cast<std::size_t>(std::min(step, last - begin));
+        trajectory.read(begin, {scratch[0].data(), n}, {scratch[1].data(), n}, {scratch[2].data(), n});
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            float* out = columns[axis] + begin;
+            const double origin = from[static_cast<Eigen::Index>(axis)];
+            for (std::size_t i = 0; i < n; ++i) {
+                const double d = scratch[axis][i] - origin;
+                out[i] =
+                    std::abs(d) <= farthest_apart ? static_cast<float>(d) : std::numeric_limits<float>::quiet_NaN();
+            }
+        }
+    }
+}
+
 }  // namespace
 
 Positions gather(const Trajectory& trajectory) {
     Positions positions;
     positions.origin = first_finite(trajectory);
-    const std::array<Column<float>*, 3> columns{&positions.x, &positions.y, &positions.z};
-    for (Column<float>* column : columns) column->resize(static_cast<std::size_t>(trajectory.count));
+    for (Column<float>* column : {&positions.x, &positions.y, &positions.z})
+        column->resize(static_cast<std::size_t>(trajectory.count));
+    const GatheredColumns columns{positions.x.data(), positions.y.data(), positions.z.data()};
     for_each_block(trajectory.count, [&](PointIndex first, PointIndex last) {
-        // A quarter of a block at a time: the three axes of a record share its cache lines, which
-        // must still be there when the second and third axis are gathered.
-        constexpr PointIndex step = 2048;
-        std::array<std::array<double, step>, 3> scratch;
-        for (PointIndex begin = first; begin < last; begin += step) {
-            const auto n = static_cast<std::size_t>(std::min(step, last - begin));
-            trajectory.read(begin, {scratch[0].data(), n}, {scratch[1].data(), n}, {scratch[2].data(), n});
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                float* out = columns[axis]->data() + begin;
-                const double origin = positions.origin[static_cast<Eigen::Index>(axis)];
-                for (std::size_t i = 0; i < n; ++i) {
-                    const double d = scratch[axis][i] - origin;
-                    out[i] =
-                        std::abs(d) <= farthest_apart ? static_cast<float>(d) : std::numeric_limits<float>::quiet_NaN();
-                }
-            }
-        }
+        gather_block(trajectory, positions.origin, columns, first, last);
     });
+    return positions;
+}
+
+Positions gather_when_read(const Trajectory& trajectory, const Vec3& origin, Column<double> arc_lengths) {
+    Positions positions;
+    positions.origin = origin;
+    positions.arc_lengths = std::move(arc_lengths);
+    for (Column<float>* column : {&positions.x, &positions.y, &positions.z})
+        *column = Column<float>::sparse(static_cast<std::size_t>(trajectory.count));
+    const GatheredColumns columns{positions.x.data(), positions.y.data(), positions.z.data()};
+    positions.fill = {trajectory.count, [trajectory, origin, columns](PointIndex first, PointIndex last) {
+                          gather_block(trajectory, origin, columns, first, last);
+                      }};
     return positions;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/block_fill.h"
 #include "core/column.h"
 #include "core/geometry.h"
 #include "core/point.h"
@@ -15,9 +16,13 @@ namespace clsurf {
 struct Positions {
     Vec3 origin = Vec3::Zero();  ///< [mm]
     Column<float> x, y, z;       ///< [mm] relative to origin; NaN: no position
+    /// Of positions that are gathered when they are read; elsewhere nothing. Who reads columns needs them first.
+    BlockFillPointer fill;
+    Column<double> arc_lengths;  ///< with `fill`: as ArcLength::sums() has them
 
     [[nodiscard]] PointIndex size() const { return static_cast<PointIndex>(x.size()); }
     [[nodiscard]] Eigen::Vector3f operator[](PointIndex i) const {
+        fill.need(i);
         const auto at = static_cast<std::size_t>(i);
         return {x[at], y[at], z[at]};
     }
@@ -27,5 +32,8 @@ struct Positions {
 
 /// Gathers all points; the origin is the trajectory's first finite point. O(points), parallel.
 [[nodiscard]] Positions gather(const Trajectory& trajectory);
+
+/// The same, but a block is gathered when it is first read. `origin` and `arc_lengths` are those of the whole log.
+[[nodiscard]] Positions gather_when_read(const Trajectory& trajectory, const Vec3& origin, Column<double> arc_lengths);
 
 }  // namespace clsurf

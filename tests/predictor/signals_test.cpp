@@ -51,6 +51,40 @@ TEST(Signals, AnOffsetAlongTheNormalIsTheHeight) {
     EXPECT_GT(with, 3000);
 }
 
+// Bit by bit, in whichever order they are read, and again after they were forgotten.
+TEST(Signals, AreTheSameWhenTheyAreDerivedWhereTheyAreRead) {
+    MadeSurface made = test::flat_zigzag(200, 30, 0.4, 50, [](const Vec3& p, const Vec3& feed) {
+        return Vec3(p - 0.3 * feed + Vec3(0, 0, 0.005 * std::sin(p.x())));
+    });
+    const Signals whole = made.signals();
+    ASSERT_GT(whole.size(), 5 * block_points);
+    std::vector<PointRange> pieces;
+    for (const Pass& pass : made.surface.passes) pieces.push_back({pass.first, pass.last});
+    const ArcLength arc_length(made.surface.positions);
+    const SignalFacts facts = measure_facts(made.surface, made.path, &made.measured, pieces);
+    const Vec3 origin = made.surface.positions.origin;
+    made.surface.positions = gather_when_read(made.path, origin, arc_length.sums());
+    Signals read = derive_when_read(made.surface, made.path, &made.measured, pieces, 1.0, facts);
+    EXPECT_EQ(read.quantum, whole.quantum);
+    EXPECT_EQ(read.speed_noise, whole.speed_noise);
+    EXPECT_EQ(read.acceleration_noise, whole.acceleration_noise);
+    const auto same = [](float a, float b) { return a == b || (a != a && b != b); };
+    for (int round = 0; round < 2; ++round) {
+        for (PointIndex k = 0; k < whole.size(); ++k) {
+            const PointIndex i = (k * 7919) % whole.size();
+            const Sample &a = whole[i], &b = read[i];
+            ASSERT_EQ(a.zone, b.zone) << i;
+            ASSERT_TRUE(same(a.speed, b.speed) && same(a.lag, b.lag) && same(a.relief, b.relief)) << i;
+            for (int axis = 0; axis < 3; ++axis) {
+                ASSERT_TRUE(same(a.feed[axis], b.feed[axis]) && same(a.normal[axis], b.normal[axis]) &&
+                            same(a.acceleration[axis], b.acceleration[axis]))
+                    << i;
+            }
+        }
+        read.forget();
+    }
+}
+
 TEST(Signals, TheNormalPointsUpWhicheverArcLengthThePassRuns) {
     const MadeSurface made = test::flat_zigzag(9, 30, 0.4, 50, {});
     const Signals s = made.signals();

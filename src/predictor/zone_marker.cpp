@@ -1,0 +1,72 @@
+#include "predictor/zone_marker.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clsurf {
+namespace {
+
+constexpr double longest_ramp = 20.0;   ///< [mm] 100 mm/s are reached over 17 mm at 300 mm/s²
+constexpr double rise_seconds = 0.005;  ///< in which the speed of a ramp rises …
+constexpr float least_rise = 0.005F;    ///< … by this share at least
+constexpr double sum_rounding = 1;      ///< [mm] of arc lengths that are added up from other points
+
+}  // namespace
+
+ZoneMarker::ZoneMarker(const Passes& passes, const std::vector<PointRange>& pieces, const ArcLength& arc_length,
+                       double end_zone, double period, SamplesInWork samples)
+    : passes_(passes),
+      pieces_(pieces),
+      arc_length_(arc_length),
+      end_zone_(end_zone),
+      reach_(2 * end_zone + longest_ramp),
+      stride_(std::max<PointIndex>(1, std::lround(std::min(rise_seconds / period, 1e6)))),
+      samples_(samples) {}
+
+void ZoneMarker::mark(const PointRange& points) const {
+    const auto behind = [](PointIndex p, const auto& range) { return p < range.first; };
+    auto pass = std::upper_bound(passes_.begin(), passes_.end(), points.first, behind);
+    if (pass != passes_.begin()) --pass;
+    for (; pass != passes_.end() && pass->first <= points.last; ++pass) {
+        const Zone zone = pass->kind == PassKind::cut ? Zone::inner : Zone::outside;
+        for (PointIndex i = std::max(points.first, pass->first); i <= std::min(points.last, pass->last); ++i)
+            samples_[i].zone = zone;
+    }
+    const double reach = reach_ + sum_rounding;
+    auto piece = std::upper_bound(pieces_.begin(), pieces_.end(), points.first, behind);
+    if (piece != pieces_.begin()) --piece;
+    for (; piece != pieces_.end() && piece->first <= points.last; ++piece) {
+        if (piece->last < points.first) continue;
+        if (piece->first >= points.first || !arc_length_.at_least(piece->first, points.first, reach))
+            mark_end(piece->first, piece->size(), +1, points);
+        if (piece->last <= points.last || !arc_length_.at_least(points.last, piece->last, reach))
+            mark_end(piece->last, piece->size(), -1, points);
+    }
+}
+
+void ZoneMarker::mark_end(PointIndex end, PointIndex count, int direction, const PointRange& points) const {
+    double gone = 0;
+    float before = 0;
+    bool ramp = true;
+    for (PointIndex k = 0; k < count; ++k) {
+        const PointIndex i = end + direction * k;
+        if (direction > 0 ? i > points.last : i < points.first) return;
+        ramp = ramp && gone < end_zone_ + longest_ramp;
+        if (gone > reach_) return;
+        if (i >= points.first && i <= points.last) {
+            Zone& zone = samples_[i].zone;
+            if (gone < end_zone_)
+                zone = Zone::outside;
+            else if (zone != Zone::outside)
+                zone = std::min(zone, ramp ? Zone::ramp : Zone::near_end);
+        }
+        if (k % stride_ == 0) {
+            const float speed = samples_.speed(i);
+            if (gone >= end_zone_ && !(speed > (1 + least_rise) * before)) ramp = false;
+            before = speed;
+        }
+        if (k + 1 < count) gone += arc_length_.step(direction > 0 ? i : i - 1);
+    }
+}
+
+}  // namespace clsurf
