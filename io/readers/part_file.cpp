@@ -57,6 +57,23 @@ void use_machine(const std::string& path, PartRules& rules) {
     rules.kinematics = kinematics.has_rotary() ? std::make_shared<const Kinematics>(kinematics) : nullptr;
 }
 
+namespace {
+
+ProgramOptions as_programmed(const PartFiles& files) {
+    ProgramOptions options = files.program_options;
+    options.coordinates.reset();  // the log may say where the program's zero lies
+    return options;
+}
+
+}  // namespace
+
+Part read_surveyed_part(const PartFiles& files, const PartRules& rules, const Survey& survey, const Stages& stages) {
+    begin_stage(stages, "read the program");
+    Program program = read_program(open_source(files.program), as_programmed(files));
+    begin_stage(stages, "open the log");
+    return surveyed_part(std::move(program), open_log(files.log, files.log_options), rules, survey);
+}
+
 Part read_part(const PartFiles& files, PartRules rules, const Stages& stages) {
     if (files.program.empty()) {
         begin_stage(stages, "open the log");
@@ -64,9 +81,7 @@ Part read_part(const PartFiles& files, PartRules rules, const Stages& stages) {
     }
     begin_stage(stages, "read the program");
     const Source source = open_source(files.program);
-    ProgramOptions as_programmed = files.program_options;
-    as_programmed.coordinates.reset();  // the log may say where the program's zero lies
-    Program program = read_program(source, as_programmed);
+    Program program = read_program(source, as_programmed(files));
     begin_stage(stages, "open the log");
     Log log = open_log_of(files);
     rules.identity = check_identity(source, log, log.diagnostics);

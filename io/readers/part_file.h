@@ -8,6 +8,7 @@
 #include "io/readers/program_file.h"
 #include "pipeline/part.h"
 #include "pipeline/stages.h"
+#include "pipeline/survey.h"
 
 namespace clsurf::io {
 
@@ -33,5 +34,9 @@ void use_machine(const std::string& path, PartRules& rules);
 /// InputError: a file that cannot be read or used, a log of another program; UsageError: an unknown dialect or format.
 [[nodiscard]] Part read_part(const PartFiles& files, PartRules rules = {}, const Stages& stages = {});
 [[nodiscard]] Part read_part(const std::string& program, const std::string& log, const PartRules& rules = {});
+
+/// Reads the files of a part that was surveyed (pipeline/survey.h). Throws as read_part() and surveyed_part() do.
+[[nodiscard]] Part read_surveyed_part(const PartFiles& files, const PartRules& rules, const Survey& survey,
+                                      const Stages& stages = {});
 
 }  // namespace clsurf::io

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/check_shards.h"
 #include "cli/checked_run.h"
 #include "cli/defect_colours.h"
 #include "cli/followed_check.h"
@@ -12,11 +13,11 @@
 #include "cli/quality_writer.h"
 #include "cli/report_output.h"
 #include "cli/run_recorder.h"
+#include "cli/survey_options.h"
 #include "cli/terminal.h"
 #include "history/record_of.h"
 #include "io/readers/baseline_file.h"
 #include "io/reports/quality_report.h"
-#include "io/reports/simulation_origin.h"
 
 namespace clsurf::cli {
 namespace {
@@ -37,13 +38,15 @@ struct CheckRules {
     std::optional<std::vector<RecordedDefect>> baseline;
     std::optional<RunRecorder> recorder;
     std::unique_ptr<MeasuredInput> measured_part;  ///< nullptr: nothing was measured
+    std::optional<MergedShards> merged;            ///< nothing: the log is judged as a whole
     std::string format;
     std::unique_ptr<FollowedCheck> followed;  ///< nullptr: the log is complete
 };
 
 Checked check_log(const PartOptions& options, CheckRules& rules, const po::variables_map& values) {
     StageClock clock(read_common(values), 8);
-    CheckedRun run = check_run(options, rules.measured, rules.budget, clock, rules.format == "json");
+    const bool with_motion = rules.format == "json" && !rules.merged;
+    CheckedRun run = check_run(options, rules.measured, rules.budget, clock, with_motion, rules.merged);
     if (rules.recorder) {
         const io::AddedRun added = rules.recorder->add(options, run);
         if (!read_common(values).quiet) write_message("recorded as " + rules.recorder->text_of(added) + "\n");
@@ -54,23 +57,11 @@ Checked check_log(const PartOptions& options, CheckRules& rules, const po::varia
     if (rules.measured_part) measured = compare_measured(run, rules.measured, *rules.measured_part, clock);
     const bool aligned = !measured || measured->result.alignment.determined();
     const bool worse = match && match->worsened() > 0 && run.code == ExitCode::done;
-    io::ReportedQuality reported;
-    reported.report = &run.quality.report;
-    reported.program = &run.part.program;
-    reported.log = run.part.log.name;
-    reported.tool = run.part.tool;
-    reported.scallop = run.quality.scallop;
+    io::ReportedQuality reported = reported_of(run);
     if (rules.format == "json") reported.colour_differences = colour_differences(run.quality.report, run.part);
-    reported.as_machined = run.quality.as_machined ? &*run.quality.as_machined : nullptr;
-    reported.motion = run.quality.motion;
-    if (run.states_limits) reported.limits = &run.limits;
-    reported.budget = run.budget;
-    reported.origin = io::simulation_origin(run.part.log);
-    reported.acceptance = run.acceptance ? &*run.acceptance : nullptr;
     reported.baseline = match ? &*match : nullptr;
     reported.measured = measured ? &*measured : nullptr;
     reported.passes_asked = !rules.budget.only_limits();
-    reported.diagnostics = &run.part.diagnostics;
     if (values.count("output") == 0) reported.columns = table_columns();
     if (rules.format != "json") print(run.part.diagnostics, values);
     const ExitCode code = worse ? ExitCode::check_failed : run.code;
@@ -94,9 +85,14 @@ std::unique_ptr<FollowedCheck> read_followed(const po::variables_map& values, co
 ExitCode run_check(const po::variables_map& values) {
     PartOptions options = read_part_options(values);
     CheckRules rules;
+    const std::vector<std::string> logs = values["LOG"].as<std::vector<std::string>>();
+    if (const std::optional<ShardNumber> shard = read_shard_number(values)) {
+        if (logs.size() > 1) throw UsageError("--shard is of one log");
+        return check_shard(options, *shard, values);
+    }
+    rules.merged = read_merged(options, values, logs.size());
     rules.measured = take_measured_role(options);
     rules.budget = read_limits(values);
-    const std::vector<std::string> logs = values["LOG"].as<std::vector<std::string>>();
     if (logs.size() > 1 && options.program == "-")
         throw UsageError("the program of several logs cannot come from standard input");
     if (values.count("baseline") > 0) rules.baseline = io::read_baseline(values["baseline"].as<std::string>());
@@ -144,6 +140,8 @@ Subcommand check_subcommand() {
             "data do not allow a verdict: less than half of the cutting points could be compared.\n"
             "With --baseline it is 1 if a defect is new or of a higher severity than in the earlier report.\n"
             "--record adds the run to a history, whatever the verdict.\n"
+            "A log that is larger than the memory is judged in shards, one by one or on several machines, and --merge gives the\n"
+            "report on the whole of it (`clsurf survey`, docs/howto/shards.md).\n"
             "--measured compares a profile or an areal map that was measured on the part with the predicted surface: aligned\n"
             "(`clsurf align`), with the same form and filters, Ra, Rq and Rz of both, the correlation of the roughness profiles,\n"
             "and which predicted marks are there. The exit code is 5 if the data do not determine the pose.\n"
@@ -170,6 +168,7 @@ Subcommand check_subcommand() {
                 declare_follow(
                     options,
                     "the log is still written: report each defect as soon as the passes beside it are there, and the verdict when the log ends; with --json one object a line (docs/howto/follow.md)");
+                declare_shards(options);
             },
         .positional = {"PROGRAM", "LOG…"},
         .run = run_check,

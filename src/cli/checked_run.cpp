@@ -2,17 +2,37 @@
 
 #include <utility>
 
+#include "io/reports/simulation_origin.h"
 #include "pipeline/limits_of.h"
 
 namespace clsurf::cli {
 
-CheckedRun check_run(const PartOptions& options, std::optional<Role> measured, const CheckBudget& budget,
-                     StageClock& clock, bool with_motion) {
-    CheckedRun run;
-    run.part = load_part(options, clock);
+namespace {
+
+void judge_whole(std::optional<Role> measured, bool with_motion, StageClock& clock, CheckedRun& run) {
     clock.begin("stitch the surface");
     run.surface = stitch(run.part);
     run.quality = judge(run.part, run.surface, measured, {}, clock.stages(), with_motion);
+}
+
+void judge_merged(const MergedShards& merged, std::optional<Role> measured, StageClock& clock, CheckedRun& run) {
+    run.survey = merged.survey;
+    const QualityRules rules = rules_of_shards(merged.read(run.part), *run.survey);
+    run.surface = surveyed_surface(run.part, *run.survey);
+    const PartSignals read = surveyed_signals(run.part, run.surface, *run.survey, measured);
+    run.quality = judge(run.part, run.surface, read, measured, rules, clock.stages());
+}
+
+}  // namespace
+
+CheckedRun check_run(const PartOptions& options, std::optional<Role> measured, const CheckBudget& budget,
+                     StageClock& clock, bool with_motion, const std::optional<MergedShards>& merged) {
+    CheckedRun run;
+    run.part = load_part(options, clock);
+    if (merged)
+        judge_merged(*merged, measured, clock, run);
+    else
+        judge_whole(measured, with_motion, clock, run);
     run.part.diagnostics.append(run.quality.diagnostics);
     if (const std::vector<StatedLimit> stated = stated_limits(run.part.limits, budget); !stated.empty()) {
         clock.begin("compare with the limits");
@@ -31,6 +51,23 @@ CheckedRun check_run(const PartOptions& options, std::optional<Role> measured, c
     run.code = code_of(run.quality.report.judgement.judged(), run.budget, held, budget);
     clock.end();
     return run;
+}
+
+io::ReportedQuality reported_of(const CheckedRun& run) {
+    io::ReportedQuality reported;
+    reported.report = &run.quality.report;
+    reported.program = &run.part.program;
+    reported.log = run.part.log.name;
+    reported.tool = run.part.tool;
+    reported.scallop = run.quality.scallop;
+    reported.as_machined = run.quality.as_machined ? &*run.quality.as_machined : nullptr;
+    reported.motion = run.quality.motion;
+    if (run.states_limits) reported.limits = &run.limits;
+    reported.budget = run.budget;
+    reported.origin = io::simulation_origin(run.part.log);
+    reported.acceptance = run.acceptance ? &*run.acceptance : nullptr;
+    reported.diagnostics = &run.part.diagnostics;
+    return reported;
 }
 
 void declare_judging(po::options_description& options) {

@@ -1,19 +1,30 @@
 #pragma once
 // CheckedRun: a program and a log of it, judged as `check` does it: passes, limits of the machine, budget.
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "cli/part.h"
 #include "cli/quality_limits.h"
 #include "io/reports/acceptance.h"
+#include "io/reports/quality_report.h"
 #include "limits/limit_report.h"
 #include "pipeline/judge.h"
+#include "pipeline/shards.h"
 
 namespace clsurf::cli {
 
+/// What was found in the shards of a log (pipeline/shards.h), with its survey.
+struct MergedShards {
+    std::shared_ptr<const Survey> survey;
+    std::function<std::vector<ShardFindings>(const Part&)> read;  ///< of the shards of that part
+};
+
 struct CheckedRun {
-    Part part;  ///< with all diagnostics
+    Part part;                             ///< with all diagnostics
+    std::shared_ptr<const Survey> survey;  ///< of a log that was judged in shards: the surface borrows from it
     ClSurface surface;
     Quality quality;
     LimitReport limits;
@@ -25,9 +36,14 @@ struct CheckedRun {
     [[nodiscard]] bool within_budget() const { return quality.report.judgement.judged() && all_held(budget); }
 };
 
-/// Reads and judges. `with_motion`: Quality::motion is asked for. Throws as load_part() does.
+/// Reads and judges. `with_motion`: Quality::motion is asked for; `merged`: what was found in shards, which has none. Throws as
+/// load_part() and rules_of_shards() do.
 [[nodiscard]] CheckedRun check_run(const PartOptions& options, std::optional<Role> measured, const CheckBudget& budget,
-                                   StageClock& clock, bool with_motion = false);
+                                   StageClock& clock, bool with_motion = false,
+                                   const std::optional<MergedShards>& merged = std::nullopt);
+
+/// All of a report that comes from the run, which must outlive it.
+[[nodiscard]] io::ReportedQuality reported_of(const CheckedRun& run);
 
 /// --tool, --budget, --fail-on, --max-depth, --accepted, and the options of a part: all that says how a run is judged.
 void declare_judging(po::options_description& options);

@@ -61,6 +61,7 @@ struct Subcommand {
 [[nodiscard]] Subcommand render_subcommand();
 [[nodiscard]] Subcommand report_subcommand();
 [[nodiscard]] Subcommand simulate_subcommand();
+[[nodiscard]] Subcommand survey_subcommand();
 [[nodiscard]] Subcommand help_subcommand();
 [[nodiscard]] Subcommand manual_subcommand();
 

@@ -13,7 +13,8 @@ std::span<const Subcommand> subcommands() {
         export_subcommand(),   convert_subcommand(),   record_subcommand(),   simulate_subcommand(),
         identify_subcommand(), diff_subcommand(),      optimize_subcommand(), profile_subcommand(),
         lint_subcommand(),     intervals_subcommand(), compare_subcommand(),  machine_subcommand(),
-        history_subcommand(),  fleet_subcommand(),     help_subcommand(),     manual_subcommand(),
+        history_subcommand(),  fleet_subcommand(),     survey_subcommand(),   help_subcommand(),
+        manual_subcommand(),
     };
     return table;
 }

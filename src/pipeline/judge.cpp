@@ -14,15 +14,16 @@ namespace {
 
 /// Roughness and scallops of the formed surface, and the places of its rough patches.
 void measure_as_machined_surface(const Part& part, const ClSurface& surface, std::optional<Role> measured,
-                                 const PartSignals& read, const PartContacts& contacts, Quality& quality) {
+                                 const PartSignals& read, const PartContacts& contacts,
+                                 const std::vector<double>* scallops, Quality& quality) {
     const CuttingTool tool = *part.tool;
     const std::unique_ptr<const UprightPart> upright = upright_part(part, measured, tool);
     const ToolRun run = upright ? upright->run() : ToolRun{part.path, surface, read};
     const AsMachinedSurface measured_surface = run.as_machined(tool);
     std::optional<AsMachinedSurface> commanded;
     if (run.has_both()) commanded.emplace(run.as_commanded(tool));
-    quality.as_machined =
-        measure_as_machined(measured_surface, run.read.signals, quality.report, commanded ? &*commanded : nullptr);
+    quality.as_machined = measure_as_machined(measured_surface, run.read.signals, quality.report,
+                                              commanded ? &*commanded : nullptr, scallops);
     quality.scallop = quality.as_machined->scallop;
     for (RoughPatch& patch : quality.as_machined->roughness.patches)
         patch.contact = contacts.place(patch.point).contact.value_or(patch.contact);
@@ -52,15 +53,21 @@ void note_reasons(const QualityReport& report, const Part& part, Diagnostics& di
 
 Quality judge(const Part& part, const ClSurface& surface, std::optional<Role> measured, const QualityRules& rules,
               const Stages& stages, bool with_motion) {
-    Quality quality;
     begin_stage(stages, "derive the signals");
     const PartSignals read = signals_of(part, surface, measured);
-    begin_stage(stages, "find the defects");
-    quality.report = find_defects(part, surface, read, rules);
-    note_reasons(quality.report, part, quality.diagnostics);
+    Quality quality = judge(part, surface, read, measured, rules, stages);
     if (with_motion)
         quality.motion = motion_quality(part.log, part.path, surface, speed_differences(surface, read.signals),
                                         estimate_motion(part, surface.passes));
+    return quality;
+}
+
+Quality judge(const Part& part, const ClSurface& surface, const PartSignals& read, std::optional<Role> measured,
+              const QualityRules& rules, const Stages& stages) {
+    Quality quality;
+    begin_stage(stages, "find the defects");
+    quality.report = find_defects(part, surface, read, rules);
+    note_reasons(quality.report, part, quality.diagnostics);
     if (!part.tool || surface.step_over <= 0) return quality;
     begin_stage(stages, "measure the formed surface");
     const PartContacts contacts(part, surface, *part.tool);
@@ -75,7 +82,8 @@ Quality judge(const Part& part, const ClSurface& surface, std::optional<Role> me
              {}});
         return quality;
     }
-    measure_as_machined_surface(part, surface, measured, read, contacts, quality);
+    measure_as_machined_surface(part, surface, measured, read, contacts, rules.found ? &rules.found->scallops : nullptr,
+                                quality);
     return quality;
 }
 

@@ -37,5 +37,8 @@ void note_reasons(const QualityReport& report, const Part& part, Diagnostics& di
 /// surface costs most.
 [[nodiscard]] Quality judge(const Part& part, const ClSurface& surface, std::optional<Role> measured = std::nullopt,
                             const QualityRules& rules = {}, const Stages& stages = {}, bool with_motion = false);
+/// The same with signals that are there already.
+[[nodiscard]] Quality judge(const Part& part, const ClSurface& surface, const PartSignals& read,
+                            std::optional<Role> measured, const QualityRules& rules, const Stages& stages = {});
 
 }  // namespace clsurf

@@ -52,8 +52,8 @@ std::optional<Eigen::Isometry3d> zero_of(const FramePoses& given, const Log& log
     return recorded;
 }
 
-Eigen::Isometry3d place_with(Program& program, const Log& log, FramePoses given, const Kinematics* kinematics,
-                             Diagnostics& diagnostics) {
+Eigen::Isometry3d place_program(Program& program, const Log& log, FramePoses given, const Kinematics* kinematics,
+                                Diagnostics& diagnostics) {
     given.zero = zero_of(given, log, diagnostics);
     given.tool_by_kinematics = kinematics != nullptr;
     given.starts_anywhere = true;
@@ -73,8 +73,13 @@ Eigen::Isometry3d place_with(Program& program, const Log& log, FramePoses given,
                              "give one of them with --work-offset G55:X,Y,Z"});
         }
     }
-    const Eigen::Isometry3d pose = place_motions(program, given);
-    if (given.zero || kinematics != nullptr || pose.matrix().isIdentity(0)) return pose;
+    return place_motions(program, given);
+}
+
+Eigen::Isometry3d place_with(Program& program, const Log& log, const FramePoses& given, const Kinematics* kinematics,
+                             Diagnostics& diagnostics) {
+    const Eigen::Isometry3d pose = place_program(program, log, given, kinematics, diagnostics);
+    if (given.zero || pose_of(log) || kinematics != nullptr || pose.matrix().isIdentity(0)) return pose;
     return own_or_none(program, log, pose, diagnostics);
 }
 

@@ -22,8 +22,12 @@ namespace clsurf {
 /// zero_of(); it goes before the program's own offsets, which count unless the path fits better without
 /// (`map.coordinates`). Returns machine = pose · workpiece. Adds `program.work-offset` where the program cuts in
 /// several systems whose offsets are not known. O(motions), and O(points) where the program sets offsets.
-[[nodiscard]] Eigen::Isometry3d place_with(Program& program, const Log& log, FramePoses given,
+[[nodiscard]] Eigen::Isometry3d place_with(Program& program, const Log& log, const FramePoses& given,
                                            const Kinematics* kinematics, Diagnostics& diagnostics);
+
+/// The same without a look at the path: the program's own offsets always count. O(motions).
+Eigen::Isometry3d place_program(Program& program, const Log& log, FramePoses given, const Kinematics* kinematics,
+                                Diagnostics& diagnostics);
 
 /// The same, and with kinematics the motions are those of the tip: what the tips of the log are compared with.
 [[nodiscard]] Eigen::Isometry3d place_tips_with(Program& program, const Log& log, const FramePoses& given,

@@ -1,0 +1,71 @@
+#include "cli/check_shards.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cli/survey_options.h"
+#include "io/files/atomic_file.h"
+#include "io/formats/shard_file.h"
+
+namespace clsurf::cli {
+namespace {
+
+/// What the findings of a shard depend on besides its survey.
+std::string shard_settings(const Part& part) { return part.tool ? "--tool " + to_text(*part.tool) : "--tool none"; }
+
+}  // namespace
+
+void declare_shards(po::options_description& options) {
+    declare_shard(options,
+                  "judge one of N parts of the log, cut at passes, and write what is found to -o FILE for --merge");
+    options.add_options()("merge", po::value<std::vector<std::string>>()->multitoken()->value_name("FILE…"),
+                          "the verdict on the whole log from what was found in all of its shards");
+}
+
+ExitCode check_shard(PartOptions options, const ShardNumber& shard, const po::variables_map& values) {
+    for (const char* name :
+         {"merge", "budget", "fail-on", "accepted", "max-depth", "baseline", "record", "measured", "format", "json"}) {
+        if (given(values, name))
+            throw UsageError(fmt::format("--{} is for the whole log, not for a --shard", name),
+                             "give it where the shards are merged");
+    }
+    const std::string output = required(values, "output");
+    io::AtomicFile file(output);
+    StageClock clock(read_common(values), 4);
+    const SurveyedLog log = read_surveyed_log(options, values);
+    const std::optional<Role> measured = take_measured_role(options);
+    const Part part = load_surveyed_part(options, log.survey, clock);
+    clock.begin("judge the shard");
+    const ClSurface surface = surveyed_surface(part, log.survey);
+    const PartSignals read = surveyed_signals(part, surface, log.survey, measured);
+    const PointRange points = points_of_shard(surface.passes, log.survey.points, shard);
+    const ShardFindings findings = judge_shard(part, surface, read, log.survey, points);
+    clock.end();
+    file.write(io::shard_json(findings, shard, log.origin, shard_settings(part)));
+    file.commit();
+    write_answer(fmt::format("shard {}/{}: {} points, {} read, {} candidates\n", shard.number, shard.count,
+                             points.size(), surface.positions.fill->filled(), findings.starts.size()),
+                 values);
+    return ExitCode::done;
+}
+
+std::optional<MergedShards> read_merged(const PartOptions& options, const po::variables_map& values, std::size_t logs) {
+    if (values.count("merge") == 0) {
+        if (given(values, "survey")) throw UsageError("--survey goes with --shard or --merge");
+        return std::nullopt;
+    }
+    if (logs > 1) throw UsageError("--merge is of one log");
+    if (given(values, "measured")) throw UsageError("--measured goes with a log that is judged as a whole");
+    SurveyedLog log = read_surveyed_log(options, values);
+    MergedShards merged;
+    merged.read = [origin = log.origin, paths = values["merge"].as<std::vector<std::string>>()](const Part& part) {
+        std::vector<ShardFindings> shards;
+        for (const std::string& path : paths) shards.push_back(io::read_shard(path, origin, shard_settings(part)));
+        return shards;
+    };
+    merged.survey = std::make_shared<const Survey>(std::move(log.survey));
+    return merged;
+}
+
+}  // namespace clsurf::cli

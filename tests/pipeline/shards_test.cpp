@@ -1,0 +1,238 @@
+// A log that is judged in shards: the same verdict, and each shard reads its own part.
+
+#include "pipeline/shards.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include "core/error.h"
+#include "io/formats/biip.h"
+#include "io/formats/survey_file.h"
+#include "io/readers/part_file.h"
+#include "pipeline/simulated_log.h"
+#include "repair/parts.h"
+#include "support/temporary_folder.h"
+
+namespace clsurf {
+namespace {
+
+/// Three hundred passes, some of them with sections of short blocks, and a machine that takes its time for these.
+class Shards : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        folder = new test::TemporaryFolder();
+        const std::string text = wavy_zigzag(
+            300, 24, [](int pass, double x) { return pass % 40 == 3 && x > 6 && x < 8 ? 0.02 : 0.31; }, 0.8);
+        program = folder->write("part.nc", text);
+        Machine machine;
+        machine.controller.block_time = 0.002;
+        const Log run = simulate_to_log(read_text(text), machine).log;
+        log = *folder / "run.biip";
+        io::write_biip(log, run.channels, run.records, run.period, run.metadata);
+        kept = *folder / "run.survey";
+        io::write_survey(kept, make_survey(whole()), origin);
+    }
+    static void TearDownTestSuite() { delete folder; }
+
+    struct Surveyed {
+        Survey survey;
+        Part part;
+        ClSurface surface;
+        PartSignals read;
+        explicit Surveyed(const std::string& log_file)
+            : survey(io::read_survey(kept, origin)),
+              part(io::read_surveyed_part({program, log_file, {}, {}, true}, {}, survey)),
+              surface(surveyed_surface(part, survey)),
+              read(surveyed_signals(part, surface, survey)) {
+            part.tool = parse_tool("ball:6");
+        }
+        [[nodiscard]] ShardFindings judge(const ShardNumber& shard) const {
+            return judge_shard(part, surface, read, survey, points_of_shard(surface.passes, survey.points, shard));
+        }
+    };
+
+    static Part whole() {
+        Part part = io::read_part(program, log);
+        part.tool = parse_tool("ball:6");
+        return part;
+    }
+
+    static test::TemporaryFolder* folder;
+    static std::string program, log, kept;  ///< files; the last one is the survey
+    static const io::SurveyOrigin origin;
+};
+test::TemporaryFolder* Shards::folder = nullptr;
+std::string Shards::program, Shards::log, Shards::kept;
+const io::SurveyOrigin Shards::origin{"log", "program", ""};
+
+void expect_same(const Quality& a, const Quality& b) {
+    ASSERT_EQ(a.report.defects.size(), b.report.defects.size());
+    EXPECT_GT(a.report.defects.size(), 3U);
+    for (std::size_t k = 0; k < a.report.defects.size(); ++k) {
+        const Defect &x = a.report.defects[k], &y = b.report.defects[k];
+        EXPECT_EQ(x.point, y.point);
+        EXPECT_EQ(x.score, y.score);
+        EXPECT_EQ(x.depth, y.depth);
+        EXPECT_EQ(x.area, y.area);
+        EXPECT_EQ(x.cause, y.cause);
+        EXPECT_EQ(x.place.contact->x(), y.place.contact->x());
+        ASSERT_EQ(x.runs.size(), y.runs.size());
+        for (std::size_t r = 0; r < x.runs.size(); ++r) {
+            EXPECT_EQ(x.runs[r].points, y.runs[r].points);
+            EXPECT_EQ(x.runs[r].pass, y.runs[r].pass);
+            EXPECT_EQ(x.runs[r].first_line, y.runs[r].first_line);
+        }
+        EXPECT_EQ(a.as_machined->marks[k].note, b.as_machined->marks[k].note);
+    }
+    EXPECT_EQ(a.report.expected.size(), b.report.expected.size());
+    EXPECT_EQ(a.report.compared, b.report.compared);
+    EXPECT_EQ(a.report.thresholds.of, b.report.thresholds.of);
+    EXPECT_EQ(a.scallop, b.scallop);
+    EXPECT_EQ(a.as_machined->roughness.ra, b.as_machined->roughness.ra);
+    EXPECT_EQ(a.as_machined->roughness.sz, b.as_machined->roughness.sz);
+}
+
+TEST_F(Shards, TogetherTheyGiveTheVerdictOnTheWholeLog) {
+    const Part part = whole();
+    const Quality at_once = judge(part, stitch(part));
+    for (const int count : {1, 7}) {
+        const Surveyed log_in_parts(log);
+        std::vector<ShardFindings> found;
+        for (int number = count; number >= 1; --number) {
+            // Each from the beginning, as processes of their own.
+            found.push_back(Surveyed(log).judge({number, count}));
+        }
+        const QualityRules rules = rules_of_shards(found, log_in_parts.survey);
+        expect_same(at_once, judge(log_in_parts.part, log_in_parts.surface, log_in_parts.read, std::nullopt, rules));
+    }
+}
+
+TEST_F(Shards, HaveEveryPointOnce) {
+    const Survey survey = io::read_survey(kept, origin);
+    PointIndex next = 0;
+    for (int number = 1; number <= 9; ++number) {
+        const PointRange points = points_of_shard(survey.passes, survey.points, {number, 9});
+        EXPECT_EQ(points.first, next);
+        EXPECT_NEAR(static_cast<double>(points.size()), static_cast<double>(survey.points) / 9, 1000);
+        EXPECT_TRUE(number == 1 || std::any_of(survey.passes.begin(), survey.passes.end(),
+                                               [&](const Pass& p) { return p.first == points.first; }));
+        next = points.last + 1;
+    }
+    EXPECT_EQ(next, survey.points);
+    // More shards than passes: some are empty, and still none is missing.
+    next = 0;
+    for (int number = 1; number <= 5000; ++number) {
+        const PointRange points = points_of_shard(survey.passes, survey.points, {number, 5000});
+        EXPECT_EQ(points.first, next);
+        next = points.last + 1;
+    }
+    EXPECT_EQ(next, survey.points);
+}
+
+TEST_F(Shards, AShardThatIsMissingOrThereTwiceIsAnError) {
+    const Surveyed one(log);
+    const ShardFindings first = one.judge({1, 3}), second = one.judge({2, 3}), third = one.judge({3, 3});
+    EXPECT_NO_THROW((void)rules_of_shards({third, first, second}, one.survey));
+    EXPECT_THROW((void)rules_of_shards({first, third}, one.survey), UsageError);
+    EXPECT_THROW((void)rules_of_shards({first, second}, one.survey), UsageError);
+    EXPECT_THROW((void)rules_of_shards({second, third}, one.survey), UsageError);
+    EXPECT_THROW((void)rules_of_shards({first, second, second, third}, one.survey), UsageError);
+}
+
+/// Bytes of a file that a mapping of this process has touched.
+std::size_t resident_bytes(const std::string& file) {
+    std::ifstream maps("/proc/self/smaps");
+    std::string line;
+    bool mine = false;
+    std::size_t kilobytes = 0;
+    while (std::getline(maps, line)) {
+        if (line.find('-') != std::string::npos && line.find(' ') > line.find('-') &&
+            line.find(':') != std::string::npos && line.find("kB") == std::string::npos)
+            mine = line.ends_with(file);
+        if (mine && line.starts_with("Rss:")) kilobytes += std::stoul(line.substr(4));
+    }
+    return 1024 * kilobytes;
+}
+
+TEST_F(Shards, AShardReadsItsOwnPartOfTheLogAndThePassesBesideIt) {
+    const std::size_t bytes = io::map_file(log).bytes.size();
+    for (const int number : {1, 10, 20}) {
+        const Surveyed fresh(log);
+        const ShardFindings found = fresh.judge({number, 20});
+        EXPECT_GT(found.compared, 0);
+        // A twentieth and, in whole blocks on either side, the passes that it is compared with, and those beside them.
+        EXPECT_LE(fresh.surface.positions.fill->filled(), fresh.survey.points / 20 + 8 * block_points);
+        const std::size_t touched = resident_bytes(log);
+        EXPECT_GT(touched, bytes / 40);
+        EXPECT_LT(touched, bytes / 2) << "of " << bytes;
+    }
+}
+
+TEST_F(Shards, WhatLiesElsewhereInTheLogDoesNotMatter) {
+    const Surveyed good(log);
+    const PointRange points = points_of_shard(good.survey.passes, good.survey.points, {10, 20});
+    // Every record that is more than four blocks away is overwritten.
+    std::string bytes;
+    {
+        const io::Source source = io::map_file(log);
+        bytes = source.text();
+        const ChannelView& x = good.part.path.axes[0];
+        const std::size_t records_at = bytes.size() - x.stride * static_cast<std::size_t>(good.survey.points);
+        for (PointIndex i = 0; i < good.survey.points; ++i) {
+            if (i > points.first - 4 * block_points && i < points.last + 4 * block_points) continue;
+            std::memset(bytes.data() + records_at + static_cast<std::size_t>(i) * x.stride, 0x5a, x.stride);
+        }
+    }
+    const Surveyed damaged(folder->write("damaged.biip", bytes));
+    const ShardFindings a = good.judge({10, 20}), b = damaged.judge({10, 20});
+    EXPECT_FALSE(a.starts.empty() && a.compared == 0);
+    EXPECT_EQ(a.compared, b.compared);
+    EXPECT_EQ(a.starts, b.starts);
+    EXPECT_EQ(a.scallops, b.scallops);
+}
+
+TEST_F(Shards, ASurveyComesBackFromItsFile) {
+    const Survey survey = make_survey(whole());
+    const Survey again = io::read_survey(kept, origin);
+    EXPECT_EQ(again.points, survey.points);
+    EXPECT_EQ(again.offset, survey.offset);
+    EXPECT_EQ(again.turn, survey.turn);
+    EXPECT_EQ(again.origin, survey.origin);
+    EXPECT_EQ(again.step_over, survey.step_over);
+    EXPECT_EQ(again.cut_length, survey.cut_length);
+    EXPECT_EQ(again.not_finishing, survey.not_finishing);
+    EXPECT_EQ(again.facts.usual_speed, survey.facts.usual_speed);
+    EXPECT_EQ(again.facts.scatter, survey.facts.scatter);
+    EXPECT_EQ(again.facts.unfit, survey.facts.unfit);
+    EXPECT_EQ(again.thresholds.of, survey.thresholds.of);
+    EXPECT_EQ(again.low_links, survey.low_links);
+    EXPECT_EQ(again.pieces, survey.pieces);
+    ASSERT_EQ(again.passes.size(), survey.passes.size());
+    EXPECT_TRUE(std::equal(again.neighbours.left.begin(), again.neighbours.left.end(), survey.neighbours.left.begin()));
+    EXPECT_TRUE(std::equal(again.arc_lengths.begin(), again.arc_lengths.end(), survey.arc_lengths.begin()));
+    for (std::size_t k = 0; k < survey.boxes.size(); ++k) EXPECT_TRUE(again.boxes[k].isApprox(survey.boxes[k], 0));
+}
+
+TEST_F(Shards, ASurveyOfSomethingElseIsAnError) {
+    EXPECT_THROW((void)io::read_survey(kept, {"another", "program", ""}), InputError);
+    EXPECT_THROW((void)io::read_survey(kept, {"log", "another", ""}), InputError);
+    EXPECT_THROW((void)io::read_survey(kept, {"log", "program", "--force"}), InputError);
+    std::string bytes(io::map_file(kept).text());
+    for (const std::size_t cut :
+         {std::size_t{0}, std::size_t{7}, std::size_t{100}, std::size_t{5000}, bytes.size() / 2}) {
+        const std::string file = folder->write("cut.survey", bytes.substr(0, cut));
+        EXPECT_THROW((void)io::read_survey(file, origin), InputError) << cut;
+    }
+    bytes[30] ^= 1;
+    EXPECT_THROW((void)io::read_survey(folder->write("bad.survey", bytes), origin), InputError);
+    EXPECT_THROW((void)io::read_survey(log, origin), InputError);
+}
+
+}  // namespace
+}  // namespace clsurf
