@@ -83,9 +83,11 @@ std::string resolved_text(const ResolvedFindings& resolved) {
         list += list.empty() ? "" : there.empty() ? ", " : "; ";
         list += there.empty() ? fmt::format("{}", k + 1) : fmt::format("{} ({})", k + 1, ranks_text(there));
     }
-    std::string text = fmt::format("The complete log confirms {} of {} findings",
-                                   resolved.defects.size() - resolved.withdrawn(), resolved.defects.size());
-    text += confirmed.empty() ? ".\n" : ": " + confirmed + ".\n";
+    const std::size_t all = resolved.defects.size();
+    std::string text = all == 0
+                           ? "There were no findings while the log was written.\n"
+                           : fmt::format("The complete log confirms {} of {} findings{}{}.\n",
+                                         all - resolved.withdrawn(), all, confirmed.empty() ? "" : ": ", confirmed);
     if (!withdrawn.empty()) text += fmt::format("Withdrawn: {}. The complete log shows no defect there.\n", withdrawn);
     if (!resolved.late.empty()) text += fmt::format("Found in the complete log only: {}.\n", ranks_text(resolved.late));
     return text;

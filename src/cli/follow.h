@@ -22,7 +22,7 @@ void declare_follow(po::options_description& options, const char* meaning);
 /// When records are looked at.
 struct LookRules {
     double least_pause = 0.1;         ///< [s] from one look to the next
-    double pause_share = 1;           ///< … and times what the one before took
+    double pause_share = 0.5;         ///< … and of the time that the one before took
     PointIndex most_unseen = 50'000;  ///< records, which are looked at at once
     bool keeps_records = true;        ///< false: all that is wanted are the bytes of the log
     bool at_end = true;               ///< the last records are looked at when the log ends

@@ -18,10 +18,10 @@ struct FollowRules {
     PartRules part;
     std::optional<Role> measured;  ///< positions that heights are measured from
     QualityRules quality;
-    std::int64_t passes = 24;     ///< that are kept as neighbours of those to come …
-    PointIndex points = 200'000;  ///< … but of long passes fewer, where these are more points
+    std::int64_t passes = 18;     ///< that are kept as neighbours of those to come …
+    PointIndex points = 100'000;  ///< … but of long passes fewer, where these are more points
     std::int64_t least_passes = 10;
-    PointIndex most_points = 600'000;  ///< that are kept at all
+    PointIndex most_points = 400'000;  ///< that are kept at all
 };
 
 /// A defect that was found while the log was written. Its points and passes count from the beginning of the log.

@@ -152,12 +152,18 @@ TEST(GrowingLog, HalfAHeadIsWaitedFor) {
     EXPECT_EQ(log.end(), 9);
 }
 
-TEST(GrowingLog, AShorterFileIsAnError) {
+/// A text of 50 records, read so far.
+class GrowingText : public testing::Test {
+protected:
+    void SetUp() override { (void)log.read(1000); }
+
     const TemporaryFolder folder;
     const std::string path = folder.write("log.csv", csv_of(50));
     const LogOptions options;
-    GrowingLog log(path, options);
-    (void)log.read(1000);
+    GrowingLog log{path, options};
+};
+
+TEST_F(GrowingText, ThatBecomesShorterIsAnError) {
     std::filesystem::resize_file(path, 100);
     try {
         (void)log.read(1000);
@@ -167,34 +173,19 @@ TEST(GrowingLog, AShorterFileIsAnError) {
     }
 }
 
-TEST(GrowingLog, AnotherFileOfThatNameIsAnError) {
-    const TemporaryFolder folder;
-    const std::string path = folder.write("log.csv", csv_of(50));
-    const LogOptions options;
-    GrowingLog log(path, options);
-    (void)log.read(1000);
+TEST_F(GrowingText, ThatIsReplacedIsAnError) {
     std::filesystem::rename(folder.write("other.csv", csv_of(80)), path);
     EXPECT_THROW((void)log.read(1000), InputError);
 }
 
-TEST(GrowingLog, AFileThatIsWrittenAnewIsAnError) {
-    const TemporaryFolder folder;
-    const std::string path = folder.write("log.csv", csv_of(50));
-    const LogOptions options;
-    GrowingLog log(path, options);
-    (void)log.read(1000);
+TEST_F(GrowingText, ThatIsWrittenAnewIsAnError) {
     folder.write("log.csv", "t;x\n" + csv_of(80));  // the same file, longer, and with another head
     EXPECT_THROW((void)log.read(1000), InputError);
 }
 
-TEST(GrowingLog, AFileWithoutItsNameEnds) {
-    const TemporaryFolder folder;
-    const std::string path = folder.write("log.csv.part", csv_of(50));
-    const LogOptions options;
-    GrowingLog log(path, options);
-    (void)log.read(1000);
+TEST_F(GrowingText, WithoutItsNameEnds) {
     EXPECT_FALSE(log.ended());
-    std::filesystem::rename(path, folder / "log.csv");
+    std::filesystem::rename(path, folder / "run.csv");
     EXPECT_EQ(log.read(1000), 0);
     EXPECT_TRUE(log.ended());
     EXPECT_EQ(log.whole().bytes.size(), csv_of(50).size());

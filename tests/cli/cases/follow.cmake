@@ -15,7 +15,7 @@ clsurf_cli_test(NAME follow_another_program ARGS check @DATA@/programs/planted_l
 clsurf_cli_test(NAME follow_with_a_picture_on_standard_output ARGS render ${run} --follow -o - EXIT 2 STDERR "-o")
 clsurf_cli_test(NAME follow_with_a_program_on_standard_input ARGS report - @LOGS@/planted_zigzag.biip --follow -o page.html EXIT 2 STDERR "cannot come from standard input")
 clsurf_cli_test(NAME follow_without_a_log ARGS render @DATA@/programs/planted_zigzag.nc --follow -o map.png EXIT 2 STDERR "--follow needs a LOG")
-clsurf_cli_test(NAME follow_a_log_that_is_too_short SETUP "head -c 5000 @LOGS@/planted_zigzag.biip > run.biip" ARGS check @DATA@/programs/planted_zigzag.nc run.biip --follow --follow-timeout 0.2 EXIT 5 STDOUT "NOT JUDGED")
+clsurf_cli_test(NAME follow_a_log_that_is_too_short SETUP "head -c 5000 @LOGS@/planted_zigzag.biip > run.biip" ARGS check @DATA@/programs/planted_zigzag.nc run.biip --follow --follow-timeout 0.2 EXIT 5 STDOUT "There were no findings" "NOT JUDGED")
 
 add_test(NAME cli.follow COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/cli/follow_test
   ${PROJECT_BINARY_DIR}/tests/cli/follow $<TARGET_FILE:clsurf> ${PROJECT_SOURCE_DIR}/data ${PROJECT_BINARY_DIR}/samples)
