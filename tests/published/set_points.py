@@ -98,3 +98,18 @@ def distance_from_lines(points, corners):
         share = np.clip(np.einsum("ijk,jk->ij", from_begin, way) / square, 0, 1)
         distances[first : first + 500] = np.sqrt(((from_begin - share[..., None] * way) ** 2).sum(axis=2)).min(axis=1)
     return distances
+
+
+def distance_to_nearest(places, points):
+    """From each place to the line of points, which is as dense as set points are: to the two pieces at the nearest point."""
+    from scipy.spatial import cKDTree
+
+    moving = np.concatenate([[True], np.linalg.norm(np.diff(points, axis=0), axis=1) > STILL])
+    points = points[moving]
+    _, nearest = cKDTree(points).query(places)
+    distances = np.full(len(places), np.inf)
+    for piece in (np.maximum(nearest - 1, 0), np.minimum(nearest, len(points) - 2)):
+        way = points[piece + 1] - points[piece]
+        share = np.clip(((places - points[piece]) * way).sum(axis=1) / (way * way).sum(axis=1), 0, 1)
+        distances = np.minimum(distances, np.linalg.norm(places - points[piece] - share[:, None] * way, axis=1))
+    return distances
