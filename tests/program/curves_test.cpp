@@ -177,6 +177,24 @@ TEST(Curves, ControlPointsOfBspline) {
     expect_refused("G71 G90\nG0 X0 Y0 Z0\nG1 F1000\nBSPLINE X1 A5\n", "siemens", "4:", "rotary axes");
 }
 
+// G1 without a motion ends a spline: the next point begins another one, of one span each, where the tool stands.
+TEST(Curves, G1BetweenSplinesPartsThem) {
+    const Program two = parse(
+        "G71 G90\nG0 X0 Y0 Z0\nG1 F1000\nBSPLINE SD=3 X1 Y2 PL=3\nX2 Y2\nX3 Y0\nG1\nBSPLINE SD=3 X4 Y-2 PL=2\nX5 Y-2\n"
+        "X6 Y0\nG1\nX9\nM30\n",
+        "siemens");
+    ASSERT_EQ(two.motions.curves.size(), 2U);
+    // A cubic Bézier curve at one half: (P0 + 3 P1 + 3 P2 + P3) / 8.
+    expect_at(two, 0, 0.5, {1.5, 1.5, 0});
+    expect_at(two, 0, 1, {3, 0, 0});
+    expect_at(two, 1, 0.5, {4.5, -1.5, 0});
+    expect_at(two, 1, 1, {6, 0, 0});
+    // The same of points that a spline goes through: two lines are two splines, with a corner where they meet.
+    const Program points =
+        parse("G71 G90\nG0 X0 Y0 Z0\nG1 F1000\nASPLINE X1 Y1\nG1\nASPLINE X2 Y0\nG1\nM30\n", "siemens");
+    ASSERT_EQ(points.motions.curves.size(), 2U);
+}
+
 TEST(Curves, FramesTakeCurvesAlong) {
     const Program p =
         parse("G71 G90\nTRANS X100\nAROT Z90\nG0 X0 Y0 Z0\nG1 F1000\nPOLY PO[X]=(4,2) Y2\nG1 X0\n", "siemens");

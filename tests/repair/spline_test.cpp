@@ -216,9 +216,10 @@ std::vector<std::uint8_t> all_of(const Program& program) {
     return std::vector<std::uint8_t>(static_cast<std::size_t>(program.motions.size()), 1);
 }
 
-std::string section_text(const FedSection& row) {
-    const Nurbs spline{
+std::string section_text(const FedSection& row, double x = 0) {
+    Nurbs spline{
         3, {{0, 0, 5}, {1, 2, 5}, {2, 2, 5}, {4, 1, 5}, {5, 0, 5}}, {1, 1, 1, 1, 1}, {0, 0, 0, 0, 2, 5, 5, 5, 5}};
+    for (Vec3& point : spline.points) point.x() += x;
     SplineWords words;
     words.decimals = 1;
     if (row.form == SplineForm::polynomial) words.straight.clear();
@@ -272,6 +273,22 @@ TEST(LineEditor, SetsFeedsOfSectionsThatFollowEachOther) {
         LineEditor editor(program);
         editor.set_feeds(feeds_of_moving(program.motions, {0, 0, 5, 5, 6, 7, 7, 0}), all_of(program));
         expect_feeds(editor.text(""), row.dialect, {10, 10, 5, 5, 6, 7, 7, 10});
+    }
+}
+
+// The second section begins where the first one ends: in no dialect do they become one spline.
+TEST(LineEditor, SetsFeedsOfSectionsWithNothingBetween) {
+    for (const FedSection& row : fed_sections()) {
+        const bool klartext = row.form == SplineForm::polynomial;
+        const std::string back = klartext ? "L X+0 Y+0\n" : "X0. Y0.\n", end = klartext ? "END PGM A MM\n" : "M30\n";
+        const Program program =
+            read_as(row.before + section_text(row) + section_text(row, 5) + back + end, row.dialect);
+        ASSERT_EQ(moving(program.motions).size(), 7U) << row.dialect;
+        EXPECT_NEAR(program.motions.curves[1].span->at(1).x(), 5, 1e-9) << row.dialect;
+        EXPECT_NEAR(program.motions.curves[3].span->at(1).x(), 10, 1e-9) << row.dialect;
+        LineEditor editor(program);
+        editor.set_feeds(feeds_of_moving(program.motions, {0, 0, 5, 5, 7, 7, 0}), all_of(program));
+        expect_feeds(editor.text(""), row.dialect, {10, 10, 5, 5, 7, 7, 10});
     }
 }
 

@@ -54,6 +54,7 @@ struct OpenSpline {
     std::vector<double> last_knots;  ///< of blocks without a point, behind those of the points
     Vec3 begin_tangent = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< NaN: there is none
     std::vector<std::size_t> events;  ///< of each event that came in between, how many points stood before it
+    bool left = false;                ///< a block in another mode stood behind it: the next point begins a new one
 };
 
 struct CurveState {

@@ -40,6 +40,11 @@ std::vector<double> coefficients_to(double end, const std::vector<double>& value
     return a;
 }
 
+/// Siemens: blocks are points of a spline.
+bool is_point_mode(MotionMode mode) {
+    return mode == MotionMode::akima_spline || mode == MotionMode::basis_spline || mode == MotionMode::cubic_spline;
+}
+
 /// A line times a denominator, so that the quotient is the line.
 std::vector<double> line_over(const std::vector<double>& denominator, double begin, double slope) {
     std::vector<double> a(denominator.size() + 1, 0.0);
@@ -283,7 +288,7 @@ void Interpreter::spline_point(const Block& block) {
     if (from.array().isNaN().any() && (to - from).array().isNaN().any() &&
         !(to.array().isNaN() == from.array().isNaN()).all())
         fail("a spline begins where the tool stands, which is not known yet");
-    if (curves_.open.kind != kind) begin_spline(kind);
+    if (curves_.open.kind != kind || curves_.open.left) begin_spline(kind);
     curves_.open.degree = basis ? curves_.degree : 3;
     add_spline_point(to, weight, interval);
 }
@@ -377,6 +382,8 @@ void Interpreter::settle_spline(const Block& block) {
     if ((kind == SplineKind::uniform && state_.motion != MotionMode::nurbs) ||
         (kind == SplineKind::knotted && state_.motion != MotionMode::knotted_nurbs))
         close_spline(Vec3::Zero());
+    // The direction of the motion behind the others is not known yet.
+    curves_.open.left = curves_.open.left || (curves_.is_open() && !is_point_mode(state_.motion));
 }
 
 /// The value of PO[axis] in the block; nullptr: none.
