@@ -45,6 +45,7 @@ std::optional<double> read_weight(const po::variables_map& values) {
 FrontOutput::FrontOutput(const po::variables_map& values) {
     if (values.count("tradeoff") == 0) return;
     const std::string path = values["tradeoff"].as<std::string>();
+    if (is_standard_output(path)) throw UsageError("--tradeoff writes a file, not standard output");
     format_ = output_format(path, front_formats(), {}, "--tradeoff").name;
     if (format_ == "csv" || format_ == "json")
         table_ = std::make_unique<io::AtomicFile>(path);

@@ -55,6 +55,7 @@ struct ChoiceOutputs {
         }
         if (values.count("settings") > 0) {
             const std::string path = values["settings"].as<std::string>();
+            if (is_standard_output(path)) throw UsageError("--settings writes a file, not standard output");
             (void)output_format(path, toml_formats(), {}, "--settings");
             settings = std::make_unique<io::AtomicFile>(path);
         }
@@ -84,6 +85,7 @@ void refuse_settings_options(const po::variables_map& values) {
 
 ExitCode trade_off_settings(const po::variables_map& values) {
     if (values.count("controller") > 0) throw UsageError("--tradeoff simulates: it does not go with --controller");
+    const bool json = read_json_beside_output(values);
     const std::optional<double> weight = read_weight(values);
     const SettingsRules rules = read_settings_rules(values);
     const ChoiceOutputs outputs(values, weight.has_value());
@@ -124,7 +126,7 @@ ExitCode trade_off_settings(const po::variables_map& values) {
     }
     front_output.write(found.front, found.settings, fmt::format("Time against surface: {} on {}", name, machine.name),
                        diagnostics);
-    if (read_json(values)) {
+    if (json) {
         write_to_stdout(io::tradeoff_json(found.front, found.settings, diagnostics));
     } else {
         print(diagnostics, values);
