@@ -55,7 +55,7 @@ public:
 
     SettingsTradeoff run() {
         try_all({PlanSettings{}});
-        if (rows_.front().quality.mismatch != rows_.front().quality.mismatch)
+        if (!rows_.front().on_front)  // what is traded is not known
             throw InputError(Place::of_file(program_.main().name()),
                              "has no adjacent passes: there is no mismatch to trade time for");
         try_each_alone();
