@@ -1,8 +1,12 @@
 #include "viz/export_vtk.h"
 
+#include <algorithm>
+#include <utility>
+
 #include <hdf5.h>
 #include <vtkCellArray.h>
 #include <vtkCellType.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkFloatArray.h>
@@ -12,6 +16,7 @@
 #include <vtkPolyData.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkTypeUInt32Array.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkXMLPolyDataWriter.h>
 
 #include "core/error.h"
@@ -134,24 +139,26 @@ void put_header(hid_t group) {
 
 }  // namespace
 
-void write_vtp(const std::string& path, const ClSurface& surface, const std::vector<PointData>& data) {
-    Column<double> xyz = points_of(surface);
-    CellColumns cells = cells_of(surface);
+namespace {
+
+/// `lines` borrow from `piece`, which is not const therefore.
+vtkNew<vtkPolyData> poly_data(VtkPiece& piece, const std::vector<PointData>& data) {
     vtkNew<vtkDoubleArray> coordinates;
     coordinates->SetNumberOfComponents(3);
-    coordinates->SetArray(xyz.data(), static_cast<vtkIdType>(xyz.size()), 1);
+    coordinates->SetArray(piece.xyz.data(), static_cast<vtkIdType>(piece.xyz.size()), 1);
     vtkNew<vtkPoints> points;
     points->SetData(coordinates);
     vtkNew<vtkPolyData> poly;
     poly->SetPoints(points);
-    poly->SetLines(cell_array(cells.line_offsets, cells.line_points));
-    Column<std::int64_t> triangle_offsets(cells.triangles.size() / 3 + 1);
-    for (std::size_t i = 0; i < triangle_offsets.size(); ++i) triangle_offsets[i] = static_cast<std::int64_t>(3 * i);
-    if (!cells.triangles.empty()) poly->SetPolys(cell_array(triangle_offsets, cells.triangles));
+    poly->SetLines(cell_array(piece.line_offsets, piece.line_points));
     for (const PointData& column : data)
         with_column(column, [&](const auto& values) { add_array(*poly->GetPointData(), column.name, values); });
+    return poly;
+}
+
+void write_poly(const std::string& path, vtkPolyData& poly) {
     vtkNew<vtkXMLPolyDataWriter> writer;
-    writer->SetInputData(poly);
+    writer->SetInputData(&poly);
     writer->SetFileName(path.c_str());
     writer->SetDataModeToAppended();
     // Not raw: VTK 9.1 and ParaView 5.11 cannot read that with expat 2.6, or 2.5.0-1+deb12u2 of Debian 12
@@ -164,6 +171,76 @@ void write_vtp(const std::string& path, const ClSurface& surface, const std::vec
     vtkObject::SetGlobalWarningDisplay(warnings);
     if (!written)
         throw SystemError(path + ": cannot write: " + vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
+}
+
+void write_piece(const std::string& path, VtkPiece& piece, const std::vector<PointData>& data, bool marks_ghosts) {
+    const vtkNew<vtkPolyData> poly = poly_data(piece, data);
+    Column<std::int64_t> offsets(piece.triangles.size() / 3 + 1);
+    for (std::size_t i = 0; i < offsets.size(); ++i) offsets[i] = static_cast<std::int64_t>(3 * i);
+    if (!piece.triangles.empty()) poly->SetPolys(cell_array(offsets, piece.triangles));
+    vtkNew<vtkUnsignedCharArray> ghosts;
+    if (marks_ghosts) {
+        ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+        const auto count = static_cast<vtkIdType>(piece.points.size());
+        ghosts->SetNumberOfTuples(count);
+        for (vtkIdType k = 0; k < count; ++k)
+            ghosts->SetValue(k, k < piece.own_points ? 0 : vtkDataSetAttributes::DUPLICATEPOINT);
+        poly->GetPointData()->AddArray(ghosts);
+    }
+    write_poly(path, *poly);
+}
+
+}  // namespace
+
+VtkPiece piece_of(const SurfacePart& part, const PointRange& own) {
+    VtkPiece piece;
+    const auto is_own = [&](PointIndex point) { return point >= own.first && point <= own.last; };
+    const auto global = [&](std::int64_t k) { return part.points[static_cast<std::size_t>(k)]; };
+    Column<std::int64_t> place(part.points.size(), std::int64_t{-1});  // of a point of the part in the piece
+    const auto add = [&](std::int64_t k) {
+        std::int64_t& at = place[static_cast<std::size_t>(k)];
+        if (at >= 0) return;
+        at = static_cast<std::int64_t>(piece.points.size());
+        piece.points.push_back(global(k));
+        const Vec3 p = part.surface.positions.absolute(k);
+        for (int axis = 0; axis < 3; ++axis) piece.xyz.push_back(p[axis]);
+    };
+    for (std::int64_t k = 0; k < static_cast<std::int64_t>(part.points.size()); ++k) {
+        if (is_own(global(k))) add(k);
+    }
+    piece.own_points = static_cast<PointIndex>(piece.points.size());
+    piece.line_offsets.push_back(0);
+    for (const Pass& pass : part.surface.passes) {
+        if (pass.kind != PassKind::cut || !is_own(global(pass.first))) continue;
+        for (PointIndex k = pass.first; k <= pass.last; ++k)
+            piece.line_points.push_back(place[static_cast<std::size_t>(k)]);
+        piece.line_offsets.push_back(static_cast<std::int64_t>(piece.line_points.size()));
+    }
+    // A triangle belongs to the piece of its first point.
+    const Column<std::int64_t> triangles = triangles_of(part.surface);
+    for (std::size_t t = 0; t < triangles.size(); t += 3) {
+        const std::int64_t first = std::min({triangles[t], triangles[t + 1], triangles[t + 2]});
+        if (!is_own(global(first))) continue;
+        for (std::size_t corner = t; corner < t + 3; ++corner) {
+            add(triangles[corner]);
+            piece.triangles.push_back(place[static_cast<std::size_t>(triangles[corner])]);
+        }
+    }
+    return piece;
+}
+
+void write_vtp(const std::string& path, VtkPiece piece, const std::vector<PointData>& data) {
+    write_piece(path, piece, data, true);
+}
+
+void write_vtp(const std::string& path, const ClSurface& surface, const std::vector<PointData>& data) {
+    CellColumns cells = cells_of(surface);
+    VtkPiece whole;
+    whole.xyz = points_of(surface);
+    whole.line_offsets = std::move(cells.line_offsets);
+    whole.line_points = std::move(cells.line_points);
+    whole.triangles = std::move(cells.triangles);
+    write_piece(path, whole, data, false);
 }
 
 void write_vtkhdf(const std::string& path, const ClSurface& surface, const std::vector<PointData>& data) {

@@ -9,6 +9,7 @@
 
 #include "core/column.h"
 #include "surface/cl_surface.h"
+#include "surface/surface_part.h"
 
 namespace clsurf::viz {
 
@@ -21,6 +22,21 @@ struct PointData {
 
 /// Writes into the file at `path` (an io::AtomicFile's temporary one). Throws SystemError.
 void write_vtp(const std::string& path, const ClSurface& surface, const std::vector<PointData>& data);
+
+/// A part of a surface as .vtp: its own points, and those beside it that its triangles need. All pieces together have
+/// every pass and every triangle of the surface once.
+struct VtkPiece {
+    Column<PointIndex> points;  ///< of the surface; first the own ones, in order
+    PointIndex own_points = 0;
+    Column<double> xyz;                              ///< [mm]
+    Column<std::int64_t> line_offsets, line_points;  ///< polylines of the own passes
+    Column<std::int64_t> triangles;                  ///< 3 points each
+};
+/// `own`: as part_with_neighbours() takes it.
+[[nodiscard]] VtkPiece piece_of(const SurfacePart& part, const PointRange& own);
+/// Points that are not its own are marked in `vtkGhostType`, as VTK does it.
+void write_vtp(const std::string& path, VtkPiece piece, const std::vector<PointData>& data);
+
 void write_vtkhdf(const std::string& path, const ClSurface& surface, const std::vector<PointData>& data);
 
 }  // namespace clsurf::viz

@@ -1,6 +1,7 @@
 // clsurf export: per-point columns as CSV, BIIP, VTK.
 
 #include "cli/export_columns.h"
+#include "cli/export_shards.h"
 #include "cli/help.h"
 #include "cli/output_format.h"
 #include "cli/part.h"
@@ -12,18 +13,15 @@
 namespace clsurf::cli {
 namespace {
 
-viz::PointData point_data_of(const io::ExportColumn& column) {
-    if (!column.counts.empty()) return {column.name, &column.counts};
-    if (!column.exact.empty()) return {column.name, &column.exact};
-    return {column.name, &column.values};
-}
-
 void write_vtk(const std::string& path, bool hdf, const ClSurface& surface,
                const std::vector<io::ExportColumn>& columns) {
     std::vector<viz::PointData> data;
     for (const io::ExportColumn& column : columns) data.push_back(point_data_of(column));
     io::AtomicFile file(path);
-    (hdf ? viz::write_vtkhdf : viz::write_vtp)(file.temporary_path(), surface, data);
+    if (hdf)
+        viz::write_vtkhdf(file.temporary_path(), surface, data);
+    else
+        viz::write_vtp(file.temporary_path(), surface, data);
     file.commit();
 }
 
@@ -36,6 +34,7 @@ ExitCode list_columns(const po::variables_map& values, const Part& part, StageCl
 }
 
 ExitCode run_export(const po::variables_map& values) {
+    if (values.count("merge") > 0) return name_pieces(values);
     if (values.count("list") > 0) {
         if (values.count("output") > 0) throw UsageError("--list writes no file: -o must not be given");
         StageClock clock(read_common(values), 4);
@@ -48,6 +47,9 @@ ExitCode run_export(const po::variables_map& values) {
     const std::vector<std::string> names =
         split_names(values.count("columns") > 0 ? values["columns"].as<std::string>() : "point,time,line,x,y,z,speed");
     if (names.empty()) throw UsageError("--columns: no names");
+    if (const std::optional<ShardNumber> shard = read_shard_number(values))
+        return write_shard(read_part_or_log_options(values), *shard, names, values);
+    if (given(values, "survey")) throw UsageError("--survey goes with --shard");
     const std::string_view format = output_format(output, table_formats()).name;
     StageClock clock(read_common(values), 5);
     const Part part = load_part(read_part_or_log_options(values), clock);
@@ -77,7 +79,10 @@ Subcommand export_subcommand() {
             "every field of `clsurf help fields`. VTK files hold the passes as polylines and the stitched\n"
             "surface; .hdf is .vtkhdf with the ending that ParaView 5.11 recognises. Lines, points and passes are\n"
             "32-bit integers there, times and positions 64-bit numbers. Without a program, lines are those of\n"
-            "the log.\n\n"
+            "the log.\n"
+            "The surface of a log that is larger than the memory is written in pieces (`clsurf survey`, docs/howto/shards.md):\n"
+            "--shard writes one of them, and --merge a .pvtp file that ParaView opens. Fields of a shard are those of positions,\n"
+            "and channels.\n\n"
             "  clsurf export part.nc run.biip -o points.csv --columns line,x,y,z,speed,acceleration\n"
             "  clsurf export part.nc run.biip --list",
         .declare =
@@ -91,6 +96,7 @@ Subcommand export_subcommand() {
                 // clang-format on
                 declare_part(options);
                 declare_derivative(options);
+                declare_export_shards(options);
             },
         .positional = {"PROGRAM", "LOG"},
         .run = run_export,

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string_view>
 
 #include "core/block.h"
+#include "core/error.h"
 #include "mapping/line_agreement.h"
 #include "pipeline/part_fields.h"
 
@@ -22,19 +24,21 @@ constexpr std::array<std::array<std::string_view, 3>, 8> own_columns{{{"point", 
                                                                       {"y", "mm", "Y of the tool tip"},
                                                                       {"z", "mm", "Z of the tool tip"}}};
 
-/// What is exported as it is, not as a field; nullopt: none of these.
-std::optional<io::ExportColumn> own_column(const std::string& name, const Part& part, const ClSurface& surface) {
-    const auto count = static_cast<std::size_t>(part.log.records);
+/// What is exported as it is, not as a field, at some points; nullopt: none of these.
+std::optional<io::ExportColumn> own_column(const std::string& name, const Part& part, const ClSurface& surface,
+                                           const PointRange& points) {
+    const auto count = static_cast<std::size_t>(points.size());
     io::ExportColumn column;
     column.name = name;
     if (name == "point") {
         column.counts.resize(count);
-        for (std::size_t i = 0; i < count; ++i) column.counts[i] = static_cast<std::uint32_t>(i);
+        for (std::size_t i = 0; i < count; ++i)
+            column.counts[i] = static_cast<std::uint32_t>(points.first + static_cast<PointIndex>(i));
     } else if (name == "line") {
         column.counts.resize(count);
-        for_each_block(part.log.records, [&](PointIndex first, PointIndex last) {
+        for_each_block(points.size(), [&](PointIndex first, PointIndex last) {
             const std::span<std::uint32_t> lines(column.counts.data() + first, static_cast<std::size_t>(last - first));
-            part.lines->read(first, lines);
+            part.lines->read(points.first + first, lines);
             // A log without lines and without a program: 0 as of any point that has none.
             std::ranges::replace(lines, no_line, 0U);
         });
@@ -44,12 +48,14 @@ std::optional<io::ExportColumn> own_column(const std::string& name, const Part& 
         for (const Pass& pass : surface.passes) {
             if (pass.kind != PassKind::cut) continue;
             ++number;
-            for (PointIndex i = pass.first; i <= pass.last; ++i) column.counts[static_cast<std::size_t>(i)] = number;
+            for (PointIndex i = std::max(pass.first, points.first); i <= std::min(pass.last, points.last); ++i)
+                column.counts[static_cast<std::size_t>(i - points.first)] = number;
         }
     } else if (name == "time") {
         column.unit = "s";
         column.exact.resize(count);
-        for (std::size_t i = 0; i < count; ++i) column.exact[i] = part.log.time_of(static_cast<PointIndex>(i));
+        for (std::size_t i = 0; i < count; ++i)
+            column.exact[i] = part.log.time_of(points.first + static_cast<PointIndex>(i));
     } else if (name == "x" || name == "y" || name == "z") {
         const auto axis = static_cast<std::size_t>(name[0] - 'x');
         constexpr std::size_t block = 4096;
@@ -61,11 +67,11 @@ std::optional<io::ExportColumn> own_column(const std::string& name, const Part& 
             std::array<std::span<double>, 3> xyz;
             for (std::size_t k = 0, other = 0; k < 3; ++k)
                 xyz[k] = std::span(k == axis ? column.exact.data() + first : others.data() + block * other++, n);
-            part.path.read(static_cast<PointIndex>(first), xyz[0], xyz[1], xyz[2]);
+            part.path.read(points.first + static_cast<PointIndex>(first), xyz[0], xyz[1], xyz[2]);
         }
     } else if (name == "confidence") {
         std::vector<double> confidences(count);
-        read_confidences(part.path, part.program, *part.lines, 0, confidences);
+        read_confidences(part.path, part.program, *part.lines, points.first, confidences);
         column.values.resize(count);
         std::transform(confidences.begin(), confidences.end(), column.values.begin(),
                        [](double c) { return static_cast<float>(c); });
@@ -94,7 +100,7 @@ std::vector<io::ExportColumn> exported_columns(const std::vector<std::string>& n
     std::vector<std::string> fields;
     std::vector<std::size_t> places;
     for (const std::string& name : names) {
-        std::optional<io::ExportColumn> own = own_column(name, part, surface);
+        std::optional<io::ExportColumn> own = own_column(name, part, surface, {0, part.log.records - 1});
         if (!own) {
             fields.push_back(name);
             places.push_back(columns.size());
@@ -104,6 +110,76 @@ std::vector<io::ExportColumn> exported_columns(const std::vector<std::string>& n
     if (fields.empty()) return columns;
     std::vector<Field> computed = fields_of(part, surface).get_all(fields);
     for (std::size_t i = 0; i < places.size(); ++i) columns[places[i]] = column_of(std::move(computed[i]));
+    return columns;
+}
+
+namespace {
+
+/// The values at some points of a column of the points from `first` on.
+template <typename T>
+void pick(const Column<T>& from, PointIndex first, std::span<const PointIndex> points, Column<T>& to) {
+    if (from.empty()) return;
+    for (const PointIndex point : points) to.push_back(from[static_cast<std::size_t>(point - first)]);
+}
+
+/// Values in the order of the points that they belong to: value k is that of point order[k].
+template <typename T>
+void put_back(const std::vector<std::size_t>& order, Column<T>& values) {
+    if (values.empty()) return;
+    Column<T> back(values.size());
+    for (std::size_t k = 0; k < order.size(); ++k) back[order[k]] = values[k];
+    values = std::move(back);
+}
+
+/// Passes that end and begin where a range does, for derivatives inside it.
+Passes passes_within(const Passes& passes, const PointRange& range) {
+    Passes inside;
+    for (const Pass& pass : passes) {
+        if (pass.first >= range.first && pass.last <= range.last) inside.push_back(pass);
+    }
+    return inside;
+}
+
+io::ExportColumn column_of(const std::string& name, const Part& part, const ClSurface& surface, const FieldSet& fields,
+                           const PointRange& range) {
+    if (std::optional<io::ExportColumn> own = own_column(name, part, surface, range)) return std::move(*own);
+    if (!fields.has(name) && fields_of(part, surface).has(name))
+        throw UsageError("--columns: '" + name + "' is a field of the whole log, not of a shard");
+    return column_of(std::move(fields.get_all({name}, range).front()));
+}
+
+}  // namespace
+
+std::vector<io::ExportColumn> exported_columns(const std::vector<std::string>& names, const Part& part,
+                                               const ClSurface& surface, const std::vector<PointRange>& ranges,
+                                               std::span<const PointIndex> points) {
+    std::vector<io::ExportColumn> columns(names.size());
+    // Sorted, each range has its points in one go; then they go back to where they were.
+    std::vector<std::size_t> order(points.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return points[a] < points[b]; });
+    std::vector<PointIndex> rising(points.size());
+    for (std::size_t k = 0; k < order.size(); ++k) rising[k] = points[order[k]];
+    for (const PointRange& range : ranges) {
+        const auto begin = std::lower_bound(rising.begin(), rising.end(), range.first);
+        const auto end = std::upper_bound(begin, rising.end(), range.last);
+        if (begin == end) continue;
+        const FieldSet fields(part.log, part.path, passes_within(surface.passes, range));
+        const std::span<const PointIndex> here(begin, end);
+        for (std::size_t c = 0; c < names.size(); ++c) {
+            const io::ExportColumn all = column_of(names[c], part, surface, fields, range);
+            columns[c].name = all.name;
+            columns[c].unit = all.unit;
+            pick(all.values, range.first, here, columns[c].values);
+            pick(all.exact, range.first, here, columns[c].exact);
+            pick(all.counts, range.first, here, columns[c].counts);
+        }
+    }
+    for (io::ExportColumn& column : columns) {
+        put_back(order, column.values);
+        put_back(order, column.exact);
+        put_back(order, column.counts);
+    }
     return columns;
 }
 

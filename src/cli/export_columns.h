@@ -1,6 +1,7 @@
 #pragma once
 // The columns of `export`.
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,13 @@ namespace clsurf::cli {
 /// lacks what it needs.
 [[nodiscard]] std::vector<io::ExportColumn> exported_columns(const std::vector<std::string>& names, const Part& part,
                                                              const ClSurface& surface);
+
+/// The same at some points of a part whose surface is read in parts; fields are those of positions and channels, since
+/// others look at the whole log. `part`: the points and what lies about them; `points`: of the whole log.
+[[nodiscard]] std::vector<io::ExportColumn> exported_columns(const std::vector<std::string>& names, const Part& part,
+                                                             const ClSurface& surface,
+                                                             const std::vector<PointRange>& ranges,
+                                                             std::span<const PointIndex> points);
 
 /// Every name that exported_columns() takes for this part, with unit and meaning: the columns of its own, then the fields
 /// for which nothing is missing, then channels of the log.

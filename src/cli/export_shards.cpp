@@ -1,0 +1,62 @@
+#include "cli/export_shards.h"
+
+#include <filesystem>
+#include <span>
+#include <utility>
+
+#include "cli/export_columns.h"
+#include "cli/output_format.h"
+#include "io/files/atomic_file.h"
+#include "io/reports/vtk_pieces.h"
+#include "surface/surface_part.h"
+
+namespace clsurf::cli {
+
+viz::PointData point_data_of(const io::ExportColumn& column) {
+    if (!column.counts.empty()) return {column.name, &column.counts};
+    if (!column.exact.empty()) return {column.name, &column.exact};
+    return {column.name, &column.values};
+}
+
+void declare_export_shards(po::options_description& options) {
+    declare_shard(options, "write one of N parts of the surface, cut at passes, as .vtp");
+    options.add_options()("merge", po::value<std::vector<std::string>>()->multitoken()->value_name("FILE…"),
+                          "write a .pvtp file that names these pieces of --shard");
+}
+
+ExitCode name_pieces(const po::variables_map& values) {
+    const std::string output = required(values, "output");
+    if (!output.ends_with(".pvtp")) throw UsageError("-o " + output + ": --merge writes a .pvtp file");
+    io::AtomicFile file(output);
+    file.write(io::pvtp_text(values["merge"].as<std::vector<std::string>>(),
+                             std::filesystem::path(output).parent_path().string()));
+    file.commit();
+    return ExitCode::done;
+}
+
+ExitCode write_shard(const PartOptions& options, const ShardNumber& shard, const std::vector<std::string>& names,
+                     const po::variables_map& values) {
+    const std::string output = required(values, "output");
+    if (options.program.empty()) throw UsageError("a shard needs the program: clsurf export part.nc run.biip …");
+    if (output_format(output, table_formats()).name != "vtp") throw UsageError("--shard writes a .vtp file");
+    if (options.role) throw UsageError("--shard is of the positions that were surveyed, without --surface");
+    StageClock clock(read_common(values), 5);
+    const SurveyedLog log = read_surveyed_log(options, values);
+    const Part part = load_surveyed_part(options, log.survey, clock);
+    clock.begin("write the shard");
+    const ClSurface surface = surveyed_surface(part, log.survey);
+    const PointRange own = points_of_shard(surface.passes, log.survey.points, shard);
+    if (own.size() <= 0) throw UsageError("--shard: no pass begins in this shard", "fewer shards are enough");
+    const SurfacePart with_neighbours = part_with_neighbours(surface, own);
+    viz::VtkPiece piece = viz::piece_of(with_neighbours, own);
+    const std::vector<io::ExportColumn> columns = exported_columns(names, part, surface, with_neighbours.ranges,
+                                                                   std::span(piece.points.data(), piece.points.size()));
+    std::vector<viz::PointData> data;
+    for (const io::ExportColumn& column : columns) data.push_back(point_data_of(column));
+    io::AtomicFile file(output);
+    viz::write_vtp(file.temporary_path(), std::move(piece), data);
+    file.commit();
+    return ExitCode::done;
+}
+
+}  // namespace clsurf::cli

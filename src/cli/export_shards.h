@@ -1,0 +1,26 @@
+#pragma once
+// --shard and --merge of `export`: the surface of a long log in pieces.
+
+#include <string>
+#include <vector>
+
+#include "cli/survey_options.h"
+#include "io/reports/export_table.h"
+#include "viz/export_vtk.h"
+
+namespace clsurf::cli {
+
+/// A column as VTK files have it. Not copied.
+[[nodiscard]] viz::PointData point_data_of(const io::ExportColumn& column);
+
+/// --survey, --shard, --merge.
+void declare_export_shards(po::options_description& options);
+
+/// --merge: writes a .pvtp file that names the pieces.
+ExitCode name_pieces(const po::variables_map& values);
+
+/// --shard: writes a piece with these columns.
+ExitCode write_shard(const PartOptions& options, const ShardNumber& shard, const std::vector<std::string>& names,
+                     const po::variables_map& values);
+
+}  // namespace clsurf::cli
