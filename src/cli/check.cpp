@@ -6,81 +6,16 @@
 #include <fmt/format.h>
 
 #include "cli/check_shards.h"
-#include "cli/checked_run.h"
-#include "cli/defect_colours.h"
-#include "cli/followed_check.h"
-#include "cli/measured_check.h"
-#include "cli/quality_writer.h"
+#include "cli/checked_log.h"
 #include "cli/report_output.h"
-#include "cli/run_recorder.h"
 #include "cli/survey_options.h"
 #include "cli/terminal.h"
-#include "history/record_of.h"
 #include "io/readers/baseline_file.h"
-#include "io/reports/quality_report.h"
 
 namespace clsurf::cli {
 namespace {
 
 constexpr const char* check_formats = "text|json|csv|sarif|junit";
-
-/// One log's report, and what it comes to.
-struct Checked {
-    std::string text;
-    ExitCode code = ExitCode::done;
-    ResolvedFindings resolved;  ///< of a log that was followed
-};
-
-/// What one log is checked for, besides how it is read.
-struct CheckRules {
-    std::optional<Role> measured;
-    CheckBudget budget;
-    std::optional<std::vector<RecordedDefect>> baseline;
-    std::optional<RunRecorder> recorder;
-    std::unique_ptr<MeasuredInput> measured_part;  ///< nullptr: nothing was measured
-    std::optional<MergedShards> merged;            ///< nothing: the log is judged as a whole
-    std::string format;
-    std::unique_ptr<FollowedCheck> followed;  ///< nullptr: the log is complete
-};
-
-Checked check_log(const PartOptions& options, CheckRules& rules, const po::variables_map& values) {
-    StageClock clock(read_common(values), 8);
-    const bool with_motion = rules.format == "json" && !rules.merged;
-    CheckedRun run = check_run(options, rules.measured, rules.budget, clock, with_motion, rules.merged);
-    if (rules.recorder) {
-        const io::AddedRun added = rules.recorder->add(options, run);
-        if (!read_common(values).quiet) write_message("recorded as " + rules.recorder->text_of(added) + "\n");
-    }
-    std::optional<RecordedMatch> match;
-    if (rules.baseline) match = match_recorded(*rules.baseline, recorded_defects(run.quality.report));
-    std::optional<io::ReportedMeasurement> measured;
-    if (rules.measured_part) measured = compare_measured(run, rules.measured, *rules.measured_part, clock);
-    const bool aligned = !measured || measured->result.alignment.determined();
-    const bool worse = match && match->worsened() > 0 && run.code == ExitCode::done;
-    io::ReportedQuality reported = reported_of(run);
-    if (rules.format == "json") reported.colour_differences = colour_differences(run.quality.report, run.part);
-    reported.baseline = match ? &*match : nullptr;
-    reported.measured = measured ? &*measured : nullptr;
-    reported.passes_asked = !rules.budget.only_limits();
-    if (values.count("output") == 0) reported.columns = table_columns();
-    if (rules.format != "json") print(run.part.diagnostics, values);
-    const ExitCode code = worse ? ExitCode::check_failed : run.code;
-    return {quality_writer(rules.format)(reported), code == ExitCode::done && !aligned ? ExitCode::not_judged : code,
-            rules.followed ? rules.followed->resolve(run.quality.report) : ResolvedFindings{}};
-}
-
-/// nullptr: --follow is not given. Throws UsageError.
-std::unique_ptr<FollowedCheck> read_followed(const po::variables_map& values, const std::string& format,
-                                             std::size_t logs) {
-    const std::optional<FollowOptions> follow = read_follow(values);
-    if (!follow) return nullptr;
-    if (logs > 1) throw UsageError("--follow follows one log");
-    if (format != "text" && format != "json" && values.count("output") == 0)
-        throw UsageError("--follow writes its findings to standard output, as text or JSON",
-                         "give the " + format + " report a file with -o");
-    const bool json = format == "json" && values.count("output") == 0;
-    return std::make_unique<FollowedCheck>(*follow, json, read_common(values).quiet);
-}
 
 ExitCode run_check(const po::variables_map& values) {
     PartOptions options = read_part_options(values);

@@ -24,8 +24,8 @@ void declare_shards(po::options_description& options) {
 }
 
 ExitCode check_shard(PartOptions options, const ShardNumber& shard, const po::variables_map& values) {
-    for (const char* name :
-         {"merge", "budget", "fail-on", "accepted", "max-depth", "baseline", "record", "measured", "format", "json"}) {
+    for (const char* name : {"merge", "budget", "fail-on", "accepted", "max-depth", "baseline", "record", "measured",
+                             "follow", "format", "json"}) {
         if (given(values, name))
             throw UsageError(fmt::format("--{} is for the whole log, not for a --shard", name),
                              "give it where the shards are merged");
@@ -56,7 +56,9 @@ std::optional<MergedShards> read_merged(const PartOptions& options, const po::va
         return std::nullopt;
     }
     if (logs > 1) throw UsageError("--merge is of one log");
-    if (given(values, "measured")) throw UsageError("--measured goes with a log that is judged as a whole");
+    for (const char* name : {"measured", "follow"}) {
+        if (given(values, name)) throw UsageError(fmt::format("--{} goes with a log that is judged as a whole", name));
+    }
     SurveyedLog log = read_surveyed_log(options, values);
     MergedShards merged;
     merged.read = [origin = log.origin, paths = values["merge"].as<std::vector<std::string>>()](const Part& part) {

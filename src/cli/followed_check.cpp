@@ -17,6 +17,18 @@ constexpr PointIndex telling_records = 10'000;  ///< of a log that does not belo
 
 }  // namespace
 
+std::unique_ptr<FollowedCheck> read_followed(const po::variables_map& values, const std::string& format,
+                                             std::size_t logs) {
+    const std::optional<FollowOptions> follow = read_follow(values);
+    if (!follow) return nullptr;
+    if (logs > 1) throw UsageError("--follow follows one log");
+    if (format != "text" && format != "json" && values.count("output") == 0)
+        throw UsageError("--follow writes its findings to standard output, as text or JSON",
+                         "give the " + format + " report a file with -o");
+    const bool json = format == "json" && values.count("output") == 0;
+    return std::make_unique<FollowedCheck>(*follow, json, read_common(values).quiet);
+}
+
 void FollowedCheck::follow(PartOptions& options, std::optional<Role> measured) {
     if (options.log == "-" && options.program == "-")
         throw UsageError("program and log cannot both come from standard input");

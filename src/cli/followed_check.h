@@ -1,6 +1,7 @@
 #pragma once
 // `check --follow`: the findings of a log that is still written, as they come, and what the complete log says of them.
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -30,5 +31,10 @@ private:
     bool json_, quiet_;
     std::optional<FollowedRun> run_;
 };
+
+/// nullptr: --follow is not given. `format`: of the report of `logs` logs. Throws UsageError: several logs, a form that cannot
+/// be written while the log grows.
+[[nodiscard]] std::unique_ptr<FollowedCheck> read_followed(const po::variables_map& values, const std::string& format,
+                                                           std::size_t logs);
 
 }  // namespace clsurf::cli
