@@ -142,7 +142,7 @@ Complaints check_form(const SourceFile& file) {
     return complaints;
 }
 
-// x.cpp begins with x.h: where each source is compiled by itself (tests/sanitize), the header then compiles alone.
+// A source begins with its own header: where each source is compiled by itself (tests/sanitize), that compiles alone.
 // headers_alone.cmake relies on it. src/ is the folder that includes count from.
 Complaints check_own_header_first(const SourceFile& source, bool has_header) {
     if (!has_header || !source.path.ends_with(".cpp")) return {};

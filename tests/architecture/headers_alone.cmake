@@ -1,8 +1,8 @@
 # Every header compiles by itself: a source per header that includes nothing else, twice (for the
 # guard); and all headers compile together. Built by the test of that name.
 #
-# A header with a source of its own, x.h of x.cpp, has no other source here: x.cpp begins with it (architecture_test),
-# and tests/sanitize compiles x.cpp by itself. src/python is not part of that build.
+# A header with a source of its own has no other source here: its own begins with it (architecture_test), and
+# tests/sanitize compiles that by itself. src/python is not part of that build.
 #
 # What the large libraries' headers cost is most of it. Those that reach core/geometry.h (Eigen) or
 # cli/options.h (Boost.Program_options) share a precompiled one: it stands before all that they say in any case.
