@@ -170,7 +170,7 @@ const Packing* packing_of(std::span<const std::byte> bytes) {
 
 }  // namespace
 
-Source unpacked(Source source) {
+Source unpacked(const Source& source) {
     const Packing* packing = packing_of(source.bytes);
     return packing != nullptr ? packing->unpack(source) : source;
 }

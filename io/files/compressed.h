@@ -13,7 +13,7 @@ namespace clsurf::io {
 /// members one after the other are one text, as `cat a.gz b.gz` makes them.
 /// Throws InputError with the byte: damaged or cut data; more than 256 MiB + 100 times the input
 /// (a decompression bomb); a dictionary that is not there. Memory: bounded by that limit.
-[[nodiscard]] Source unpacked(Source source);
+[[nodiscard]] Source unpacked(const Source& source);
 
 /// The bytes begin as those of a compressed file.
 [[nodiscard]] bool is_compressed(std::span<const std::byte> bytes);

@@ -39,8 +39,10 @@ int open_copy() {
 
 }  // namespace
 
-GrowingFile::GrowingFile(const std::string& path) : path_(path), name_(path == "-" ? "<stdin>" : path) {
-    descriptor_ = path == "-" ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+GrowingFile::GrowingFile(const std::string& path)
+    : path_(path),
+      name_(path == "-" ? "<stdin>" : path),
+      descriptor_(path == "-" ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
     if (descriptor_ < 0) throw InputError(Place::of_file(name_), std::string("cannot open: ") + std::strerror(errno));
     struct stat status {};
     if (::fstat(descriptor_, &status) != 0) fail_to_read(name_);

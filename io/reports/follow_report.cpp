@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t most_ranges = 3;
 
 /// An object of one line, with our version.
-std::string line_of(Json event) {
+std::string line_of(const Json& event) {
     Json versioned{{"schema_version", schema_version}};
     versioned.update(event);
     return dump_compact(versioned) + "\n";
