@@ -60,7 +60,7 @@ void add_nearest(const PointQuery& query, const WantedPlace& wanted, std::vector
 
 std::string LoadedPart::judged(Part part, std::optional<Role> measured) const {
     const ClSurface surface = stitch(part);
-    const Quality quality = judge(part, surface, measured);
+    const Quality quality = judge(part, surface, measured, {}, {}, true);
     part.diagnostics.append(quality.diagnostics);
     LimitReport limits;
     if (!part.limits.empty()) {
@@ -77,6 +77,7 @@ std::string LoadedPart::judged(Part part, std::optional<Role> measured) const {
         reported.colour_differences.push_back(
             viz::colour_difference_of(feed_share_info(), shares.at_defect, shares.beside));
     reported.as_machined = quality.as_machined ? &*quality.as_machined : nullptr;
+    reported.motion = quality.motion;
     if (part.machine) reported.limits = &limits;
     reported.origin = io::simulation_origin(part.log);
     reported.diagnostics = &part.diagnostics;
