@@ -19,6 +19,7 @@ namespace {
 
 constexpr double no_limit = 1'000'000;         // mm/s²
 constexpr int most_passes = 4;                 // over all rules
+constexpr double explained_share = 0.002;      // of the speed: a family whose mean error is no larger is the right one
 constexpr double gain_of_later_passes = 0.25;  // of the speed error: they correct what other rules hid, no details
 
 bool is_trapezoidal(const Machine& machine) { return machine.controller.planner == PlannerKind::trapezoidal; }
@@ -330,8 +331,8 @@ std::vector<RuleValue> best_of_families(RuleScores& scores, const Machine& machi
 }
 
 /// Compares the families, each with its own rules: with those of the machine, a wrong kind of planner may explain the runs
-/// better than the right one with a wrong look-ahead. A family that explains the runs as well as any planner can is the
-/// last one. Returns the rows of those that are not chosen.
+/// better than the right one with a wrong look-ahead. A family that explains the runs well
+/// is the last one. Returns the rows of those that are not chosen.
 std::vector<RuleCandidate> choose_family(RuleScores& scores, Identification& result) {
     std::vector<Identification> found;
     Rule planner{"planner", "controller", {}, {}};
@@ -342,7 +343,7 @@ std::vector<RuleCandidate> choose_family(RuleScores& scores, Identification& res
         const auto last =
             std::find_if(trial.rules.rbegin(), trial.rules.rend(), [](const RuleCandidate& c) { return c.chosen; });
         planner.values.push_back({kind.name, [machine = trial.machine](Machine& m) { m = machine; }});
-        const bool explains_all = last->speed_error <= scores.resolution();
+        const bool explains_all = last->speed_error <= explained_share * scores.usual_speed();
         found.push_back(std::move(trial));
         if (explains_all) break;
     }
