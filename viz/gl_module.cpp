@@ -15,7 +15,7 @@ GlResolver resolver_of_module = nullptr;
 
 }  // namespace
 
-void set_gl_resolver(GlResolver wanted) { resolver_of_module = wanted; }
+void set_gl_resolver(GlResolver resolver) { resolver_of_module = resolver; }
 
 GlFunction resolve_gl(const char* name) { return resolver_of_module == nullptr ? nullptr : resolver_of_module(name); }
 
