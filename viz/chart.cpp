@@ -10,7 +10,6 @@
 namespace clsurf::viz {
 namespace {
 
-constexpr Rgb ink_colour{20, 20, 24};
 constexpr Rgb cursor_colour{200, 30, 30};
 constexpr Rgb reference_colour{150, 150, 156};
 // Readable by the colour-blind (Okabe, Ito 2008).
@@ -117,7 +116,7 @@ void add_class_names(Sheet& sheet, const ChartFrame& f, const Curve& curve, cons
     const double text = name.size;
     double x = f.rect.x + text_width(name) + 2 * text;
     for (const CurveClass& c : curve.classes) {
-        const FlatText label{x + 1.3 * text, name.y, c.name, text, Align::left, false, ink_colour};
+        const FlatText label{x + 1.3 * text, name.y, c.name, text, Align::left, false, chart_ink};
         const double end = label.x + text_width(label) + 1.2 * text;
         if (end > f.rect.x + f.rect.width + text) return;
         sheet.quads.push_back({{x, name.y - 0.4 * text, 0.8 * text, 0.8 * text}, c.rgb});
@@ -179,14 +178,23 @@ void add_curve(Sheet& sheet, const ChartFrame& f, std::span<const double> x, con
 
 }  // namespace
 
-Image draw_chart(std::span<const double> x, const std::vector<Curve>& curves, const std::vector<ChartCursor>& cursors,
-                 const ChartLook& look) {
-    const double text = std::clamp(std::min(look.width * 0.6, static_cast<double>(look.height)) / 44.0, 8.0, 40.0);
+Sheet sheet_of(const ChartLook& look) {
     Sheet sheet;
     sheet.width = look.width;
     sheet.height = look.height;
     sheet.background = look.background;
     sheet.keep_drawing = look.keep_drawing;
+    return sheet;
+}
+
+double text_size_of(const ChartLook& look, double lines) {
+    return std::clamp(std::min(look.width * 0.6, static_cast<double>(look.height)) / lines, 8.0, 40.0);
+}
+
+Image draw_chart(std::span<const double> x, const std::vector<Curve>& curves, const std::vector<ChartCursor>& cursors,
+                 const ChartLook& look) {
+    const double text = text_size_of(look, 44);
+    Sheet sheet = sheet_of(look);
     const double left = 6.5 * text;
     const double right = 1.5 * text;
     const double top = 4.6 * text;
@@ -194,12 +202,12 @@ Image draw_chart(std::span<const double> x, const std::vector<Curve>& curves, co
     const double below = 1.1 * text * (notes.empty() ? 0.0 : static_cast<double>(notes.size() - 1));
     const double bottom = 5.2 * text + below;
     const double gap = 2.4 * text;
-    sheet.texts.push_back({text, look.height - 1.4 * text, look.title, 1.4 * text, Align::left, true, ink_colour});
-    sheet.texts.push_back({text, look.height - 3.0 * text, look.subtitle, text, Align::left, false, {95, 95, 100}});
-    sheet.texts.push_back({left, 2.6 * text + below, look.x_label, text, Align::left, true, ink_colour});
+    sheet.texts.push_back({text, look.height - 1.4 * text, look.title, 1.4 * text, Align::left, true, chart_ink});
+    sheet.texts.push_back({text, look.height - 3.0 * text, look.subtitle, text, Align::left, false, chart_faint});
+    sheet.texts.push_back({left, 2.6 * text + below, look.x_label, text, Align::left, true, chart_ink});
     for (std::size_t k = 0; k < notes.size(); ++k) {
         const double y = 1.0 * text + below - 1.1 * text * static_cast<double>(k);
-        sheet.texts.push_back({text, y, notes[k], 0.85 * text, Align::left, false, {95, 95, 100}});
+        sheet.texts.push_back({text, y, notes[k], 0.85 * text, Align::left, false, chart_faint});
     }
     const auto count = static_cast<double>(curves.size());
     const double each = (look.height - top - bottom - gap * count) / count;

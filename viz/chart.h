@@ -40,6 +40,11 @@ struct ChartLook {
     std::string title, subtitle, x_label, footnote;
 };
 
+/// An empty sheet of that look.
+[[nodiscard]] Sheet sheet_of(const ChartLook& look);
+/// The height of its text [px], of which `lines` fit into the picture.
+[[nodiscard]] double text_size_of(const ChartLook& look, double lines);
+
 /// The points of a curve that a width of pixels can show: the lowest and highest of each column, in
 /// their order, so that no extreme is lost. O(points).
 [[nodiscard]] std::vector<Vec2> thin_curve(std::span<const double> x, std::span<const double> y, double x_low,

@@ -7,12 +7,7 @@
 #include "viz/colour_map.h"
 
 namespace clsurf::viz {
-namespace {
-
-constexpr Rgb number_colour{20, 20, 24};
-constexpr Rgb grid_colour{222, 222, 226};
-
-}  // namespace
+namespace {}  // namespace
 
 void add_grid(Sheet& sheet, const ChartFrame& f, double text, bool x_labels) {
     // One tick alone, such as 0, tells no scale.
@@ -23,11 +18,11 @@ void add_grid(Sheet& sheet, const ChartFrame& f, double text, bool x_labels) {
     double labelled = -std::numeric_limits<double>::infinity();
     for (const double y : ys) {
         const Vec2 p = f.at(f.x_low, y);
-        sheet.lines.push_back({{p, {f.rect.x + f.rect.width, p.y()}}, 1, grid_colour, Level::edge});
+        sheet.lines.push_back({{p, {f.rect.x + f.rect.width, p.y()}}, 1, chart_grid, Level::edge});
         if (p.y() - labelled < 1.05 * text) continue;  // numbers one over the other cannot be read
         labelled = p.y();
         sheet.texts.push_back(
-            {f.rect.x - 0.5 * text, p.y(), tick_text(y, y_step), text, Align::right, false, number_colour});
+            {f.rect.x - 0.5 * text, p.y(), tick_text(y, y_step), text, Align::right, false, chart_ink});
     }
     add_x_grid(sheet, f, text, x_labels);
     const Rect& r = f.rect;
@@ -44,10 +39,10 @@ void add_x_grid(Sheet& sheet, const ChartFrame& f, double text, bool x_labels) {
     const double x_step = xs.size() > 1 ? xs[1] - xs[0] : 1;
     for (const double x : xs) {
         const Vec2 p = f.at(x, f.y_low);
-        sheet.lines.push_back({{p, {p.x(), f.rect.y + f.rect.height}}, 1, grid_colour, Level::edge});
+        sheet.lines.push_back({{p, {p.x(), f.rect.y + f.rect.height}}, 1, chart_grid, Level::edge});
         if (x_labels)
             sheet.texts.push_back(
-                {p.x(), f.rect.y - 0.9 * text, tick_text(x, x_step), text, Align::centre, false, number_colour});
+                {p.x(), f.rect.y - 0.9 * text, tick_text(x, x_step), text, Align::centre, false, chart_ink});
     }
 }
 

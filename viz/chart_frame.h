@@ -5,6 +5,10 @@
 
 namespace clsurf::viz {
 
+inline constexpr Rgb chart_ink{20, 20, 24};
+inline constexpr Rgb chart_faint{95, 95, 100};
+inline constexpr Rgb chart_grid{222, 222, 226};
+
 struct ChartFrame {
     Rect rect;
     double x_low = 0, x_high = 1, y_low = 0, y_high = 1;

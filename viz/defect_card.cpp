@@ -13,8 +13,6 @@
 namespace clsurf::viz {
 namespace {
 
-constexpr Rgb card_ink{20, 20, 24};
-constexpr Rgb faint_ink{95, 95, 100};
 constexpr Rgb band_colour{226, 234, 244};
 constexpr Rgb marked_colour{235, 170, 90};
 constexpr double title_share = 0.15;  ///< of the height
@@ -77,18 +75,23 @@ public:
         }
         for (const double x : chart.ticks) {
             const Vec2 p = frame.at(x, frame.y_low);
-            sheet_.lines.push_back({{p, p + Vec2(0, 0.45 * text_)}, 1.0, faint_ink, Level::line});
+            sheet_.lines.push_back({{p, p + Vec2(0, 0.45 * text_)}, 1.0, chart_faint, Level::line});
         }
         const double top = rect.y + rect.height;
         sheet_.texts.push_back(
-            fitted({rect.x, top + 0.85 * text_, chart.title, text_, Align::left, true, card_ink}, rect.width));
-        const FlatText name{
-            rect.x + rect.width, rect.y - 2.0 * text_, chart.x_label, 0.9 * text_, Align::right, false, faint_ink};
+            fitted({rect.x, top + 0.85 * text_, chart.title, text_, Align::left, true, chart_ink}, rect.width));
+        const FlatText name{rect.x + rect.width, rect.y - 2.0 * text_, chart.x_label, 0.9 * text_, Align::right, false,
+                            chart_faint};
         const double name_left = name.x - text_width(name);
         double next = -std::numeric_limits<double>::infinity();
         for (const auto& [x, words] : chart.tick_labels) {
-            FlatText label{
-                frame.at(x, frame.y_low).x(), rect.y - 2.0 * text_, words, 0.9 * text_, Align::left, false, faint_ink};
+            FlatText label{frame.at(x, frame.y_low).x(),
+                           rect.y - 2.0 * text_,
+                           words,
+                           0.9 * text_,
+                           Align::left,
+                           false,
+                           chart_faint};
             if (label.x < next || label.x + text_width(label) > name_left - text_) continue;
             next = label.x + text_width(label) + 0.5 * text_;
             sheet_.texts.push_back(std::move(label));
@@ -98,7 +101,7 @@ public:
 
     void key(const DefectCard& card, double right, double y) {
         const auto entry = [&](const std::string& words, const Rgb& rgb, double width) {
-            FlatText label{right, y, words, 0.9 * text_, Align::right, false, card_ink};
+            FlatText label{right, y, words, 0.9 * text_, Align::right, false, chart_ink};
             right -= text_width(label) + 0.4 * text_;
             sheet_.lines.push_back({{{right - 1.6 * text_, y}, {right, y}}, width, rgb, Level::line});
             right -= 2.8 * text_;
@@ -171,10 +174,10 @@ Image draw_card(const DefectCard& card, int width, int height, const std::string
     sheet.keep_drawing = card.map.drawing != nullptr;
     CardDrawer drawer(sheet, text);
     const double margin = text;
-    sheet.texts.push_back(fitted({margin, height - 1.5 * text, card.title, 1.35 * text, Align::left, true, card_ink},
+    sheet.texts.push_back(fitted({margin, height - 1.5 * text, card.title, 1.35 * text, Align::left, true, chart_ink},
                                  width - 2 * margin));
     sheet.texts.push_back(fitted(
-        {margin, height - 3.2 * text, card.subtitle, 0.9 * text, Align::left, false, faint_ink}, width - 2 * margin));
+        {margin, height - 3.2 * text, card.subtitle, 0.9 * text, Align::left, false, chart_faint}, width - 2 * margin));
     const double left = map_share * width + 5.2 * text;
     const double right = width - margin;
     const double top = (1 - title_share) * height - 2.3 * text;

@@ -14,8 +14,6 @@
 namespace clsurf::viz {
 namespace {
 
-constexpr Rgb front_ink{20, 20, 24};
-constexpr Rgb front_faint{95, 95, 100};
 // Readable by the colour-blind (Okabe, Ito 2008); the shapes tell them apart in print, too.
 constexpr Rgb front_colour{0, 90, 178};
 constexpr Rgb chosen_colour{213, 94, 0};
@@ -25,14 +23,7 @@ constexpr Rgb step_colour{150, 185, 220};
 class FrontDrawer {
 public:
     FrontDrawer(const FrontPicture& picture, const ChartLook& look)
-        : picture_(picture),
-          look_(look),
-          text_(std::clamp(std::min(look.width * 0.6, 1.0 * look.height) / 44.0, 8.0, 40.0)) {
-        sheet_.width = look.width;
-        sheet_.height = look.height;
-        sheet_.background = look.background;
-        sheet_.keep_drawing = look.keep_drawing;
-    }
+        : picture_(picture), look_(look), text_(text_size_of(look, 44)), sheet_(sheet_of(look)) {}
 
     Image drawn() {
         add_titles();
@@ -53,10 +44,10 @@ private:
     void add_titles() {
         const double room = look_.width - 2 * text_;
         sheet_.texts.push_back(
-            fitted({text_, look_.height - 1.5 * text_, look_.title, 1.4 * text_, Align::left, true, front_ink}, room));
+            fitted({text_, look_.height - 1.5 * text_, look_.title, 1.4 * text_, Align::left, true, chart_ink}, room));
         sheet_.texts.push_back(
-            fitted({text_, look_.height - 3.2 * text_, look_.subtitle, text_, Align::left, false, front_faint}, room));
-        text(look_.width - 2 * text_, 2.6 * text_, look_.x_label, text_, Align::right, true, front_ink);
+            fitted({text_, look_.height - 3.2 * text_, look_.subtitle, text_, Align::left, false, chart_faint}, room));
+        text(look_.width - 2 * text_, 2.6 * text_, look_.x_label, text_, Align::right, true, chart_ink);
         add_legend(0.9 * text_);
     }
 
@@ -65,15 +56,15 @@ private:
         double x = 1.5 * text_;
         const auto entry = [&](SymbolShape shape, const Rgb& rgb, const std::string& words) {
             add_symbol(sheet_, {x, y}, shape, 0.36 * text_, rgb);
-            text(x + 0.8 * text_, y, words, 0.85 * text_, Align::left, false, front_ink);
-            x += 2.6 * text_ + text_width({0, 0, words, 0.85 * text_, Align::left, false, front_ink});
+            text(x + 0.8 * text_, y, words, 0.85 * text_, Align::left, false, chart_ink);
+            x += 2.6 * text_ + text_width({0, 0, words, 0.85 * text_, Align::left, false, chart_ink});
         };
         entry(SymbolShape::disc, front_colour, "on the front");
         entry(SymbolShape::disc, dominated_colour, "another one is better");
-        entry(SymbolShape::square, front_ink, picture_.reference);
+        entry(SymbolShape::square, chart_ink, picture_.reference);
         if (picture_.chosen) entry(SymbolShape::diamond, chosen_colour, "chosen");
         sheet_.lines.push_back({{{x - 0.5 * text_, y}, {x + 1.1 * text_, y}}, 0.14 * text_, step_colour, Level::line});
-        text(x + 1.6 * text_, y, "least in that time", 0.85 * text_, Align::left, false, front_ink);
+        text(x + 1.6 * text_, y, "least in that time", 0.85 * text_, Align::left, false, chart_ink);
     }
 
     [[nodiscard]] ChartFrame frame_of(const Rect& rect, double FrontSymbol::*value) const {
@@ -92,7 +83,7 @@ private:
     void add_panel(const Rect& rect, double FrontSymbol::*value, const std::string& label, bool x_labels) {
         const ChartFrame frame = frame_of(rect, value);
         add_grid(sheet_, frame, text_, x_labels);
-        text(rect.x, rect.y + rect.height + 1.0 * text_, label, text_, Align::left, true, front_ink);
+        text(rect.x, rect.y + rect.height + 1.0 * text_, label, text_, Align::left, true, chart_ink);
         const double radius = 0.36 * text_;
         LabelPlacer labels(rect);
         numbers_.clear();
@@ -108,7 +99,7 @@ private:
                                       : k == 0  ? SymbolShape::square
                                                 : SymbolShape::disc;
             const Rgb& rgb = is_chosen                   ? chosen_colour
-                             : k == 0                    ? front_ink
+                             : k == 0                    ? chart_ink
                              : picture_.rows[k].on_front ? front_colour
                                                          : dominated_colour;
             add_symbol(sheet_, place(k), shape, (is_chosen ? 1.4 : 1.0) * radius, rgb,
@@ -144,7 +135,7 @@ private:
                         size,
                         Align::centre,
                         strong,
-                        picture_.chosen == k ? chosen_colour : front_ink};
+                        picture_.chosen == k ? chosen_colour : chart_ink};
         const Vec2 room(text_width(number) + 0.3 * text_, 1.05 * size);
         const Vec2 wanted = at + Vec2(0, radius + 0.6 * room.y());
         const std::optional<Rect> free = labels.place(wanted, room);
@@ -155,7 +146,7 @@ private:
         if ((middle - wanted).norm() > 0.9 * size) {
             const Vec2 toward = (at - middle).normalized(), from = middle + 0.55 * size * toward;
             if (crosses_number(from, at)) return;
-            sheet_.lines.push_back({{from, at - radius * toward}, 1, front_faint, Level::edge});
+            sheet_.lines.push_back({{from, at - radius * toward}, 1, chart_faint, Level::edge});
         }
         labels.take(*free);
         numbers_.push_back(*free);

@@ -10,9 +10,6 @@
 namespace clsurf::viz {
 namespace {
 
-constexpr Rgb trend_ink{20, 20, 24};
-constexpr Rgb trend_faint{95, 95, 100};
-constexpr Rgb trend_grid{222, 222, 226};
 constexpr Rgb limit_colour{200, 30, 30};
 constexpr Rgb level_colour{120, 120, 126};
 // Readable by the colour-blind (Okabe, Ito 2008); the shapes tell them apart in print, too.
@@ -22,13 +19,7 @@ constexpr std::size_t trend_shapes = 4;
 class TrendDrawer {
 public:
     TrendDrawer(const TrendPicture& picture, const ChartLook& look)
-        : picture_(picture),
-          look_(look),
-          text_(std::clamp(std::min(look.width * 0.6, 1.0 * look.height) / 40.0, 8.0, 40.0)) {
-        sheet_.width = look.width;
-        sheet_.height = look.height;
-        sheet_.background = look.background;
-        sheet_.keep_drawing = look.keep_drawing;
+        : picture_(picture), look_(look), text_(text_size_of(look, 40)), sheet_(sheet_of(look)) {
         const double legend = picture.groups.size() > 1 || !picture.groups.front().empty() ? legend_width() : 0;
         frame_.rect = {6.5 * text_, 6.0 * text_, look.width - 8.5 * text_ - legend, look.height - 12.0 * text_};
         frame_.x_low = -0.5;
@@ -61,7 +52,7 @@ private:
     double legend_width() const {
         double widest = 0;
         for (const std::string& name : picture_.groups)
-            widest = std::max(widest, text_width({0, 0, name, text_, Align::left, false, trend_ink}));
+            widest = std::max(widest, text_width({0, 0, name, text_, Align::left, false, chart_ink}));
         return std::min(widest, 0.25 * look_.width) + 3 * text_;
     }
 
@@ -83,13 +74,13 @@ private:
         const Rect& r = frame_.rect;
         const double room = look_.width - 2 * text_;
         sheet_.texts.push_back(
-            fitted({text_, look_.height - 1.5 * text_, look_.title, 1.4 * text_, Align::left, true, trend_ink}, room));
+            fitted({text_, look_.height - 1.5 * text_, look_.title, 1.4 * text_, Align::left, true, chart_ink}, room));
         sheet_.texts.push_back(
-            fitted({text_, look_.height - 3.2 * text_, look_.subtitle, text_, Align::left, false, trend_faint}, room));
-        text(r.x, r.y + r.height + 1.1 * text_, picture_.y_label, text_, Align::left, true, trend_ink);
-        text(r.x + r.width, r.y - 3.6 * text_, look_.x_label, text_, Align::right, true, trend_ink);
+            fitted({text_, look_.height - 3.2 * text_, look_.subtitle, text_, Align::left, false, chart_faint}, room));
+        text(r.x, r.y + r.height + 1.1 * text_, picture_.y_label, text_, Align::left, true, chart_ink);
+        text(r.x + r.width, r.y - 3.6 * text_, look_.x_label, text_, Align::right, true, chart_ink);
         sheet_.texts.push_back(
-            fitted({text_, 0.9 * text_, look_.footnote, 0.85 * text_, Align::left, false, trend_faint}, room));
+            fitted({text_, 0.9 * text_, look_.footnote, 0.85 * text_, Align::left, false, chart_faint}, room));
     }
 
     void add_y_axis() {
@@ -101,8 +92,8 @@ private:
         const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1;
         for (const double y : ticks) {
             const Vec2 p = frame_.at(frame_.x_low, y);
-            sheet_.lines.push_back({{p, {r.x + r.width, p.y()}}, 1, trend_grid, Level::area});
-            text(r.x - 0.5 * text_, p.y(), tick_text(y, step), text_, Align::right, false, trend_ink);
+            sheet_.lines.push_back({{p, {r.x + r.width, p.y()}}, 1, chart_grid, Level::area});
+            text(r.x - 0.5 * text_, p.y(), tick_text(y, step), text_, Align::right, false, chart_ink);
         }
         sheet_.lines.push_back(
             {{{r.x, r.y}, {r.x + r.width, r.y}, {r.x + r.width, r.y + r.height}, {r.x, r.y + r.height}, {r.x, r.y}},
@@ -120,15 +111,15 @@ private:
         for (std::size_t i = 0; i < picture_.symbols.size(); ++i) {
             const TrendSymbol& s = picture_.symbols[i];
             const double x = frame_.rect.x + (static_cast<double>(i) + 0.5) * per_run;
-            const double half = 0.5 * text_width({0, 0, s.run, text_, Align::centre, false, trend_ink});
+            const double half = 0.5 * text_width({0, 0, s.run, text_, Align::centre, false, chart_ink});
             if (x - half > number_end + 0.6 * text_) {
-                text(x, frame_.rect.y - 0.9 * text_, s.run, text_, Align::centre, false, trend_ink);
+                text(x, frame_.rect.y - 0.9 * text_, s.run, text_, Align::centre, false, chart_ink);
                 number_end = x + half;
             }
-            const double width = text_width({0, 0, s.day, 0.85 * text_, Align::left, false, trend_faint});
+            const double width = text_width({0, 0, s.day, 0.85 * text_, Align::left, false, chart_faint});
             if (s.day == day || x < day_end + 0.8 * text_ || x + width > frame_.rect.x + frame_.rect.width) continue;
             day = s.day;
-            text(x, frame_.rect.y - 2.2 * text_, s.day, 0.85 * text_, Align::left, false, trend_faint);
+            text(x, frame_.rect.y - 2.2 * text_, s.day, 0.85 * text_, Align::left, false, chart_faint);
             sheet_.lines.push_back(
                 {{{x, frame_.rect.y}, {x, frame_.rect.y - 0.3 * text_}}, 1, level_colour, Level::edge});
             day_end = x + width;
@@ -147,7 +138,7 @@ private:
         sheet_.lines.push_back({{frame_.at(at, frame_.y_low), p}, 1.4, limit_colour, Level::line});
         FlatText note{p.x(), p.y() + 1.1 * text_, levels.label, text_, Align::left, true, limit_colour};
         const double label_end =
-            frame_.rect.x + 1.5 * text_ + text_width({0, 0, picture_.y_label, text_, Align::left, true, trend_ink});
+            frame_.rect.x + 1.5 * text_ + text_width({0, 0, picture_.y_label, text_, Align::left, true, chart_ink});
         note.x = std::max(label_end, std::min(note.x, frame_.rect.x + frame_.rect.width - text_width(note)));
         sheet_.texts.push_back(std::move(note));
     }
@@ -159,7 +150,7 @@ private:
             add_symbol({x, y}, k, 0.42 * text_);
             const std::string name = picture_.groups[k].empty() ? "not given" : picture_.groups[k];
             sheet_.texts.push_back(
-                fitted({x + text_, y, name, text_, Align::left, false, trend_ink}, look_.width - x - 1.5 * text_));
+                fitted({x + text_, y, name, text_, Align::left, false, chart_ink}, look_.width - x - 1.5 * text_));
         }
     }
 

@@ -8,7 +8,6 @@
 #include "core/parallel.h"
 #include "core/statistics.h"
 #include "machined/across_feed.h"
-#include "machined/contact.h"
 #include "machined/scallop.h"
 
 namespace clsurf {
@@ -120,17 +119,14 @@ std::vector<double> scallop_heights(const ClSurface& surface, const Signals& sig
     const double ball = tool.radius;
     const Adjacency& neighbours = surface.neighbours;
     const PointIndex stride = std::max<PointIndex>(1, signals.size() / scallop_places);
-    const auto contact = [&](PointIndex i) {
-        return Vec3(surface.positions.absolute(i) + contact_offset(tool, signals.normal(i).cast<double>()));
-    };
     for (PointIndex i = (points.first + stride - 1) / stride * stride; i <= points.last; i += stride) {
-        const Vec3 here = contact(i);
+        const Vec3 here = contact_at(surface, signals, tool, i);
         if (signals[i].zone < Zone::near_end || !here.allFinite()) continue;
         const Vec3 feed = signals.feed(i).cast<double>();
         for (const Side side : {Side::left, Side::right}) {
             if (!neighbours.has(side, i)) continue;
             const PointIndex j = neighbours.neighbour(side, i);
-            Vec3 apart = contact(j) - here;
+            Vec3 apart = contact_at(surface, signals, tool, j) - here;
             apart -= apart.dot(feed) * feed;
             const double chord = apart.norm();
             const double turn = (signals.normal(j) - signals.normal(i)).cast<double>().dot(apart);

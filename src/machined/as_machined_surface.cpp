@@ -96,10 +96,11 @@ void AsMachinedSurface::measure_sections() {
         bounds_ = Box2(all.min().cast<double>() + origin - beside, all.max().cast<double>() + origin + beside);
 }
 
-Vec3 AsMachinedSurface::contact(PointIndex point) const {
-    const Eigen::Vector3f normal = signals_.normal(point);
-    return surface_.positions.absolute(point) + contact_offset(tool_, normal.cast<double>());
+Vec3 contact_at(const ClSurface& surface, const Signals& signals, const CuttingTool& tool, PointIndex point) {
+    return surface.positions.absolute(point) + contact_offset(tool, signals.normal(point).cast<double>());
 }
+
+Vec3 AsMachinedSurface::contact(PointIndex point) const { return contact_at(surface_, signals_, tool_, point); }
 
 void AsMachinedSurface::measure(Section& section) const {
     std::vector<double> axes[3];

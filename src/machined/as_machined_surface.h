@@ -109,4 +109,8 @@ private:
     std::string note_;
 };
 
+/// The contact point [mm] of a tool that stands upright, at a point of the surface; not finite where its normal is not known.
+[[nodiscard]] Vec3 contact_at(const ClSurface& surface, const Signals& signals, const CuttingTool& tool,
+                              PointIndex point);
+
 }  // namespace clsurf
