@@ -272,20 +272,11 @@ std::vector<std::function<Rule(const Machine&)>> rules_of(const Machine& machine
 
 /// Whether two machines have the same values of all rules.
 bool plan_alike(const Machine& one, const Machine& other) {
-    const ControllerSettings &a = one.controller, &b = other.controller;
-    return a.planner == b.planner && a.corner == b.corner && a.arc_step_time == b.arc_step_time &&
-           a.tolerance == b.tolerance && a.junction.deviation == b.junction.deviation &&
-           a.junction.speed_step == b.junction.speed_step && a.feed == b.feed && a.whole_periods == b.whole_periods &&
-           a.lookahead_blocks == b.lookahead_blocks && a.curve == b.curve && a.block_time == b.block_time &&
-           a.trapezoid.arc_blends == b.trapezoid.arc_blends &&
-           a.trapezoid.cubic_interpolation == b.trapezoid.cubic_interpolation &&
-           a.trapezoid.max_feed_override == b.trapezoid.max_feed_override &&
-           a.trapezoid.blocks_per_period == b.trapezoid.blocks_per_period &&
-           std::equal(
-               one.axes.begin(), one.axes.end(), other.axes.begin(),
-               [](const MachineAxis& x, const MachineAxis& y) { return x.max_acceleration == y.max_acceleration; }) &&
-           one.path.max_acceleration == other.path.max_acceleration &&
-           one.path.max_normal_acceleration == other.path.max_normal_acceleration;
+    const auto accelerate_alike = [](const MachineAxis& x, const MachineAxis& y) {
+        return x.max_acceleration == y.max_acceleration;
+    };
+    return one.controller == other.controller && one.path == other.path &&
+           std::equal(one.axes.begin(), one.axes.end(), other.axes.begin(), accelerate_alike);
 }
 
 /// The value that leaves the machine's rule as it is.
@@ -394,10 +385,9 @@ void identify_rules(std::span<const RecordedRun> runs, Identification& result) {
         if (plan_alike(before, result.machine)) break;
     }
     result.rules.insert(result.rules.begin(), other_families.begin(), other_families.end());
-    if (is_trapezoidal(result.machine)) restate_accelerations(result);
-    if (is_trapezoidal(result.machine))
-        result.unidentified.push_back(
-            {"merging_tolerance", "controller", "a program sets it (Q of G64); not searched"});
+    if (!is_trapezoidal(result.machine)) return;
+    restate_accelerations(result);
+    result.unidentified.push_back({"merging_tolerance", "controller", "a program sets it (Q of G64); not searched"});
 }
 
 }  // namespace clsurf

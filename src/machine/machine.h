@@ -71,12 +71,14 @@ struct TrapezoidSettings {
     double max_feed_override = 1;     ///< that corners are planned for
     int blocks_per_period = 1;        ///< that reach the planner in a period
     bool cubic_interpolation = true;  ///< set points are the joints of a cubic B-spline through three periods
+    [[nodiscard]] bool operator==(const TrapezoidSettings&) const = default;
 };
 
 /// Rules for the speed at a corner that is passed without rounding; the lowest counts.
 struct JunctionSettings {
     double deviation = 0.01;  ///< of the corner from the arc whose normal acceleration counts [mm]; 0: no rule
     double speed_step = 0;    ///< greatest step of an axis' speed [mm/s]; 0: no rule
+    [[nodiscard]] bool operator==(const JunctionSettings&) const = default;
 };
 
 /// The highest speed of a motion.
@@ -106,6 +108,7 @@ struct ControllerSettings {
     double block_time = 0;           ///< a block takes no less [s]: what the controller needs to prepare one
     bool whole_periods = false;      ///< feeds are lowered so that a block at its feed takes a whole number of periods
     double feed_override = 1;        ///< of programmed feeds, not of rapids
+    [[nodiscard]] bool operator==(const ControllerSettings&) const = default;
 };
 
 struct PathLimits {
@@ -113,6 +116,7 @@ struct PathLimits {
     double max_acceleration = 2000;         ///< tangential [mm/s²]
     double max_normal_acceleration = 1500;  ///< [mm/s²]
     double max_jerk = 50000;                ///< tangential [mm/s³]
+    [[nodiscard]] bool operator==(const PathLimits&) const = default;
 };
 
 inline constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
