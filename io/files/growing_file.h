@@ -1,5 +1,5 @@
 #pragma once
-// GrowingFile: the bytes of a file, a pipe or standard input that another program still writes.
+// GrowingFile: the bytes of a file, a pipe or standard input that another program is still writing.
 
 #include <sys/types.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-// GrowingLog: a log that another program still writes, read record by record. It keeps the head of the log and the last
+// GrowingLog: a log that another program is still writing, read record by record. It keeps the head of the log and the last
 // records, as many as are wanted; what it keeps is a log that the reader of its format opens (LogFormat::frame).
 
 #include <cstddef>

@@ -75,12 +75,12 @@ Subcommand check_subcommand() {
             "data do not allow a verdict: less than half of the cutting points could be compared.\n"
             "With --baseline it is 1 if a defect is new or of a higher severity than in the earlier report.\n"
             "--record adds the run to a history, whatever the verdict.\n"
-            "A log that is larger than the memory is judged in shards, one by one or on several machines, and --merge gives the\n"
+            "A log that is too large for memory is judged in shards, one by one or on several machines, and --merge gives the\n"
             "report on the whole of it (`clsurf survey`, docs/howto/shards.md).\n"
             "--measured compares a profile or an areal map that was measured on the part with the predicted surface: aligned\n"
             "(`clsurf align`), with the same form and filters, Ra, Rq and Rz of both, the correlation of the roughness profiles,\n"
             "and which predicted marks are there. The exit code is 5 if the data do not determine the pose.\n"
-            "--follow reads a log that is still written: a file, a named pipe or standard input (-). Its findings are\n"
+            "--follow reads a log that is still being written: a file, a named pipe or standard input (-). Its findings are\n"
             "provisional, because thresholds depend on the whole run. When the log ends, the verdict and the exit code are\n"
             "those of a check of the complete log, which confirms or withdraws each finding.\n\n"
             "  clsurf check part.nc run.biip --tool ball:6\n"
@@ -102,7 +102,7 @@ Subcommand check_subcommand() {
                 declare_measured_check(options);
                 declare_follow(
                     options,
-                    "the log is still written: report each defect as soon as the passes beside it are there, and the verdict when the log ends; with --json one object a line (docs/howto/follow.md)");
+                    "the log is still being written: report each defect as soon as the adjacent passes are recorded, and the verdict when the log ends; with --json one object per line (docs/howto/follow.md)");
                 declare_shards(options);
             },
         .positional = {"PROGRAM", "LOG…"},

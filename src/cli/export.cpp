@@ -80,7 +80,7 @@ Subcommand export_subcommand() {
             "surface; .hdf is .vtkhdf with the ending that ParaView 5.11 recognises. Lines, points and passes are\n"
             "32-bit integers there, times and positions 64-bit numbers. Without a program, lines are those of\n"
             "the log.\n"
-            "The surface of a log that is larger than the memory is written in pieces (`clsurf survey`, docs/howto/shards.md):\n"
+            "The surface of a log that is too large for memory is written in pieces (`clsurf survey`, docs/howto/shards.md):\n"
             "--shard writes one of them, and --merge a .pvtp file that ParaView opens. Fields of a shard are those of positions,\n"
             "and channels.\n\n"
             "  clsurf export part.nc run.biip -o points.csv --columns line,x,y,z,speed,acceleration\n"

@@ -1,5 +1,5 @@
 #pragma once
-// --follow, --follow-timeout: a log that is still written, until it ends.
+// --follow, --follow-timeout: a log that is still being written, until it ends.
 
 #include <functional>
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-// `check --follow`: the findings of a log that is still written, as they come, and what the complete log says of them.
+// `check --follow`: the findings of a log that is still being written, as they come, and what the complete log says of them.
 
 #include <memory>
 #include <optional>

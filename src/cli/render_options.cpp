@@ -98,7 +98,8 @@ void declare_render(po::options_description& options) {
         ("before", po::value<std::string>()->value_name("LOG"), "another log of the program, drawn next to it on the same scale; what changed is drawn below both");
     // clang-format on
     declare_look(options);
-    declare_follow(options, "the log is still written: draw the picture again every few seconds until the log ends");
+    declare_follow(options,
+                   "the log is still being written: draw the picture again every few seconds until the log ends");
 }
 
 RenderOptions read_render_options(const po::variables_map& values) {

@@ -29,7 +29,8 @@ void declare_report(po::options_description& options) {
     declare_tool(options);
     declare_part(options);
     declare_derivative(options);
-    declare_follow(options, "the log is still written: write the page again every few seconds until the log ends");
+    declare_follow(options,
+                   "the log is still being written: write the page again every few seconds until the log ends");
 }
 
 ReportOptions read_report_options(const po::variables_map& values) {

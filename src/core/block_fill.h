@@ -1,5 +1,5 @@
 #pragma once
-// BlockFill: columns whose blocks are filled when they are first read. Of a log that is larger than the memory, only
+// BlockFill: columns whose blocks are filled when they are first read. Of a log that is too large for memory, only
 // what is looked at is computed: the points of a shard, and those beside it that it is compared with.
 //
 // Any number of threads may read. What fills a block must not read a block of its own columns, but it may read columns

@@ -65,7 +65,7 @@ std::vector<ProvisionalDefect> FollowedRun::judge(Log window, PointIndex first) 
     std::sort(report.defects.begin(), report.defects.end(),
               [](const Defect& a, const Defect& b) { return a.point < b.point; });
     const ArcLength arc_length(surface.positions);
-    const double settling = settling_way(surface, report.thresholds.usual_speed * part_.log.period);
+    const double settling = settling_distance(surface, report.thresholds.usual_speed * part_.log.period);
     const DefectSurroundings around{surface, read.signals, arc_length, settling,
                                     [&](PointIndex point) { return at_fault(first + point); }};
     const std::int64_t edge = first > 0 ? std::min(most_edge_passes, report.passes / 3) : 0;

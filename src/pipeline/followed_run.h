@@ -1,5 +1,5 @@
 #pragma once
-// FollowedRun: the defects of a run that is still recorded. The last passes of the log are judged again and again by the
+// FollowedRun: the defects of a run that is still being recorded. The last passes of the log are judged again and again by the
 // detector of complete logs (pipeline/judge.h), and each defect is reported once, when it is settled (settled_defect.h).
 //
 // Such findings are provisional: the thresholds of a window are those of its passes, not of the whole run, and later passes

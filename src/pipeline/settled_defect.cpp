@@ -64,7 +64,7 @@ std::optional<PointIndex> last_that_tells(const Defect& defect, const DefectSurr
 
 }  // namespace
 
-double settling_way(const ClSurface& surface, double record) {
+double settling_distance(const ClSurface& surface, double record) {
     return usual_end_zone(surface.step_over) + joined_along(surface, record);
 }
 

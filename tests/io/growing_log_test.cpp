@@ -1,4 +1,4 @@
-// Logs that are still written: whole records and nothing else, in every format that can be followed; files that are cut,
+// Logs that are still being written: whole records and nothing else, in every format that can be followed; files that are cut,
 // replaced or written anew; pipes.
 
 #include "io/formats/growing_log.h"

@@ -1,4 +1,4 @@
-// Runs that are still recorded: each defect once, with its pass, before the log is complete; and in the end the findings
+// Runs that are still being recorded: each defect once, with its pass, before the log is complete; and in the end the findings
 // of the complete log.
 
 #include "pipeline/followed_run.h"
