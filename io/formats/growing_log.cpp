@@ -18,7 +18,6 @@ namespace {
 constexpr std::size_t text_record_bytes = 100;              ///< about, of what is read at once
 constexpr std::size_t longest_head = std::size_t{1} << 20;  ///< [bytes] in which a log shows what it is
 constexpr std::size_t telling_lines = 4;                    ///< records of a text that show how it is written
-constexpr std::size_t telling_bytes = 64;                   ///< of binary records
 
 std::string_view text_of_bytes(const std::vector<std::byte>& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/printable_text.h"
+#include "io/files/xml_text.h"
 
 namespace clsurf::io {
 namespace {
@@ -14,15 +15,7 @@ std::string xml(const std::string& text, bool lines) {
     std::string out;
     std::string line;
     const auto flush = [&] {
-        for (const char c : printable(line)) {
-            switch (c) {
-                case '&': out += "&amp;"; break;
-                case '<': out += "&lt;"; break;
-                case '>': out += "&gt;"; break;
-                case '"': out += "&quot;"; break;
-                default: out += c;
-            }
-        }
+        out += xml_escaped(printable(line));
         line.clear();
     };
     for (const char c : text) {

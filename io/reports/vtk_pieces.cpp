@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "io/files/mapped_file.h"
+#include "io/files/xml_text.h"
 
 namespace clsurf::io {
 namespace {
@@ -43,19 +44,6 @@ private:
         return {};
     }
 
-    static std::string escaped(const std::string& text) {
-        std::string safe;
-        for (const char c : text) {
-            switch (c) {
-                case '&': safe += "&amp;"; break;
-                case '<': safe += "&lt;"; break;
-                case '"': safe += "&quot;"; break;
-                default: safe += c;
-            }
-        }
-        return safe;
-    }
-
     static void begin(void* self, const char* element, const char** attributes) {
         auto& head = *static_cast<PieceHead*>(self);
         const std::string_view name = element;
@@ -68,9 +56,9 @@ private:
         if (name != "DataArray" || head.inside_.empty()) return;
         const std::string components = attribute(attributes, "NumberOfComponents");
         (head.inside_ == "Points" ? head.points_ : head.columns_) +=
-            fmt::format("      <PDataArray type=\"{}\" Name=\"{}\"{}/>\n", escaped(attribute(attributes, "type")),
-                        escaped(attribute(attributes, "Name")),
-                        components.empty() ? "" : fmt::format(" NumberOfComponents=\"{}\"", escaped(components)));
+            fmt::format("      <PDataArray type=\"{}\" Name=\"{}\"{}/>\n", xml_escaped(attribute(attributes, "type")),
+                        xml_escaped(attribute(attributes, "Name")),
+                        components.empty() ? "" : fmt::format(" NumberOfComponents=\"{}\"", xml_escaped(components)));
     }
     static void end(void* self, const char* element) {
         auto& head = *static_cast<PieceHead*>(self);
@@ -101,7 +89,7 @@ std::string pvtp_text(const std::vector<std::string>& pieces, const std::string&
         } else if (head.columns() != columns || head.points() != points) {
             throw InputError(Place::of_file(piece), "has other columns than " + pieces.front());
         }
-        sources += fmt::format("    <Piece Source=\"{}\"/>\n", named_from(piece, folder));
+        sources += fmt::format("    <Piece Source=\"{}\"/>\n", xml_escaped(named_from(piece, folder)));
     }
     return fmt::format(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"PPolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "

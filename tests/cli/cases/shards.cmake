@@ -68,3 +68,6 @@ clsurf_cli_test(NAME shards_piece_with_a_field_of_the_whole SETUP "${shards_made
 clsurf_cli_test(NAME shards_pieces_that_differ SETUP "${shards_made}; $CLSURF export ${shard_run} --survey run.survey --shard 1/2 -o a.vtp -q; $CLSURF export ${shard_run} --survey run.survey --shard 2/2 --columns point -o b.vtp -q" ARGS export --merge a.vtp b.vtp -o map.pvtp EXIT 3 STDERR "b.vtp: error: has other columns than a.vtp")
 clsurf_cli_test(NAME shards_pieces_that_are_none SETUP "echo '<VTKFile/>' > a.vtp" ARGS export --merge a.vtp -o map.pvtp EXIT 3 STDERR "a.vtp: error: is no piece that clsurf export --shard writes")
 clsurf_cli_test(NAME shards_pieces_into_no_pvtp SETUP "echo > a.vtp" ARGS export --merge a.vtp -o map.vtp EXIT 2 STDERR "--merge writes a .pvtp file")
+clsurf_cli_test(NAME shards_pieces_with_marks_of_xml_in_their_names
+  SETUP "${shards_made}; $CLSURF export ${shard_run} --columns point -o whole.vtp -q; $CLSURF export ${shard_run} --survey run.survey --shard 1/2 --columns point -o 'top & <side>.vtp' -q; $CLSURF export ${shard_run} --survey run.survey --shard 2/2 --columns point -o b.vtp -q; $CLSURF export --merge 'top & <side>.vtp' b.vtp -o map.pvtp; /usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/cli/read_pieces.py whole.vtp map.pvtp"
+  ARGS --version)
