@@ -322,8 +322,8 @@ std::vector<RuleValue> best_of_families(RuleScores& scores, const Machine& machi
 }
 
 /// Compares the families, each with its own rules: with those of the machine, a wrong kind of planner may explain the runs
-/// better than the right one with a wrong look-ahead. A family that explains the runs well
-/// is the last one. Returns the rows of those that are not chosen.
+/// better than the right one with a wrong look-ahead. A family that explains the runs well is the last one. Returns the rows
+/// of those that are not chosen.
 std::vector<RuleCandidate> choose_family(RuleScores& scores, Identification& result) {
     std::vector<Identification> found;
     Rule planner{"planner", "controller", {}, {}};

@@ -13,16 +13,6 @@ constexpr std::size_t most_preferred = 8;           ///< candidates that a weigh
 constexpr std::size_t most_preferred_of_large = 2;  ///< … where runs are large
 constexpr double large = 1e6;                       ///< points of a run
 
-double deepest_of(const JudgedRun& run) {
-    double deepest = 0;
-    for (const Defect& defect : run.report.defects) deepest = std::max(deepest, defect.depth);
-    return deepest;
-}
-
-TradeoffRow row_of(const JudgedRun& run, std::string name) {
-    return {std::move(name), *run.motion, run.report.defects.size(), deepest_of(run)};
-}
-
 /// "candidate 14: 231 sections and feeds"
 std::string name_of(const Proposal& proposal) {
     const std::size_t sections = proposal.evaluation.intervals;
@@ -34,8 +24,8 @@ std::string name_of(const Proposal& proposal) {
 }  // namespace
 
 void Evaluator::keep_candidate(const Proposal& p) {
-    candidates_.push_back(
-        {p.number, p.draft, p.targets, p.evaluation, p.measures(), p.summary.limits_ok, row_of(p.run, name_of(p))});
+    candidates_.push_back({p.number, p.draft, p.targets, p.evaluation, p.measures(), p.summary.limits_ok,
+                           row_of(name_of(p), *p.run.motion, p.run.report)});
 }
 
 std::vector<const Evaluator::Candidate*> Evaluator::accepted_candidates() const {
@@ -52,7 +42,7 @@ std::vector<const Evaluator::Candidate*> Evaluator::accepted_candidates() const 
 TradeoffFront Evaluator::front_of(const std::vector<const Candidate*>& candidates) const {
     TradeoffFront front;
     front.weight = rules_.weight;
-    front.rows.push_back(row_of(before_, "the program"));
+    front.rows.push_back(row_of("the program", *before_.motion, before_.report));
     for (const Candidate* each : candidates) front.rows.push_back(each->row);
     mark_front(front.rows);
     return front;

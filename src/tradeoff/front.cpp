@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/not_finite.h"
 
@@ -22,6 +23,12 @@ double ratio(double value, double reference) {
 }
 
 }  // namespace
+
+TradeoffRow row_of(std::string name, const MotionQuality& quality, const QualityReport& report) {
+    TradeoffRow row{std::move(name), quality, report.defects.size()};
+    for (const Defect& defect : report.defects) row.deepest = std::max(row.deepest, defect.depth);
+    return row;
+}
 
 bool dominates(const MotionQuality& a, const MotionQuality& b) {
     if (!knows_all(a) || !knows_all(b)) return false;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pipeline/motion_quality.h"
+#include "predictor/defects.h"
 
 namespace clsurf {
 
@@ -20,6 +21,9 @@ struct TradeoffRow {
     double deepest = 0;     ///< [mm] predicted depth of the deepest one
     bool on_front = false;  ///< no other row dominates it
 };
+
+/// `report`: of the same run.
+[[nodiscard]] TradeoffRow row_of(std::string name, const MotionQuality& quality, const QualityReport& report);
 
 /// The first row is what the others are compared with: the machine file, or the program, as it is.
 struct TradeoffFront {

@@ -78,20 +78,17 @@ private:
         return std::ranges::find(tried_, settings) == tried_.end();
     }
 
-    [[nodiscard]] TradeoffRow row_of(const PlanSettings& settings) const {
+    [[nodiscard]] TradeoffRow run_with(const PlanSettings& settings) const {
         const Machine machine = machine_of_(settings);
         SimulatedRun run = simulate_to_log(prepared_, machine, rules_.start, {}, zero_);
         const Part part = assemble(program_, std::move(run.log), judging_);
         const ClSurface surface = stitch(part);
         const PartSignals signals = signals_of(part, surface);
         const QualityReport report = find_defects(part, surface, signals);
-        TradeoffRow row;
-        row.name = text_of(settings);
-        row.quality = motion_quality(part.log, part.path, surface, speed_differences(surface, signals.signals),
-                                     estimate_motion(part, surface.passes));
-        row.defects = report.defects.size();
-        for (const Defect& defect : report.defects) row.deepest = std::max(row.deepest, defect.depth);
-        return row;
+        return row_of(text_of(settings),
+                      motion_quality(part.log, part.path, surface, speed_differences(surface, signals.signals),
+                                     estimate_motion(part, surface.passes)),
+                      report);
     }
 
     /// Whether each of them is in time. Settings for which there is no room are left out, as if they were not.
@@ -103,7 +100,7 @@ private:
         parallel_for(static_cast<std::int64_t>(count), 1, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t i = first; i < last; ++i) {
                 const auto k = static_cast<std::size_t>(i);
-                made[k] = row_of(wanted[k]);
+                made[k] = run_with(wanted[k]);
             }
         });
         std::vector<bool> kept(wanted.size(), false);
