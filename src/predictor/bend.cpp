@@ -34,7 +34,9 @@ constexpr float link_accelerates = 0.15F;  ///< the same at a link: both of its 
 constexpr float ramp_share = 0.2F;         ///< the same along the path, between the bend and its ramp's end
 constexpr float accelerates_more = 1.35F;  ///< a bend that is taken 16 % faster
 constexpr float rises_again = 1.03F;       ///< of the least speed: beyond, it was another slow place
-constexpr float hardly_slower = 0.5F;      ///< of the threshold
+/// [s] No mill brakes longer for a bend. Where a log hardly ever accelerates, its usual acceleration says less.
+constexpr float longest_braking = 0.5F;
+constexpr float hardly_slower = 0.5F;  ///< of the threshold
 
 }  // namespace
 
@@ -238,8 +240,9 @@ std::optional<PointIndex> Bends::slowest_ahead(PointIndex point, int direction) 
     const float speed = signals_[point].speed;
     const PointIndex stride = stride_at(point);
     PointIndex slowest = point, at = point;
+    const float reach = std::min(speed * speed / a + net_reach * step_over_, speed * longest_braking);
     float arc_length = 0, arc_length_to_slowest = 0;
-    while (speed * speed > a * (arc_length - net_reach * step_over_)) {
+    while (arc_length < reach) {
         const PointIndex next = at + direction * stride;
         if (next < 0 || next >= signals_.size() || !(signals_[next].speed > 0)) break;
         arc_length += (surface_.positions[next] - surface_.positions[at]).norm() + look_every * look_every * step_over_;
