@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include <Eigen/Core>
+
 #include "core/block.h"
 
 namespace clsurf {
@@ -27,14 +29,11 @@ bool has_position(const Positions& p, PointIndex i) {
 
 /// Where a column is lowest and highest in [first, last]; −1: it has no value there.
 PointRange extremes(const Column<float>& values, PointIndex first, PointIndex last) {
-    PointRange at{-1, -1};
-    for (PointIndex i = first; i <= last; ++i) {
-        const float value = values[static_cast<std::size_t>(i)];
-        if (!(value == value)) continue;
-        if (at.first < 0 || value < values[static_cast<std::size_t>(at.first)]) at.first = i;
-        if (at.last < 0 || value > values[static_cast<std::size_t>(at.last)]) at.last = i;
-    }
-    return at;
+    const Eigen::Map<const Eigen::ArrayXf> all(values.data() + first, last - first + 1);
+    const float low = all.minCoeff<Eigen::PropagateNumbers>(), high = all.maxCoeff<Eigen::PropagateNumbers>();
+    if (!(low <= high)) return {-1, -1};
+    const auto place = [&](float value) { return first + (std::find(all.begin(), all.end(), value) - all.begin()); };
+    return {place(low), place(high)};
 }
 
 void mark_extremes(Marks& marks, const Column<float>& values, PointIndex first, PointIndex last) {
@@ -112,6 +111,8 @@ public:
     Windows(const ClSurface& surface, std::span<const Field> fields, double longest_chord)
         : surface_(surface), fields_(fields), longest_chord_(static_cast<float>(longest_chord)) {}
 
+    [[nodiscard]] std::size_t fields() const { return fields_.size(); }
+
     void add(Marks& marks, PointIndex window) const {
         for (const Pass& pass : surface_.passes) {
             const PointIndex windows = (pass.size() + window - 1) / window;
@@ -164,12 +165,18 @@ PointIndex mark_windows(Marks& marks, const Marks& lasting, const Windows& windo
         windows.add(marks, window);
         return count_of(marks) <= most;
     };
-    PointIndex low = 1;
+    // Windows keep a point for their start and about half of the extremes of the fields.
+    const auto guess = static_cast<PointIndex>(windows.fields() + 1) * static_cast<PointIndex>(marks.size()) /
+                       std::max<PointIndex>(most, 1);
     PointIndex high = 2;
-    while (!fits(high) && high < longest) {
-        low = high;
-        high *= 2;
+    while (high < std::min(guess, longest)) high *= 2;
+    if (fits(high)) {
+        while (high > 2 && fits(high / 2)) high /= 2;
+    } else {
+        do high *= 2;
+        while (!fits(high) && high < longest);
     }
+    PointIndex low = high / 2;
     for (int halved = 0; halved < 5 && high - low > 1; ++halved) {
         const PointIndex middle = low + (high - low) / 2;
         (fits(middle) ? high : low) = middle;
