@@ -10,7 +10,8 @@ constexpr int passes_enough = 3;  ///< on the side where there are some
 constexpr std::size_t sites_enough = 3;
 constexpr float steady_share = 0.1F;     ///< of the usual acceleration along the path: below, the speed is steady
 constexpr double flank_seconds = 0.020;  ///< by which a height may outlast the motion that makes it
-constexpr double flank_ramps = 1.5;      ///< jerk makes ramps longer than the acceleration alone
+constexpr float falls_to = 0.7F;     ///< of its height at the border: a flank is lower where it is no longer next to it
+constexpr double flank_ramps = 1.5;  ///< jerk makes ramps longer than the acceleration alone
 
 }  // namespace
 
@@ -22,8 +23,8 @@ Border::Border(const ClSurface& surface, const Signals& signals, const ArcLength
     }
 }
 
-std::optional<PointIndex> Border::as_strong_near(PointIndex point, std::size_t pass, float share,
-                                                 Quantity quantity) const {
+const DefectCandidate* Border::as_strong_near(PointIndex point, std::size_t pass, float share,
+                                              Quantity quantity) const {
     const auto by_point = [](const DefectCandidate* s, PointIndex p) { return s->point < p; };
     const auto after = std::lower_bound(at_border_.begin(), at_border_.end(), point, by_point);
     const auto strong = [&](const DefectCandidate* s) {
@@ -32,15 +33,15 @@ std::optional<PointIndex> Border::as_strong_near(PointIndex point, std::size_t p
     };
     // Within that way there are few of them.
     for (auto k = after; k != at_border_.end() && !arc_length_.at_least(point, (*k)->point, along_); ++k) {
-        if (strong(*k)) return (*k)->point;
+        if (strong(*k)) return *k;
     }
     for (auto k = after; k != at_border_.begin() && !arc_length_.at_least((*(k - 1))->point, point, along_); --k) {
-        if (strong(*(k - 1))) return (*(k - 1))->point;
+        if (strong(*(k - 1))) return *(k - 1);
     }
-    return std::nullopt;
+    return nullptr;
 }
 
-std::optional<PointIndex> Border::flank_of(const DefectCandidates& core, Quantity quantity) const {
+const DefectCandidate* Border::flank_of(const DefectCandidates& core, Quantity quantity) const {
     const std::size_t q = index_of(quantity);
     const auto weaker = [q](const DefectCandidate* a, const DefectCandidate* b) { return a->share[q] < b->share[q]; };
     const auto strongest = std::max_element(core.begin(), core.end(), weaker);
@@ -53,15 +54,15 @@ std::optional<PointIndex> Border::flank_of(const DefectCandidates& core, Quantit
     while (last + 1 != core.end() && hangs(*last, *(last + 1))) ++last;
     const std::size_t pass = (*strongest)->pass;
     for (const DefectCandidate* end : {*first, *last}) {
-        if (const auto at = as_strong_near(end->point, pass, peak, quantity)) return at;
+        if (const DefectCandidate* at = as_strong_near(end->point, pass, peak, quantity)) return at;
     }
     const Comparison& c = (*strongest)->comparison;
     for (const PathLocation& at : {c.beside_left, c.beside_right}) {
         if (!at.exists()) continue;
-        if (const auto near = as_strong_near(at.nearest(), pass_of(surface_.passes, at.nearest()), peak, quantity))
-            return near;
+        const std::size_t beside = pass_of(surface_.passes, at.nearest());
+        if (const DefectCandidate* near = as_strong_near(at.nearest(), beside, peak, quantity)) return near;
     }
-    return std::nullopt;
+    return nullptr;
 }
 
 double Border::flank_reach(const DefectCandidates& core, Quantity quantity) const {
@@ -80,10 +81,13 @@ bool Border::ramps(PointIndex point) const {
     return !(std::abs(along) < steady_share * thresholds_.usual_acceleration);
 }
 
-bool Border::on_flank(const DefectCandidate& site, PointIndex at, double reach, Quantity quantity) const {
-    const double distance = (surface_.positions[site.point] - surface_.positions[at]).norm();
+bool Border::on_flank(const DefectCandidate& site, const DefectCandidate& at, double reach, Quantity quantity) const {
+    const double distance = (surface_.positions[site.point] - surface_.positions[at.point]).norm();
     if (distance >= reach) return false;
-    if (quantity != Quantity::speed || distance < along_ || ramps(site.point)) return true;
+    if (distance < along_) return true;
+    const std::size_t q = index_of(quantity);
+    if (quantity == Quantity::lag || quantity == Quantity::relief) return site.share[q] < falls_to * at.share[q];
+    if (quantity != Quantity::speed || ramps(site.point)) return true;
     const Comparison& c = site.comparison;
     return (c.beside_left.exists() && ramps(c.beside_left.nearest())) ||
            (c.beside_right.exists() && ramps(c.beside_right.nearest()));

@@ -5,8 +5,6 @@
 // differ: candidates are marked so (DefectCandidate::border), and what they make is expected. Expected is no more than that: what
 // lies beside it is a defect of its own unless it is its flank, and what stands out of it is a defect, too.
 
-#include <optional>
-
 #include "predictor/candidates.h"
 #include "toolpath/arc_length.h"
 
@@ -19,15 +17,17 @@ public:
            const DefectCandidates& candidates, double along, const Thresholds& thresholds);
 
     /// Where sites away from the border are the flank of something at it: their strongest one lies next to a site of the border
-    /// that is as strong or stronger, along the pass or beside it. That one's point. O(sites + log candidates).
-    [[nodiscard]] std::optional<PointIndex> flank_of(const DefectCandidates& core, Quantity quantity) const;
+    /// that is as strong or stronger, along the pass or beside it. That one; null: there is none. O(sites + log candidates).
+    [[nodiscard]] const DefectCandidate* flank_of(const DefectCandidates& core, Quantity quantity) const;
 
     /// How far [mm] a flank reaches from there: as far as the tool needs to make up the difference with the usual acceleration.
     [[nodiscard]] double flank_reach(const DefectCandidates& core, Quantity quantity) const;
 
-    /// A site belongs to the flank of the place `at` of the border: it lies within `reach`, and next to it unless a ramp makes
-    /// the difference there. Where neither the tool nor those beside it speed up or slow down, no ramp does.
-    [[nodiscard]] bool on_flank(const DefectCandidate& site, PointIndex at, double reach, Quantity quantity) const;
+    /// A site belongs to the flank of the site `at` of the border: it lies next to it, or within `reach` and a ramp makes the
+    /// difference. Where neither the tool nor those beside it speed up or slow down, no ramp does; and a height that a ramp
+    /// makes falls with the distance from the border.
+    [[nodiscard]] bool on_flank(const DefectCandidate& site, const DefectCandidate& at, double reach,
+                                Quantity quantity) const;
 
     /// Sites at the border differ clearly over a section, while their pass does not before and after it: step and residual are twice the
     /// threshold against three passes or more, or slower than passes that begin or end beside it, where it goes on. Sites in corners do not count: the
@@ -36,8 +36,8 @@ public:
     [[nodiscard]] bool stands_out(const DefectCandidates& core, Quantity quantity) const;
 
 private:
-    [[nodiscard]] std::optional<PointIndex> as_strong_near(PointIndex point, std::size_t pass, float share,
-                                                           Quantity quantity) const;
+    [[nodiscard]] const DefectCandidate* as_strong_near(PointIndex point, std::size_t pass, float share,
+                                                        Quantity quantity) const;
     [[nodiscard]] bool ramps(PointIndex point) const;
     [[nodiscard]] bool goes_on(PointIndex point, int direction) const;
 

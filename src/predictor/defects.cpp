@@ -379,7 +379,7 @@ private:
     void add(DefectCandidates core, Quantity quantity) {
         if (core.empty() || !starts_defect(core, family_)) return;
         if (at_border_) return keep(core, quantity, !border_.stands_out(core, quantity));
-        const std::optional<PointIndex> flank = border_.flank_of(core, quantity);
+        const DefectCandidate* flank = border_.flank_of(core, quantity);
         if (!flank) return keep(core, quantity, false);
         // A flank ends. What goes on beyond it is something of its own.
         const double reach = border_.flank_reach(core, quantity);

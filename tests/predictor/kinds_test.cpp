@@ -2,6 +2,8 @@
 // each. `clsurf_planted kinds` runs as many as one likes.
 #include "kinds.h"
 
+#include <string_view>
+
 #include <gtest/gtest.h>
 
 #include "planted_score.h"
@@ -93,6 +95,18 @@ TEST(Kinds, WhatIsExpectedInACreaseEndsThere) {
     }
     EXPECT_EQ(all.found, all.planted);
     EXPECT_EQ(all.right + all.natural, all.reported);
+}
+
+/// A pass that lies off its neighbours round a corner and along 4 mm before it: the height does not fall with the distance from
+/// the corner, as a flank does.
+TEST(Kinds, AHeightThatLastsBesideACornerIsNoFlank) {
+    for (const planted::LogKind& kind : planted::log_kinds()) {
+        if (kind.name != std::string_view("triangles F5000 2 ms")) continue;
+        double coverage = 0;
+        const planted::Score one = score_of(kind, 306, false, coverage);
+        EXPECT_EQ(one.planted, 3);
+        EXPECT_EQ(one.found, 3);
+    }
 }
 
 }  // namespace
