@@ -15,8 +15,23 @@ double sum_of(const double* lanes) { return lanes[0] + lanes[1] + lanes[2] + lan
 
 /// What runs over all groups. The sides' gradients are fall v ∓ w.
 struct LimitRows::Kernels {
+    /// Rows come in the order of cells, so that the four of a group are often of one.
+    static bool is_of_one_cell(const Group& g) { return g.cell[0] == g.cell[width - 1]; }
+
+    /// Adds the lanes to `sum`, one after the other.
+    static void add_lanes(double& sum, const Four& lanes) {
+        double all = sum;
+        for (std::size_t l = 0; l < width; ++l) all += lanes[l];
+        sum = all;
+    }
+
     /// What belongs to the three coefficients about the cells of a group.
     static void gather(Group& g, const double* of) {
+        if (is_of_one_cell(g)) {
+            const double* const about = of + g.cell[0];
+            for (std::size_t q = 0; q < 3; ++q) g.about[q] = Four{about[q], about[q], about[q], about[q]};
+            return;
+        }
         for (std::size_t q = 0; q < 3; ++q)
             g.about[q] = Four{of[g.cell[0] + q], of[g.cell[1] + q], of[g.cell[2] + q], of[g.cell[3] + q]};
     }
@@ -26,8 +41,10 @@ struct LimitRows::Kernels {
         gather(g, value);
         at = g.w[0] * g.about[0] + g.w[1] * g.about[1] + g.w[2] * g.about[2];
         const Four m = g.unit + g.v[0] * g.about[0] + g.v[1] * g.about[1] + g.v[2] * g.about[2];
-        for (std::size_t l = 0; l < width; ++l) g.root[l] = std::sqrt(m[l]);
-        g.bound = 1 / g.root;
+        Four root;
+        for (std::size_t l = 0; l < width; ++l) root[l] = std::sqrt(m[l]);
+        g.root = root;
+        g.bound = 1 / root;
         g.fall = -0.5 * g.bound * g.bound * g.bound;
     }
 
@@ -65,6 +82,17 @@ struct LimitRows::Kernels {
                        d22 = u[2] * g.w[2] + t[2] * g.v[2];
             const Four d01 = u[0] * g.w[1] + t[0] * g.v[1], d12 = u[1] * g.w[2] + t[1] * g.v[2],
                        d02 = u[0] * g.w[2] + t[0] * g.v[2];
+            if (is_of_one_cell(g)) {
+                const std::size_t c = g.cell[0];
+                add_lanes(d0[c], d00);
+                add_lanes(d0[c + 1], d11);
+                add_lanes(d0[c + 2], d22);
+                add_lanes(d1[c], d01);
+                add_lanes(d1[c + 1], d12);
+                add_lanes(d2[c], d02);
+                for (std::size_t q = 0; q < 3; ++q) add_lanes(pull[c + q], p[q]);
+                continue;
+            }
             for (std::size_t l = 0; l < width; ++l) {
                 const std::size_t c = g.cell[l];
                 d0[c] += d00[l];
@@ -108,6 +136,11 @@ struct LimitRows::Kernels {
             for (std::size_t q = 0; q < 3; ++q) {
                 const Four centres = centre_w * g.w[q] + centre_v * g.v[q];
                 const Four corrections = product_w * g.w[q] + product_v * g.v[q];
+                if (is_of_one_cell(g)) {
+                    add_lanes(centring[g.cell[0] + q], centres);
+                    add_lanes(products[g.cell[0] + q], corrections);
+                    continue;
+                }
                 for (std::size_t l = 0; l < width; ++l) {
                     centring[g.cell[l] + q] += centres[l];
                     products[g.cell[l] + q] += corrections[l];
