@@ -106,6 +106,7 @@ clsurf_runner_test(a_file_left_behind --exit 3 -- -c "echo error >&2; echo x > l
 clsurf_runner_test(a_missing_file --file map.png -- -c "exit 0")
 clsurf_runner_test(an_empty_file --file map.png -- -c ": > map.png")
 clsurf_runner_test(silence --exit 3 -- -c "exit 3")
+clsurf_runner_test(nothing_left --left yes -- -c "exit 0")
 
 # ---- what the subcommands answer ----
 set(run @LOGS@/bottle_uneven.biip)

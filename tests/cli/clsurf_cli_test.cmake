@@ -6,8 +6,11 @@
 #
 # In ARGS and SETUP, @DATA@ is the folder data of the project, @LOGS@ that of the unpacked logs.
 # SETUP may use $CLSURF, the program.
+#
+# Tests of one command line (SETUP, ARGS and EXIT are the same) run it once: the first of them does, the others look at
+# what it left. AFTER test: this test is run after that one, whose folder is @AFTER@ in ARGS and SETUP.
 function(clsurf_cli_test)
-  cmake_parse_arguments(PARSE_ARGV 0 TEST "" "NAME;EXIT;SETUP" "ARGS;STDOUT;NO_STDOUT;STDERR;FILE;NO_FILE")
+  cmake_parse_arguments(PARSE_ARGV 0 TEST "" "NAME;EXIT;SETUP;AFTER" "ARGS;STDOUT;NO_STDOUT;STDERR;FILE;NO_FILE")
   if(TEST_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "clsurf_cli_test ${TEST_NAME}: what is ${TEST_UNPARSED_ARGUMENTS}?")
   endif()
@@ -16,10 +19,27 @@ function(clsurf_cli_test)
   endif()
   set(DATA ${PROJECT_SOURCE_DIR}/data)
   set(LOGS ${PROJECT_BINARY_DIR}/samples)
+  set(fixtures "")
+  if(TEST_AFTER)
+    set(fixtures cli.${TEST_AFTER})
+    set_property(TEST cli.${TEST_AFTER} PROPERTY FIXTURES_SETUP cli.${TEST_AFTER})
+    set(AFTER ${PROJECT_BINARY_DIR}/tests/cli/${TEST_AFTER}/work)
+  endif()
   string(CONFIGURE "${TEST_ARGS}" TEST_ARGS @ONLY)
   string(CONFIGURE "${TEST_SETUP}" TEST_SETUP @ONLY)
 
+  set(folder ${TEST_NAME})
   set(words --exit ${TEST_EXIT})
+  string(SHA256 command_line "${TEST_EXIT} ${TEST_SETUP} -- ${TEST_ARGS}")
+  get_property(first GLOBAL PROPERTY clsurf_cli_${command_line})
+  if(first)
+    list(APPEND fixtures cli.${first})
+    set_property(TEST cli.${first} PROPERTY FIXTURES_SETUP cli.${first})
+    set(folder ${first})
+    list(APPEND words --left yes)
+  else()
+    set_property(GLOBAL PROPERTY clsurf_cli_${command_line} ${TEST_NAME})
+  endif()
   if(TEST_SETUP)
     string(REPLACE ";" "\\;" TEST_SETUP "${TEST_SETUP}")
     list(APPEND words --setup "${TEST_SETUP}")
@@ -32,6 +52,9 @@ function(clsurf_cli_test)
   endforeach()
   add_test(NAME cli.${TEST_NAME}
     COMMAND bash ${PROJECT_SOURCE_DIR}/tests/cli/run_cli_test
-      ${PROJECT_BINARY_DIR}/tests/cli/${TEST_NAME} $<TARGET_FILE:clsurf> ${words} -- ${TEST_ARGS})
+      ${PROJECT_BINARY_DIR}/tests/cli/${folder} $<TARGET_FILE:clsurf> ${words} -- ${TEST_ARGS})
   set_tests_properties(cli.${TEST_NAME} PROPERTIES TIMEOUT 120)
+  if(fixtures)
+    set_tests_properties(cli.${TEST_NAME} PROPERTIES FIXTURES_REQUIRED "${fixtures}")
+  endif()
 endfunction()

@@ -144,7 +144,7 @@ class RandomPrograms : public testing::TestWithParam<Modes> {};
 
 /// Random programs in a mode: CLSURF_RANDOM_PROGRAMS of them in all modes together, else what the suite has time for.
 int rounds_of_a_mode() {
-    constexpr int modes = 14, usual = 14000;
+    constexpr int modes = 14, usual = 10010;
     const char* wanted = std::getenv("CLSURF_RANDOM_PROGRAMS");
     return (wanted != nullptr ? std::atoi(wanted) : usual) / modes;
 }

@@ -3,18 +3,22 @@
 
 set(other "printf '[path]\\nmax_normal_acceleration = 900\\n[[axis]]\\nname = \"x\"\\nmax_acceleration = 1300\\n' > other.toml")
 set(dome @DATA@/programs/dome_loops.nc)
-# Its first eight seconds: each run of a repair is simulated many times.
-set(other "${other}; (head -n 620 @DATA@/programs/dome_loops.nc; echo M2) > first_loops.nc")
-clsurf_cli_test(NAME optimize_on_a_controller SETUP "${other}"
-  ARGS optimize first_loops.nc --controller "$CLSURF simulate {program} --machine other.toml -o {log} -q" --runs 2 -o better.nc FILE better.nc
+# A part of two and a half seconds: each run of a repair is simulated many times. Six passes, the fourth of which has fifty
+# points in a millimetre.
+set(crowded_part "awk 'BEGIN { print \"G21 G90\\nG64 P0.005\\nG0 X0 Y0 Z10\\nG1 Z0 F1000\\nG1 F3000\"; for (k = 0; k < 6; ++k) for (w = 0; w < 9.01; w += k == 3 && w > 3 && w < 4 ? 0.02 : 0.25) { x = k % 2 ? 9 - w : w; printf \"X%.3f Y%.3f Z%.3f\\n\", x, 0.4 * k, 0.5 * sin(0.8 * x) } print \"G0 Z10\\nM2\" }' > part.nc")
+# The machine of a machine file, and one with another limit.
+set(mill @DATA@/machines/linuxcnc_logs.toml)
+set(other_mill "${crowded_part}; sed '0,/max_acceleration = .*/s//max_acceleration = 1300/' ${mill} > other.toml")
+clsurf_cli_test(NAME optimize_on_a_controller SETUP "${other}; ${crowded_part}"
+  ARGS optimize part.nc --controller "$CLSURF simulate {program} --machine other.toml -o {log} -q" --runs 2 -o better.nc FILE better.nc
   STDOUT "machine: that of clsurf machine --defaults, fitted to the runs of the controller" "run 1, the program: [0-9.]+ s, speed mismatch [0-9.]+ mm/min, [0-9]+ defects" "run 2, candidate 1: .*. promised .*. accepted" "on the controller +before" "accepted")
-clsurf_cli_test(NAME optimize_controller_json SETUP "${other}"
-  ARGS optimize first_loops.nc --controller "$CLSURF simulate {program} --machine other.toml -o {log} -q" --runs 2 -o better.nc --json
+clsurf_cli_test(NAME optimize_controller_json SETUP "${other_mill}"
+  ARGS optimize part.nc --machine ${mill} --controller "$CLSURF simulate {program} --machine other.toml -o {log} -q" --runs 2 -o better.nc --json
   STDOUT "\"controller_runs\"" "\"promised\"" "\"proof\": \"controller\"" "\"ensemble\"" "\"worst\"")
 # A candidate's failure is reported; without any that ran, nothing is written.
 clsurf_cli_test(NAME optimize_controller_fails_on_candidates EXIT 1
-  SETUP "${other}; printf '#!/bin/sh\\ngrep -q optimize \"$1\" && { echo no such tool; exit 7; }\\n\"$CLSURF\" simulate \"$1\" --machine other.toml -o \"$2\" -q\\n' > controller; chmod +x controller"
-  ARGS optimize first_loops.nc --controller "./controller {program} {log}" --runs 2 -o better.nc NO_FILE better.nc
+  SETUP "${other_mill}; printf '#!/bin/sh\\ngrep -q optimize \"$1\" && { echo no such tool; exit 7; }\\n\"$CLSURF\" simulate \"$1\" --machine other.toml -o \"$2\" -q\\n' > controller; chmod +x controller"
+  ARGS optimize part.nc --machine ${mill} --controller "./controller {program} {log}" --runs 2 -o better.nc NO_FILE better.nc
   STDOUT "run 2, candidate 1: failed: it ended with exit code 7 [(]\"no such tool\"[)]" "refused")
 clsurf_cli_test(NAME optimize_controller_fails EXIT 3
   ARGS optimize ${dome} --controller "false {program} {log}" -o better.nc NO_FILE better.nc STDERR "the controller did not run it: it ended with exit code 1")
@@ -35,11 +39,11 @@ clsurf_cli_test(NAME simulate_on_a_controller SETUP "${other}"
 clsurf_cli_test(NAME simulate_controller_fails EXIT 3
   ARGS simulate ${dome} --controller "false {program} {log}" -o run.biip NO_FILE run.biip STDERR "it ended with exit code 1")
 # With a log and without a machine file, the machine is that of the log.
-clsurf_cli_test(NAME optimize_fits_the_machine_to_the_log
-  ARGS optimize ${dome} --log @LOGS@/dome_loops.biip -o better.nc
-  STDOUT "machine: fitted to .*dome_loops.biip" "on 4 other machines that the machine file allows" "Fidelity of this machine file [(]the fitted runs: 1[)]")
-clsurf_cli_test(NAME optimize_without_an_ensemble
-  ARGS optimize ${dome} --machine @DATA@/machines/linuxcnc_kernel.toml --machines 0 -o better.nc NO_STDOUT "other machines")
+clsurf_cli_test(NAME optimize_fits_the_machine_to_the_log SETUP "${crowded_part}; $CLSURF simulate part.nc --machine ${mill} -o run.biip -q"
+  ARGS optimize part.nc --log run.biip -o better.nc
+  STDOUT "machine: fitted to run.biip" "on 4 other machines that the machine file allows" "Fidelity of this machine file [(]the fitted runs: 1[)]")
+clsurf_cli_test(NAME optimize_without_an_ensemble SETUP "${crowded_part}"
+  ARGS optimize part.nc --machine @DATA@/machines/linuxcnc_kernel.toml --machines 0 -o better.nc NO_STDOUT "other machines")
 clsurf_cli_test(NAME machine_file_with_uncertainty
   SETUP "printf '[[uncertainty]]\\nkey = \"max_jerk\"\\nof = \"x\"\\nrelative_error = 0.1\\n' > m.toml"
   ARGS machine m.toml STDOUT "can be used")
@@ -60,7 +64,6 @@ clsurf_cli_test(NAME repaired_as_the_kernel_ran_it
   ARGS diff @LOGS@/bottle_uneven_repaired.biip simulated.biip --program ${repaired}
   STDOUT "aligned, 25[.]9[0-9]+ s and 26[.][0-9]+ s" "speed .mm/min. +-?0[.]0[0-9] +0[.]0[0-9] +-?0[.]0[0-9] +0[.]0[0-9] ")
 # Rounds: the machine is another one than its file says. Each round's log improves the fit, and what is kept must be better.
-set(crowded_part "awk 'BEGIN { print \"G21 G90\\nG64 P0.005\\nG0 X0 Y0 Z10\\nG1 Z0 F1000\\nG1 F3000\"; for (k = 0; k < 6; ++k) for (w = 0; w < 9.01; w += k == 3 && w > 3 && w < 4 ? 0.02 : 0.25) { x = k % 2 ? 9 - w : w; printf \"X%.3f Y%.3f Z%.3f\\n\", x, 0.4 * k, 0.5 * sin(0.8 * x) } print \"G0 Z10\\nM2\" }' > part.nc")
 set(crowded_rounds "${crowded_part}; $CLSURF simulate part.nc --machine @DATA@/machines/linuxcnc_logs.toml -o run0.biip -q; $CLSURF optimize part.nc --tolerance 0.003 -o one.nc -q; $CLSURF simulate one.nc --machine @DATA@/machines/linuxcnc_logs.toml -o run1.biip -q")
 clsurf_cli_test(NAME optimize_learns_from_rounds SETUP "${crowded_rounds}"
   ARGS optimize part.nc --log run0.biip --round one.nc run1.biip -o two.nc FILE two.nc
@@ -69,8 +72,8 @@ clsurf_cli_test(NAME optimize_learns_from_rounds SETUP "${crowded_rounds}"
 # promises more.
 string(REPLACE "k == 3 && w > 3 && w < 4 ? 0.02 : 0.25" "0.25" even_part "${crowded_part}")
 string(REPLACE "part.nc" "even.nc" even_part "${even_part}")
-clsurf_cli_test(NAME optimize_keeps_the_round_that_is_as_good EXIT 1
-  SETUP "${crowded_rounds}; ${even_part}; sed 's/feedforward = .*/feedforward = 1/; s/position_gain = .*/position_gain = 100/; s/time_constant = .*/time_constant = 0.001/' @DATA@/machines/linuxcnc_logs.toml > servo.toml; $CLSURF simulate even.nc --machine servo.toml -o even.biip -q"
+clsurf_cli_test(NAME optimize_keeps_the_round_that_is_as_good EXIT 1 AFTER optimize_learns_from_rounds
+  SETUP "cp @AFTER@/part.nc @AFTER@/one.nc @AFTER@/run0.biip @AFTER@/run1.biip .; ${even_part}; sed 's/feedforward = .*/feedforward = 1/; s/position_gain = .*/position_gain = 100/; s/time_constant = .*/time_constant = 0.001/' @DATA@/machines/linuxcnc_logs.toml > servo.toml; $CLSURF simulate even.nc --machine servo.toml -o even.biip -q"
   ARGS optimize part.nc --log run0.biip --round one.nc run1.biip even.nc even.biip -o two.nc --json NO_FILE two.nc
   STDOUT "\"program\": \"even.nc\"" "\"reason\": \"even.nc gained [0-9.]+ % on the machine, and the best candidate promises [0-9.]+ %: keep even.nc\"" "\"proof\": \"simulation\"")
 clsurf_cli_test(NAME optimize_round_of_another_program EXIT 3

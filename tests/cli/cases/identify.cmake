@@ -7,10 +7,8 @@ clsurf_cli_test(NAME identify_a_kernel ARGS identify ${bottle} ${dome} -o m.toml
   STDOUT "position_gain +x +(100|99[.]999[0-9]*|100[.]000[0-9]*) 1/s" "position_gain +y +(80|79[.]999[0-9]*|80[.]000[0-9]*) 1/s" "velocity_feedforward +z +0[.](9|900[0-9]*|8999[0-9]*) "
   "velocity_time_constant +z +0[.](004|00400[0-9]*|003999[0-9]*) s"
   "friction +x +0 mm/min +no evidence")
-clsurf_cli_test(NAME identify_json ARGS identify ${bottle} -o m.toml --json
+clsurf_cli_test(NAME identify_json ARGS identify ${bottle} -o m.toml --test ${dome} --json
   STDOUT "\"schema_version\"" "\"machine\"" "\"parameters\"" "\"standard_error\"" "\"unidentified\"" "\"runs\"")
-clsurf_cli_test(NAME identify_writes_a_machine_file SETUP "$CLSURF identify @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip -o m.toml; grep -q 'position_gain = 80.* # ± ' m.toml"
-  ARGS machine m.toml STDOUT "can be used")
 clsurf_cli_test(NAME identify_friction_and_backlash
   SETUP "printf '[[axis]]\\nname = \"x\"\\n[axis.servo]\\nposition_gain = 70\\nfriction = 90\\n[[axis]]\\nname = \"y\"\\n[axis.servo]\\nbacklash = 0.01\\ndead_time = 0.002\\n' > t.toml; $CLSURF simulate @DATA@/programs/dome_loops.nc --machine t.toml -o r.biip"
   ARGS identify @DATA@/programs/dome_loops.nc r.biip -o m.toml
@@ -74,11 +72,14 @@ clsurf_cli_test(NAME identify_a_short_recording ARGS identify @DATA@/programs/ke
   NO_STDOUT "max_speed +z +[0-9]+[0-9][0-9][0-9][0-9][0-9][0-9] mm/min" "0[.]00 %")
 
 # The planner's rules: a kernel's log, and what the machine is worth on a run that the fit has not seen.
-clsurf_cli_test(NAME identify_selects_the_rules_of_a_kernel ARGS identify ${bottle} -o m.toml
+set(bottle_and_test identify ${bottle} -o m.toml --test ${dome} --picture residual.png)
+clsurf_cli_test(NAME identify_selects_the_rules_of_a_kernel ARGS ${bottle_and_test} FILE m.toml
   STDOUT "planner +trapezoidal, arc blends .*chosen" "fitted runs" "the runs do not tell apart .*lookahead_blocks")
-clsurf_cli_test(NAME identify_tests_another_run ARGS identify ${bottle} -o m.toml --test ${dome}
+clsurf_cli_test(NAME identify_writes_a_machine_file AFTER identify_selects_the_rules_of_a_kernel
+  SETUP "grep -q 'position_gain = 80.* # ± ' @AFTER@/m.toml" ARGS machine @AFTER@/m.toml STDOUT "can be used")
+clsurf_cli_test(NAME identify_tests_another_run ARGS ${bottle_and_test}
   STDOUT "test runs, not used for the fit" "dome_loops.biip: time 18.206 s, simulated 18.20[0-9]+ s" "recall 1.00, precision 1.00")
-clsurf_cli_test(NAME identify_draws_the_residual ARGS identify ${bottle} -o m.toml --test ${dome} --picture residual.png FILE residual.png)
+clsurf_cli_test(NAME identify_draws_the_residual ARGS ${bottle_and_test} FILE residual.png)
 clsurf_cli_test(NAME identify_picture_of_what_cannot_be_simulated
   SETUP "$CLSURF simulate @DATA@/programs/dome_five_axis.nc --machine @DATA@/machines/five_axis_trunnion.toml -o r.biip"
   ARGS identify @DATA@/programs/dome_five_axis.nc r.biip --force -o m.toml --picture residual.png EXIT 3
@@ -90,9 +91,8 @@ clsurf_cli_test(NAME identify_selects_the_rules_of_a_simulation
   SETUP "$CLSURF simulate @DATA@/programs/dome_loops.nc --machine @DATA@/machines/three_axis_mill.toml -o r.biip"
   ARGS identify @DATA@/programs/dome_loops.nc r.biip -o m.toml STDOUT "planner +time-optimal, corner (arc|spline) .*chosen")
 clsurf_cli_test(NAME identify_test_without_a_log ARGS identify ${bottle} -o m.toml --test @DATA@/programs/dome_loops.nc EXIT 2 STDERR "--test .*dome_loops.nc' has no log")
-clsurf_cli_test(NAME simulate_quotes_the_fidelity
-  SETUP "$CLSURF identify @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip -o m.toml --test @DATA@/programs/dome_loops.nc @LOGS@/dome_loops.biip -q"
-  ARGS simulate @DATA@/programs/bottle_uneven.nc --machine m.toml -o r.biip STDOUT "Fidelity of this machine file .runs not used for the fit: 1.")
+clsurf_cli_test(NAME simulate_quotes_the_fidelity AFTER identify_selects_the_rules_of_a_kernel
+  ARGS simulate @DATA@/programs/bottle_uneven.nc --machine @AFTER@/m.toml -o r.biip STDOUT "Fidelity of this machine file .runs not used for the fit: 1.")
 clsurf_cli_test(NAME check_quotes_the_simulation SETUP "$CLSURF simulate @DATA@/programs/dome_loops.nc --machine @DATA@/machines/linuxcnc_kernel.toml -o r.biip -q"
   ARGS check @DATA@/programs/dome_loops.nc r.biip STDOUT "This log was simulated for the machine .LinuxCNC 2.9, three axes.[.]" "Fidelity of this machine file: not measured")
 clsurf_cli_test(NAME check_quotes_nothing_of_a_recorded_run ARGS check @DATA@/programs/dome_loops.nc @LOGS@/dome_loops.biip NO_STDOUT "simulated")
