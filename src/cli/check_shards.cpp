@@ -61,9 +61,13 @@ std::optional<MergedShards> read_merged(const PartOptions& options, const po::va
     }
     SurveyedLog log = read_surveyed_log(options, values);
     MergedShards merged;
-    merged.read = [origin = log.origin, paths = values["merge"].as<std::vector<std::string>>()](const Part& part) {
+    merged.read = [origin = log.origin, paths = values["merge"].as<std::vector<std::string>>()](const Part& part,
+                                                                                                MotionSizes& motion) {
         std::vector<ShardFindings> shards;
-        for (const std::string& path : paths) shards.push_back(io::read_shard(path, origin, shard_settings(part)));
+        for (const std::string& path : paths) {
+            shards.push_back(io::read_shard(path, origin, shard_settings(part)));
+            motion.add(std::exchange(shards.back().motion, {}));
+        }
         return shards;
     };
     merged.survey = std::make_shared<const Survey>(std::move(log.survey));

@@ -10,7 +10,7 @@ namespace clsurf::cli {
 
 Checked check_log(const PartOptions& options, CheckRules& rules, const po::variables_map& values) {
     StageClock clock(read_common(values), 8);
-    const bool with_motion = rules.format == "json" && !rules.merged;
+    const bool with_motion = rules.format == "json";
     CheckedRun run = check_run(options, rules.measured, rules.budget, clock, with_motion, rules.merged);
     if (rules.recorder) {
         const io::AddedRun added = rules.recorder->add(options, run);

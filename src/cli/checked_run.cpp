@@ -15,12 +15,15 @@ void judge_whole(std::optional<Role> measured, bool with_motion, StageClock& clo
     run.quality = judge(run.part, run.surface, measured, {}, clock.stages(), with_motion);
 }
 
-void judge_merged(const MergedShards& merged, std::optional<Role> measured, StageClock& clock, CheckedRun& run) {
+void judge_merged(const MergedShards& merged, std::optional<Role> measured, bool with_motion, StageClock& clock,
+                  CheckedRun& run) {
     run.survey = merged.survey;
-    const QualityRules rules = rules_of_shards(merged.read(run.part), *run.survey);
+    MotionSizes motion;
+    const QualityRules rules = rules_of_shards(merged.read(run.part, motion), *run.survey);
     run.surface = surveyed_surface(run.part, *run.survey);
     const PartSignals read = surveyed_signals(run.part, run.surface, *run.survey, measured);
     run.quality = judge(run.part, run.surface, read, measured, rules, clock.stages());
+    if (with_motion) run.quality.motion = motion_quality(motion, run.surface, run.part.log.period);
 }
 
 }  // namespace
@@ -30,7 +33,7 @@ CheckedRun check_run(const PartOptions& options, std::optional<Role> measured, c
     CheckedRun run;
     run.part = load_part(options, clock);
     if (merged)
-        judge_merged(*merged, measured, clock, run);
+        judge_merged(*merged, measured, with_motion, clock, run);
     else
         judge_whole(measured, with_motion, clock, run);
     run.part.diagnostics.append(run.quality.diagnostics);

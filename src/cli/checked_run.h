@@ -19,7 +19,8 @@ namespace clsurf::cli {
 /// What was found in the shards of a log (pipeline/shards.h), with its survey.
 struct MergedShards {
     std::shared_ptr<const Survey> survey;
-    std::function<std::vector<ShardFindings>(const Part&)> read;  ///< of the shards of that part
+    /// Of the shards of that part. Their motion is added to `motion`, which takes less memory.
+    std::function<std::vector<ShardFindings>(const Part&, MotionSizes& motion)> read;
 };
 
 struct CheckedRun {
@@ -36,7 +37,7 @@ struct CheckedRun {
     [[nodiscard]] bool within_budget() const { return quality.report.judgement.judged() && all_held(budget); }
 };
 
-/// Reads and judges. `with_motion`: Quality::motion is asked for; `merged`: what was found in shards, which has none. Throws as
+/// Reads and judges. `with_motion`: Quality::motion is asked for; `merged`: what was found in shards. Throws as
 /// load_part() and rules_of_shards() do.
 [[nodiscard]] CheckedRun check_run(const PartOptions& options, std::optional<Role> measured, const CheckBudget& budget,
                                    StageClock& clock, bool with_motion = false,

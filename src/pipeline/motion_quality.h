@@ -4,8 +4,10 @@
 
 #include <memory>
 
+#include "core/distribution.h"
 #include "core/not_finite.h"
 #include "log/log.h"
+#include "predictor/signals.h"
 #include "surface/cl_surface.h"
 #include "toolpath/motion_estimate.h"
 #include "toolpath/trajectory.h"
@@ -29,5 +31,24 @@ struct MotionQuality {
 [[nodiscard]] MotionQuality motion_quality(const Log& log, const Trajectory& path, const ClSurface& surface,
                                            const Column<float>& speed_differences,
                                            std::shared_ptr<const MotionEstimate> estimate = nullptr);
+
+/// What percentiles and means are taken of, of a part of the points: those of all parts are joined.
+struct MotionSizes {
+    Distribution mismatch;  ///< [mm/s]
+    Distribution jerk;      ///< [mm/s³]
+
+    void add(const MotionSizes& other) {
+        mismatch.add(other.mismatch);
+        jerk.add(other.jerk);
+    }
+};
+
+/// Of points that begin and end where passes do. Derivatives are those of windows. O(points among `points`), parallel.
+[[nodiscard]] MotionSizes motion_sizes(const Log& log, const Trajectory& path, const ClSurface& surface,
+                                       const Signals& signals, const PointRange& points);
+
+/// The quality of the whole, from the sizes of all its points: the percentiles within Distribution::quantile_error, all
+/// else exactly. O(rest before and after the motion).
+[[nodiscard]] MotionQuality motion_quality(const MotionSizes& sizes, const ClSurface& surface, double period);
 
 }  // namespace clsurf

@@ -34,7 +34,9 @@ ShardFindings judge_shard(const Part& part, const ClSurface& surface, const Part
                           const PointRange& points) {
     ShardFindings findings;
     findings.points = points;
-    if (points.size() <= 0 || surface.step_over <= 0) return findings;
+    if (points.size() <= 0) return findings;
+    findings.motion = motion_sizes(part.log, part.path, surface, read.signals, points);
+    if (surface.step_over <= 0) return findings;
     const ArcLength arc_length(surface.positions);
     findings.compared = count_compared(surface, read.signals, points);
     findings.starts = find_starts(surface, read.signals, arc_length, survey.thresholds, points);

@@ -23,6 +23,7 @@ struct ShardFindings {
     PointIndex compared = 0;         ///< count_compared()
     std::vector<PointIndex> starts;  ///< find_starts()
     std::vector<double> scallops;    ///< [mm] scallop_heights(), where the tool is known
+    MotionSizes motion;
 };
 
 /// Judges a shard of a part that was surveyed; `surface` and `read` are those of the survey. O(points of the shard and of

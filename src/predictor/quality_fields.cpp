@@ -175,12 +175,15 @@ std::vector<Field> QualityFields::compute(std::span<const std::string_view> name
 }
 
 Column<float> speed_differences(const ClSurface& surface, const Signals& signals) {
-    const PointIndex count = surface.positions.size();
-    Column<float> differences(static_cast<std::size_t>(count), missing<float>);
-    for_each_block(count, [&](PointIndex first, PointIndex last) {
+    return speed_differences(surface, signals, {0, surface.positions.size() - 1});
+}
+
+Column<float> speed_differences(const ClSurface& surface, const Signals& signals, const PointRange& points) {
+    Column<float> differences(static_cast<std::size_t>(points.size()), missing<float>);
+    for_each_block(points, [&](PointIndex first, PointIndex last) {
         for (PointIndex i = first; i < last; ++i) {
             if (signals[i].zone != Zone::outside)
-                differences[static_cast<std::size_t>(i)] = speed_difference(surface, signals, i);
+                differences[static_cast<std::size_t>(i - points.first)] = speed_difference(surface, signals, i);
         }
     });
     return differences;

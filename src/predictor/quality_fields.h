@@ -58,5 +58,8 @@ private:
 /// The larger one of the differences in speed to both adjacent passes [mm/s], signed; NaN where there is none. O(points),
 /// parallel.
 [[nodiscard]] Column<float> speed_differences(const ClSurface& surface, const Signals& signals);
+/// The same of some points.
+[[nodiscard]] Column<float> speed_differences(const ClSurface& surface, const Signals& signals,
+                                              const PointRange& points);
 
 }  // namespace clsurf

@@ -1,0 +1,72 @@
+#pragma once
+// Distribution: what is kept of many sizes, so that parts of them can be counted apart and joined: how many there are in
+// narrow bins, and the exact sum of their squares.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace clsurf {
+
+/// The sum of squares of floats, exactly: the same in whatever order and parts they are added.
+class SumOfSquares {
+public:
+    static constexpr std::size_t digit_count = 20;
+    /// The sum divided by 2^−298, the square of the smallest float, as digits of 32 bits, the lowest first.
+    using Digits = std::array<std::uint32_t, digit_count>;
+
+    SumOfSquares() = default;
+    explicit SumOfSquares(const Digits& digits);
+    /// Domain: finite.
+    void add(float value);
+    void add(const SumOfSquares& other);
+    [[nodiscard]] Digits digits() const;
+    /// Rounded; the relative error is below 10⁻¹⁵.
+    [[nodiscard]] double value() const;
+
+private:
+    void carry();
+
+    std::array<std::uint64_t, digit_count> sums_{};  ///< of digits; what is above 32 bits is not carried yet
+    std::uint32_t not_carried_ = 0;                  ///< values since the last time that it was
+};
+
+class Distribution {
+public:
+    /// Numbers of bins rise with the sizes in them. Each power of two has 2048.
+    struct Bin {
+        std::uint32_t number = 0;
+        std::uint64_t count = 0;
+        friend bool operator==(const Bin&, const Bin&) = default;
+    };
+    /// A quantile differs from that of the sizes themselves by no more than this share of it.
+    static constexpr double quantile_error = 1.0 / 4096;
+    static constexpr std::uint32_t bin_count = 0x7f800000U >> 12;
+
+    Distribution() = default;
+    /// Domain: numbers below bin_count.
+    Distribution(const std::vector<Bin>& bins, const SumOfSquares& squares);
+    /// Domain: finite, no less than 0.
+    void add(float size);
+    void add(const Distribution& other);
+
+    [[nodiscard]] std::uint64_t count() const { return count_; }
+    /// Bins that are not empty, in order.
+    [[nodiscard]] std::vector<Bin> bins() const;
+    [[nodiscard]] const SumOfSquares& squares() const { return squares_; }
+    /// quantile_below() of the sizes (core/statistics.h), within quantile_error; NaN: there are none.
+    [[nodiscard]] double quantile_below(double share) const;
+    /// NaN: there are none.
+    [[nodiscard]] double rms() const;
+
+private:
+    [[nodiscard]] std::uint64_t& count_of(std::uint32_t bin);
+
+    /// By power of two; empty: no size is there.
+    std::array<std::vector<std::uint64_t>, 256> counts_;
+    std::uint64_t count_ = 0;
+    SumOfSquares squares_;
+};
+
+}  // namespace clsurf
