@@ -2,14 +2,55 @@
 
 #include <bit>
 #include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+
+#include <fmt/format.h>
 
 #include "core/error.h"
+#include "io/files/crc32c.h"
 #include "io/files/json_value.h"
 
 namespace clsurf::io {
 namespace {
 
 constexpr const char* shard_hint = "clsurf check part.nc run.biip --survey run.survey --shard 1/8 -o shard1.json";
+
+/// The last key of a shard: the CRC-32C of all of its text before it.
+constexpr std::string_view shard_seal = R"(,"crc32c":")";
+constexpr std::string_view shard_end = "\"}\n";
+
+std::string sealed(std::string text) {
+    text.pop_back();  // }
+    const std::uint32_t crc = crc32c(std::as_bytes(std::span(text)));
+    return text + fmt::format("{}{:08x}{}", shard_seal, crc, shard_end);
+}
+
+bool is_sealed(std::string_view text) {
+    const std::size_t seal = text.rfind(shard_seal);
+    return seal != std::string_view::npos && sealed(std::string(text.substr(0, seal)) + "}") == text;
+}
+
+Json json_of(const Distribution& sizes) {
+    Json numbers = Json::array(), counts = Json::array();
+    for (const Distribution::Bin& bin : sizes.bins()) {
+        numbers.push_back(bin.number);
+        counts.push_back(bin.count);
+    }
+    return {{"bins", numbers}, {"counts", counts}, {"squares", sizes.squares().digits()}};
+}
+
+/// Throws Json::exception, std::out_of_range where it is none.
+Distribution distribution_of(const nlohmann::json& json) {
+    const auto& numbers = json.at("bins");
+    std::vector<Distribution::Bin> bins;
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+        bins.push_back({numbers.at(k).get<std::uint32_t>(), json.at("counts").at(k).get<std::uint64_t>()});
+        if (bins.back().number >= Distribution::bin_count) throw std::out_of_range("a bin of no float");
+    }
+    return {bins, SumOfSquares(json.at("squares").get<SumOfSquares::Digits>())};
+}
 
 }  // namespace
 
@@ -29,10 +70,12 @@ std::string shard_json(const ShardFindings& findings, const ShardNumber& shard, 
     Json scallops = Json::array();
     for (const double height : findings.scallops) scallops.push_back(std::bit_cast<std::uint64_t>(height));
     json["scallop_bits"] = scallops;
+    json["speed_differences"] = json_of(findings.motion.mismatch);
+    json["jerks"] = json_of(findings.motion.jerk);
     Json report;
     report["schema_version"] = schema_version;
     report.update(json);
-    return dump_compact(report) + "\n";
+    return sealed(dump_compact(report));
 }
 
 ShardFindings read_shard(const std::string& path, const SurveyOrigin& origin, const std::string& settings) {
@@ -43,6 +86,7 @@ ShardFindings read_shard(const std::string& path, const SurveyOrigin& origin, co
     // It is ours, and may be large: its keys are few.
     const nlohmann::json json = nlohmann::json::parse(source.text(), nullptr, false);
     if (!json.is_object() || json.value("kind", "") != "shard") fail("is not what clsurf check --shard writes");
+    if (!is_sealed(source.text())) fail("is cut or damaged: its checksum differs");
     ShardFindings findings;
     try {
         const SurveyOrigin own{json.at("log").get<std::string>(), json.at("program").get<std::string>(),
@@ -55,7 +99,10 @@ ShardFindings read_shard(const std::string& path, const SurveyOrigin& origin, co
         findings.starts = json.at("candidates").get<std::vector<PointIndex>>();
         for (const auto& bits : json.at("scallop_bits"))
             findings.scallops.push_back(std::bit_cast<double>(bits.get<std::uint64_t>()));
-    } catch (const nlohmann::json::exception&) { fail("is cut or damaged"); }
+        findings.motion = {distribution_of(json.at("speed_differences")), distribution_of(json.at("jerks"))};
+    } catch (const nlohmann::json::exception&) { fail("is cut or damaged"); } catch (const std::out_of_range&) {
+        fail("is damaged");
+    }
     for (const PointIndex start : findings.starts) {
         if (start < findings.points.first || start > findings.points.last)
             fail("is damaged: a point lies outside of it");

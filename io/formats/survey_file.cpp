@@ -1,16 +1,24 @@
 // A survey, little-endian: magic "CLSURVEY" · u32 layout · u32 count of survey_sections · u32 CRC-32C of all up to the first
-// section, with itself zero · u32 0 · per section u64 offset, u64 bytes · the text of the origin and the numbers, as
-// JSON · sections, each from a multiple of 4096 on.
+// section, with itself zero · u32 0 · per section u64 offset, u64 bytes, u32 CRC-32C, u32 0 · the text of the origin and
+// the numbers, as JSON · sections, one after the other, each from a multiple of 4096 on.
+//
+// The CRC of a section is that of all its bytes up to the next section. Sections with a value per point are not read as a
+// whole: they have a CRC of 0 here, and one for each block of 16,384 points in the section block_crcs, which is compared
+// when one of the points is first read.
 #include "io/formats/survey_file.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
 #include <limits>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "core/block.h"
 #include "core/error.h"
 #include "core/version.h"
 #include "io/files/atomic_file.h"
@@ -24,7 +32,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "a survey is read in place");
 
 constexpr std::string_view survey_magic = "CLSURVEY";
-constexpr std::uint32_t survey_layout = 1;
+constexpr std::uint32_t survey_layout = 2;
 constexpr std::size_t survey_head = 24;
 constexpr std::size_t survey_page = 4096;
 constexpr std::size_t survey_crc_at = 16;
@@ -43,12 +51,30 @@ enum class SurveySection : std::size_t {
     lines,
     motions,
     confidences,
+    block_crcs,
     count,
 };
 constexpr auto survey_sections = static_cast<std::size_t>(SurveySection::count);
+constexpr std::size_t survey_entry = 24;  ///< bytes of a section in the head
+
+/// Sections with a value per point, in the order of their blocks in block_crcs.
+constexpr std::array<SurveySection, 5> survey_point_sections{SurveySection::left, SurveySection::right,
+                                                             SurveySection::lines, SurveySection::motions,
+                                                             SurveySection::confidences};
+bool is_point_section(std::size_t section) {
+    return std::ranges::find(survey_point_sections, static_cast<SurveySection>(section)) != survey_point_sections.end();
+}
+
+std::size_t whole_survey_pages(std::size_t bytes) { return (bytes + survey_page - 1) / survey_page * survey_page; }
 
 using Corners = std::array<float, 6>;  ///< of a box: the lowest coordinates, then the highest
 using SurveyBytes = std::span<const std::byte>;
+
+/// The bytes of block `block` of a section with `width` bytes a point; of the last one up to the end of its page.
+SurveyBytes block_of_section(SurveyBytes padded, std::size_t width, std::size_t block) {
+    const std::size_t size = width * static_cast<std::size_t>(block_points), at = block * size;
+    return at >= padded.size() ? SurveyBytes() : padded.subspan(at, std::min(size, padded.size() - at));
+}
 
 template <typename T>
 SurveyBytes survey_bytes(const T* values, std::size_t count) {
@@ -108,27 +134,36 @@ std::string survey_text(const Survey& s, const SurveyOrigin& origin) {
     return dump_compact(json);
 }
 
+template <typename T>
+void put_survey(std::string& head, std::size_t at, const T& value) {
+    std::memcpy(head.data() + at, &value, sizeof value);
+}
+
+constexpr std::array<std::byte, survey_page> survey_zeros{};
+
+SurveyBytes survey_padding(std::size_t bytes) {
+    return std::span(survey_zeros).first(whole_survey_pages(bytes) - bytes);
+}
+
+/// CRC of bytes with the zeros behind them up to the end of a page.
+std::uint32_t padded_crc(SurveyBytes bytes) { return crc32c({bytes, survey_padding(bytes.size())}); }
+
 class SurveyReader {
 public:
-    explicit SurveyReader(const Source& source) : source_(source) {
+    explicit SurveyReader(Source source) : source_(std::move(source)) {
         const SurveyBytes all = source.bytes;
         if (all.size() < survey_head || std::memcmp(all.data(), survey_magic.data(), survey_magic.size()) != 0)
             fail("is no survey of clsurf");
         if (get<std::uint32_t>(8) != survey_layout || get<std::uint32_t>(12) != survey_sections) fail(other_version);
-        text_at_ = survey_head + survey_sections * 2 * sizeof(std::uint64_t);
+        text_at_ = survey_head + survey_sections * survey_entry;
         if (all.size() < text_at_) fail(cut);
-        for (std::size_t k = 0; k < survey_sections; ++k) {
-            const auto offset = get<std::uint64_t>(survey_head + 16 * k),
-                       bytes = get<std::uint64_t>(survey_head + 16 * k + 8);
-            if (offset > all.size() || bytes > all.size() - offset || offset % survey_page != 0) fail(cut);
-            sections_[k] = all.subspan(offset, bytes);
-        }
         const std::size_t end = get<std::uint64_t>(survey_head);
-        if (end < text_at_) fail(cut);
+        if (end < text_at_ || end > all.size()) fail(cut);
         const std::array<std::byte, 4> zeros{};
         if (crc32c({all.first(survey_crc_at), zeros, all.subspan(survey_crc_at + 4, end - survey_crc_at - 4)}) !=
             get<std::uint32_t>(survey_crc_at))
-            fail("is damaged: its checksum differs");
+            fail("is damaged: the checksum of its head differs");
+        find_sections(end);
         const char* const text = reinterpret_cast<const char*>(all.data()) + text_at_;
         json_ = parse_bounded(std::string_view(text, strnlen(text, end - text_at_)));
         if (!json_.is_object()) fail(cut);
@@ -140,6 +175,19 @@ public:
     }
 
     [[nodiscard]] const Json& json() const { return json_; }
+
+    /// Compares the CRC of a block of points of a section; nothing where the section is empty. `width`: bytes a point.
+    void check_block(SurveySection section, std::size_t width, std::size_t block) const {
+        const SurveyBytes padded = padded_[static_cast<std::size_t>(section)];
+        if (padded.empty()) return;
+        const std::size_t place = block_crc_at_[static_cast<std::size_t>(section)] + block;
+        const auto crcs = column<std::uint32_t>(SurveySection::block_crcs);
+        if (place >= crcs.size() || crc32c(block_of_section(padded, width, block)) != crcs[place]) {
+            const std::size_t first = block * static_cast<std::size_t>(block_points);
+            fail(fmt::format("is damaged: the checksum of section {} differs for the points from {} on",
+                             static_cast<std::size_t>(section), first));
+        }
+    }
 
     /// A column of `count` values.
     template <typename T>
@@ -160,6 +208,31 @@ public:
     static constexpr std::string_view other_version = "is a survey of another version of clsurf";
 
 private:
+    /// Sections follow each other up to the end of the file; those that are read as a whole are compared with their CRC.
+    void find_sections(std::size_t end) {
+        std::uint64_t next = end;
+        std::size_t blocks = 0;
+        for (std::size_t k = 0; k < survey_sections; ++k) {
+            const std::size_t entry = survey_head + survey_entry * k;
+            const auto offset = get<std::uint64_t>(entry), bytes = get<std::uint64_t>(entry + 8);
+            const SurveyBytes all = source_.bytes;
+            if (offset != next || bytes > all.size() - offset) fail(cut);
+            next += whole_survey_pages(bytes);
+            if (next > all.size()) fail(cut);
+            sections_[k] = all.subspan(offset, bytes);
+            padded_[k] = all.subspan(offset, next - offset);
+            if (is_point_section(k)) {
+                block_crc_at_[k] = blocks;
+                const std::size_t width = k == static_cast<std::size_t>(SurveySection::confidences) ? 1 : 4;
+                blocks += (bytes / width + block_points - 1) / block_points;
+            } else if (crc32c(padded_[k]) != get<std::uint32_t>(entry + 16)) {
+                fail(fmt::format("is damaged: the checksum of section {} differs", k));
+            }
+        }
+        if (next != source_.bytes.size()) fail("is damaged: it goes on behind its last section");
+        if (column<std::uint32_t>(SurveySection::block_crcs).size() != blocks) fail(cut);
+    }
+
     template <typename T>
     [[nodiscard]] T get(std::size_t at) const {
         T value;
@@ -167,8 +240,10 @@ private:
         return value;
     }
 
-    const Source& source_;
+    Source source_;
     std::array<SurveyBytes, survey_sections> sections_;
+    std::array<SurveyBytes, survey_sections> padded_;          ///< the same up to the next one
+    std::array<std::size_t, survey_sections> block_crc_at_{};  ///< of the first block of a section in block_crcs
     std::size_t text_at_ = 0;
     Json json_;
 };
@@ -187,11 +262,15 @@ void check_survey_ranges(const SurveyReader& reader, std::span<const Range> rang
 
 void read_survey_columns(const SurveyReader& reader, Survey& s) {
     const auto points = static_cast<std::size_t>(s.points);
-    s.arc_lengths = Column<double>::borrowed(reader.column<double>(SurveySection::arc_lengths));
-    for (const Corners& box : reader.column<Corners>(SurveySection::boxes)) {
+    s.arc_lengths =
+        Column<double>::borrowed(reader.column<double>(SurveySection::arc_lengths, ArcLength::sum_count(s.points)));
+    const std::size_t blocks = (points + block_points - 1) / block_points;
+    for (const Corners& box : reader.column<Corners>(SurveySection::boxes, blocks)) {
         s.boxes.emplace_back(Eigen::Vector3f(box[0], box[1], box[2]), Eigen::Vector3f(box[3], box[4], box[5]));
     }
     s.passes = Passes::borrowed(reader.column<Pass>(SurveySection::passes));
+    if (std::ranges::any_of(s.passes, [](const Pass& pass) { return pass.kind > PassKind::other; }))
+        reader.fail(SurveyReader::cut);
     check_survey_ranges(reader, std::span<const Pass>(s.passes), s.points, true);
     for (const std::uint8_t low : reader.column<std::uint8_t>(SurveySection::low_links, s.passes.size()))
         s.low_links.push_back(low != 0);
@@ -212,6 +291,59 @@ void read_survey_columns(const SurveyReader& reader, Survey& s) {
     }
 }
 
+/// Blocks of points are checked when they are read. Neighbours must be points of the log.
+void check_columns_when_read(const std::shared_ptr<const SurveyReader>& reader, Survey& s) {
+    s.check_neighbours = [reader, left = std::span<const std::int32_t>(s.neighbours.left),
+                          right = std::span<const std::int32_t>(s.neighbours.right),
+                          points = s.points](PointIndex first, PointIndex last) {
+        const auto block = static_cast<std::size_t>(first / block_points);
+        reader->check_block(SurveySection::left, sizeof(std::int32_t), block);
+        reader->check_block(SurveySection::right, sizeof(std::int32_t), block);
+        for (PointIndex i = first; i < last; ++i) {
+            for (const auto& side : {left, right}) {
+                const std::int32_t delta = side[static_cast<std::size_t>(i)];
+                if (delta != Adjacency::none && (i + delta < 0 || i + delta >= points))
+                    reader->fail(fmt::format("is damaged: point {} has a neighbour outside the log", i));
+            }
+        }
+    };
+    if (s.lines.empty() && s.motions.empty() && s.confidences.empty()) return;
+    s.check_lines = [reader](PointIndex first, PointIndex) {
+        const auto block = static_cast<std::size_t>(first / block_points);
+        reader->check_block(SurveySection::lines, sizeof(std::uint32_t), block);
+        reader->check_block(SurveySection::motions, sizeof(std::uint32_t), block);
+        reader->check_block(SurveySection::confidences, 1, block);
+    };
+}
+
+/// A head of zeros for the sections, with what does not depend on them.
+std::string survey_head_text(const Survey& s, const SurveyOrigin& origin) {
+    std::string head(survey_head + survey_sections * survey_entry, '\0');
+    head += survey_text(s, origin);
+    head.resize(whole_survey_pages(head.size() + 1), '\0');
+    std::memcpy(head.data(), survey_magic.data(), survey_magic.size());
+    put_survey(head, 8, survey_layout);
+    put_survey(head, 12, static_cast<std::uint32_t>(survey_sections));
+    return head;
+}
+
+/// CRCs of the blocks of all point sections. O(points), parallel.
+std::vector<std::uint32_t> block_crcs_of(const std::array<SurveyBytes, survey_sections>& columns) {
+    std::vector<std::uint32_t> crcs;
+    for (const SurveySection section : survey_point_sections) {
+        const SurveyBytes column = columns[static_cast<std::size_t>(section)];
+        const std::size_t width = section == SurveySection::confidences ? 1 : 4;
+        const std::size_t block = width * static_cast<std::size_t>(block_points);
+        const std::size_t first = crcs.size(), blocks = (column.size() + block - 1) / block;
+        crcs.resize(first + blocks);
+        parallel_for(static_cast<std::int64_t>(blocks), 1, [&](std::int64_t from, std::int64_t to) {
+            for (auto k = static_cast<std::size_t>(from); k < static_cast<std::size_t>(to); ++k)
+                crcs[first + k] = padded_crc(block_of_section(column, width, k));
+        });
+    }
+    return crcs;
+}
+
 }  // namespace
 
 std::string hash_of_ends(const Source& log) {
@@ -228,7 +360,7 @@ void write_survey(const std::string& path, const Survey& s, const SurveyOrigin& 
     std::vector<Corners> box;
     for (const Eigen::AlignedBox3f& b : s.boxes)
         box.push_back({b.min().x(), b.min().y(), b.min().z(), b.max().x(), b.max().y(), b.max().z()});
-    const std::array<SurveyBytes, survey_sections> columns{
+    std::array<SurveyBytes, survey_sections> columns{
         survey_bytes(s.arc_lengths.data(), s.arc_lengths.size()),
         survey_bytes(box.data(), box.size()),
         survey_bytes(s.passes.data(), s.passes.size()),
@@ -241,35 +373,33 @@ void write_survey(const std::string& path, const Survey& s, const SurveyOrigin& 
         survey_bytes(s.lines.data(), s.lines.size()),
         survey_bytes(s.motions.data(), s.motions.size()),
         survey_bytes(s.confidences.data(), s.confidences.size()),
+        {},
     };
-    const auto whole_pages = [](std::size_t bytes) { return (bytes + survey_page - 1) / survey_page * survey_page; };
-    std::string head(survey_head + survey_sections * 16, '\0');
-    head += survey_text(s, origin);
-    head.resize(whole_pages(head.size() + 1), '\0');
-    const auto put = [&](std::size_t at, const auto& value) { std::memcpy(head.data() + at, &value, sizeof value); };
-    std::memcpy(head.data(), survey_magic.data(), survey_magic.size());
-    put(8, survey_layout);
-    put(12, static_cast<std::uint32_t>(survey_sections));
+    const std::vector<std::uint32_t> crcs = block_crcs_of(columns);
+    columns.back() = survey_bytes(crcs.data(), crcs.size());
+    std::string head = survey_head_text(s, origin);
     std::uint64_t offset = head.size();
     for (std::size_t k = 0; k < survey_sections; ++k) {
-        put(survey_head + 16 * k, offset);
-        put(survey_head + 16 * k + 8, std::uint64_t{columns[k].size()});
-        offset += whole_pages(columns[k].size());
+        const std::size_t entry = survey_head + survey_entry * k;
+        put_survey(head, entry, offset);
+        put_survey(head, entry + 8, std::uint64_t{columns[k].size()});
+        if (!is_point_section(k)) put_survey(head, entry + 16, padded_crc(columns[k]));
+        offset += whole_survey_pages(columns[k].size());
     }
-    put(survey_crc_at, crc32c({std::as_bytes(std::span(head))}));
+    put_survey(head, survey_crc_at, crc32c({std::as_bytes(std::span(head))}));
     AtomicFile file(path);
     file.write(head);
-    const std::string zeros(survey_page, '\0');
     for (const SurveyBytes column : columns) {
         file.write(column);
-        file.write(std::string_view(zeros).substr(0, whole_pages(column.size()) - column.size()));
+        file.write(survey_padding(column.size()));
     }
     file.commit();
 }
 
 Survey read_survey(const std::string& path, const SurveyOrigin& origin) {
     const Source source = map_file(path);
-    const SurveyReader reader(source);
+    const auto shared = std::make_shared<const SurveyReader>(source);
+    const SurveyReader& reader = *shared;
     const Json& json = reader.json();
     Survey s;
     try {
@@ -296,6 +426,8 @@ Survey read_survey(const std::string& path, const SurveyOrigin& origin) {
     } catch (const Json::exception&) { reader.fail(SurveyReader::cut); }
     read_survey_columns(reader, s);
     s.keep_alive = source.keep_alive;
+    s.file = source.name;
+    check_columns_when_read(shared, s);
     return s;
 }
 

@@ -91,6 +91,8 @@ std::span<const std::uint32_t> LineMap::motions_of(LineNumber line) const {
 }
 
 void LineMap::read(PointIndex begin, std::span<LineNumber> out) const {
+    if (out.empty()) return;
+    checked_.need(begin, begin + static_cast<PointIndex>(out.size()) - 1);
     if (from_log()) {
         copy_block(channel_, begin, out, 0);
         if (in_main_.empty()) return;
@@ -106,6 +108,8 @@ void LineMap::read(PointIndex begin, std::span<LineNumber> out) const {
 }
 
 void LineMap::read_kinds(PointIndex begin, std::span<PointKind> out) const {
+    if (out.empty()) return;
+    checked_.need(begin, begin + static_cast<PointIndex>(out.size()) - 1);
     const std::uint32_t* motion = motion_of_point_.empty() ? nullptr : motion_of_point_.data() + begin;
     if (!from_log()) {
         for (std::size_t i = 0; i < out.size(); ++i)
@@ -135,6 +139,7 @@ LineNumber LineMap::line_at(PointIndex point) const {
 
 std::int64_t LineMap::motion_at(PointIndex point, LineNumber line) const {
     if (!motion_of_point_.empty()) {
+        checked_.need(point);
         const std::uint32_t motion = motion_of_point_[static_cast<std::size_t>(point)];
         return motion == no_motion ? -1 : static_cast<std::int64_t>(motion);
     }
@@ -166,6 +171,7 @@ double LineMap::confidence_at(PointIndex point) const {
     constexpr double edited_confidence = 0.95;  // the text is not the one that ran
     const double least = match_.edited ? edited_confidence : 1.0;
     if (from_log()) return line_at(point) > 0 ? least : 0.0;
+    checked_.need(point);
     return least * confidence_[static_cast<std::size_t>(point)] / 255.0;
 }
 

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "core/block_fill.h"
 #include "core/channel_view.h"
 #include "core/column.h"
 #include "core/diagnostic.h"
@@ -78,6 +79,9 @@ public:
     [[nodiscard]] const ProgramMatch& match() const { return match_; }
     void set_match(ProgramMatch match) { match_ = std::move(match); }
 
+    /// What it was made from is in a file whose blocks are checked when they are read.
+    void check_when_read(BlockFillPointer checked) { checked_ = std::move(checked); }
+
 private:
     void index_lines(const Program& program);
 
@@ -86,6 +90,7 @@ private:
     bool from_log_ = false;
     ChannelView channel_;
     std::shared_ptr<const void> keep_alive_;
+    BlockFillPointer checked_;
     Column<std::uint32_t> motion_of_point_;  ///< empty: each line has one motion, or none
     Column<std::uint8_t> confidence_;
     Column<LineNumber> line_of_motion_;  ///< in the main program

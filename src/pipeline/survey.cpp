@@ -65,6 +65,17 @@ void note_lines(const Part& part, Survey& survey) {
     });
 }
 
+/// Throws where a point has a motion that the program does not have.
+void check_motions(const Survey& survey, std::size_t known, PointIndex first, PointIndex last) {
+    if (survey.motions.empty()) return;
+    for (PointIndex i = first; i < last; ++i) {
+        const std::uint32_t motion = survey.motions[static_cast<std::size_t>(i)];
+        if (motion == LineMap::no_motion || motion < known) continue;
+        throw InputError(Place::of_file(survey.file),
+                         fmt::format("is damaged: point {} has motion {}, the program has {}", i, motion, known));
+    }
+}
+
 std::shared_ptr<const LineMap> lines_of(const Program& program, const Log& log, const Survey& survey) {
     Column<std::uint32_t> motions = Column<std::uint32_t>::borrowed(survey.motions);
     std::shared_ptr<LineMap> map;
@@ -82,6 +93,13 @@ std::shared_ptr<const LineMap> lines_of(const Program& program, const Log& log, 
             std::make_shared<LineMap>(std::move(motions), Column<std::uint8_t>::borrowed(survey.confidences), program);
     }
     map->set_match(survey.match);
+    if (survey.check_lines) {
+        map->check_when_read(
+            {survey.points, [&survey, motions_known = program.motions.kind.size()](PointIndex first, PointIndex last) {
+                 survey.check_lines(first, last);
+                 check_motions(survey, motions_known, first, last);
+             }});
+    }
     return map;
 }
 
@@ -153,6 +171,7 @@ ClSurface surveyed_surface(const Part& part, const Survey& survey) {
     surface.step_over_moves = survey.step_over_moves;
     surface.neighbours = {Column<std::int32_t>::borrowed(survey.neighbours.left),
                           Column<std::int32_t>::borrowed(survey.neighbours.right)};
+    if (survey.check_neighbours) surface.neighbours.checked = {survey.points, survey.check_neighbours};
     surface.step_over = survey.step_over;
     surface.not_finishing = survey.not_finishing;
     surface.cut_length = survey.cut_length;

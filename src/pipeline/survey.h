@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/block_fill.h"
 #include "pipeline/part.h"
 #include "pipeline/signals_of.h"
 #include "predictor/mismatch.h"
@@ -38,13 +39,17 @@ struct Survey {
     Column<std::uint8_t> confidences;  ///< LineMap::confidences()
     ProgramMatch match;
     std::shared_ptr<const void> keep_alive;
+    std::string file;  ///< that it was read from
+    /// Of columns of a file: check(first, last) throws InputError where what it has of points [first, last), a block, is
+    /// damaged. Called when they are first read; empty: nothing to check.
+    BlockFill::Fill check_neighbours, check_lines;
 };
 
 /// Surveys a part. `wanted`: the positions that heights are measured from, as signals_of() takes it. Throws UsageError:
 /// a machine with rotary axes, derivatives of a Kalman smoother. O(points), parallel; 25 bytes a point, besides the log.
 [[nodiscard]] Survey make_survey(const Part& part, std::optional<Role> wanted = std::nullopt);
 
-/// The part that a survey was made of. Of the log only what is needed later is read. Throws InputError: the log has not
+/// The part that a survey was made of, which must outlive it. Of the log only what is needed later is read. Throws InputError: the log has not
 /// as many records. O(motions).
 [[nodiscard]] Part surveyed_part(Program program, Log log, const PartRules& rules, const Survey& survey);
 

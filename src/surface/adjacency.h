@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/block_fill.h"
 #include "core/column.h"
 #include "surface/passes.h"
 #include "toolpath/arc_length.h"
@@ -24,8 +25,13 @@ struct Adjacency {
     static constexpr std::int32_t none = std::numeric_limits<std::int32_t>::min();
 
     Column<std::int32_t> left, right;  ///< neighbour − point; none: no neighbour
+    /// Of columns of a file that are checked when they are read; elsewhere nothing.
+    BlockFillPointer checked{};
 
-    [[nodiscard]] bool has(Side side, PointIndex i) const { return column(side)[static_cast<std::size_t>(i)] != none; }
+    [[nodiscard]] bool has(Side side, PointIndex i) const {
+        checked.need(i);
+        return column(side)[static_cast<std::size_t>(i)] != none;
+    }
     /// Domain: has(side, i).
     [[nodiscard]] PointIndex neighbour(Side side, PointIndex i) const {
         return i + column(side)[static_cast<std::size_t>(i)];

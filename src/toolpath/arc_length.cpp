@@ -29,7 +29,7 @@ ArcLength::ArcLength(const Positions& positions) {
     }
     const PointIndex count = positions.size();
     steps_.resize(static_cast<std::size_t>(count));
-    sums_ = Column<double>(static_cast<std::size_t>((count + stride - 1) / stride + 1), 0.0);
+    sums_ = Column<double>(sum_count(count), 0.0);
     for_each_block(count, [&](PointIndex first, PointIndex last) {
         measure(positions.x.data(), positions.y.data(), positions.z.data(), steps_.data(), first,
                 std::min(last, count - 1));

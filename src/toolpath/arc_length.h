@@ -20,6 +20,10 @@ public:
 
     /// Arc length to point 64 k, for each k, and to the end [mm].
     [[nodiscard]] const Column<double>& sums() const { return sums_; }
+    /// How many these are.
+    [[nodiscard]] static std::size_t sum_count(PointIndex points) {
+        return static_cast<std::size_t>((points + stride - 1) / stride + 1);
+    }
 
     /// Arc length from the first point to point i [mm]. O(64).
     [[nodiscard]] double to(PointIndex i) const;

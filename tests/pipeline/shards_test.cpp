@@ -13,6 +13,7 @@
 
 #include "core/error.h"
 #include "io/formats/biip.h"
+#include "io/formats/shard_file.h"
 #include "io/formats/survey_file.h"
 #include "io/readers/part_file.h"
 #include "pipeline/simulated_log.h"
@@ -24,6 +25,9 @@ namespace {
 
 /// Three hundred passes, some of them with sections of short blocks, and a machine that takes its time for these.
 class Shards : public testing::Test {
+public:
+    static const io::SurveyOrigin origin;
+
 protected:
     static void SetUpTestSuite() {
         folder = new test::TemporaryFolder();
@@ -65,7 +69,6 @@ protected:
 
     static test::TemporaryFolder* folder;
     static std::string program, log, kept;  ///< files; the last one is the survey
-    static const io::SurveyOrigin origin;
 };
 test::TemporaryFolder* Shards::folder = nullptr;
 std::string Shards::program, Shards::log, Shards::kept;
@@ -217,6 +220,129 @@ TEST_F(Shards, ASurveyComesBackFromItsFile) {
     EXPECT_TRUE(std::equal(again.neighbours.left.begin(), again.neighbours.left.end(), survey.neighbours.left.begin()));
     EXPECT_TRUE(std::equal(again.arc_lengths.begin(), again.arc_lengths.end(), survey.arc_lengths.begin()));
     for (std::size_t k = 0; k < survey.boxes.size(); ++k) EXPECT_TRUE(again.boxes[k].isApprox(survey.boxes[k], 0));
+}
+
+/// Changes a byte of a file that may be mapped, and changes it back.
+class FlippedByte {
+public:
+    FlippedByte(std::string file, std::size_t at) : file_(std::move(file)), at_(at) { flip(); }
+    FlippedByte(const FlippedByte&) = delete;
+    FlippedByte& operator=(const FlippedByte&) = delete;
+    ~FlippedByte() { flip(); }
+
+private:
+    void flip() {
+        std::fstream stream(file_, std::ios::in | std::ios::out | std::ios::binary);
+        stream.seekg(static_cast<std::streamoff>(at_));
+        const int byte = stream.get() ^ (1 << at_ % 8);
+        stream.seekp(static_cast<std::streamoff>(at_));
+        stream.put(static_cast<char>(byte));
+    }
+
+    std::string file_;
+    std::size_t at_;
+};
+
+/// Reads a survey, and what it has of every point.
+void read_all_of(const std::string& file) {
+    const Survey survey = io::read_survey(file, Shards::origin);
+    for (PointIndex first = 0; first < survey.points; first += block_points) {
+        const PointIndex last = std::min(survey.points, first + block_points);
+        if (survey.check_neighbours) survey.check_neighbours(first, last);
+        if (survey.check_lines) survey.check_lines(first, last);
+    }
+}
+
+TEST_F(Shards, EveryDamagedByteOfASurveyIsFound) {
+    io::PartFiles files{program, log, {}, {}, true};
+    PartRules by_geometry;
+    by_geometry.use_line_channel = false;
+    for (const Part& part : {whole(), io::read_part(files, by_geometry)}) {
+        const std::string file = *folder / "flipped.survey";
+        io::write_survey(file, make_survey(part), origin);
+        EXPECT_NO_THROW(read_all_of(file));
+        const std::size_t size = io::map_file(file).bytes.size();
+        int found = 0, flipped = 0;
+        for (std::size_t at = 0; at < size; at += at < 700 || at + 200 > size ? 1 : at < 5000 ? 11 : 1997) {
+            const FlippedByte damage(file, at);
+            ++flipped;
+            try {
+                read_all_of(file);
+                ADD_FAILURE() << "byte " << at << " of " << size;
+            } catch (const InputError& error) {
+                EXPECT_NE(std::string(error.what()).find("flipped.survey"), std::string::npos) << error.what();
+                ++found;
+            }
+        }
+        EXPECT_EQ(found, flipped);
+        EXPECT_NO_THROW(read_all_of(file));
+    }
+}
+
+TEST_F(Shards, AShardThatReadsADamagedBlockSaysSo) {
+    const Surveyed good(log);
+    // The neighbours of a point in the middle of the second of three shards, wherever the file has them.
+    const PointRange points = points_of_shard(good.survey.passes, good.survey.points, {2, 3});
+    const io::Source source = io::map_file(kept);
+    const auto* const at =
+        reinterpret_cast<const std::byte*>(good.survey.neighbours.left.data() + (points.first + points.last) / 2);
+    const std::string_view block(reinterpret_cast<const char*>(at), 400);
+    const std::size_t place = source.text().find(block);
+    ASSERT_NE(place, std::string_view::npos);
+    const FlippedByte damage(kept, place);
+    EXPECT_THROW((void)Surveyed(log).judge({2, 3}), InputError);
+}
+
+TEST_F(Shards, NeighboursOutsideTheLogAreFound) {
+    Survey survey = make_survey(whole());
+    survey.neighbours.left[5] = static_cast<std::int32_t>(survey.points);
+    const std::string file = *folder / "outside.survey";
+    io::write_survey(file, survey, origin);
+    EXPECT_THROW(read_all_of(file), InputError);
+    survey.neighbours.left[5] = -6;
+    io::write_survey(file, survey, origin);
+    EXPECT_THROW(read_all_of(file), InputError);
+    survey.neighbours.left[5] = -5;
+    io::write_survey(file, survey, origin);
+    EXPECT_NO_THROW(read_all_of(file));
+}
+
+TEST_F(Shards, EveryDamagedByteOfFindingsIsFound) {
+    const std::string text = io::shard_json(Surveyed(log).judge({2, 3}), {2, 3}, origin, "--tool ball:6");
+    const std::string file = folder->write("shard.json", text);
+    EXPECT_NO_THROW((void)io::read_shard(file, origin, "--tool ball:6"));
+    for (std::size_t at = 0; at < text.size(); at += at < 500 || at + 200 > text.size() ? 1 : 499) {
+        const FlippedByte damage(file, at);
+        EXPECT_THROW((void)io::read_shard(file, origin, "--tool ball:6"), InputError) << at;
+    }
+    for (const std::size_t cut : {std::size_t{0}, text.size() / 2, text.size() - 1})
+        EXPECT_THROW((void)io::read_shard(folder->write("cut.json", text.substr(0, cut)), origin, "--tool ball:6"),
+                     InputError);
+}
+
+void expect_within_the_bound(double merged, double whole) {
+    EXPECT_GT(whole, 0);
+    EXPECT_NEAR(merged, whole, whole * Distribution::quantile_error);
+}
+
+TEST_F(Shards, TheMotionOfAllPointsIsThatOfTheWholeLog) {
+    const Part part = whole();
+    const MotionQuality at_once = *judge(part, stitch(part), std::nullopt, {}, {}, true).motion;
+    for (const int count : {1, 4, 23}) {
+        const Surveyed surveyed(log);
+        MotionSizes sizes;
+        for (int number = 1; number <= count; ++number) {
+            const std::string file = folder->write(
+                "motion.json", io::shard_json(surveyed.judge({number, count}), {number, count}, origin, ""));
+            sizes.add(io::read_shard(file, origin, "").motion);
+        }
+        const MotionQuality merged = motion_quality(sizes, surveyed.surface, part.log.period);
+        EXPECT_EQ(merged.duration, at_once.duration);
+        EXPECT_EQ(merged.mismatch_rms, at_once.mismatch_rms);
+        EXPECT_EQ(merged.jerk_rms, at_once.jerk_rms);
+        expect_within_the_bound(merged.mismatch, at_once.mismatch);
+        expect_within_the_bound(merged.jerk, at_once.jerk);
+    }
 }
 
 TEST_F(Shards, ASurveyOfSomethingElseIsAnError) {
