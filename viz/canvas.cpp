@@ -363,55 +363,112 @@ Drawing drawing_of(const Sheet& sheet) {
 
 }  // namespace
 
-Image draw(const Sheet& sheet, const std::string& gl, int supersample) {
-    const int width = sheet.width * supersample;
-    const int height = sheet.height * supersample;
-    GlWindow gl_window(gl, width, height);
-    vtkRenderWindow* window = gl_window.window();
-    window->SetDPI(dpi);
-    window->SetNumberOfLayers(2 + flat_layers);
-    const auto background = [&](vtkRenderer* renderer) {
-        renderer->SetBackground(sheet.background[0] / 255.0, sheet.background[1] / 255.0, sheet.background[2] / 255.0);
-    };
-    vtkNew<vtkRenderer> paper;
-    background(paper);
-    paper->InteractiveOff();
-    window->AddRenderer(paper);
-    std::vector<vtkSmartPointer<vtkRenderer>> renderers;
-    for (const MeshPanel& panel : sheet.panels) {
-        auto renderer = vtkSmartPointer<vtkRenderer>::New();
+namespace {
+
+using Renderers = std::array<vtkNew<vtkRenderer>, flat_layers>;
+
+/// The window of a picture with its paper.
+class Canvas {
+public:
+    Canvas(const Sheet& sheet, const std::string& gl, int supersample)
+        : window_(gl, sheet.width * supersample, sheet.height * supersample), supersample_(supersample) {
+        window_.window()->SetDPI(dpi);
+        window_.window()->SetNumberOfLayers(2 + flat_layers);
+        paper_->SetBackground(sheet.background[0] / 255.0, sheet.background[1] / 255.0, sheet.background[2] / 255.0);
+        paper_->InteractiveOff();
+        window_.window()->AddRenderer(paper_);
+    }
+
+    /// The mesh of a panel, which must outlive it, on a renderer of its own.
+    vtkRenderer* add_panel(const Sheet& sheet, const MeshPanel& panel) {
+        panels_.push_back(vtkSmartPointer<vtkRenderer>::New());
+        vtkRenderer* const renderer = panels_.back();
         renderer->SetLayer(1);
         renderer->SetViewport(panel.rect.x / sheet.width, panel.rect.y / sheet.height,
                               (panel.rect.x + panel.rect.width) / sheet.width,
                               (panel.rect.y + panel.rect.height) / sheet.height);
-        add_mesh(renderer, panel, supersample);
-        window->AddRenderer(renderer);
+        add_mesh(renderer, panel, supersample_);
+        window_.window()->AddRenderer(renderer);
         place_camera(renderer, panel);
-        renderers.push_back(renderer);
+        return renderer;
     }
-    // Flat things have no depth among each other: each kind is a layer of its own.
-    std::array<vtkNew<vtkRenderer>, flat_layers> flat;
-    for (int k = 0; k < flat_layers; ++k) {
-        flat[static_cast<std::size_t>(k)]->SetLayer(2 + k);
-        window->AddRenderer(flat[static_cast<std::size_t>(k)]);
+
+    /// What was drawn stays: from now on only what is added is drawn, with the depths that are there.
+    void keep_pixels() {
+        paper_->DrawOff();
+        for (const auto& panel : panels_) panel->DrawOff();
     }
-    add_quads(flat[0], sheet.quads, supersample);
-    for (std::size_t k = 0; k < levels.size(); ++k) add_lines(flat[1 + k], sheet.lines, levels[k], supersample);
-    add_texts(flat.back(), sheet.texts, supersample);
-    Image image = gl_window.render(supersample);
+
+    /// Flat things have no depth among each other: each kind is a layer of its own.
+    void add_flat_layers(const Sheet& sheet) {
+        for (int k = 0; k < flat_layers; ++k) {
+            flat_[static_cast<std::size_t>(k)]->SetLayer(2 + k);
+            window_.window()->AddRenderer(flat_[static_cast<std::size_t>(k)]);
+        }
+        add_quads(flat_[0], sheet.quads, supersample_);
+        for (std::size_t k = 0; k < levels.size(); ++k) add_lines(flat_[1 + k], sheet.lines, levels[k], supersample_);
+        add_texts(flat_.back(), sheet.texts, supersample_);
+    }
+    void show_flat_layers(bool shown) {
+        for (const auto& renderer : flat_) renderer->SetDraw(shown ? 1 : 0);
+    }
+
+    void draw() { window_.window()->Render(); }
+    [[nodiscard]] Image image(int factor) { return window_.render(factor); }
+
+private:
+    GlWindow window_;
+    int supersample_;
+    vtkNew<vtkRenderer> paper_;
+    std::vector<vtkSmartPointer<vtkRenderer>> panels_;
+    Renderers flat_;
+};
+
+Drawing::Ground ground_of(Image image, const Sheet& sheet) {
+    return {image.width,
+            image.height,
+            std::move(image.rgb),
+            {0, 0, static_cast<double>(sheet.width), static_cast<double>(sheet.height)}};
+}
+
+}  // namespace
+
+Image draw(const Sheet& sheet, const std::string& gl, int supersample) {
+    Canvas canvas(sheet, gl, supersample);
+    for (const MeshPanel& panel : sheet.panels) canvas.add_panel(sheet, panel);
+    canvas.add_flat_layers(sheet);
+    Image image = canvas.image(supersample);
     for (const FlatText& text : sheet.texts) image.texts.push_back(box_of(text, sheet.height));
     if (sheet.keep_drawing) {
         auto drawing = std::make_shared<Drawing>(drawing_of(sheet));
-        for (const auto& renderer : flat) renderer->DrawOff();
-        if (!sheet.panels.empty()) {
-            Image ground = gl_window.render(1);
-            drawing->grounds.push_back({ground.width,
-                                        ground.height,
-                                        std::move(ground.rgb),
-                                        {0, 0, static_cast<double>(sheet.width), static_cast<double>(sheet.height)}});
-        }
+        canvas.show_flat_layers(false);
+        if (!sheet.panels.empty()) drawing->grounds.push_back(ground_of(canvas.image(1), sheet));
         image.drawing = std::move(drawing);
     }
+    return image;
+}
+
+Image draw(const SheetInParts& sheet, const std::string& gl, int supersample) {
+    Canvas canvas(sheet.empty, gl, supersample);
+    MeshPanel panel;
+    for (bool first = true; sheet.next(panel); first = false) {
+        vtkRenderer* const renderer = canvas.add_panel(sheet.empty, panel);
+        renderer->SetPreserveDepthBuffer(first ? 0 : 1);
+        canvas.draw();
+        renderer->RemoveAllViewProps();
+        canvas.keep_pixels();
+    }
+    Sheet flat = sheet.empty;
+    sheet.finish(flat);
+    std::shared_ptr<Drawing> drawing;
+    if (flat.keep_drawing) {
+        drawing = std::make_shared<Drawing>(drawing_of(flat));
+        drawing->grounds.push_back(ground_of(canvas.image(1), flat));
+    }
+    canvas.add_flat_layers(flat);
+    Image image = canvas.image(supersample);
+    for (const FlatText& text : flat.texts) image.texts.push_back(box_of(text, flat.height));
+    image.drawing = std::move(drawing);
     return image;
 }
 

@@ -4,6 +4,7 @@
 //
 // Flat things are placed in pixels of the finished picture, from its lower left corner.
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -47,6 +48,13 @@ struct Sheet {
     bool keep_drawing = false;  ///< the image gets its drawing, too
 };
 
+/// A picture with one panel whose mesh is in memory in parts, one at a time.
+struct SheetInParts {
+    Sheet empty;                           ///< without panels, lines and texts
+    std::function<bool(MeshPanel&)> next;  ///< makes the next part; false: there are no more
+    std::function<void(Sheet&)> finish;    ///< adds all that is flat; called after the last part
+};
+
 /// Width of a text [px].
 [[nodiscard]] double text_width(const FlatText& text);
 /// Shortens a text in its middle until it is at most so wide [px].
@@ -54,5 +62,7 @@ struct Sheet {
 
 /// Draws at `supersample` times the size and takes the mean, for smooth edges. Throws SystemError.
 [[nodiscard]] Image draw(const Sheet& sheet, const std::string& gl, int supersample);
+/// The same as if the parts were one mesh: what is nearer to the eye stays.
+[[nodiscard]] Image draw(const SheetInParts& sheet, const std::string& gl, int supersample);
 
 }  // namespace clsurf::viz

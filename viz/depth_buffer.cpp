@@ -6,12 +6,14 @@
 
 namespace clsurf::viz {
 
-DepthBuffer::DepthBuffer(const Geometry& geometry, const Camera& camera)
+DepthBuffer::DepthBuffer(const Camera& camera)
     : camera_(camera),
       columns_(static_cast<int>(std::ceil(camera.width / cell)) + 1),
       rows_(static_cast<int>(std::ceil(camera.height / cell)) + 1),
       nearest_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_),
-               -std::numeric_limits<float>::infinity()) {
+               -std::numeric_limits<float>::infinity()) {}
+
+void DepthBuffer::add(const Geometry& geometry) {
     const auto vertex = [&](std::uint32_t v) {
         const float* p = geometry.xyz.data() + 3 * static_cast<std::size_t>(v);
         return seen(geometry.origin + Vec3(p[0], p[1], p[2]));

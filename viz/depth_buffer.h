@@ -10,8 +10,10 @@ namespace clsurf::viz {
 
 class DepthBuffer {
 public:
+    explicit DepthBuffer(const Camera& camera);
+    DepthBuffer(const Geometry& geometry, const Camera& camera) : DepthBuffer(camera) { add(geometry); }
     /// Draws the triangles of a geometry in cells of two pixels. O(triangles + cells they cover).
-    DepthBuffer(const Geometry& geometry, const Camera& camera);
+    void add(const Geometry& geometry);
 
     /// Whether a triangle lies between a place [mm] and the eye, nearer to the eye by more than `tolerance` [mm].
     [[nodiscard]] bool hides(const Vec3& place, double tolerance) const;

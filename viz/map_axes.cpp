@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "viz/colour_map.h"
-#include "viz/depth_buffer.h"
 
 namespace clsurf::viz {
 namespace {
@@ -56,13 +55,12 @@ public:
         scale(place_of(corners[0]), place_of(corners[3]), axis_along(camera.up), Vec2(-1, 0), of);
     }
 
-    void box(const Box3& part, const std::string& of) {
+    void box(const Box3& part, const std::string& of, const DepthBuffer& depth) {
         const Camera& camera = panel_.camera;
         // The corner nearest to the eye: its three edges would lie in front of the part.
         Vec3 nearest;
         for (int axis = 0; axis < 3; ++axis)
             nearest[axis] = camera.towards[axis] > 0 ? part.max()[axis] : part.min()[axis];
-        const DepthBuffer depth(panel_.geometry, camera);
         for (int axis = 0; axis < 3; ++axis) {
             std::vector<std::pair<Vec3, Vec3>> outer;  // edges that no other edge crosses in the picture
             for (int k = 0; k < 4; ++k) {
@@ -202,13 +200,13 @@ AxesRoom axes_room(const Look& look, const MapLayout& layout) {
 }
 
 void add_scales(Sheet& sheet, const MeshPanel& panel, const Box3& part, const std::string& frame, const Look& look,
-                const MapLayout& layout) {
+                const MapLayout& layout, const DepthBuffer* depth) {
     if (part.isEmpty()) return;
     ScaleDrawer drawer(sheet, panel, look, layout);
     if (has_frame(look))
         drawer.frame(part, frame);
     else if (has_box(look))
-        drawer.box(part, frame);
+        drawer.box(part, frame, depth != nullptr ? *depth : DepthBuffer(panel.geometry, panel.camera));
 }
 
 }  // namespace clsurf::viz

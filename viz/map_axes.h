@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "viz/depth_buffer.h"
 #include "viz/map_layout.h"
 
 namespace clsurf::viz {
@@ -21,8 +22,9 @@ struct AxesRoom {
 };
 [[nodiscard]] AxesRoom axes_room(const Look& look, const MapLayout& layout);
 
-/// Frame or box of what is shown of `part` [mm]. `frame` names the coordinates, "G54"; it may be empty.
+/// Frame or box of what is shown of `part` [mm]. `frame` names the coordinates, "G54"; it may be empty. `depth`: what the
+/// part hides, of a panel whose geometry came in parts; nullptr: of its geometry.
 void add_scales(Sheet& sheet, const MeshPanel& panel, const Box3& part, const std::string& frame, const Look& look,
-                const MapLayout& layout);
+                const MapLayout& layout, const DepthBuffer* depth = nullptr);
 
 }  // namespace clsurf::viz

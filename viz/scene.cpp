@@ -97,14 +97,17 @@ Column<std::uint32_t> take_bare(Column<std::uint32_t>& cells, std::size_t size, 
 }  // namespace
 
 Box3 extent_of(const ClSurface& surface, const ViewAxes& axes) {
-    const Positions& p = surface.positions;
+    return extent_of(surface.positions, surface.passes, axes);
+}
+
+Box3 extent_of(const Positions& p, std::span<const Pass> passes, const ViewAxes& axes) {
     const Eigen::Matrix3f turned = axes.cast<float>();
     struct Piece {
         PointIndex first, last;
         Eigen::AlignedBox3f box;
     };
     std::vector<Piece> pieces;
-    for (const Pass& pass : surface.passes) {
+    for (const Pass& pass : passes) {
         if (!is_of_surface(pass.kind)) continue;
         for (PointIndex first = pass.first; first <= pass.last; first += block_points) {
             pieces.push_back({first, std::min(pass.last, first + block_points - 1), {}});
@@ -153,10 +156,14 @@ void paint_relief(Detail& detail, MeshPanel& panel) {
     g.normals = {};
 }
 
+Box3 extent_of_panel(const MapPanel& map, const ViewAxes& axes) {
+    if (map.extent) return map.extent(axes);
+    return map.relief != nullptr ? extent_of(*map.relief, axes) : extent_of(*map.surface, axes);
+}
+
 /// What is shown of a part [mm].
 Box3 shown_box(const MapPanel& map, const Look& look) {
-    const ViewAxes axes = ViewAxes::Identity();
-    const Box3 all = map.relief != nullptr ? extent_of(*map.relief, axes) : extent_of(*map.surface, axes);
+    const Box3 all = extent_of_panel(map, ViewAxes::Identity());
     return look.box.isEmpty() ? all : all.intersection(look.box);
 }
 
@@ -250,8 +257,7 @@ Camera map_camera(const std::vector<MapPanel>& panels, const Look& look) {
     };
     const auto extent = [&](const ViewAxes& axes) {
         Box3 all;
-        for (const MapPanel& map : panels)
-            all.extend(map.relief != nullptr ? extent_of(*map.relief, axes) : extent_of(*map.surface, axes));
+        for (const MapPanel& map : panels) all.extend(extent_of_panel(map, axes));
         return all;
     };
     if (look.box.isEmpty()) {
@@ -264,16 +270,88 @@ Camera map_camera(const std::vector<MapPanel>& panels, const Look& look) {
     return camera_for(look.view, filled.isEmpty() ? look.box : filled, width, height, look.zoom);
 }
 
-Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const ColourScale& scale,
-                const MapTexts& texts, const Look& look) {
-    MapLayout layout(look);
-    if (is_close(panels, look)) layout.legend_width += panel_rect(panels, 0, look, layout).width - camera.width;
-    const Rgb ink = ink_for(look.background);
+namespace {
+
+/// Leaves the cells of `size` corners whose first one is a point that belongs to the part.
+void keep_own(Column<std::uint32_t>& cells, std::size_t size, const Column<PointIndex>& vertices,
+              const PanelPart& part) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i + size <= cells.size(); i += size) {
+        const PointIndex point = (*part.points)[static_cast<std::size_t>(vertices[cells[i]])];
+        if (point < part.own.first || point > part.own.last) continue;
+        for (std::size_t k = 0; k < size; ++k) cells[kept++] = cells[i + k];
+    }
+    cells.resize(kept);
+}
+
+/// What pixels show of a panel, painted, on a panel that has its rectangle and its camera. `part`: of a map in parts.
+Beyond fill_panel(const MapPanel& map, const ColourScale& scale, const Look& look, MeshPanel& panel,
+                  const PanelPart* part = nullptr) {
+    Detail detail = detail_of(map, panel.camera, look);
+    if (part != nullptr) {
+        keep_own(detail.geometry.triangles, 3, detail.points, *part);
+        keep_own(detail.geometry.segments, 2, detail.points, *part);
+        keep_own(detail.geometry.points, 1, detail.points, *part);
+    }
+    const Beyond here = paint_panel(detail, map, scale, look, panel);
+    if (!map.pale.empty()) panel.pale = paleness_of(detail.points, map.pale);
+    panel.geometry = std::move(detail.geometry);
+    if (here.missing) {
+        panel.bare_triangles = take_bare(panel.geometry.triangles, 3, detail.values);
+        panel.bare_segments = take_bare(panel.geometry.segments, 2, detail.values);
+        panel.bare_points = take_bare(panel.geometry.points, 1, detail.values);
+    }
+    return here;
+}
+
+void widen(Beyond& beyond, const Beyond& other) {
+    beyond.below = beyond.below || other.below;
+    beyond.above = beyond.above || other.above;
+    beyond.missing = beyond.missing || other.missing;
+}
+
+Sheet empty_sheet(const Look& look) {
     Sheet sheet;
     sheet.width = look.width;
     sheet.height = look.height;
     sheet.background = look.background;
     sheet.keep_drawing = look.keep_drawing;
+    return sheet;
+}
+
+/// Scales of a panel, and beside the last one the axes.
+void add_scales_of(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const std::string& frame, bool last,
+                   const Look& look, const MapLayout& layout, const DepthBuffer* depth = nullptr) {
+    if (!look.legend) return;
+    const Rgb ink = ink_for(look.background);
+    add_scales(sheet, panel, shown_box(map, look), frame, look, layout, depth);
+    if (!last) return;
+    if (!has_frame(look)) add_axes(sheet, panel, look, layout, ink);
+    if (!has_frame(look) && !has_box(look)) add_scale_bar(sheet, panel, layout, ink);
+}
+
+/// Title and legend.
+void add_margin(Sheet& sheet, const MapPanel& map, const ColourScale& scale, const Beyond& beyond,
+                const MapTexts& texts, const Look& look, const MapLayout& layout) {
+    if (!look.legend) return;
+    const Rgb ink = ink_for(look.background);
+    // The key of a defect map reaches down to the notes, the axes do at the right edge.
+    const double beside = map.defects != nullptr ? layout.legend_width : layout.margin + 3.5 * layout.text;
+    add_title(sheet, texts, beside, look, layout, ink);
+    if (map.classes != nullptr)
+        add_class_legend(sheet, map.classes->shown(), beyond.missing, look, layout, ink);
+    else if (map.defects == nullptr)
+        add_legend(sheet, scale, map.field->info, beyond, look, layout, ink);
+}
+
+}  // namespace
+
+Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const ColourScale& scale,
+                const MapTexts& texts, const Look& look) {
+    MapLayout layout(look);
+    if (is_close(panels, look)) layout.legend_width += panel_rect(panels, 0, look, layout).width - camera.width;
+    const Rgb ink = ink_for(look.background);
+    Sheet sheet = empty_sheet(look);
     Beyond beyond;
     int without_room = 0;
     for (std::size_t k = 0; k < panels.size(); ++k) {
@@ -281,16 +359,7 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const
         MeshPanel panel;
         panel.rect = panel_rect(panels, k, look, layout);
         panel.camera = camera;  // each panel shows the same part at the same scale
-        Detail detail = detail_of(map, camera, look);
-        const Beyond here = paint_panel(detail, map, scale, look, panel);
-        beyond = {beyond.below || here.below, beyond.above || here.above, beyond.missing || here.missing};
-        if (!map.pale.empty()) panel.pale = paleness_of(detail.points, map.pale);
-        panel.geometry = std::move(detail.geometry);
-        if (here.missing) {
-            panel.bare_triangles = take_bare(panel.geometry.triangles, 3, detail.values);
-            panel.bare_segments = take_bare(panel.geometry.segments, 2, detail.values);
-            panel.bare_points = take_bare(panel.geometry.points, 1, detail.values);
-        }
+        widen(beyond, fill_panel(map, scale, look, panel));
         if (map.defects != nullptr) add_defects(sheet, map, panel, look, layout);
         without_room += add_marks(sheet, map, panel, look, layout);
         if (!map.caption.empty()) {
@@ -299,26 +368,43 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const
                 fitted({panel.rect.x + layout.margin, y, map.caption, layout.text, Align::left, true, ink},
                        panel.rect.width - 2 * layout.margin));
         }
-        if (look.legend) add_scales(sheet, panel, shown_box(map, look), texts.frame, look, layout);
-        if (look.legend && k + 1 == panels.size()) {
-            if (!has_frame(look)) add_axes(sheet, panel, look, layout, ink);
-            if (!has_frame(look) && !has_box(look)) add_scale_bar(sheet, panel, layout, ink);
-        }
+        add_scales_of(sheet, map, panel, texts.frame, k + 1 == panels.size(), look, layout);
         sheet.panels.push_back(std::move(panel));
     }
-    if (look.legend) {
-        MapTexts all = texts;
-        if (without_room > 0) all.notes.push_back(fmt::format("{} labels have no room in this picture", without_room));
-        // The key of a defect map reaches down to the notes, the axes do at the right edge.
-        const double beside =
-            panels.front().defects != nullptr ? layout.legend_width : layout.margin + 3.5 * layout.text;
-        add_title(sheet, all, beside, look, layout, ink);
-        if (panels.front().classes != nullptr)
-            add_class_legend(sheet, panels.back().classes->shown(), beyond.missing, look, layout, ink);
-        else if (panels.front().defects == nullptr)
-            add_legend(sheet, scale, panels.front().field->info, beyond, look, layout, ink);
-    }
+    MapTexts all = texts;
+    if (without_room > 0) all.notes.push_back(fmt::format("{} labels have no room in this picture", without_room));
+    // Classes of several panels are shown together: those of the last one.
+    MapPanel margin = panels.front();
+    if (margin.classes != nullptr) margin.classes = panels.back().classes;
+    add_margin(sheet, margin, scale, beyond, all, look, layout);
     return sheet;
+}
+
+Image draw_map(const MapInParts& map, const Camera& camera, const ColourScale& scale, const Look& look) {
+    const MapLayout layout(look);
+    MeshPanel frame;
+    frame.rect = panel_rect({map.whole}, 0, look, layout);
+    frame.camera = camera;
+    Beyond beyond;
+    DepthBuffer depth(camera);
+    SheetInParts sheet;
+    sheet.empty = empty_sheet(look);
+    sheet.next = [&](MeshPanel& panel) {
+        const std::optional<PanelPart> part = map.next();
+        if (!part) return false;
+        panel = MeshPanel();
+        panel.rect = frame.rect;
+        panel.camera = camera;
+        widen(beyond, fill_panel(part->panel, scale, look, panel, &*part));
+        if (has_box(look)) depth.add(panel.geometry);
+        return true;
+    };
+    sheet.finish = [&](Sheet& finished) {
+        const MapTexts texts = map.texts();
+        add_scales_of(finished, map.whole, frame, texts.frame, true, look, layout, &depth);
+        add_margin(finished, map.whole, scale, beyond, texts, look, layout);
+    };
+    return draw(sheet, look.gl, look.supersample);
 }
 
 Image draw_map(const std::vector<MapPanel>& panels, const Camera& camera, const ColourScale& scale,

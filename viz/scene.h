@@ -2,6 +2,9 @@
 // Scene: a quality map on a sheet: panels, what stands round them (map_margin.h), what is marked on
 // them (map_marks.h). To draw another thing, add a function that puts it on the sheet.
 
+#include <functional>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "viz/map_panel.h"
@@ -10,6 +13,8 @@ namespace clsurf::viz {
 
 /// Extent along the axes of a view of the points that do not belong to rapids [mm]. O(points), parallel.
 [[nodiscard]] Box3 extent_of(const ClSurface& surface, const ViewAxes& axes);
+/// The same of some passes of a surface.
+[[nodiscard]] Box3 extent_of(const Positions& positions, std::span<const Pass> passes, const ViewAxes& axes);
 
 /// What the map panels show: a camera of the panels' size. What the part fills of the box,
 /// where there is one, else all that is drawn.
@@ -22,5 +27,22 @@ namespace clsurf::viz {
 /// Draws it. Throws SystemError, UsageError.
 [[nodiscard]] Image draw_map(const std::vector<MapPanel>& panels, const Camera& camera, const ColourScale& scale,
                              const MapTexts& texts, const Look& look);
+
+/// Some passes of a surface, and what lies beside them (surface/surface_part.h).
+struct PanelPart {
+    MapPanel panel;                              ///< surface, field and pale points of the part
+    const Column<PointIndex>* points = nullptr;  ///< of the whole surface, by point of the part
+    PointRange own;                              ///< cells that begin at these points of the whole are drawn
+};
+
+/// A map whose surface is in memory in parts, one at a time. All parts together have every cell once.
+struct MapInParts {
+    MapPanel whole;  ///< without marks and classes; of its surface step-over and origin are read, and `extent`
+    std::function<std::optional<PanelPart>()> next;  ///< nothing: there are no more
+    std::function<MapTexts()> texts;                 ///< asked for after the last part
+};
+
+/// Draws it: the same picture as draw_map() of the whole. Throws SystemError, UsageError.
+[[nodiscard]] Image draw_map(const MapInParts& map, const Camera& camera, const ColourScale& scale, const Look& look);
 
 }  // namespace clsurf::viz

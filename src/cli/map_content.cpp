@@ -13,12 +13,8 @@
 #include "viz/map_texts.h"
 
 namespace clsurf::cli {
-namespace {
 
-/// Its ramps at the ends of passes say nothing: all passes have them.
 bool is_speed(const FieldInfo& field) { return field.preference == FieldPreference::higher && !has_classes(field); }
-
-}  // namespace
 
 std::string run_name(const Shown& shown, const RenderOptions& options) {
     switch (shown.origin) {

@@ -13,6 +13,7 @@
 #include "cli/map_content.h"
 #include "cli/picture_output.h"
 #include "cli/render_options.h"
+#include "cli/render_shards.h"
 #include "cli/shown_part.h"
 #include "cli/stage_clock.h"
 #include "core/file_name.h"
@@ -114,6 +115,7 @@ ExitCode draw_once(RenderOptions options, const po::variables_map& values, bool 
 
 ExitCode run_render(const po::variables_map& values) {
     RenderOptions options = read_render_options(values);
+    if (draw_in_shards(options, values)) return ExitCode::done;
     const std::optional<FollowOptions> follow = read_follow(values);
     if (!follow) return draw_once(std::move(options), values, true);
     return make_while_it_grows(options.part, *follow, options.output,
@@ -131,13 +133,18 @@ Subcommand render_subcommand() {
             "Maps each logged point to its line, rebuilds the cutter-location surface from adjacent passes,\n"
             "colours it by a field and draws it without a display. Without a log the program is simulated on\n"
             "--machine, or drawn as it is programmed: by programmed_feed, block_length, turning_angle or\n"
-            "programmed_curvature.\n\n"
+            "programmed_curvature.\n"
+            "A log that is too large for memory is drawn shard by shard, with --survey (docs/howto/shards.md).\n\n"
             "  clsurf render part.nc -o map.png\n"
             "  clsurf render part.nc -o blocks.png --color block_length --passes 3..8\n"
             "  clsurf render part.nc run.biip -o map.png\n"
             "  clsurf render part.nc run.biip -o map.png --color acceleration --view top --range 0,800\n"
             "  clsurf render part.nc run.biip -o map.png --surface formed --tool ball:6",
-        .declare = declare_render,
+        .declare =
+            [](po::options_description& options) {
+                declare_render(options);
+                declare_render_shards(options);
+            },
         .positional = {"PROGRAM", "LOG"},
         .run = run_render,
     };

@@ -74,3 +74,24 @@ clsurf_cli_test(NAME shards_pieces_into_no_pvtp SETUP "echo > a.vtp" ARGS export
 clsurf_cli_test(NAME shards_pieces_with_marks_of_xml_in_their_names AFTER shards_say_what_they_read
   SETUP "${same_shards}; $CLSURF export ${shard_run} --columns point -o whole.vtp -q; $CLSURF export ${shard_run} --survey run.survey --shard 1/2 --columns point -o 'top & <side>.vtp' -q; $CLSURF export ${shard_run} --survey run.survey --shard 2/2 --columns point -o b.vtp -q; $CLSURF export --merge 'top & <side>.vtp' b.vtp -o map.pvtp; /usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/cli/read_pieces.py whole.vtp map.pvtp"
   ARGS --version)
+
+# ---- the map, shard by shard: the same picture, but for the rounding of few pixels ----
+function(clsurf_map_of_shards_test name program log count)
+  string(REPLACE ";" " " options "${ARGN}")
+  set(run "@DATA@/programs/${program} @LOGS@/${log}.biip")
+  clsurf_cli_test(NAME shards_map_${name}
+    SETUP "$CLSURF render ${run} ${options} --size 800x600 -o whole.png -q; $CLSURF survey ${run} -o run.survey -q; $CLSURF render ${run} --survey run.survey --shards ${count} ${options} --size 800x600 -o shards.png -q; $CLSURF render ${run} --survey run.survey --shards 1 ${options} --size 800x600 -o one.png -q; cmp whole.png one.png"
+    ARGS compare whole.png shards.png STDOUT "^equal: 0 pixels differ")
+endfunction()
+clsurf_map_of_shards_test(zigzag petal_zigzag_g64.ngc petal_zigzag_g64 5)
+clsurf_map_of_shards_test(loops petal_loops_g64.ngc petal_loops_g64 3 --color jerk --range 0,100000 --view top)
+clsurf_map_of_shards_test(planted planted_loops.nc planted_loops 7 --zoom 0.2,0.3,0.7,0.8)
+clsurf_map_of_shards_test(lines bottle_uneven.nc bottle_uneven 2 --style lines --range 0,3000)
+clsurf_map_of_shards_test(steep transition_g61.nc transition_g61 4 --view 200,20)
+set(map_args render @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip -o map.png)
+clsurf_cli_test(NAME shards_map_without_a_range SETUP "${shards_made}" ARGS ${map_args} --survey run.survey --color speed EXIT 2 STDERR "the range of 'speed' depends on all points of the log.*--range MIN,MAX, in mm/min")
+clsurf_cli_test(NAME shards_map_of_a_field_of_the_whole SETUP "${shards_made}" ARGS ${map_args} --survey run.survey --color speed_mismatch EXIT 2 STDERR "'speed_mismatch' is a field of the whole log, not of a shard")
+clsurf_cli_test(NAME shards_map_of_classes SETUP "${shards_made}" ARGS ${map_args} --survey run.survey --color line EXIT 2 STDERR "'line' has classes")
+clsurf_cli_test(NAME shards_map_with_marks SETUP "${shards_made}" ARGS ${map_args} --survey run.survey --mark-point 7 EXIT 2 STDERR "--mark-point needs the whole log, without --survey")
+clsurf_cli_test(NAME shards_map_without_a_survey ARGS ${map_args} --shards 3 EXIT 2 STDERR "--shards goes with --survey")
+clsurf_cli_test(NAME shards_map_of_no_shards SETUP "${shards_made}" ARGS ${map_args} --survey run.survey --shards 0 EXIT 2 STDERR "--shards: 0 is not 1")
