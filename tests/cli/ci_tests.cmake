@@ -21,3 +21,5 @@ clsurf_cli_test(NAME ci_several_logs_sarif SETUP "${two_logs}; $CLSURF check ${p
 clsurf_cli_test(NAME ci_worst_of_several_logs SETUP "cp ${run} b.biip; head -c 100000 b.biip > a.biip" ARGS check ${part} a.biip b.biip --tool none --max-depth 5um -q EXIT 5 NO_STDOUT ".")
 clsurf_cli_test(NAME ci_one_of_several_logs_missing SETUP "${two_logs}" ARGS check ${planted} a.biip nowhere.biip -o report.json EXIT 3 STDERR "nowhere.biip: error: cannot open" NO_FILE report.json)
 clsurf_cli_test(NAME ci_program_from_standard_input SETUP "${two_logs}; cp ${planted} stdin" ARGS check - a.biip b.biip EXIT 2 STDERR "the program of several logs cannot come from standard input")
+# The shell steps of the GitHub action, as a runner runs them.
+clsurf_cli_test(NAME ci_action SETUP "/usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/cli/run_action.py ${PROJECT_SOURCE_DIR}/action.yml $CLSURF @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip" ARGS --version STDOUT "clsurf")
