@@ -28,6 +28,8 @@ struct DefectMark {
     std::string number;                ///< "4"
     std::string label;                 ///< "−87 % speed"
     std::string lines;                 ///< "lines 3065–3228"
+    std::string place = {};            ///< "X 1.5  Y −4.7  Z 4.9"; said where there is room
+    std::string cause = {};            ///< likewise
 };
 
 struct DefectMap {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "viz/depth_buffer.h"
+#include "viz/label_placer.h"
 
 namespace clsurf::viz {
 namespace {
@@ -20,6 +22,7 @@ constexpr double region_share = 0.5;       ///< of the colour in a region
 constexpr double hidden_width = 0.14;      ///< of the dots of hidden parts
 constexpr double dot_every = 0.4;          ///< from one dot to the next, in text sizes
 constexpr double axes_height = 6.2;        ///< of the picture's axes beside the key, in text sizes
+constexpr double name_width = 15;          ///< of a name in a column, in text sizes
 constexpr double lightest = 0.45;          ///< share of the colour in the weakest mark; the rest is white
 
 Rgb mixed(const Rgb& rgb, double share) {
@@ -67,10 +70,12 @@ struct Stroke {
 
 class DefectDrawer {
 public:
-    DefectDrawer(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const Look& look, const MapLayout& layout)
+    DefectDrawer(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const Rect& room, const Look& look,
+                 const MapLayout& layout)
         : sheet_(sheet),
           map_(map),
           panel_(panel),
+          room_(room),
           look_(look),
           layout_(layout),
           ink_(ink_for(look.background)),
@@ -86,10 +91,21 @@ public:
                 if (marks[k].region == region) anchors[k] = draw_mark(marks[k]);
             }
         }
-        if (look_.legend) name(anchors);
+        if (!look_.legend) return;
+        if (layout_.arrangement == Arrangement::tall)
+            tabulate(anchors);
+        else
+            name(anchors);
     }
 
 private:
+    /// The colour of a kind as it can be read on the background: lighter on a dark one.
+    [[nodiscard]] Rgb ink_of(const DefectMark& mark) const {
+        constexpr double share_on_dark = 0.55;
+        const Rgb& rgb = kind_of(mark).rgb;
+        return ink_ == ink_for({255, 255, 255}) ? rgb : mixed(rgb, share_on_dark);
+    }
+
     [[nodiscard]] const DefectKind& kind_of(const DefectMark& mark) const { return map_.defects->kinds[mark.kind]; }
 
     /// How wide the strip of a pass is in the picture: from half way to the one neighbour to half way to the other [px].
@@ -186,15 +202,16 @@ private:
         return anchor;
     }
 
-    void text(double x, double y, const std::string& words, double size, bool bold, const Rgb& rgb) {
-        const double room = look_.width - 0.4 * layout_.text - x;
+    void text(double x, double y, const std::string& words, double size, bool bold, const Rgb& rgb,
+              double width = std::numeric_limits<double>::infinity()) {
+        const double room = std::min(width, look_.width - 0.4 * layout_.text - x);
         sheet_.texts.push_back(fitted({x, y, words, size, Align::left, bold, rgb}, room));
     }
 
     void name(const std::vector<std::optional<Vec2>>& anchors) {
         const double t = layout_.text;
-        const double highest = look_.height - layout_.title_height - 0.6 * t;
-        const double x = look_.width - layout_.legend_width + 1.4 * t;
+        const double highest = room_.y + room_.height - 0.6 * t;
+        const double x = room_.x + 1.4 * t;
         const double bottom = std::max(add_key(x, 0.9 * t), axes_height * t);
         const double slot = 2.0 * t;
         const auto room = static_cast<std::size_t>(std::max(0.0, (highest - bottom - 0.8 * t) / slot));
@@ -215,24 +232,99 @@ private:
         const std::vector<std::size_t> slot_of = assign_slots(from, slots, line_end);
         for (std::size_t k = 0; k < named.size(); ++k)
             add_name(map_.defects->marks[named[k]], from[k], Vec2(x, slots[slot_of[k]]), line_end);
-        std::string more;
-        if (const std::size_t rest = anchors.size() - outside - named.size(); rest > 0)
-            more = fmt::format("and {} more", rest);
-        if (outside > 0) more += fmt::format("{}{} outside the picture", more.empty() ? "" : ", ", outside);
-        if (!more.empty())
-            text(x, top - slot * static_cast<double>(named.size()) - 0.5 * t, more, layout_.small_text, false,
-                 faint(ink_, look_.background));
+        tell_rest(anchors.size() - outside - named.size(), outside, x,
+                  top - slot * static_cast<double>(named.size()) - 0.5 * t);
+    }
+
+    void tell_rest(std::size_t more, std::size_t outside, double x, double y) {
+        std::string words;
+        if (more > 0) words = fmt::format("and {} more", more);
+        if (outside > 0) words += fmt::format("{}{} outside the picture", words.empty() ? "" : ", ", outside);
+        if (!words.empty()) text(x, y, words, layout_.small_text, false, faint(ink_, look_.background));
+    }
+
+    /// Names in columns below the part, the strongest first, row by row.
+    void tabulate(const std::vector<std::optional<Vec2>>& anchors) {
+        constexpr std::size_t most_numbers = 24;  // on the part; more would cover it
+        constexpr double row = 4.4, rest = 1.6;   // heights, in text sizes
+        const double t = layout_.text;
+        const double top = room_.y + room_.height - 0.8 * t;
+        const double lowest = add_key(layout_.margin, room_.y) + rest * t;
+        const double width = room_.width - 2 * layout_.margin;
+        const double columns = std::max(1.0, std::floor(width / (name_width * t)));
+        const double rows = std::max(0.0, std::floor((top - lowest) / (row * t)));
+        std::vector<std::size_t> named;
+        std::size_t outside = 0;
+        for (std::size_t k = 0; k < anchors.size(); ++k) {
+            if (!anchors[k])
+                ++outside;
+            else if (static_cast<double>(named.size()) < rows * columns)
+                named.push_back(k);
+        }
+        double below = top;
+        for (std::size_t k = 0; k < named.size(); ++k) {
+            const auto place = static_cast<double>(k);
+            const double x = layout_.margin + std::fmod(place, columns) * width / columns;
+            const double y = top - row * t * std::floor(place / columns);
+            const DefectMark& mark = map_.defects->marks[named[k]];
+            add_texts_of(mark, Vec2(x, y - 1.0 * t), width / columns - t);
+            const Rgb grey = faint(ink_, look_.background);
+            text(x, y - 2.5 * t, mark.place, layout_.small_text, false, grey, width / columns - t);
+            text(x, y - 3.45 * t, mark.cause, layout_.small_text, false, grey, width / columns - t);
+            below = y - row * t;
+        }
+        if (named.size() > most_numbers) named.resize(most_numbers);
+        number_marks(named, anchors);
+        tell_rest(
+            anchors.size() - outside - std::min(anchors.size() - outside, static_cast<std::size_t>(rows * columns)),
+            outside, layout_.margin, below - 0.6 * t);
+    }
+
+    /// The numbers of marks beside their anchors, as far as there is room.
+    void number_marks(const std::vector<std::size_t>& named, const std::vector<std::optional<Vec2>>& anchors) {
+        const double t = layout_.text;
+        LabelPlacer placer(panel_.rect);
+        for (const std::size_t k : named)
+            placer.take({anchors[k]->x() - 0.3 * t, anchors[k]->y() - 0.3 * t, 0.6 * t, 0.6 * t});
+        for (const std::size_t k : named) {
+            const DefectMark& mark = map_.defects->marks[k];
+            FlatText flat{0, 0, mark.number, 0.92 * t, Align::centre, true, ink_of(mark)};
+            const Vec2 size(text_width(flat) + 0.3 * t, 1.15 * t);
+            const std::optional<Rect> rect = placer.place(*anchors[k] + Vec2(0, t), size);
+            if (!rect) continue;
+            flat.x = rect->x + 0.5 * rect->width;
+            flat.y = rect->y + 0.5 * rect->height;
+            const Vec2 at(flat.x, flat.y);
+            sheet_.lines.push_back({{*anchors[k], at}, 0.06 * t, faint(ink_, look_.background)});
+            sheet_.lines.push_back({{at - Vec2(0.5 * size.x(), 0), at + Vec2(0.5 * size.x(), 0)},
+                                    size.y(),
+                                    look_.background,
+                                    Level::halo});
+            add_anchor(*anchors[k]);
+            sheet_.texts.push_back(std::move(flat));
+        }
+    }
+
+    void add_texts_of(const DefectMark& mark, const Vec2& at, double width) {
+        const double t = layout_.text;
+        text(at.x(), at.y() + 0.42 * t, mark.number + "   " + mark.label, 0.92 * t, true, ink_of(mark), width);
+        text(at.x(), at.y() - 0.5 * t, mark.lines, layout_.small_text, false, faint(ink_, look_.background), width);
     }
 
     void add_name(const DefectMark& mark, const Vec2& from, const Vec2& at, double line_end) {
         const double t = layout_.text;
-        const Rgb rgb = kind_of(mark).rgb;
         const std::vector<Vec2> leader{from, Vec2(line_end, at.y()), Vec2(at.x() - 0.3 * t, at.y())};
         sheet_.lines.push_back({leader, 0.2 * t, look_.background, Level::edge});
         sheet_.lines.push_back({leader, 0.06 * t, faint(ink_, look_.background)});
         add_anchor(from);
-        text(at.x(), at.y() + 0.42 * t, mark.number + "   " + mark.label, 0.92 * t, true, rgb);
-        text(at.x(), at.y() - 0.5 * t, mark.lines, layout_.small_text, false, faint(ink_, look_.background));
+        // A wide picture has room for a second column.
+        const double second = at.x() + (name_width - 0.8) * t;
+        const bool more = look_.width - second > 0.8 * name_width * t;
+        add_texts_of(mark, at, more ? second - at.x() - 0.4 * t : std::numeric_limits<double>::infinity());
+        if (!more) return;
+        const Rgb grey = faint(ink_, look_.background);
+        text(second, at.y() + 0.42 * t, mark.place, layout_.small_text, false, grey);
+        text(second, at.y() - 0.5 * t, mark.cause, layout_.small_text, false, grey);
     }
 
     /// A white dot with a dark edge.
@@ -272,6 +364,7 @@ private:
     Sheet& sheet_;
     const MapPanel& map_;
     const MeshPanel& panel_;
+    Rect room_;
     const Look& look_;
     const MapLayout& layout_;
     Rgb ink_;
@@ -316,8 +409,9 @@ double top_of_names(const std::vector<Vec2>& anchors, double height, double lowe
     return std::clamp(middle + 0.5 * height, std::min(lowest + height, highest), highest);
 }
 
-void add_defects(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const Look& look, const MapLayout& layout) {
-    DefectDrawer(sheet, map, panel, look, layout).draw();
+void add_defects(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const Rect& room, const Look& look,
+                 const MapLayout& layout) {
+    DefectDrawer(sheet, map, panel, room, look, layout).draw();
 }
 
 }  // namespace clsurf::viz

@@ -153,4 +153,34 @@ Image stacked(Image upper, const Image& lower) {
     return upper;
 }
 
+Image beside(const Image& left, const Image& right) {
+    Image both;
+    both.width = left.width + right.width;
+    both.height = left.height;
+    both.rgb.resize(left.rgb.size() + right.rgb.size());
+    auto to = both.rgb.begin();
+    for (int y = 0; y < both.height; ++y) {
+        for (const Image* each : {&left, &right}) {
+            const auto row = static_cast<std::ptrdiff_t>(3) * each->width;
+            const auto first = each->rgb.begin() + row * y;
+            to = std::copy(first, first + row, to);
+        }
+    }
+    both.texts = left.texts;
+    for (PixelBox box : right.texts) {
+        box.x += left.width;
+        both.texts.push_back(box);
+    }
+    if (left.drawing && right.drawing) {
+        auto drawing = std::make_shared<Drawing>();
+        drawing->width = both.width;
+        drawing->height = both.height;
+        drawing->background = left.drawing->background;
+        add(*drawing, *left.drawing, 0, 0);
+        add(*drawing, *right.drawing, left.width, 0);
+        both.drawing = std::move(drawing);
+    }
+    return both;
+}
+
 }  // namespace clsurf::viz

@@ -46,5 +46,7 @@ struct Image {
 
 /// One image over another one of the same width.
 [[nodiscard]] Image stacked(Image upper, const Image& lower);
+/// One picture left of another of the same height.
+[[nodiscard]] Image beside(const Image& left, const Image& right);
 
 }  // namespace clsurf::viz

@@ -127,11 +127,16 @@ private:
         const double length = (b - a).norm();
         const double low = std::min(from[axis], to[axis]);
         const double high = std::max(from[axis], to[axis]);
-        if (!(length > shortest_scale * size_) || !(high > low)) return;
+        if (!(high > low)) return;
         const int wanted = std::max(2, static_cast<int>(length / (between_ticks * size_)));
         std::vector<double> ticks = nice_ticks(low, high, wanted);
         if (ticks.size() < 2) ticks = nice_ticks(low, high, 2 * wanted);
-        if (ticks.size() < 2) return;
+        if (!(length > shortest_scale * size_) || ticks.size() < 2) {
+            const bool steep = std::abs(outwards.x()) > std::abs(outwards.y());
+            const Vec2 end = steep ? Vec2(a.y() > b.y() ? a : b) : Vec2(0.5 * (a + b));
+            tell_range(corner_ + end + 1.1 * size_ * (steep ? Vec2(0, 1) : outwards), axis, low, high);
+            return;
+        }
         const double step = ticks[1] - ticks[0];
         // Where a scale is steep, numbers stand beside it; else below.
         const bool beside = std::abs(outwards.x()) > 0.8;
@@ -144,10 +149,41 @@ private:
             FlatText text{label.x(), label.y(), tick_text(tick, step), size_, Align::centre, false, ink_};
             if (beside) text.align = outwards.x() < 0 ? Align::right : Align::left;
             if (beside) text.x = at.x() + (tick_length + 0.25) * size_ * (outwards.x() < 0 ? -1 : 1);
-            widest = std::max(widest, text_width(text));
+            const double width = text_width(text);
+            widest = std::max(widest, width);
+            // At a corner two scales meet: "20" and "−10" would be read as one number.
+            if (!take({text.x - (text.align == Align::right    ? 1
+                                 : text.align == Align::centre ? 0.5
+                                                               : 0) *
+                                    width,
+                       text.y - 0.5 * size_, width, size_}))
+                continue;
             sheet_.texts.push_back(std::move(text));
         }
         name_axis(corner_ + a, corner_ + b, axis, outwards, of, beside, widest);
+    }
+
+    /// Whether no number is there yet, with a gap as wide as a digit.
+    bool take(const Rect& number) {
+        const double gap = 0.6 * size_;
+        for (const Rect& other : numbers_) {
+            if (number.x < other.x + other.width + gap && other.x < number.x + number.width + gap &&
+                number.y < other.y + other.height && other.y < number.y + number.height)
+                return false;
+        }
+        numbers_.push_back(number);
+        return true;
+    }
+
+    /// "Z −0.4 to 0.1 mm", at a scale that is too short for numbers.
+    void tell_range(const Vec2& middle, int axis, double low, double high) {
+        const double step = 0.1 * (high - low);
+        FlatText text{0, middle.y(), "", size_, Align::left, false, ink_};
+        text.text = fmt::format("{} {} to {} mm", "XYZ"[axis], tick_text(low, step), tick_text(high, step));
+        const double width = text_width(text);
+        text.x =
+            std::clamp(middle.x() - 0.5 * width, corner_.x(), corner_.x() + std::max(0.0, panel_.rect.width - width));
+        sheet_.texts.push_back(std::move(text));
     }
 
     /// "X [mm, G54]", where no number is: beyond the numbers, in the middle between two ticks.
@@ -175,6 +211,7 @@ private:
     double size_;
     Rgb ink_;
     Vec2 corner_;
+    std::vector<Rect> numbers_;
 };
 
 }  // namespace

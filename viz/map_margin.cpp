@@ -17,18 +17,48 @@ void add_text(Sheet& sheet, double x, double y, std::string text, double size, A
     sheet.texts.push_back({x, y, std::move(text), size, align, bold, rgb});
 }
 
+/// A bar of colours: where it begins, how long it is, and which way it goes.
+struct ColourBar {
+    Vec2 start;
+    double length, width;
+    bool across;  ///< from left to right; else from below to above
+
+    [[nodiscard]] Vec2 at(double along, double aside) const {
+        return across ? Vec2(start + Vec2(along, aside)) : Vec2(start + Vec2(aside, along));
+    }
+    void fill(Sheet& sheet, double from, double to, double low, double high, Rgb rgb) const {
+        const Vec2 a = at(std::min(from, to), low);
+        const Vec2 b = at(std::max(from, to), high);
+        sheet.quads.push_back({{a.x(), a.y(), b.x() - a.x(), b.y() - a.y()}, rgb});
+    }
+};
+
 /// Beyond an end of the bar there are values: a point of the colour that they have.
-void add_beyond(Sheet& sheet, const ColourScale& scale, bool above, double x, double width, double y, double height,
-                Rgb frame) {
+void add_beyond(Sheet& sheet, const ColourScale& scale, bool above, const ColourBar& bar, double height, Rgb frame) {
     const Rgb rgb = above ? scale.map.above() : scale.map.below();
+    const double end = above ? bar.length : 0;
     const double sign = above ? 1 : -1;
     constexpr int slices = 24;
     for (int k = 0; k < slices; ++k) {
         const double part = 1 - (k + 0.5) / slices;
-        const double low = sign > 0 ? y + height * k / slices : y - height * (k + 1) / slices;
-        sheet.quads.push_back({{x + 0.5 * width * (1 - part), low, width * part, height / slices + 0.3}, rgb});
+        bar.fill(sheet, end + sign * height * k / slices, end + sign * (height * (k + 1) / slices + 0.3),
+                 0.5 * bar.width * (1 - part), 0.5 * bar.width * (1 + part), rgb);
     }
-    sheet.lines.push_back({{{x, y}, {x + 0.5 * width, y + sign * height}, {x + width, y}}, 1.0, frame});
+    sheet.lines.push_back(
+        {{bar.at(end, 0), bar.at(end + sign * height, 0.5 * bar.width), bar.at(end, bar.width)}, 1.0, frame});
+}
+
+/// The colours of a scale, in a frame.
+void add_bar(Sheet& sheet, const ColourScale& scale, const ColourBar& bar, Rgb frame) {
+    const int cells = scale.bins > 0 ? scale.bins : static_cast<int>(std::clamp(bar.length, 16.0, 512.0));
+    for (int k = 0; k < cells; ++k) {
+        const double value = scale.low + (scale.high - scale.low) * (k + 0.5) / cells;
+        bar.fill(sheet, bar.length * k / cells, bar.length * (k + 1) / cells + 0.6, 0, bar.width, scale.colour(value));
+    }
+    sheet.lines.push_back(
+        {{bar.at(0, 0), bar.at(0, bar.width), bar.at(bar.length, bar.width), bar.at(bar.length, 0), bar.at(0, 0)},
+         1.0,
+         frame});
 }
 
 /// A small field with the hatching of places without a value.
@@ -64,10 +94,10 @@ std::vector<double> legend_ticks(const ColourScale& scale, int wanted) {
     return edges;
 }
 
-/// Notes from the top: a line takes as many as fit, and a long one goes on at a word. There is room for two lines; what
+/// Notes from the top: a line takes as many as fit, and a long one goes on at a word. There is room for `most_lines`; what
 /// does not fit into them is written smaller.
-std::vector<FlatText> note_lines(const std::vector<std::string>& notes, FlatText note, double width) {
-    constexpr std::size_t most_lines = 2;
+std::vector<FlatText> note_lines(const std::vector<std::string>& notes, FlatText note, double width,
+                                 std::size_t most_lines) {
     constexpr double smaller = 0.95, smallest = 0.7;
     const double usual = note.size;
     std::vector<FlatText> lines;
@@ -97,42 +127,11 @@ std::vector<FlatText> note_lines(const std::vector<std::string>& notes, FlatText
     return lines;
 }
 
-}  // namespace
-
-void add_title(Sheet& sheet, const MapTexts& texts, double beside, const Look& look, const MapLayout& layout, Rgb ink) {
-    const double width = look.width - 2 * layout.margin;
-    const double top = look.height - layout.margin;
-    sheet.texts.push_back(fitted(
-        {layout.margin, top - 0.5 * layout.text, texts.title, 1.25 * layout.text, Align::left, true, ink}, width));
-    sheet.texts.push_back(fitted({layout.margin, top - 2.0 * layout.text, texts.subtitle, layout.small_text,
-                                  Align::left, false, faint(ink, look.background)},
-                                 width));
-    FlatText note{layout.margin,
-                  layout.margin * 0.5 + 0.5 * layout.small_text,
-                  "",
-                  layout.small_text,
-                  Align::left,
-                  false,
-                  faint(ink, look.background)};
-    const double note_width = look.width - layout.margin - beside;
-    std::vector<FlatText> lines = note_lines(texts.notes, note, note_width);
-    for (std::size_t k = 0; k < lines.size(); ++k) {
-        lines[k].y += 1.25 * layout.small_text * static_cast<double>(lines.size() - 1 - k);
-        sheet.texts.push_back(fitted(std::move(lines[k]), note_width));
-    }
-}
-
-namespace {
-
-/// Name and unit of a field in as many lines as they need, from `top` down. Returns where they end [px].
-double add_field_name(Sheet& sheet, const FieldInfo& field, double x, double top, double room, const MapLayout& layout,
-                      Rgb ink) {
-    std::string words = field.label;
-    if (!field.unit.name.empty()) words += fmt::format(" [{}]", field.unit.name);
-    FlatText line{x, top - 0.7 * layout.small_text, "", layout.small_text, Align::left, true, ink};
+/// Words in as many lines as they need, from `line.y` down. Returns the middle of the line after them [px].
+double add_wrapped(Sheet& sheet, const std::string& words, FlatText line, double room) {
     const auto finish = [&] {
         sheet.texts.push_back(fitted(line, room));
-        line.y -= 1.25 * layout.small_text;
+        line.y -= 1.25 * line.size;
     };
     for (std::size_t at = 0; at < words.size();) {
         const std::size_t end = std::min(words.find(' ', at), words.size());
@@ -150,84 +149,163 @@ double add_field_name(Sheet& sheet, const FieldInfo& field, double x, double top
     return line.y;
 }
 
-}  // namespace
-
-void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, const Beyond& beyond, const Look& look,
-                const MapLayout& layout, Rgb ink) {
-    const double x = look.width - layout.legend_width + 0.6 * layout.text;
-    const double bar_width = 1.3 * layout.text;
-    const double room = look.width - 0.3 * layout.text - x;
-    const double above_name = look.height - layout.title_height + 0.3 * layout.text;
-    const double top = add_field_name(sheet, field, x, above_name, room, layout, ink) - 1.5 * layout.text;
-    const double lowest = layout.note_height + 7.2 * layout.text;
-    const double half = 0.5 * (look.height - layout.title_height - layout.note_height);
-    const double height = std::min(top - lowest, half);
-    const double bottom = top - height;
-    if (height < 3 * layout.text) return;
-    const int cells = scale.bins > 0 ? scale.bins : static_cast<int>(std::clamp(height, 16.0, 512.0));
-    for (int k = 0; k < cells; ++k) {
-        const double value = scale.low + (scale.high - scale.low) * (k + 0.5) / cells;
-        sheet.quads.push_back({{x, bottom + height * k / cells, bar_width, height / cells + 0.6}, scale.colour(value)});
-    }
-    const Rgb frame = faint(ink, look.background);
-    sheet.lines.push_back(
-        {{{x, bottom}, {x + bar_width, bottom}, {x + bar_width, top}, {x, top}, {x, bottom}}, 1.0, frame});
-    const std::vector<double> ticks = legend_ticks(scale, static_cast<int>(height / (3 * layout.text)));
-    double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
-    if (scale.bins > 0) step /= 10;  // the edges of steps are not round
-    // The ends of the range stand there exactly; ticks too near to them give way.
-    const double near = 1.3 * layout.small_text / height * (scale.high - scale.low);
-    for (const double end : {scale.low, scale.high}) {
-        if (!(scale.high > scale.low) && end == scale.high) continue;
-        const double y = end == scale.low ? bottom : top;
-        add_text(sheet, x + bar_width + 0.5 * layout.text, y, tick_text(end, scale.bins > 0 ? step : step / 10),
-                 layout.small_text, Align::left, ink, true);
-    }
-    for (const double tick : ticks) {
-        if (tick - scale.low < near || scale.high - tick < near) continue;
-        const double t = scale.high > scale.low ? (tick - scale.low) / (scale.high - scale.low) : 0.5;
-        const double y = bottom + t * height;
-        sheet.lines.push_back({{{x + bar_width, y}, {x + bar_width + 0.3 * layout.text, y}}, 1.0, frame});
-        add_text(sheet, x + bar_width + 0.5 * layout.text, y, tick_text(tick, step), layout.small_text, Align::left,
-                 ink);
-    }
-    const double point = 0.9 * layout.text;
-    if (beyond.above) add_beyond(sheet, scale, true, x, bar_width, top, point, frame);
-    if (beyond.below) add_beyond(sheet, scale, false, x, bar_width, bottom, point, frame);
-    if (beyond.missing) {
-        const double y = bottom - 2.0 * layout.text;
-        add_hatched(sheet, {x, y - 0.4 * layout.text, bar_width, 0.8 * layout.text}, frame);
-        add_text(sheet, x + bar_width + 0.5 * layout.text, y, "no value", layout.small_text, Align::left, ink);
+void add_notes(Sheet& sheet, const std::vector<std::string>& notes, const FlatText& note, double width,
+               std::size_t most_lines) {
+    std::vector<FlatText> lines = note_lines(notes, note, width, most_lines);
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+        lines[k].y += 1.25 * note.size * static_cast<double>(lines.size() - 1 - k);
+        sheet.texts.push_back(fitted(std::move(lines[k]), width));
     }
 }
 
-void add_class_legend(Sheet& sheet, const std::vector<ShownClass>& classes, bool missing, const Look& look,
-                      const MapLayout& layout, Rgb ink) {
-    const double t = layout.text;
-    const double x = look.width - layout.legend_width + 0.6 * t;
-    const double box = 0.9 * t;
-    const Rgb frame = faint(ink, look.background);
-    double y = look.height - layout.title_height - 1.2 * t;
-    const double room = look.width - 0.4 * t - (x + 2.0 * t);
-    const auto row = [&](const std::string& words) {
-        sheet.texts.push_back(fitted({x + 2.0 * t, y, words, layout.small_text, Align::left, false, ink}, room));
-        y -= 1.5 * t;
-    };
-    for (const ShownClass& shown : classes) {
-        const Rect rect{x, y - 0.5 * box, 1.4 * t, box};
-        sheet.quads.push_back({rect, shown.rgb});
-        sheet.lines.push_back({{{rect.x, rect.y},
-                                {rect.x + rect.width, rect.y},
-                                {rect.x + rect.width, rect.y + rect.height},
-                                {rect.x, rect.y + rect.height},
-                                {rect.x, rect.y}},
-                               1.0,
-                               frame});
-        row(fmt::format("{}  {}", shown.name, share_text(shown.share)));
+/// The column of a wide picture: the title, a line for each part of the subtitle, and the notes at its foot.
+void add_title_column(Sheet& sheet, const MapTexts& texts, FlatText title, FlatText subtitle, const FlatText& note,
+                      double width) {
+    constexpr std::size_t most_notes = 8;
+    constexpr std::string_view separator = " · ";
+    const double below = add_wrapped(sheet, texts.title, std::move(title), width);
+    subtitle.y = below - 0.5 * subtitle.size;
+    for (std::size_t at = 0; at < texts.subtitle.size();) {
+        const std::size_t end = std::min(texts.subtitle.find(separator, at), texts.subtitle.size());
+        subtitle.y = add_wrapped(sheet, texts.subtitle.substr(at, end - at), subtitle, width);
+        at = end + separator.size();
     }
-    if (missing) {
-        add_hatched(sheet, {x, y - 0.5 * box, 1.4 * t, box}, frame);
-        row("no value");
+    add_notes(sheet, texts.notes, note, width, most_notes);
+}
+
+}  // namespace
+
+void add_title(Sheet& sheet, const MapTexts& texts, double beside, const Look& look, const MapLayout& layout, Rgb ink) {
+    constexpr std::size_t most_notes = 2;
+    constexpr double most_smaller = 1.3;  // a title that is longer is shortened
+    const Rgb grey = faint(ink, look.background);
+    const double top = look.height - layout.margin;
+    FlatText title{layout.margin, top - 0.5 * layout.text, "", 1.25 * layout.text, Align::left, true, ink};
+    FlatText subtitle{layout.margin, top - 2.0 * layout.text, "", layout.small_text, Align::left, false, grey};
+    const FlatText note{
+        layout.margin, layout.margin * 0.5 + 0.5 * layout.small_text, "", layout.small_text, Align::left, false, grey};
+    if (layout.arrangement == Arrangement::wide) {
+        add_title_column(sheet, texts, title, subtitle, note, layout.title_width - 2 * layout.margin);
+        return;
+    }
+    const double width = look.width - 2 * layout.margin;
+    title.text = texts.title;
+    subtitle.text = texts.subtitle;
+    const double too_long = text_width(title) / width;
+    title.size /= std::clamp(too_long, 1.0, most_smaller);
+    sheet.texts.push_back(fitted(std::move(title), width));
+    sheet.texts.push_back(fitted(std::move(subtitle), width));
+    add_notes(sheet, texts.notes, note, look.width - layout.margin - beside, most_notes);
+}
+
+namespace {
+
+/// What a scale shows: "Path speed [mm/min]".
+std::string name_of_scale(const FieldInfo& field) {
+    return field.unit.name.empty() ? field.label : fmt::format("{} [{}]", field.label, field.unit.name);
+}
+
+/// Numbers and ticks beside a bar. The ends of the range stand there exactly; ticks too near to them give way.
+void add_numbers(Sheet& sheet, const ColourScale& scale, const ColourBar& bar, const MapLayout& layout, Rgb ink,
+                 Rgb frame) {
+    constexpr double most_ticks = 10;
+    const double between = (bar.across ? 5 : 3) * layout.text;
+    const std::vector<double> ticks = legend_ticks(scale, static_cast<int>(std::min(most_ticks, bar.length / between)));
+    double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
+    if (scale.bins > 0) step /= 10;  // the edges of steps are not round
+    const double span = scale.high - scale.low;
+    const double near = (bar.across ? 3.5 : 1.3) * layout.small_text / bar.length * span;
+    const auto number = [&](double value, double digits, bool end) {
+        const double along = span > 0 ? (value - scale.low) / span * bar.length : end ? 0 : 0.5 * bar.length;
+        const double outside = bar.across ? 0 : bar.width;
+        const double sign = bar.across ? -1 : 1;
+        if (!end)
+            sheet.lines.push_back(
+                {{bar.at(along, outside), bar.at(along, outside + sign * 0.3 * layout.text)}, 1.0, frame});
+        const Vec2 at = bar.at(along, outside + sign * (bar.across ? 0.95 : 0.5) * layout.text);
+        add_text(sheet, at.x(), at.y(), tick_text(value, digits), layout.small_text,
+                 bar.across ? Align::centre : Align::left, ink, end);
+    };
+    for (const double end : {scale.low, scale.high}) {
+        if (!(span > 0) && end == scale.high) continue;
+        number(end, scale.bins > 0 ? step : step / 10, true);
+    }
+    for (const double tick : ticks) {
+        if (tick - scale.low < near || scale.high - tick < near) continue;
+        number(tick, step, false);
+    }
+}
+
+void add_no_value(Sheet& sheet, double x, double y, double width, const MapLayout& layout, Rgb ink, Rgb frame) {
+    add_hatched(sheet, {x, y - 0.4 * layout.text, width, 0.8 * layout.text}, frame);
+    add_text(sheet, x + width + 0.5 * layout.text, y, "no value", layout.small_text, Align::left, ink);
+}
+
+}  // namespace
+
+void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, const Beyond& beyond, const Rect& room,
+                const Look& look, const MapLayout& layout, Rgb ink) {
+    const double t = layout.text;
+    const Rgb frame = faint(ink, look.background);
+    const double thickness = 1.3 * t;
+    const double top = room.y + room.height;
+    FlatText name{room.x + 0.6 * t, 0, "", layout.small_text, Align::left, true, ink};
+    ColourBar bar{{name.x, 0}, 0, thickness, layout.arrangement == Arrangement::tall};
+    if (bar.across) {
+        name.x = layout.margin + 1.5 * t;
+        name.y = top - 0.9 * t;
+        const double below = add_wrapped(sheet, name_of_scale(field), name, room.width - 12 * t);
+        bar.start = Vec2(name.x, below - 0.7 * t - 0.5 * thickness);
+        bar.length = room.width - 2 * name.x;
+        if (beyond.missing) add_no_value(sheet, room.width - 10 * t, name.y, thickness, layout, ink, frame);
+    } else {
+        name.y = top + 0.3 * t - 0.7 * layout.small_text;
+        const double upper = add_wrapped(sheet, name_of_scale(field), name, room.x + room.width - 0.3 * t - name.x);
+        const double bar_top = upper - 1.5 * t;
+        bar.length = std::min(bar_top - room.y - 7.2 * t, 0.5 * room.height);
+        bar.start.y() = bar_top - bar.length;
+        if (bar.length < 3 * t) return;
+        if (beyond.missing) add_no_value(sheet, name.x, bar.start.y() - 2.0 * t, thickness, layout, ink, frame);
+    }
+    add_bar(sheet, scale, bar, frame);
+    add_numbers(sheet, scale, bar, layout, ink, frame);
+    if (beyond.above) add_beyond(sheet, scale, true, bar, 0.9 * t, frame);
+    if (beyond.below) add_beyond(sheet, scale, false, bar, 0.9 * t, frame);
+}
+
+void add_class_legend(Sheet& sheet, const std::vector<ShownClass>& classes, bool missing, const Rect& room,
+                      const Look& look, const MapLayout& layout, Rgb ink) {
+    const double t = layout.text;
+    const double box = 0.9 * t;
+    const double step = 1.5 * t;
+    const Rgb frame = faint(ink, look.background);
+    const double top = room.y + room.height - 1.2 * t;
+    const auto most_columns = static_cast<std::size_t>(std::max(1.0, std::floor(room.width / layout.legend_width)));
+    const auto in_a_column = static_cast<std::size_t>(std::max(1.0, std::floor((top - room.y) / step)));
+    const std::size_t count = classes.size() + (missing ? 1 : 0);
+    const bool short_columns = layout.arrangement == Arrangement::tall;
+    const std::size_t rows = short_columns || count > in_a_column ? (count + most_columns - 1) / most_columns : count;
+    const double column = most_columns > 1 ? layout.legend_width : room.width;
+    for (std::size_t k = 0; k < count; ++k) {
+        const double x = room.x + 0.6 * t + static_cast<double>(k / rows) * column;
+        const double y = top - step * static_cast<double>(k % rows);
+        const Rect rect{x, y - 0.5 * box, 1.4 * t, box};
+        std::string words = "no value";
+        if (k < classes.size()) {
+            sheet.quads.push_back({rect, classes[k].rgb});
+            sheet.lines.push_back({{{rect.x, rect.y},
+                                    {rect.x + rect.width, rect.y},
+                                    {rect.x + rect.width, rect.y + rect.height},
+                                    {rect.x, rect.y + rect.height},
+                                    {rect.x, rect.y}},
+                                   1.0,
+                                   frame});
+            words = fmt::format("{}  {}", classes[k].name, share_text(classes[k].share));
+        } else {
+            add_hatched(sheet, rect, frame);
+        }
+        sheet.texts.push_back(
+            fitted({x + 2.0 * t, y, words, layout.small_text, Align::left, false, ink}, column - 3.0 * t));
     }
 }
 
@@ -251,8 +329,10 @@ void add_scale_bar(Sheet& sheet, const MeshPanel& panel, const MapLayout& layout
 
 void add_axes(Sheet& sheet, const MeshPanel& panel, const Look& look, const MapLayout& layout, Rgb ink) {
     // Below the legend, where no map can be under it; right of the key where there are names.
-    const double across = look.names ? MapLayout(look).legend_width - 3.0 * layout.text : 0.42 * layout.legend_width;
-    const Vec2 origin(panel.rect.x + panel.rect.width + across, 3.4 * layout.text);
+    const double across = look.names ? layout.legend_width - 3.0 * layout.text : 0.42 * layout.legend_width;
+    const bool tall = layout.arrangement == Arrangement::tall;
+    const Vec2 origin(tall ? look.width - 4.0 * layout.text : panel.rect.x + panel.rect.width + across,
+                      3.4 * layout.text);
     const double length = 2.0 * layout.text;
     for (int axis = 0; axis < 3; ++axis) {
         const Vec3 direction = Vec3::Unit(axis);

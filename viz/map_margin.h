@@ -11,16 +11,19 @@ struct Beyond {
     bool below = false, above = false, missing = false;
 };
 
-/// Title, subtitle and notes; the notes end `beside` [px] before the right edge, where other things are.
+/// Title, subtitle and notes, in a wide picture in a column. The notes end `beside` [px] before the right edge, where other
+/// things are.
 void add_title(Sheet& sheet, const MapTexts& texts, double beside, const Look& look, const MapLayout& layout, Rgb ink);
 
-/// The colours with their numbers; an end beyond which there are values is pointed.
-void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, const Beyond& beyond, const Look& look,
-                const MapLayout& layout, Rgb ink);
+/// The colours with their numbers at the left of `room`, in a tall picture across its top; an end beyond which there are
+/// values is pointed.
+void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, const Beyond& beyond, const Rect& room,
+                const Look& look, const MapLayout& layout, Rgb ink);
 
-/// Classes with their colours and shares, the largest first. `missing`: there are places without a class.
-void add_class_legend(Sheet& sheet, const std::vector<ShownClass>& classes, bool missing, const Look& look,
-                      const MapLayout& layout, Rgb ink);
+/// Classes with their colours and shares, the largest first, in as many columns as `room` has. `missing`: there are places
+/// without a class.
+void add_class_legend(Sheet& sheet, const std::vector<ShownClass>& classes, bool missing, const Rect& room,
+                      const Look& look, const MapLayout& layout, Rgb ink);
 
 /// A bar of a round length, true in the whole picture since the projection is parallel.
 void add_scale_bar(Sheet& sheet, const MeshPanel& panel, const MapLayout& layout, Rgb ink);

@@ -12,15 +12,15 @@
 #include "viz/map_axes.h"
 #include "viz/map_margin.h"
 #include "viz/map_marks.h"
+#include "viz/placed_map.h"
 
 namespace clsurf::viz {
 namespace {
 
-constexpr double caption_lines = 1.6;  ///< height of a panel's caption, in text sizes
-constexpr double shade_dark = 0.80;    ///< of a surface that the light only grazes
-constexpr double relief_dark = 0.62;   ///< of a grey relief, whose shade is all that it shows
-constexpr double relief_grey = 232;    ///< of a grey relief that faces the light
-const Vec3 light(-0.45, 0.55, 0.70);   ///< from the upper left, in the camera's frame
+constexpr double shade_dark = 0.80;   ///< of a surface that the light only grazes
+constexpr double relief_dark = 0.62;  ///< of a grey relief, whose shade is all that it shows
+constexpr double relief_grey = 232;   ///< of a grey relief that faces the light
+const Vec3 light(-0.45, 0.55, 0.70);  ///< from the upper left, in the camera's frame
 
 /// Vertices get their places on the ramp, and the shade of light that grazes.
 Beyond paint(Detail& detail, const ColourScale& scale, double per_inside, const Rgb& background, MeshPanel& panel) {
@@ -156,11 +156,6 @@ void paint_relief(Detail& detail, MeshPanel& panel) {
     g.normals = {};
 }
 
-Box3 extent_of_panel(const MapPanel& map, const ViewAxes& axes) {
-    if (map.extent) return map.extent(axes);
-    return map.relief != nullptr ? extent_of(*map.relief, axes) : extent_of(*map.surface, axes);
-}
-
 /// What is shown of a part [mm].
 Box3 shown_box(const MapPanel& map, const Look& look) {
     const Box3 all = extent_of_panel(map, ViewAxes::Identity());
@@ -175,25 +170,6 @@ Beyond paint_panel(Detail& detail, const MapPanel& map, const ColourScale& scale
     if (map.classes == nullptr) return paint(detail, scale, map.field->info.unit.per_inside, look.background, panel);
     divide_by_class(detail, map.field->values, *map.classes);
     return paint(detail, scale, 1, look.background, panel);
-}
-
-Rect map_area(const Look& look, const MapLayout& layout) {
-    Rect area{0, 0, look.width - layout.legend_width, static_cast<double>(look.height)};
-    if (!look.legend) return area;
-    area.y = layout.note_height;
-    area.height -= layout.note_height + layout.title_height;
-    return area;
-}
-
-/// Panels side by side; a caption has its own line above, ticks have room at the left and below.
-Rect panel_rect(const std::vector<MapPanel>& panels, std::size_t k, const Look& look, const MapLayout& layout) {
-    const Rect area = map_area(look, layout);
-    const auto count = static_cast<double>(panels.size());
-    const double caption = panels[k].caption.empty() ? 0 : caption_lines * layout.text;
-    const AxesRoom room = has_frame(look) ? axes_room(look, layout) : AxesRoom{};
-    return {std::round(area.x + area.width * static_cast<double>(k) / count + room.left),
-            std::round(area.y + room.bottom), std::max(1.0, std::floor(area.width / count - room.left - room.right)),
-            std::max(1.0, std::floor(area.height - room.bottom - room.top) - std::ceil(caption))};
 }
 
 /// What pixels can show of a panel, and somewhat more: a triangle over its edge has corners outside.
@@ -213,62 +189,7 @@ Detail detail_of(const MapPanel& map, const Camera& camera, const Look& look) {
 
 }  // namespace
 
-namespace {
-
-/// The names of defects would be far from a part in the middle of a wide picture: its panel is as wide as it needs.
-bool is_close(const std::vector<MapPanel>& panels, const Look& look) {
-    return panels.front().defects != nullptr && look.legend && !is_zoomed(look);
-}
-
-/// The width of a panel around a part of `needed` pixels [px].
-int close_width(int width, double needed) {
-    constexpr double with_air = 1.4;
-    return std::isfinite(needed) ? std::min(width, static_cast<int>(std::ceil(with_air * std::max(needed, 1.0))))
-                                 : width;
-}
-
-}  // namespace
-
-Camera map_camera(const std::vector<MapPanel>& panels, const Look& look) {
-    const MapLayout layout(look);
-    const bool close = is_close(panels, look);
-    const Rect rect = panel_rect(panels, 0, look, layout);
-    const auto width = static_cast<int>(rect.width);
-    const auto height = static_cast<int>(rect.height);
-    const auto boxed = [&](const Box3& box) {
-        // The scales of a box stand inside the panel.
-        const AxesRoom room = axes_room(look, layout);
-        const int across = std::max(1, static_cast<int>(width - room.left - room.right));
-        const int up = std::max(1, static_cast<int>(height - room.bottom - room.top));
-        Camera camera = camera_for(look.view, box, across, up, look.zoom);
-        camera.width = width;
-        camera.height = height;
-        if (close) {
-            const Vec3 size = box.sizes();
-            const double part = camera.right.cwiseAbs().dot(size) / camera.mm_per_pixel;
-            camera.width = close_width(width, part + room.left + room.right);
-        }
-        return camera;
-    };
-    const auto framed = [&](const Box3& across) {
-        Camera camera = camera_for(axes_of(look.view), across, width, height, look.zoom);
-        if (close) camera.width = close_width(width, across.sizes().x() / camera.mm_per_pixel);
-        return camera;
-    };
-    const auto extent = [&](const ViewAxes& axes) {
-        Box3 all;
-        for (const MapPanel& map : panels) all.extend(extent_of_panel(map, axes));
-        return all;
-    };
-    if (look.box.isEmpty()) {
-        if (has_box(look)) return boxed(extent(ViewAxes::Identity()));
-        return framed(extent(axes_of(look.view)));
-    }
-    // Where the box is larger than the part, as one may give it along Z, the part is what counts.
-    const Box3 filled = look.box.intersection(extent(ViewAxes::Identity()));
-    if (has_box(look)) return boxed(filled.isEmpty() ? look.box : filled);
-    return camera_for(look.view, filled.isEmpty() ? look.box : filled, width, height, look.zoom);
-}
+Camera map_camera(const std::vector<MapPanel>& panels, const Look& look) { return placed_map(panels, look).camera; }
 
 namespace {
 
@@ -319,48 +240,58 @@ Sheet empty_sheet(const Look& look) {
     return sheet;
 }
 
-/// Scales of a panel, and beside the last one the axes.
+/// Scales in millimetres of a panel, and beside the last one the axes. The lines to the names of defects go behind numbers.
 void add_scales_of(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const std::string& frame, bool last,
                    const Look& look, const MapLayout& layout, const DepthBuffer* depth = nullptr) {
     if (!look.legend) return;
     const Rgb ink = ink_for(look.background);
+    const std::size_t first = sheet.texts.size();
     add_scales(sheet, panel, shown_box(map, look), frame, look, layout, depth);
-    if (!last) return;
-    if (!has_frame(look)) add_axes(sheet, panel, look, layout, ink);
-    if (!has_frame(look) && !has_box(look)) add_scale_bar(sheet, panel, layout, ink);
+    for (std::size_t k = first; map.defects != nullptr && k < sheet.texts.size(); ++k) {
+        const FlatText& text = sheet.texts[k];
+        const double width = text_width(text);
+        const double left =
+            text.align == Align::left ? text.x : text.x - (text.align == Align::right ? 1 : 0.5) * width;
+        sheet.lines.push_back(
+            {{{left, text.y}, {left + width, text.y}}, 1.1 * text.size, look.background, Level::halo});
+    }
+    if (!last || has_frame(look)) return;
+    add_axes(sheet, panel, look, layout, ink);
+    if (!has_box(look)) add_scale_bar(sheet, panel, layout, ink);
 }
 
-/// Title and legend.
-void add_margin(Sheet& sheet, const MapPanel& map, const ColourScale& scale, const Beyond& beyond,
-                const MapTexts& texts, const Look& look, const MapLayout& layout) {
+/// Title, notes and what the colours mean. `legend`: where that has room.
+void add_words(Sheet& sheet, const MapPanel& map, const ColourScale& scale, const MapTexts& texts, const Beyond& beyond,
+               const Rect& legend, const Look& look, const MapLayout& layout) {
     if (!look.legend) return;
     const Rgb ink = ink_for(look.background);
     // The key of a defect map reaches down to the notes, the axes do at the right edge.
-    const double beside = map.defects != nullptr ? layout.legend_width : layout.margin + 3.5 * layout.text;
-    add_title(sheet, texts, beside, look, layout, ink);
+    const bool key = map.defects != nullptr && layout.arrangement != Arrangement::tall;
+    add_title(sheet, texts, key ? look.width - legend.x : layout.margin + 3.5 * layout.text, look, layout, ink);
     if (map.classes != nullptr)
-        add_class_legend(sheet, map.classes->shown(), beyond.missing, look, layout, ink);
+        add_class_legend(sheet, map.classes->shown(), beyond.missing, legend, look, layout, ink);
     else if (map.defects == nullptr)
-        add_legend(sheet, scale, map.field->info, beyond, look, layout, ink);
+        add_legend(sheet, scale, map.field->info, beyond, legend, look, layout, ink);
 }
 
 }  // namespace
 
 Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const ColourScale& scale,
                 const MapTexts& texts, const Look& look) {
-    MapLayout layout(look);
-    if (is_close(panels, look)) layout.legend_width += panel_rect(panels, 0, look, layout).width - camera.width;
+    const PlacedMap placed{placed_map(panels, look).layout, camera};
+    const MapLayout& layout = placed.layout;
     const Rgb ink = ink_for(look.background);
     Sheet sheet = empty_sheet(look);
+    const Rect legend = legend_rect(panels, panel_rect(panels, panels.size() - 1, look, placed), look, placed);
     Beyond beyond;
     int without_room = 0;
     for (std::size_t k = 0; k < panels.size(); ++k) {
         const MapPanel& map = panels[k];
         MeshPanel panel;
-        panel.rect = panel_rect(panels, k, look, layout);
+        panel.rect = panel_rect(panels, k, look, placed);
         panel.camera = camera;  // each panel shows the same part at the same scale
         widen(beyond, fill_panel(map, scale, look, panel));
-        if (map.defects != nullptr) add_defects(sheet, map, panel, look, layout);
+        if (map.defects != nullptr) add_defects(sheet, map, panel, legend, look, layout);
         without_room += add_marks(sheet, map, panel, look, layout);
         if (!map.caption.empty()) {
             const double y = panel.rect.y + panel.rect.height + 0.5 * caption_lines * layout.text;
@@ -373,17 +304,15 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const
     }
     MapTexts all = texts;
     if (without_room > 0) all.notes.push_back(fmt::format("{} labels have no room in this picture", without_room));
-    // Classes of several panels are shown together: those of the last one.
-    MapPanel margin = panels.front();
-    if (margin.classes != nullptr) margin.classes = panels.back().classes;
-    add_margin(sheet, margin, scale, beyond, all, look, layout);
+    add_words(sheet, panels.back(), scale, all, beyond, legend, look, layout);
     return sheet;
 }
 
 Image draw_map(const MapInParts& map, const Camera& camera, const ColourScale& scale, const Look& look) {
-    const MapLayout layout(look);
+    const std::vector<MapPanel> panels{map.whole};
+    const PlacedMap placed{placed_map(panels, look).layout, camera};
     MeshPanel frame;
-    frame.rect = panel_rect({map.whole}, 0, look, layout);
+    frame.rect = panel_rect(panels, 0, look, placed);
     frame.camera = camera;
     Beyond beyond;
     DepthBuffer depth(camera);
@@ -401,8 +330,9 @@ Image draw_map(const MapInParts& map, const Camera& camera, const ColourScale& s
     };
     sheet.finish = [&](Sheet& finished) {
         const MapTexts texts = map.texts();
-        add_scales_of(finished, map.whole, frame, texts.frame, true, look, layout, &depth);
-        add_margin(finished, map.whole, scale, beyond, texts, look, layout);
+        add_scales_of(finished, map.whole, frame, texts.frame, true, look, placed.layout, &depth);
+        add_words(finished, map.whole, scale, texts, beyond, legend_rect(panels, frame.rect, look, placed), look,
+                  placed.layout);
     };
     return draw(sheet, look.gl, look.supersample);
 }

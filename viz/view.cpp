@@ -85,13 +85,16 @@ Camera camera_for(const ViewAxes& axes, const Box3& extent, int width, int heigh
     return camera;
 }
 
+Box3 extent_along(const ViewAxes& axes, const Box3& box) {
+    Box3 extent;
+    for (int corner = 0; corner < 8 && !box.isEmpty(); ++corner)
+        extent.extend(axes * box.corner(static_cast<Box3::CornerType>(corner)));
+    return extent;
+}
+
 Camera camera_for(const View& view, const Box3& box, int width, int height, const Zoom& zoom) {
     const ViewAxes axes = axes_of(view);
-    Box3 extent;
-    for (int corner = 0; corner < 8 && !box.isEmpty(); ++corner) {
-        extent.extend(axes * box.corner(static_cast<Box3::CornerType>(corner)));
-    }
-    return camera_for(axes, extent, width, height, zoom);
+    return camera_for(axes, extent_along(axes, box), width, height, zoom);
 }
 
 }  // namespace clsurf::viz

@@ -49,6 +49,9 @@ using ViewAxes = Eigen::Matrix3d;
 /// part of that picture. An empty extent is a point at zero.
 [[nodiscard]] Camera camera_for(const ViewAxes& axes, const Box3& extent, int width, int height, const Zoom& zoom);
 
+/// The extent of a box along other axes [mm].
+[[nodiscard]] Box3 extent_along(const ViewAxes& axes, const Box3& box);
+
 /// The same for a box in the workpiece.
 [[nodiscard]] Camera camera_for(const View& view, const Box3& box, int width, int height, const Zoom& zoom);
 

@@ -114,6 +114,21 @@ std::string label_of(const Defect& d) {
     return {};
 }
 
+std::string place_label(const Defect& d) {
+    const Vec3 p = d.place.position();
+    const auto number = [](double value) {
+        const double rounded = std::round(10 * value) / 10;
+        return fmt::format("{}{:.1f}", rounded < 0 ? "−" : "", std::abs(rounded));
+    };
+    return fmt::format("X {}  Y {}  Z {}", number(p.x()), number(p.y()), number(p.z()));
+}
+
+std::string cause_label(const Defect& d) {
+    std::string words(name_of(d.cause));
+    std::replace(words.begin(), words.end(), '_', ' ');
+    return d.depth > 0 ? fmt::format("{}, {:.1f} µm deep", words, um_per_mm * d.depth) : words;
+}
+
 std::string lines_label(const Defect& d) {
     if (d.runs.empty()) return {};
     const auto strongest = std::find_if(d.runs.begin(), d.runs.end(), [&](const DefectRun& run) {

@@ -14,6 +14,12 @@ namespace clsurf::io {
 /// "−87 % speed", "+12 µm lag", "±67 µm lag": by the quantity that shows it best.
 [[nodiscard]] std::string label_of(const Defect& defect);
 
+/// Where it is strongest: "X 1.5  Y −4.7  Z 4.9", the contact point where the tool is known, else the tool tip.
+[[nodiscard]] std::string place_label(const Defect& defect);
+
+/// Cause and predicted depth: "point spacing, 1.2 µm deep".
+[[nodiscard]] std::string cause_label(const Defect& defect);
+
 /// The lines of its strongest section: "lines 506–669", "line 12, 4 sections".
 [[nodiscard]] std::string lines_label(const Defect& defect);
 

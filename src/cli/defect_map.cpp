@@ -48,6 +48,8 @@ viz::DefectMap defect_map_of(const QualityReport& report) {
         mark.number = fmt::format("{}", i + 1);
         mark.label = io::label_of(d);
         mark.lines = io::lines_label(d);
+        mark.place = io::place_label(d);
+        mark.cause = io::cause_label(d);
         map.marks.push_back(std::move(mark));
     }
     return map;

@@ -46,7 +46,8 @@ MapScale scale_of_map(const Shown& after, const std::optional<Shown>& before, co
             fmt::format(" {:g} to {:g} {}", range.low, range.high, after.field.info.unit.name), range.high - range.low};
 }
 
-/// Before and after side by side, and what changed below them, where there is something to compare.
+/// Before and after side by side, and what changed below them, in a wide picture beside them, where there is something to
+/// compare.
 viz::Image draw_maps(const std::vector<viz::MapPanel>& panels, const Shown& after, const std::optional<Shown>& before,
                      const MapScale& scale, RenderOptions options) {
     const viz::MapTexts texts = texts_of(after, before, options, scale.notes);
@@ -55,11 +56,20 @@ viz::Image draw_maps(const std::vector<viz::MapPanel>& panels, const Shown& afte
                              options.shown.look);
     };
     if (!before) return draw();
-    const int height = options.shown.look.height;
-    options.shown.look.height = height / 2;
+    constexpr double wide_picture = 1.9;  // width over height
+    viz::Look& look = options.shown.look;
+    const int width = look.width;
+    const int height = look.height;
+    const bool wide = width > wide_picture * height;
+    if (wide)
+        look.width = width / 3;
+    else
+        look.height = height / 2;
     const std::optional<viz::Image> change = draw_change(*before, after, scale.span, options);
-    options.shown.look.height = change ? height - height / 2 : height;
-    return change ? viz::stacked(draw(), *change) : draw();
+    look.width = change && wide ? width - width / 3 : width;
+    look.height = change && !wide ? height - height / 2 : height;
+    if (!change) return draw();
+    return wide ? viz::beside(draw(), *change) : viz::stacked(draw(), *change);
 }
 
 /// `last`: the log is complete. Problems of the part are said then.

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/spelling.h"
 #include "field/channel_fields.h"
+#include "log/channel.h"
 
 namespace clsurf {
 
@@ -117,13 +118,27 @@ std::vector<Field> FieldSet::get_all(const std::vector<std::string>& names, Poin
     return fields;
 }
 
+namespace {
+
+/// What a log would have to be like to have the field; empty: no log has it.
+std::string what_has(std::string_view name) {
+    if (name == "limit")
+        return "only a simulated log says what limits its speed: leave the log out, and give --machine FILE; of a recorded "
+               "log with --machine FILE: speed_share, acceleration_share, jerk_share";
+    if (is_known_name(name)) return "a channel that this log does not have; `clsurf info` lists those of a log";
+    return {};
+}
+
+}  // namespace
+
 void unknown_field(std::string_view name, const std::vector<FieldInfo>& fields) {
     std::vector<std::string_view> names;
     names.reserve(fields.size());
     for (const FieldInfo& f : fields) names.push_back(f.name);
-    const std::string nearest = did_you_mean(name, names);
+    std::string hint = what_has(name);
+    if (hint.empty()) hint = did_you_mean(name, names);
     throw UsageError("unknown field '" + std::string(name) + "'",
-                     nearest.empty() ? "`clsurf help fields` lists them" : nearest);
+                     hint.empty() ? "`clsurf help fields` lists them" : hint);
 }
 
 }  // namespace clsurf

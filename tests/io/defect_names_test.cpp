@@ -23,6 +23,18 @@ Defect slow(std::int64_t pass, double mismatch, float score) {
     return d;
 }
 
+TEST(Label, TellsPlaceCauseAndDepth) {
+    Defect d;
+    d.place.tip = Vec3(1.46, -4.66, -0.04);
+    d.cause = Cause::point_spacing;
+    EXPECT_EQ(place_label(d), "X 1.5  Y −4.7  Z 0.0");
+    EXPECT_EQ(cause_label(d), "point spacing");
+    d.depth = 0.00123;
+    EXPECT_EQ(cause_label(d), "point spacing, 1.2 µm deep");
+    d.place.contact = Vec3(2, 3, 4);
+    EXPECT_EQ(place_label(d), "X 2.0  Y 3.0  Z 4.0") << "the place on the part";
+}
+
 TEST(Headline, CountsThePassesOfOneKind) {
     QualityReport report;
     report.defects = {slow(2, -0.87, 10), slow(4, -0.82, 9), slow(6, -0.85, 8)};

@@ -50,6 +50,22 @@ TEST(Compare, BlanksTextsOfBothPictures) {
     EXPECT_FALSE(compare(a, b, {}).equal) << "beside the texts everything counts";
 }
 
+TEST(Image, StandsBesideAnother) {
+    Image left = grey(10);
+    left.rgb[3 * (100 * 7 + 99)] = 77;
+    Image right = grey(20);
+    right.rgb[3 * (100 * 7 + 0)] = 88;
+    right.texts.push_back({4, 5, 6, 7});
+    const Image both = beside(left, right);
+    EXPECT_EQ(both.width, 200);
+    EXPECT_EQ(both.height, 50);
+    EXPECT_EQ(both.pixel(99, 7)[0], 77);
+    EXPECT_EQ(both.pixel(100, 7)[0], 88);
+    EXPECT_EQ(both.pixel(199, 49)[0], 20);
+    ASSERT_EQ(both.texts.size(), 1u);
+    EXPECT_EQ(both.texts[0].x, 104);
+}
+
 TEST(Image, PngKeepsWhereTextsStand) {
     Image a = grey(90);
     a.texts = {{1, 2, 30, 4}, {-5, 6, 7, 8}};

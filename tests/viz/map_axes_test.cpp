@@ -77,6 +77,42 @@ TEST(MapAxes, ABoxHasThreeScales) {
     EXPECT_EQ(names, "X [mm];Y [mm];Z [mm];");
 }
 
+TEST(MapAxes, AScaleTooShortForNumbersTellsItsRange) {
+    Look look;
+    look.view = parse_view("iso");
+    const Box3 flat(Vec3(-10, -4, -0.3), Vec3(30, 16, 0.1));
+    Sheet sheet;
+    add_scales(sheet, panel_of(look, flat), flat, "", look, MapLayout(look));
+    bool told = false;
+    for (const FlatText& text : sheet.texts) told = told || text.text == "Z -0.30 to 0.10 mm";
+    EXPECT_TRUE(told);
+}
+
+TEST(MapAxes, NumbersOfTwoScalesDoNotRunIntoEachOther) {
+    Look look;
+    look.view = parse_view("iso");
+    // X ends at 20 in the corner where Y begins at −10.
+    const Box3 dome(Vec3(-20, -10, -3), Vec3(20, 10, 0));
+    Sheet sheet;
+    add_scales(sheet, panel_of(look, dome), dome, "", look, MapLayout(look));
+    std::vector<FlatText> numbers;
+    for (const FlatText& text : sheet.texts) {
+        if (number_of(text) == number_of(text)) numbers.push_back(text);
+    }
+    ASSERT_GT(numbers.size(), 6u);
+    for (std::size_t a = 0; a < numbers.size(); ++a) {
+        for (std::size_t b = a + 1; b < numbers.size(); ++b) {
+            const bool apart_in_y = std::abs(numbers[a].y - numbers[b].y) >= numbers[a].size;
+            const auto left = [](const FlatText& t) {
+                return t.x - (t.align == Align::centre ? 0.5 : t.align == Align::right ? 1.0 : 0.0) * text_width(t);
+            };
+            const double gap = std::max(left(numbers[b]) - left(numbers[a]) - text_width(numbers[a]),
+                                        left(numbers[a]) - left(numbers[b]) - text_width(numbers[b]));
+            EXPECT_TRUE(apart_in_y || gap > 0.3 * numbers[a].size) << numbers[a].text << numbers[b].text;
+        }
+    }
+}
+
 TEST(MapAxes, APartOfAPictureHasNoBox) {
     Look look;
     look.zoom = {0.2, 0.2, 0.6, 0.6};

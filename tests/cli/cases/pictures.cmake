@@ -35,6 +35,12 @@ endforeach()
 clsurf_cli_test(NAME render_lines_of_two_logs ARGS render ${bottle} -o map.png --color line --before @LOGS@/bottle_uneven.biip EXIT 2
   STDERR "--before does not apply to 'line'")
 
+# A field that the log cannot have: what would have it.
+clsurf_cli_test(NAME render_limit_of_a_recorded_log ARGS render ${bottle} -o map.png --color limit EXIT 2
+  STDERR "unknown field 'limit'" "leave the log out, and give --machine FILE" "acceleration_share")
+clsurf_cli_test(NAME render_channel_that_is_not_there ARGS render ${bottle} -o map.png --color spindle.load EXIT 2
+  STDERR "a channel that this log does not have")
+
 # Why it is slow, in words.
 clsurf_cli_test(NAME query_says_why_it_is_slow ARGS query ${bottle} --line 1200 STDOUT "slow: [0-9]+ of F3000 mm/min: blocks of 0[.]02 mm")
 clsurf_cli_test(NAME query_json_says_why ARGS query ${bottle} --line 1200 --json STDOUT "\"feed_mm_min\": 3000" "\"slow_because\": .*blocks of 0[.]02 mm")
