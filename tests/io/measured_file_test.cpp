@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <memory>
 #include <string>
 
 #include "core/error.h"
+#include "support/temporary_folder.h"
 
 namespace clsurf::io {
 namespace {
@@ -109,6 +112,70 @@ TEST(SurfaceDataFile, Binary) {
     EXPECT_NEAR((map.points[2] - Vec3(0, 0.003, -9e-6)).norm(), 0, 1e-15);
     const MeasuredData wide = read_measured(source_of(binary_map<double>("bISO-2.0", 7, {7, 8, 9, 10.5})));
     EXPECT_NEAR(wide.points[3].z(), 10.5e-6, 1e-15);
+}
+
+TEST(SurfaceDataFile, TextAsOtherProgramsWriteIt) {
+    const std::string text =
+        "aBCR-1.0\nManuFacID = Softgauges\nNUMPOINTS=3 ; columns\nnumprofiles = 2\nXscale = 1,0E-6\nYSCALE = 2,0E-6\n"
+        "Zscale = 1,0E-6\n; a comment of its own\n*\n 1,5\t-2,5  nan ; three heights\n\n3 bad 4,25\n*\nOperator = A\n";
+    const MeasuredData map = read_measured(source_of(text));
+    ASSERT_EQ(map.points.size(), 6U);
+    EXPECT_EQ(map.missing, 2U);
+    EXPECT_NEAR(map.points[1].z(), -2.5e-3, 1e-15);
+    EXPECT_NEAR(map.points[5].z(), 4.25e-3, 1e-15);
+    EXPECT_NEAR(map.spacing.y(), 2e-3, 1e-15);
+}
+
+TEST(SurfaceDataFile, EveryVariantOfAnIndependentWriter) {
+    const test::TemporaryFolder folder;
+    const std::string path = std::filesystem::path(folder.write("expected.txt", "")).parent_path();
+    ASSERT_EQ(std::system(("python3 " TEST_SOURCES "/io/make_surface_data.py " + path).c_str()), 0);
+    std::ifstream expected(path + "/expected.txt");
+    std::string name;
+    std::int64_t columns = 0;
+    std::int64_t rows = 0;
+    std::size_t missing = 0;
+    double sum = 0;
+    double moment = 0;
+    int files = 0;
+    while (expected >> name >> columns >> rows >> missing >> sum >> moment) {
+        SCOPED_TRACE(name);
+        const MeasuredData map = read_measured(path + "/" + name + ".sdf", MeasuredColumns());
+        EXPECT_EQ(map.columns, columns);
+        EXPECT_EQ(map.rows, rows);
+        EXPECT_EQ(map.missing, missing);
+        EXPECT_NEAR(map.spacing.x(), 2.5e-3, 1e-15);
+        EXPECT_NEAR(map.spacing.y(), 4e-3, 1e-15);
+        double read_sum = 0;
+        double read_moment = 0;
+        for (std::size_t k = 0; k < map.points.size(); ++k) {
+            const double z = map.points[k].z();
+            if (!std::isfinite(z)) continue;
+            read_sum += z;
+            read_moment += static_cast<double>(k) * z;
+        }
+        EXPECT_NEAR(read_sum, sum, 1e-12);
+        EXPECT_NEAR(read_moment, moment, 1e-11);
+        ++files;
+    }
+    EXPECT_EQ(files, 59);
+}
+
+TEST(SurfaceDataFile, AProfile) {
+    const std::string text =
+        "aNPL-V1.0\nNumPoints = 5\nNumProfiles = 1\nXscale = 2.5E-07\nYscale = 0\nZscale = 1E-06\nDataType = 7\n*\n"
+        "-0.25\n0.5\nBAD\n1\n2\n*\n*\n";
+    const MeasuredData profile = read_measured(source_of(text));
+    EXPECT_EQ(profile.kind, MeasuredKind::profile);
+    ASSERT_EQ(profile.points.size(), 4U) << "what was not measured is left out";
+    EXPECT_EQ(profile.missing, 1U);
+    EXPECT_NEAR((profile.points[2] - Vec3(0.75e-3, 0, 1e-3)).norm(), 0, 1e-15);
+}
+
+TEST(SurfaceDataFile, LacksWhatItMustSay) {
+    std::string text = small_map;
+    text.replace(text.find("Zscale"), 6, "Wscale");
+    EXPECT_NE(complaint(text).find("the header lacks Zscale"), std::string::npos) << complaint(text);
 }
 
 TEST(SurfaceDataFile, SaysWhatIsWrong) {
