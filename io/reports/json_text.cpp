@@ -2,6 +2,7 @@
 
 #include "core/units.h"
 #include "io/files/json_value.h"
+#include "io/formats/run_parameters.h"
 
 namespace clsurf::io {
 namespace {
@@ -38,8 +39,12 @@ std::string log_json(const Log& log, const LogVerdict& verdict, const Diagnostic
               {"period_s", number(log.period)},
               {"duration_s", number(log.records > 0 ? log.time_of(log.records - 1) : 0.0)},
               {"channels", std::move(channels)},
-              {"closed", log.closed},
-              {"diagnostics", list(diagnostics)}};
+              {"closed", log.closed}};
+    if (const std::vector<RunParameter> parameters = parameters_of_metadata(log.metadata); !parameters.empty()) {
+        json["parameters"] = Json::object();
+        for (const RunParameter& parameter : parameters) json["parameters"][parameter.name] = parameter.value;
+    }
+    json["diagnostics"] = list(diagnostics);
     return dump(json);
 }
 

@@ -1,11 +1,18 @@
 // clsurf convert: converts any readable log into BIIP.
 
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "cli/options.h"
 #include "cli/output_format.h"
 #include "io/files/compressed.h"
 #include "io/formats/biip.h"
 #include "io/formats/joined_log.h"
 #include "io/formats/program_identity.h"
+#include "io/formats/run_parameters.h"
+#include "io/history/parameter_file.h"
 
 namespace clsurf::cli {
 namespace {
@@ -27,6 +34,26 @@ void join(Log& log, const po::variables_map& values) {
     print(io::join_log(log, slow, rules), values);
 }
 
+/// Those of --param, with their units; held to --parameters.
+std::vector<RunParameter> read_parameters(const po::variables_map& values, const std::string& metadata) {
+    std::vector<RunParameter> parameters;
+    if (values.count("param") > 0) {
+        for (const std::string& text : values["param"].as<std::vector<std::string>>())
+            parameters.push_back(parse_parameter(text));
+    }
+    if (values.count("parameters") == 0) {
+        sort_parameters(parameters);
+        return parameters;
+    }
+    // A log may have some already: what it lacks is asked for, and all of them keep to the file.
+    for (RunParameter& known : io::parameters_of_metadata(metadata)) {
+        if (std::ranges::find(parameters, known.name, &RunParameter::name) == parameters.end())
+            parameters.push_back(std::move(known));
+    }
+    const ParameterRules rules = io::read_parameter_rules(values["parameters"].as<std::string>());
+    return rules.with_units(rules.checked(std::move(parameters)));
+}
+
 ExitCode run_convert(const po::variables_map& values) {
     const std::string output = required(values, "output");
     (void)output_format(output, log_formats());
@@ -40,6 +67,8 @@ ExitCode run_convert(const po::variables_map& values) {
             programs.push_back(io::identify(io::open_source(path)));
         metadata = io::with_programs(metadata, programs);
     }
+    if (const std::vector<RunParameter> parameters = read_parameters(values, metadata); !parameters.empty())
+        metadata = io::with_parameters(metadata, parameters);
     print(io::fit_biip(log), values);
     io::write_biip(output, log.channels, log.records, log.period, metadata);
     return ExitCode::done;
@@ -57,9 +86,11 @@ Subcommand convert_subcommand() {
             "--program the log records its program, and other subcommands then warn if the program was edited\n"
             "or is another one.\n"
             "With --join the channels of a slow log, such as that of `clsurf record`, become channels of this log.\n"
-            "Each value is held until the next one, for at most --join-age.\n\n"
+            "Each value is held until the next one, for at most --join-age.\n"
+            "Parameters of the run go into the metadata; `clsurf info` shows them, and a history keeps them.\n\n"
             "  clsurf convert run.raw --layout run.layout.toml -o run.biip\n"
             "  clsurf convert run.csv --program part.nc -o run.biip\n"
+            "  clsurf convert run.csv --parameters shop.toml --param tool=D6R3 --param wear=0.05mm -o run.biip\n"
             "  clsurf convert run.csv --join slow.biip --join-offset 12.5 -o joined.biip",
         .declare =
             [](po::options_description& options) {
@@ -67,6 +98,8 @@ Subcommand convert_subcommand() {
             options.add_options()
                 ("output,o", po::value<std::string>()->value_name("FILE"), "the BIIP log")
                 ("program", po::value<std::vector<std::string>>()->value_name("FILE"), "the program that ran (again: its subprograms); name, size and SHA-256 go into the log")
+                ("param", po::value<std::vector<std::string>>()->value_name("NAME=VALUE"), "a parameter of the run, such as coolant=MQL, kept in the log's metadata; may be repeated")
+                ("parameters", po::value<std::string>()->value_name("FILE"), "which parameters runs may have, with unit and range (TOML)")
                 ("join", po::value<std::string>()->value_name("FILE"), "a log of slow channels, which are added to LOG by time")
                 ("join-offset", po::value<double>()->value_name("S"), "time in the slow log at which LOG begins, in seconds (default: from the times that both logs say they were recorded)")
                 ("join-age", po::value<double>()->value_name("S"), "seconds for which a value is held; later records have none (default: three periods of the slow log)");

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/printable_text.h"
+#include "io/formats/run_parameters.h"
 
 namespace clsurf::cli {
 namespace {
@@ -55,6 +56,8 @@ void print_log(const Log& log, const LogVerdict& verdict, const Diagnostics& dia
         channels +=
             fmt::format("{}{}{}", channels.empty() ? "" : ", ", c.name, c.unit.empty() ? "" : " [" + c.unit + "]");
     fmt::print("  channels: {}\n", channels);
+    if (const std::vector<RunParameter> parameters = io::parameters_of_metadata(log.metadata); !parameters.empty())
+        fmt::print("  parameters: {}\n", io::list_of(parameters));
     if (!diagnostics.empty()) print_diagnostics(diagnostics);
 }
 

@@ -12,6 +12,7 @@
 #include "io/files/mapped_file.h"
 #include "io/files/sha256.h"
 #include "io/files/utc.h"
+#include "io/formats/run_parameters.h"
 #include "io/history/parameter_file.h"
 #include "io/readers/log_tool.h"
 #include "io/readers/machine_file.h"
@@ -64,7 +65,8 @@ RunRecorder::RunRecorder(std::string database, const po::variables_map& values)
     if (values.count("parameters") > 0) rules_ = io::read_parameter_rules(values["parameters"].as<std::string>());
     ParameterRules known;
     if (std::filesystem::exists(database_)) known = io::HistoryDatabase(database_).parameter_rules();
-    parameters_ = (rules_ ? *rules_ : known).checked(std::move(parameters_));
+    in_force_ = rules_ ? *rules_ : known;
+    parameters_ = in_force_.checked(std::move(parameters_), false);
 }
 
 std::optional<RunRecorder> read_recorder(const po::variables_map& values, const std::string& program,
@@ -92,6 +94,11 @@ io::AddedRun RunRecorder::add(const PartOptions& options, const CheckedRun& run)
     record.version = version;
     record.settings = settings_;
     record.parameters = parameters_;
+    for (RunParameter& of_log : io::parameters_of_metadata(run.part.log.metadata)) {
+        if (std::ranges::find(parameters_, of_log.name, &RunParameter::name) == parameters_.end())
+            record.parameters.push_back(std::move(of_log));
+    }
+    record.parameters = in_force_.checked(std::move(record.parameters));
     io::HistoryWriter history(database_);
     if (rules_) history.set_parameter_rules(*rules_);
     return history.add(record);

@@ -36,7 +36,8 @@ public:
     /// Throws UsageError, InputError.
     RunRecorder(std::string database, const po::variables_map& values);
 
-    /// Adds it. Throws SystemError.
+    /// Adds it, with the parameters of the log's metadata that are not given. Throws SystemError, UsageError: those of the
+    /// log are not allowed, or a required one is missing.
     io::AddedRun add(const PartOptions& options, const CheckedRun& run) const;
     /// "run 12 of shop.db", with what became of the run that was there.
     [[nodiscard]] std::string text_of(const io::AddedRun& added) const;
@@ -49,7 +50,8 @@ private:
     std::string database_;
     std::string settings_;
     std::string time_;  ///< empty: that of the log's file
-    std::optional<ParameterRules> rules_;
+    std::optional<ParameterRules> rules_;  ///< --parameters
+    ParameterRules in_force_;              ///< they, else those of the database
     std::vector<RunParameter> parameters_;
 };
 

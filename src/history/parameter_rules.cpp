@@ -71,7 +71,7 @@ std::string_view name_of(ParameterKind kind) {
     return {};
 }
 
-std::vector<RunParameter> ParameterRules::checked(std::vector<RunParameter> parameters) const {
+std::vector<RunParameter> ParameterRules::checked(std::vector<RunParameter> parameters, bool all) const {
     sort_parameters(parameters);
     if (rules.empty()) return parameters;
     std::vector<std::string_view> known;
@@ -79,14 +79,22 @@ std::vector<RunParameter> ParameterRules::checked(std::vector<RunParameter> para
     for (RunParameter& parameter : parameters) {
         const auto rule = std::ranges::find(rules, parameter.name, &ParameterRule::name);
         if (rule == rules.end())
-            throw UsageError(fmt::format("--param: the history has no parameter '{}'", parameter.name),
+            throw UsageError(fmt::format("--param: there is no parameter '{}'", parameter.name),
                              did_you_mean(parameter.name, known));
         rule->kind == ParameterKind::text ? check_text(*rule, parameter) : check_number(*rule, parameter);
     }
     for (const ParameterRule& rule : rules) {
-        if (rule.required && std::ranges::find(parameters, rule.name, &RunParameter::name) == parameters.end())
+        if (all && rule.required && std::ranges::find(parameters, rule.name, &RunParameter::name) == parameters.end())
             throw UsageError(fmt::format("the parameter '{}' is required", rule.name),
                              fmt::format("--param {}=…", rule.name));
+    }
+    return parameters;
+}
+
+std::vector<RunParameter> ParameterRules::with_units(std::vector<RunParameter> parameters) const {
+    for (RunParameter& parameter : parameters) {
+        const auto rule = std::ranges::find(rules, parameter.name, &ParameterRule::name);
+        if (rule != rules.end() && !rule->unit.empty()) parameter.value += " " + rule->unit;
     }
     return parameters;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// ParameterRules: which parameters the runs of a history may have, and of what kind their values are.
+// ParameterRules: which parameters runs may have, and of what kind their values are.
 
 #include <optional>
 #include <string>
@@ -27,7 +27,10 @@ struct ParameterRules {
 
     /// The parameters as they are kept: a number without its unit. Throws UsageError: a name that is not known or that
     /// cannot be one, a value of another kind, out of its range or in another unit, a required one that is missing.
-    [[nodiscard]] std::vector<RunParameter> checked(std::vector<RunParameter> parameters) const;
+    /// With `all` false others may follow: nothing is missing yet.
+    [[nodiscard]] std::vector<RunParameter> checked(std::vector<RunParameter> parameters, bool all = true) const;
+    /// Numbers with their unit, as they are read again: "0.05 mm". Domain: checked ones.
+    [[nodiscard]] std::vector<RunParameter> with_units(std::vector<RunParameter> parameters) const;
 };
 
 /// "tool=D6R3". Throws UsageError: no "=", no name, no value.

@@ -29,6 +29,18 @@ TEST(ParameterRules, KeepNumbersWithoutTheirUnitInTheOrderOfNames) {
     EXPECT_EQ(kept, (std::vector<RunParameter>{{"teeth", "2"}, {"tool", "D6R3"}, {"wear", "0.05"}}));
 }
 
+TEST(ParameterRules, GiveNumbersTheirUnitAndReadThemAgain) {
+    const std::vector<RunParameter> kept = rules().checked({{"wear", "0.05mm"}, {"tool", "D6R3"}, {"teeth", "2"}});
+    const std::vector<RunParameter> shown = rules().with_units(kept);
+    EXPECT_EQ(shown, (std::vector<RunParameter>{{"teeth", "2"}, {"tool", "D6R3"}, {"wear", "0.05 mm"}}));
+    EXPECT_EQ(rules().checked(shown), kept);
+}
+
+TEST(ParameterRules, AreNotMissingWhileMoreFollow) {
+    EXPECT_EQ(rules().checked({{"teeth", "2"}}, false).size(), 1U);
+    EXPECT_THROW((void)rules().checked({{"teeth", "2"}}), UsageError);
+}
+
 TEST(ParameterRules, RefuseWhatIsOutOfThem) {
     EXPECT_EQ(message_of({{"tool", "D6R4"}}), "--param: tool=D6R4 is not one of D6R3, D8R1");
     EXPECT_EQ(message_of({{"tool", "D6R3"}, {"wear", "0.3"}}), "--param: wear=0.3 is out of range: 0 … 0.2 mm");
@@ -37,7 +49,7 @@ TEST(ParameterRules, RefuseWhatIsOutOfThem) {
     EXPECT_EQ(message_of({{"tool", "D6R3"}, {"wear", "nan"}}), "--param: wear=nan is not a number");
     EXPECT_EQ(message_of({{"tool", "D6R3"}, {"teeth", "2.5"}}), "--param: teeth=2.5 is not a whole number");
     EXPECT_EQ(message_of({{"tool", "D6R3"}, {"teeth", "0"}}), "--param: teeth=0 is out of range: at least 1");
-    EXPECT_EQ(message_of({{"tool", "D6R3"}, {"tol", "1"}}), "--param: the history has no parameter 'tol'");
+    EXPECT_EQ(message_of({{"tool", "D6R3"}, {"tol", "1"}}), "--param: there is no parameter 'tol'");
     EXPECT_EQ(message_of({{"wear", "0.1"}}), "the parameter 'tool' is required");
     EXPECT_EQ(message_of({{"tool", "D6R3"}, {"tool", "D8R1"}}), "--param: 'tool' is given more than once");
 }

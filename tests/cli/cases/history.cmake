@@ -82,3 +82,20 @@ clsurf_cli_test(NAME record_into_no_database SETUP "cp ${bottle} shop.db" ARGS c
 clsurf_cli_test(NAME record_with_the_configuration_of_the_part
   SETUP "mkdir part; cp ${bottle} part/part.nc; echo 'tool = \"ball:6\"' > part/.clsurf.toml; for k in 1 2; do $CLSURF history shop.db add part/part.nc @LOGS@/bottle_uneven.biip --param k=$k -q; done"
   ARGS history shop.db list --json STDOUT "\"tool\": \"ball:6\".*\"tool\": \"ball:6\"")
+
+# ---- parameters in the metadata of a log ----
+set(laser @DATA@/parameters/laser_drilling.toml)
+set(with_parameters "$CLSURF convert @LOGS@/planted_loops.biip --parameters ${laser} --param hole=12 --param feed=1200 --param c=359.5deg --param laser_power=3 -o laser.biip -q")
+clsurf_cli_test(NAME parameters_are_shown_with_the_log SETUP "${with_parameters}" ARGS info laser.biip
+  STDOUT "parameters: c=359.5 deg, feed=1200 mm/min, hole=12, laser_power=3")
+clsurf_cli_test(NAME parameters_are_in_the_json_of_the_log SETUP "${with_parameters}" ARGS info laser.biip --json STDOUT "\"parameters\": {[^}]*\"feed\": \"1200 mm/min\"")
+clsurf_cli_test(NAME parameters_keep_to_their_range ARGS convert @LOGS@/planted_loops.biip --parameters ${laser} --param a=100 -o laser.biip EXIT 2
+  STDERR "a=100 is out of range: -95 … 95 deg" NO_FILE laser.biip)
+clsurf_cli_test(NAME parameters_keep_to_their_unit ARGS convert @LOGS@/planted_loops.biip --parameters ${laser} --param feed=1200mm/s -o laser.biip EXIT 2
+  STDERR "is in 'mm/s', expected mm/min")
+clsurf_cli_test(NAME parameters_of_the_schema_only ARGS convert @LOGS@/planted_loops.biip --parameters ${laser} --param power=3 -o laser.biip EXIT 2
+  STDERR "there is no parameter 'power'")
+clsurf_cli_test(NAME parameters_of_a_log_go_into_the_history SETUP "${with_parameters}; $CLSURF history laser.db add ${planted} laser.biip --parameters ${laser} --param track=1 -q"
+  ARGS history laser.db list --where feed=1200 --json STDOUT "\"hole\": \"12\"" "\"track\": \"1\"")
+clsurf_cli_test(NAME parameters_of_a_log_are_held_to_the_rules SETUP "$CLSURF convert @LOGS@/planted_loops.biip --param hole=none -o laser.biip -q"
+  ARGS history laser.db add ${planted} laser.biip --parameters ${laser} EXIT 2 STDERR "hole=none is not a whole number")
