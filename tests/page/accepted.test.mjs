@@ -5,12 +5,23 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { bottle, closeReport, folder, openReport, press, run, settled, startBrowser, writeReport } from './browser.mjs';
+import {
+    bottle,
+    closeReport,
+    folder,
+    openReport,
+    press,
+    reports,
+    run,
+    settled,
+    startBrowser,
+    writeReport,
+} from './browser.mjs';
 
 let browser, page;
 before(async () => {
     browser = await startBrowser();
-    page = await openReport(browser, writeReport('bottle.html', bottle));
+    page = await openReport(browser, reports.bottle);
 });
 after(async () => {
     try {
@@ -69,12 +80,15 @@ test('the file is what check reads', async () => {
 });
 
 test('it is read back, by another page and by report', async () => {
-    const other = await openReport(browser, writeReport('other.html', bottle));
+    const other = await openReport(browser, reports.bottle);
     await open(other, accepted);
     assert.equal(await other.locator('.tree .item.accepted').count(), 2);
     assert.match(await other.textContent('.note-of-file'), /^3 of 3 are on this page$/);
     await closeReport(other);
-    const begun = await openReport(browser, writeReport('begun.html', bottle, '--accepted', accepted));
+    const begun = await openReport(
+        browser,
+        writeReport('begun.html', bottle, '--tool', 'none', '--accepted', accepted),
+    );
     assert.equal(await begun.locator('.tree .item.accepted').count(), 2);
     await press(begun, 'd');
     assert.ok(await begun.getByLabel('Accepted', { exact: true }).isChecked());

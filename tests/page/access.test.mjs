@@ -7,14 +7,14 @@ import { createRequire } from 'node:module';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { bottle, closeReport, numbers, openReport, press, settled, startBrowser, writeReport } from './browser.mjs';
+import { closeReport, numbers, openReport, press, reports, settled, startBrowser } from './browser.mjs';
 
 const require = createRequire(path.join(process.env.PAGE_PACKAGES, 'package.json'));
 const axe = fs.readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
 
 let browser, file;
 before(async () => {
-    file = writeReport('bottle.html', bottle, '--tool', 'ball:6');
+    file = reports.ball;
     browser = await startBrowser();
 });
 after(() => browser?.close());

@@ -5,7 +5,7 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { bottle, closeReport, data, folder, openReport, run, startBrowser, writeReport } from './browser.mjs';
+import { bottle, closeReport, data, folder, openReport, reports, run, startBrowser, writeReport } from './browser.mjs';
 
 let browser;
 before(async () => (browser = await startBrowser()));
@@ -15,7 +15,7 @@ const bars = (page) => page.$$eval('.alarm', (all) => all.map((bar) => bar.textC
 const colour = (page, selector) => page.$eval(selector, (e) => getComputedStyle(e).backgroundColor);
 
 test('a sound log has none', async () => {
-    const page = await openReport(browser, writeReport('sound.html', bottle));
+    const page = await openReport(browser, reports.bottle);
     assert.deepEqual(await bars(page), []);
     assert.equal(await colour(page, '.tree .severity'), 'rgb(179, 71, 0)');
     await closeReport(page);
@@ -23,7 +23,7 @@ test('a sound log has none', async () => {
 
 test('the wrong program is said in red, and what was found is grey', async () => {
     const wrong = { program: `${data}/programs/dome_loops.nc`, log: bottle.log };
-    const page = await openReport(browser, writeReport('wrong.html', wrong, '--force'));
+    const page = await openReport(browser, writeReport('wrong.html', wrong, '--force', '--tool', 'none'));
     const [bar, ...more] = await bars(page);
     assert.deepEqual(more, []);
     assert.match(bar, /^Not judged\. The log does not belong to this program/);
@@ -38,7 +38,7 @@ test('a log that was cut off is said', async () => {
     const whole = fs.readFileSync(bottle.log);
     const cut = path.join(folder, 'cut.biip');
     fs.writeFileSync(cut, whole.subarray(0, Math.round(0.7 * whole.length)));
-    const page = await openReport(browser, writeReport('cut.html', { ...bottle, log: cut }));
+    const page = await openReport(browser, writeReport('cut.html', { ...bottle, log: cut }, '--tool', 'none'));
     const [bar] = await bars(page);
     assert.match(bar, /^The log is cut off\. .* lacks (2\d|3\d) % of the program's motions/);
     await closeReport(page);

@@ -11,10 +11,21 @@ import { after, before } from 'node:test';
 export const clsurf = process.env.CLSURF;
 export const data = process.env.SAMPLE_DATA;
 export const logs = process.env.SAMPLE_LOGS;
-export const folder = path.join(process.env.PAGE_FOLDER, path.basename(process.argv[1], '.test.mjs'));
+export const folder = path.join(process.env.PAGE_FOLDER, path.basename(process.argv[1]).split('.')[0]);
 const { chromium } = createRequire(path.join(process.env.PAGE_PACKAGES, 'package.json'))('playwright-core');
 
 export const bottle = { program: `${data}/programs/bottle_uneven.nc`, log: `${logs}/bottle_uneven.biip` };
+
+/** Reports that several files look at (reports.mjs). */
+export const reports = {
+    bottle: path.join(process.env.PAGE_FOLDER, 'reports/bottle.html'),
+    ball: path.join(process.env.PAGE_FOLDER, 'reports/ball.html'), // of a stated tool
+};
+
+/** What `check` says of the same run as reports.bottle. */
+export function checkedBottle() {
+    return JSON.parse(fs.readFileSync(path.join(process.env.PAGE_FOLDER, 'reports/bottle.json'), 'utf8'));
+}
 
 fs.mkdirSync(folder, { recursive: true });
 
@@ -45,6 +56,7 @@ export async function startBrowser() {
             '--disable-component-update',
             '--use-angle=swiftshader',
             '--enable-unsafe-swiftshader',
+            '--disable-gpu-compositing', // software draws the view; what is around it goes no way through the same
             '--font-render-hinting=none',
         ],
     });
@@ -98,7 +110,7 @@ export async function closeReport(page) {
     await page.context().close();
 }
 
-/** Writes a report before the tests of a file, gives them its page, and looks at its complaints after them. */
+/** Writes a report before the tests of a file, or names a shared one, gives them its page, and looks at its complaints after them. */
 export function useReport(write, take) {
     let browser, page;
     before(async () => {

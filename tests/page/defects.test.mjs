@@ -4,15 +4,15 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { test } from 'node:test';
 
-import { bottle, chosenLine, numbers, press, run, settled, useReport, writeReport } from './browser.mjs';
+import { checkedBottle, chosenLine, numbers, press, reports, settled, useReport } from './browser.mjs';
 
 let page;
 useReport(
-    () => writeReport('bottle.html', bottle),
+    () => reports.bottle,
     (opened) => (page = opened),
 );
 
-const { defects } = JSON.parse(run('check', bottle.program, bottle.log, '--json'));
+const { defects } = checkedBottle();
 const ranks = () => page.$$eval('#defect-list tbody tr', (rows) => rows.map((row) => Number(row.dataset.defect)));
 const head = (name) => page.locator('#defect-list th', { hasText: name });
 const choose = (name, value) => page.getByLabel(name, { exact: true }).selectOption(value);

@@ -4,11 +4,22 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-import { bottle, chosenLine, clickView, goTo, numbers, run, settled, useReport, writeReport } from './browser.mjs';
+import {
+    bottle,
+    checkedBottle,
+    chosenLine,
+    clickView,
+    goTo,
+    numbers,
+    reports,
+    run,
+    settled,
+    useReport,
+} from './browser.mjs';
 
 let page;
 useReport(
-    () => writeReport('bottle.html', bottle),
+    () => reports.bottle,
     (opened) => (page = opened),
 );
 
@@ -117,7 +128,7 @@ test('a curve is enlarged by dragging and whole again by a double click', async 
 });
 
 test('a defect moves the camera there and marks the lines of both passes', async () => {
-    const { defects } = JSON.parse(run('check', bottle.program, bottle.log, '--json'));
+    const { defects } = checkedBottle();
     await page.click('[data-choice="defect-0"]');
     await settled(page);
     const shown = await numbers(page);
@@ -136,7 +147,7 @@ test('a defect moves the camera there and marks the lines of both passes', async
 });
 
 test('a defect brings the field that shows it, and a link to itself', async () => {
-    const { defects } = JSON.parse(run('check', bottle.program, bottle.log, '--json'));
+    const { defects } = checkedBottle();
     const fields = {
         speed: /^Speed difference|^Path speed/,
         lag: /^Height/,

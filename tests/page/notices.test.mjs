@@ -9,7 +9,7 @@ import path from 'node:path';
 import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 
-import { bottle, writeReport } from './browser.mjs';
+import { reports } from './browser.mjs';
 
 const packages = process.env.PAGE_PACKAGES;
 const source = path.resolve(import.meta.dirname ?? path.dirname(process.argv[1]), '../../viz/page');
@@ -49,7 +49,7 @@ test('every bundled package has its version and its licence in NOTICE.md', async
 });
 
 test('a written page carries the notices', () => {
-    const page = fs.readFileSync(writeReport('notices.html', bottle), 'utf8');
+    const page = fs.readFileSync(reports.bottle, 'utf8');
     // The script is ASCII: other letters are escaped.
     for (const line of notice.split('\n').filter((text) => /^[\x20-\x7e]+$/.test(text)))
         assert.ok(page.includes(line), line);

@@ -6,7 +6,6 @@ import path from 'node:path';
 import { after, before, test } from 'node:test';
 
 import {
-    bottle,
     clickView,
     closeReport,
     comparePicture,
@@ -14,13 +13,13 @@ import {
     goTo,
     openReport,
     press,
+    reports,
     startBrowser,
-    writeReport,
 } from './browser.mjs';
 
 let browser, file;
 before(async () => {
-    file = writeReport('bottle.html', bottle, '--tool', 'ball:6');
+    file = reports.ball;
     browser = await startBrowser();
 });
 after(() => browser.close());

@@ -3,11 +3,11 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-import { bottle, goTo, numbers, press, run, settled, useReport, writeReport } from './browser.mjs';
+import { bottle, goTo, numbers, press, reports, run, settled, useReport } from './browser.mjs';
 
 let page;
 useReport(
-    () => writeReport('bottle.html', bottle, '--tool', 'ball:6'),
+    () => reports.ball,
     (opened) => (page = opened),
 );
 

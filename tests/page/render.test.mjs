@@ -6,11 +6,11 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { test } from 'node:test';
 
-import { bottle, clsurf, folder, press, settled, useReport, writeReport } from './browser.mjs';
+import { clsurf, folder, press, reports, settled, useReport } from './browser.mjs';
 
 let page;
 useReport(
-    () => writeReport('bottle.html', bottle, '--tool', 'ball:6'),
+    () => reports.ball,
     (opened) => (page = opened),
 );
 

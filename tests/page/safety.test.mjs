@@ -35,7 +35,7 @@ useReport(
             Buffer.concat([text, ...hostile.flatMap((line) => [Buffer.from(line), Buffer.from('\n')])]),
         );
         fs.copyFileSync(bottle.log, log);
-        run('report', program, log, '-o', 'hostile.html', '-q');
+        run('report', program, log, '-o', 'hostile.html', '--tool', 'none', '-q');
         return path.join(folder, 'hostile.html');
     },
     (opened) => (page = opened),

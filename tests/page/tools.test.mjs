@@ -4,11 +4,11 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { beforeEach, test } from 'node:test';
 
-import { bottle, clickView, numbers, press, pressed, settled, useReport, writeReport } from './browser.mjs';
+import { clickView, numbers, press, pressed, reports, settled, useReport } from './browser.mjs';
 
 let page;
 useReport(
-    () => writeReport('bottle.html', bottle, '--tool', 'ball:6'),
+    () => reports.ball,
     (opened) => (page = opened),
 );
 beforeEach(() => press(page, 'i'));
