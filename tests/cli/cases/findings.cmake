@@ -27,7 +27,7 @@ clsurf_cli_test(NAME judged_in_json ARGS check ${part} ${run} --tool none --json
 clsurf_cli_test(NAME slow_passes_come_first ARGS check ${part} ${run}
   STDOUT "1 distinct point_spacing .* 2 distinct point_spacing .* 3 distinct point_spacing .* 4 [dr][a-z]+ +point_spacing .* 5 [dr][a-z]+ +point_spacing .* 6 distinct lag_step .*±")
 clsurf_cli_test(NAME findings_in_falling_order_in_json
-  SETUP "$CLSURF check ${part} ${run} --json | awk '/\"expected\":/ {exit} {print}' > found && grep -oE '\"score\": [0-9.]+' found | cut -d' ' -f2 > scores && test -s scores && sort -rgc scores && grep -oE '\"rank\": [0-9]+' found | cut -d' ' -f2 > ranks && sort -gc ranks && test $(wc -l < scores) = $(tail -1 ranks) && test $(grep -c '\"systematic\": true' found) = 1"
+  SETUP "$CLSURF check ${part} ${run} --tool none --json | awk '/\"expected\":/ {exit} {print}' > found && grep -oE '\"score\": [0-9.]+' found | cut -d' ' -f2 > scores && test -s scores && sort -rgc scores && grep -oE '\"rank\": [0-9]+' found | cut -d' ' -f2 > ranks && sort -gc ranks && test $(wc -l < scores) = $(tail -1 ranks) && test $(grep -c '\"systematic\": true' found) = 1"
   ARGS --version)
 
 # ---- words and numbers ----
@@ -47,7 +47,7 @@ clsurf_cli_test(NAME table_uses_a_wide_terminal SETUP "${wide} && grep -q '^   1
 # 2.9999999329447746 is a float in a double's clothes.
 clsurf_cli_test(NAME json_has_as_many_digits_as_mean_something SETUP "$CLSURF check ${part} ${run} --tool ball:6 --json > report.json && (! grep -E '[.][0-9]{6}' report.json) && grep -q '\"speed_percent\": 3.0' report.json" ARGS --version)
 clsurf_cli_test(NAME slower_is_negative_everywhere
-  SETUP "$CLSURF check ${part} ${run} --json | grep -E 'speed_jump_(mm_min|percent)' | sed -n 1,2p > first && test $(grep -c ': -[0-9]' first) = 2 && $CLSURF check ${part} ${run} --format csv | sed -n 2p | cut -d, -f14,19 | grep -qE '^-[0-9.]+,-[0-9.]+$'"
+  SETUP "$CLSURF check ${part} ${run} --tool none --json | grep -E 'speed_jump_(mm_min|percent)' | sed -n 1,2p > first && test $(grep -c ': -[0-9]' first) = 2 && $CLSURF check ${part} ${run} --tool none --format csv | sed -n 2p | cut -d, -f14,19 | grep -qE '^-[0-9.]+,-[0-9.]+$'"
   ARGS --version)
 clsurf_cli_test(NAME sarif_speaks_in_sentences ARGS check ${part} ${run} --format sarif
   STDOUT "\"text\": \"Pass [0-9]+ runs 8[0-9] % slower than its neighbours" "\"markdown\"" "\"clsurfDefect/v1\": \"point_spacing/speed/14/" "\"help\"" "\"level\": \"error\"" "\"level\": \"warning\"" "\"ruleId\": \"systematic_lag\"")

@@ -14,9 +14,9 @@ clsurf_cli_test(NAME history_list_json_has_the_stated_keys
   SETUP "${recorded}; $CLSURF history shop.db list --json > runs.json; python3 -c \"import json; run = json.load(open('runs.json'))['runs'][1]; assert list(run)[:15] == 'id time program program_sha256 log_sha256 machine duration_s defects worst_score deepest_um ra_um speed_mismatch_p99_percent judged within_budget parameters'.split(), run; assert run['parameters'] == {'tool': 'D6R3'} and run['judged'] is True and run['ra_um'] > 0\""
   ARGS history shop.db list --where tool=D8R1 NO_STDOUT "bottle" STDOUT "planted")
 clsurf_cli_test(NAME history_adds_a_run_once SETUP "${two_parts}; ${two_parts}" ARGS history shop.db list --json STDOUT "\"id\": 1" "\"id\": 2" NO_STDOUT "\"id\": 3")
-clsurf_cli_test(NAME history_adds_it_again_with_other_parameters SETUP "${two_parts}" ARGS history shop.db add ${bottle} @LOGS@/bottle_uneven.biip --param tool=new STDOUT "^run 3 of shop.db\n")
-clsurf_cli_test(NAME history_says_what_it_replaced SETUP "${two_parts}" ARGS history shop.db add ${bottle} @LOGS@/bottle_uneven.biip --param tool=D6R3 STDOUT "^run 1 of shop.db, which was there already")
-clsurf_cli_test(NAME history_add_fails_as_check_does ARGS history shop.db add ${bottle} @LOGS@/bottle_uneven.biip --max-depth 5um EXIT 1 FILE shop.db STDOUT "over budget")
+clsurf_cli_test(NAME history_adds_it_again_with_other_parameters SETUP "${two_parts}" ARGS history shop.db add ${bottle} @LOGS@/bottle_uneven.biip --tool none --param tool=new STDOUT "^run 3 of shop.db\n")
+clsurf_cli_test(NAME history_says_what_it_replaced SETUP "${two_parts}" ARGS history shop.db add ${bottle} @LOGS@/bottle_uneven.biip --tool none --param tool=D6R3 STDOUT "^run 1 of shop.db, which was there already")
+clsurf_cli_test(NAME history_add_fails_as_check_does ARGS history shop.db add ${bottle} @LOGS@/bottle_uneven.biip --tool none --max-depth 5um EXIT 1 FILE shop.db STDOUT "over budget")
 clsurf_cli_test(NAME history_adds_what_is_not_judged SETUP "head -c 100000 @LOGS@/bottle_uneven.biip > run.biip" ARGS history shop.db add ${bottle} run.biip EXIT 5 STDOUT "not judged")
 
 # ---- since when, with which tool ----
