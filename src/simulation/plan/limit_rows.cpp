@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Core>
+
 #include "core/vectorised.h"
 
 namespace clsurf {
@@ -13,96 +15,77 @@ double sum_of(const double* lanes) { return lanes[0] + lanes[1] + lanes[2] + lan
 
 }  // namespace
 
-/// What runs over all groups. The sides' gradients are fall v ∓ w.
+/// What runs over all groups. The sides' gradients are fall v ∓ w. What a cell's groups add to the Newton system is
+/// summed lane by lane, and across the lanes once.
 struct LimitRows::Kernels {
-    /// Rows come in the order of cells, so that the four of a group are often of one.
-    static bool is_of_one_cell(const Group& g) { return g.cell[0] == g.cell[width - 1]; }
+    using Thirds = std::array<Four, 3>;
 
-    /// Adds the lanes to `sum`, one after the other.
-    static void add_lanes(double& sum, const Four& lanes) {
-        double all = sum;
-        for (std::size_t l = 0; l < width; ++l) all += lanes[l];
-        sum = all;
+    /// What belongs to the three coefficients about a cell, in every lane.
+    static Thirds spread(const double* of, std::uint32_t cell) {
+        return {Four{} + of[cell], Four{} + of[cell + 1], Four{} + of[cell + 2]};
     }
-
-    /// What belongs to the three coefficients about the cells of a group.
-    static void gather(Group& g, const double* of) {
-        if (is_of_one_cell(g)) {
-            const double* const about = of + g.cell[0];
-            for (std::size_t q = 0; q < 3; ++q) g.about[q] = Four{about[q], about[q], about[q], about[q]};
-            return;
-        }
-        for (std::size_t q = 0; q < 3; ++q)
-            g.about[q] = Four{of[g.cell[0] + q], of[g.cell[1] + q], of[g.cell[2] + q], of[g.cell[3] + q]};
+    static void multiply(const Thirds& a, const Thirds& b, Four& product) {
+        product = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    }
+    static double across(const Four& lanes) { return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]); }
+    static void add_across(double* to, const Thirds& sums) {
+        for (std::size_t q = 0; q < 3; ++q) to[q] += across(sums[q]);
     }
 
     /// Value of the rows, and their bounds by m.
-    static void follow(Group& g, const double* value, Four& at) {
-        gather(g, value);
-        at = g.w[0] * g.about[0] + g.w[1] * g.about[1] + g.w[2] * g.about[2];
-        const Four m = g.unit + g.v[0] * g.about[0] + g.v[1] * g.about[1] + g.v[2] * g.about[2];
-        Four root;
-        for (std::size_t l = 0; l < width; ++l) root[l] = std::sqrt(m[l]);
-        g.root = root;
-        g.bound = 1 / root;
-        g.fall = -0.5 * g.bound * g.bound * g.bound;
+    static void follow(Group& g, const double* value, Four& at, Four& root, Four& bound) {
+        const Thirds about = spread(value, g.cell);
+        multiply(g.w, about, at);
+        multiply(g.v, about, root);
+        root += g.unit;
+        Eigen::Map<Eigen::Array4d> lanes(reinterpret_cast<double*>(&root));
+        lanes = lanes.sqrt();  // side by side: a loop over std::sqrt, which sets errno, is not vectorised
+        bound = 1 / root;
+        g.fall = -0.5 * bound * bound * bound;
     }
 
     CLSURF_VECTORISED static void assemble(Group* groups, std::size_t count, const double* value, NewtonSystem& newton,
                                            double* gap, double* broken) {
         Four sum{}, most{};
-        double *const d0 = newton.d0.data(), *const d1 = newton.d1.data(), *const d2 = newton.d2.data(),
-                      *const pull = newton.pull.data();
-        for (std::size_t k = 0; k < count; ++k) {
-            Group& g = groups[k];
-            Four at;
-            follow(g, value, at);
-            Four weight[2], force[2];
-            for (std::size_t side = 0; side < 2; ++side) {
-                const Four left = side == 0 ? g.bound - at : g.low * g.bound + at;
-                g.slack[side] = g.slack[side] > left ? g.slack[side] : left;
-                g.inverse[side] = 1 / g.slack[side];
-                weight[side] = g.multiplier[side] * g.inverse[side];
-                sum += g.multiplier[side] * g.slack[side];
-                g.missing[side] = g.slack[side] - left;
-                const Four part = g.missing[side] * g.root;
-                most = most > part ? most : part;
-                force[side] = weight[side] * g.missing[side];
+        for (std::size_t k = 0; k < count;) {
+            const std::uint32_t cell = groups[k].cell;
+            Thirds diagonal{}, pull{};
+            Four next[2]{}, second{};
+            for (; k < count && groups[k].cell == cell; ++k) {
+                Group& g = groups[k];
+                Four at{}, root{}, bound{};
+                follow(g, value, at, root, bound);
+                Four weight[2], force[2];
+                for (std::size_t side = 0; side < 2; ++side) {
+                    const Four left = side == 0 ? bound - at : g.low * bound + at;
+                    g.slack[side] = g.slack[side] > left ? g.slack[side] : left;
+                    g.inverse[side] = 1 / g.slack[side];
+                    weight[side] = g.multiplier[side] * g.inverse[side];
+                    sum += g.multiplier[side] * g.slack[side];
+                    g.missing[side] = g.slack[side] - left;
+                    const Four part = g.missing[side] * root;
+                    most = most > part ? most : part;
+                    force[side] = weight[side] * g.missing[side];
+                }
+                const Four of_w = force[1] - force[0], both = weight[0] + weight[1];
+                const Four of_b = g.fall * (force[0] + force[1]), mixed = g.fall * (weight[1] - weight[0]),
+                           square = g.fall * g.fall * both;
+                Four u[3], t[3];
+                for (std::size_t q = 0; q < 3; ++q) {
+                    u[q] = both * g.w[q] + mixed * g.v[q];
+                    t[q] = mixed * g.w[q] + square * g.v[q];
+                    pull[q] += of_w * g.w[q] + of_b * g.v[q];
+                    diagonal[q] += u[q] * g.w[q] + t[q] * g.v[q];
+                }
+                next[0] += u[0] * g.w[1] + t[0] * g.v[1];
+                next[1] += u[1] * g.w[2] + t[1] * g.v[2];
+                second += u[0] * g.w[2] + t[0] * g.v[2];
             }
-            const Four of_w = force[1] - force[0], both = weight[0] + weight[1];
-            const Four of_b = g.fall * (force[0] + force[1]), mixed = g.fall * (weight[1] - weight[0]),
-                       square = g.fall * g.fall * both;
-            Four u[3], t[3], p[3];
-            for (std::size_t q = 0; q < 3; ++q) {
-                u[q] = both * g.w[q] + mixed * g.v[q];
-                t[q] = mixed * g.w[q] + square * g.v[q];
-                p[q] = of_w * g.w[q] + of_b * g.v[q];
-            }
-            const Four d00 = u[0] * g.w[0] + t[0] * g.v[0], d11 = u[1] * g.w[1] + t[1] * g.v[1],
-                       d22 = u[2] * g.w[2] + t[2] * g.v[2];
-            const Four d01 = u[0] * g.w[1] + t[0] * g.v[1], d12 = u[1] * g.w[2] + t[1] * g.v[2],
-                       d02 = u[0] * g.w[2] + t[0] * g.v[2];
-            if (is_of_one_cell(g)) {
-                const std::size_t c = g.cell[0];
-                add_lanes(d0[c], d00);
-                add_lanes(d0[c + 1], d11);
-                add_lanes(d0[c + 2], d22);
-                add_lanes(d1[c], d01);
-                add_lanes(d1[c + 1], d12);
-                add_lanes(d2[c], d02);
-                for (std::size_t q = 0; q < 3; ++q) add_lanes(pull[c + q], p[q]);
-                continue;
-            }
-            for (std::size_t l = 0; l < width; ++l) {
-                const std::size_t c = g.cell[l];
-                d0[c] += d00[l];
-                d0[c + 1] += d11[l];
-                d0[c + 2] += d22[l];
-                d1[c] += d01[l];
-                d1[c + 1] += d12[l];
-                d2[c] += d02[l];
-                for (std::size_t q = 0; q < 3; ++q) pull[c + q] += p[q][l];
-            }
+            add_across(&newton.d0[cell], diagonal);
+            add_across(&newton.pull[cell], pull);
+            newton.d1[cell] += across(next[0]);
+            newton.d1[cell + 1] += across(next[1]);
+            newton.d2[cell] += across(second);
         }
         for (std::size_t l = 0; l < width; ++l) gap[l] = sum[l], broken[l] = most[l];
     }
@@ -110,42 +93,38 @@ struct LimitRows::Kernels {
     CLSURF_VECTORISED static void predict(Group* groups, std::size_t count, const double* step, NewtonSystem& newton,
                                           double* sums) {
         Four primal{}, dual{}, by_primal{}, by_dual{}, by_both{};
-        double *const centring = newton.centring.data(), *const products = newton.products.data();
-        for (std::size_t k = 0; k < count; ++k) {
-            Group& g = groups[k];
-            gather(g, step);
-            const Four across = g.w[0] * g.about[0] + g.w[1] * g.about[1] + g.w[2] * g.about[2];
-            const Four along = g.fall * (g.v[0] * g.about[0] + g.v[1] * g.about[1] + g.v[2] * g.about[2]);
-            Four weighted[2];
-            for (std::size_t side = 0; side < 2; ++side) {
-                const Four slack_step = (side == 0 ? along - across : along + across) - g.missing[side];
-                const Four part = slack_step * g.inverse[side];
-                const Four multiplier_step = -g.multiplier[side] * (part + 1);
-                primal = primal > -part ? primal : -part;
-                dual = dual > part + 1 ? dual : part + 1;
-                by_primal += slack_step * g.multiplier[side];
-                by_dual += g.slack[side] * multiplier_step;
-                const Four product = slack_step * multiplier_step;
-                by_both += product;
-                weighted[side] = product * g.inverse[side];
-                g.slack_step[side] = slack_step;
-                g.multiplier_step[side] = multiplier_step;
-            }
-            const Four centre_w = g.inverse[1] - g.inverse[0], centre_v = g.fall * (g.inverse[0] + g.inverse[1]);
-            const Four product_w = weighted[1] - weighted[0], product_v = g.fall * (weighted[0] + weighted[1]);
-            for (std::size_t q = 0; q < 3; ++q) {
-                const Four centres = centre_w * g.w[q] + centre_v * g.v[q];
-                const Four corrections = product_w * g.w[q] + product_v * g.v[q];
-                if (is_of_one_cell(g)) {
-                    add_lanes(centring[g.cell[0] + q], centres);
-                    add_lanes(products[g.cell[0] + q], corrections);
-                    continue;
+        for (std::size_t k = 0; k < count;) {
+            const std::uint32_t cell = groups[k].cell;
+            const Thirds about = spread(step, cell);
+            Thirds centring{}, corrections{};
+            for (; k < count && groups[k].cell == cell; ++k) {
+                Group& g = groups[k];
+                Four sideways, along;
+                multiply(g.w, about, sideways);
+                multiply(g.v, about, along);
+                along *= g.fall;
+                Four weighted[2];
+                for (std::size_t side = 0; side < 2; ++side) {
+                    const Four slack_step = (side == 0 ? along - sideways : along + sideways) - g.missing[side];
+                    const Four part = slack_step * g.inverse[side];
+                    const Four multiplier_step = -g.multiplier[side] * (part + 1);
+                    primal = primal > -part ? primal : -part;
+                    dual = dual > part + 1 ? dual : part + 1;
+                    by_primal += slack_step * g.multiplier[side];
+                    by_dual += g.slack[side] * multiplier_step;
+                    g.product[side] = slack_step * multiplier_step;
+                    by_both += g.product[side];
+                    weighted[side] = g.product[side] * g.inverse[side];
                 }
-                for (std::size_t l = 0; l < width; ++l) {
-                    centring[g.cell[l] + q] += centres[l];
-                    products[g.cell[l] + q] += corrections[l];
+                const Four centre_w = g.inverse[1] - g.inverse[0], centre_v = g.fall * (g.inverse[0] + g.inverse[1]);
+                const Four product_w = weighted[1] - weighted[0], product_v = g.fall * (weighted[0] + weighted[1]);
+                for (std::size_t q = 0; q < 3; ++q) {
+                    centring[q] += centre_w * g.w[q] + centre_v * g.v[q];
+                    corrections[q] += product_w * g.w[q] + product_v * g.v[q];
                 }
             }
+            add_across(&newton.centring[cell], centring);
+            add_across(&newton.products[cell], corrections);
         }
         for (std::size_t l = 0; l < width; ++l) {
             sums[l] = primal[l];
@@ -161,14 +140,15 @@ struct LimitRows::Kernels {
         Four primal{}, dual{};
         for (std::size_t k = 0; k < count; ++k) {
             Group& g = groups[k];
-            gather(g, step);
-            const Four across = g.w[0] * g.about[0] + g.w[1] * g.about[1] + g.w[2] * g.about[2];
-            const Four along = g.fall * (g.v[0] * g.about[0] + g.v[1] * g.about[1] + g.v[2] * g.about[2]);
+            const Thirds about = spread(step, g.cell);
+            Four sideways, along;
+            multiply(g.w, about, sideways);
+            multiply(g.v, about, along);
+            along *= g.fall;
             for (std::size_t side = 0; side < 2; ++side) {
-                const Four product = g.slack_step[side] * g.multiplier_step[side];
-                const Four slack_step = (side == 0 ? along - across : along + across) - g.missing[side];
+                const Four slack_step = (side == 0 ? along - sideways : along + sideways) - g.missing[side];
                 const Four multiplier_step =
-                    (centre - product - g.multiplier[side] * slack_step) * g.inverse[side] - g.multiplier[side];
+                    (centre - g.product[side] - g.multiplier[side] * slack_step) * g.inverse[side] - g.multiplier[side];
                 const Four shrinking = -slack_step * g.inverse[side], falling = -multiplier_step / g.multiplier[side];
                 primal = primal > shrinking ? primal : shrinking;
                 dual = dual > falling ? dual : falling;
@@ -190,52 +170,57 @@ struct LimitRows::Kernels {
     }
 };
 
-void LimitRows::clear() {
-    groups_.clear();
-    count_ = 0;
-}
+void LimitRows::clear() { groups_.clear(); }
 
 void LimitRows::add(const LimitRow& row) {
-    const std::size_t l = count_ % width;
-    if (l == 0) {
-        groups_.emplace_back();
-        groups_.back().unit += 1;
-        groups_.back().low += 1;
+    if (groups_.empty() || groups_.back().cell != row.cell || groups_.back().rows == width) {
+        Group& group = groups_.emplace_back();
+        group.unit += 1;
+        group.low += 1;
+        group.cell = row.cell;
     }
     Group& g = groups_.back();
+    const std::size_t l = g.rows++;
     for (std::size_t q = 0; q < 3; ++q) g.w[q][l] = row.w[q], g.v[q][l] = row.v[q];
     g.unit[l] = row.unit;
     g.low[l] = row.low;
-    // The cell of those that fill the group up.
-    for (std::size_t k = l; k < width; ++k) g.cell[k] = row.cell;
     g.number[l] = row.number;
     g.kind[l] = row.kind;
-    ++count_;
+}
+
+void LimitRows::keep(const LimitRows& before, std::uint32_t cell) {
+    const auto first = std::lower_bound(before.groups_.begin(), before.groups_.end(), cell,
+                                        [](const Group& group, std::uint32_t at) { return group.cell < at; });
+    auto last = first;
+    while (last != before.groups_.end() && last->cell == cell) ++last;
+    groups_.insert(groups_.end(), first, last);
 }
 
 void LimitRows::begin(const double* value, double centre, double slack, const LimitRows* before) {
-    std::size_t old = 0;
-    for (std::size_t k = 0; k < groups_.size(); ++k) {
-        Group& g = groups_[k];
-        Four at;
-        Kernels::follow(g, value, at);
+    // The next row of those before, as both are in the order of cells and numbers.
+    std::size_t old = 0, lane = 0;
+    for (Group& g : groups_) {
+        if (g.begun) continue;
+        g.begun = true;
+        for (; before != nullptr && old < before->groups_.size() && before->groups_[old].cell < g.cell; ++old) lane = 0;
+        Four at{}, root{}, bound{};
+        Kernels::follow(g, value, at, root, bound);
         for (std::size_t l = 0; l < width; ++l) {
-            const bool row = k * width + l < count_;
-            if (row && before != nullptr && old < before->count_) {
-                const Group& from = before->groups_[old / width];
-                const std::size_t there = old % width;
-                if (from.cell[there] == g.cell[l] && from.number[there] == g.number[l]) {
+            const bool row = l < g.rows;
+            if (row && before != nullptr && old < before->groups_.size()) {
+                const Group& from = before->groups_[old];
+                if (from.cell == g.cell && from.number[lane] == g.number[l]) {
                     for (std::size_t side = 0; side < 2; ++side) {
-                        g.slack[side][l] = from.slack[side][there];
-                        g.multiplier[side][l] = from.multiplier[side][there];
+                        g.slack[side][l] = from.slack[side][lane];
+                        g.multiplier[side][l] = from.multiplier[side][lane];
                     }
-                    ++old;
+                    if (++lane == from.rows) ++old, lane = 0;
                     continue;
                 }
             }
-            const double above = g.bound[l] - at[l], below = g.low[l] * g.bound[l] + at[l];
-            g.slack[0][l] = std::max(above, slack * g.bound[l]);
-            g.slack[1][l] = g.kind[l] == Row::cap && row ? below : std::max(below, slack * g.bound[l]);
+            const double above = bound[l] - at[l], below = g.low[l] * bound[l] + at[l];
+            g.slack[0][l] = std::max(above, slack * bound[l]);
+            g.slack[1][l] = g.kind[l] == Row::cap && row ? below : std::max(below, slack * bound[l]);
             for (std::size_t side = 0; side < 2; ++side) g.multiplier[side][l] = centre / g.slack[side][l];
         }
     }
@@ -264,14 +249,14 @@ void LimitRows::advance(double primal, double dual) { Kernels::advance(groups_.d
 
 void LimitRows::judge(const double* value, std::vector<Row>& nearest) const {
     std::vector<double> greatest(nearest.size(), 0);
-    for (std::size_t k = 0; k < count_; ++k) {
-        const Group& g = groups_[k / width];
-        const std::size_t l = k % width;
-        const double* c = value + g.cell[l];
-        const double at = g.w[0][l] * c[0] + g.w[1][l] * c[1] + g.w[2][l] * c[2];
-        const double m = g.unit[l] + g.v[0][l] * c[0] + g.v[1][l] * c[1] + g.v[2][l] * c[2];
-        const double part = std::abs(at) * std::sqrt(m);
-        if (part > greatest[g.cell[l]]) greatest[g.cell[l]] = part, nearest[g.cell[l]] = g.kind[l];
+    for (const Group& g : groups_) {
+        const double* c = value + g.cell;
+        for (std::size_t l = 0; l < g.rows; ++l) {
+            const double at = g.w[0][l] * c[0] + g.w[1][l] * c[1] + g.w[2][l] * c[2];
+            const double m = g.unit[l] + g.v[0][l] * c[0] + g.v[1][l] * c[1] + g.v[2][l] * c[2];
+            const double part = std::abs(at) * std::sqrt(m);
+            if (part > greatest[g.cell]) greatest[g.cell] = part, nearest[g.cell] = g.kind[l];
+        }
     }
 }
 

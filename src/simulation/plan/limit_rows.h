@@ -1,5 +1,5 @@
 #pragma once
-// LimitRows: the limits of a SpeedProblem as rows of its interior-point method, four side by side.
+// LimitRows: the limits of a SpeedProblem as rows of its interior-point method, four of a cell side by side.
 //
 // A row is −low/√m ≤ w · c ≤ 1/√m, where c are the three coefficients of b around its cell. For a jerk limit m
 // is b at this place, otherwise 1. Each side is g ≥ 0 with a slack s > 0 and a multiplier. The slack equals g
@@ -51,11 +51,13 @@ public:
     void clear();
     /// After the last one, in the order of cells and numbers.
     void add(const LimitRow& row);
-    /// Sides of all rows, and of those that fill the last four up: 0 · c, which limit nothing.
+    /// The rows of a cell as they are in the middle of there, after the last one.
+    void keep(const LimitRows& before, std::uint32_t cell);
+    /// Sides of all rows, and of those that fill the last four of a cell up: 0 · c, which limit nothing.
     [[nodiscard]] double sides() const { return static_cast<double>(2 * width * groups_.size()); }
 
     /// Slacks of at least a part of the bound, and multipliers for a product of `centre`. Rows that are in
-    /// `before` go on with what they are in the middle of there.
+    /// `before` go on with what they are in the middle of there. Rows that were kept stay as they are.
     void begin(const double* value, double centre, double slack, const LimitRows* before = nullptr);
 
     /// Adds the rows to the matrix and right side. A bound that is convex leaves more than its tangent did.
@@ -73,21 +75,21 @@ public:
 private:
     static constexpr std::size_t width = 4;
     typedef double Four [[gnu::vector_size(32)]];
-    // As AVX loads them; where it may not be there, the compiler aligns them to 16.
+    /// Rows of one cell. As AVX loads them; where it may not be there, the compiler aligns them to 16.
     struct alignas(sizeof(Four)) Group {
         std::array<Four, 3> w{}, v{};
         Four unit{}, low{};
-        std::array<Four, 3> about{};   ///< coefficients, or their steps
-        Four root{}, bound{}, fall{};  ///< √m, 1/√m, and its derivative by m
-        // Of the side above, then of that below.
-        std::array<Four, 2> slack{}, multiplier{}, inverse{}, missing{}, slack_step{}, multiplier_step{};
-        std::array<std::uint32_t, width> cell{}, number{};
+        Four fall{};  ///< derivative of 1/√m by m
+        // Of the side above, then of that below; the product of the steps without a barrier.
+        std::array<Four, 2> slack{}, multiplier{}, inverse{}, missing{}, product{}, slack_step{}, multiplier_step{};
+        std::uint32_t cell = 0, rows = 0;  ///< rows: how many; the others limit nothing
+        bool begun = false;                ///< it has slacks and multipliers
+        std::array<std::uint32_t, width> number{};
         std::array<Row, width> kind{};
     };
     struct Kernels;
 
     std::vector<Group> groups_;
-    std::size_t count_ = 0;  ///< rows
 };
 
 }  // namespace clsurf

@@ -121,9 +121,9 @@ void AxisSpeedProblem<Axes>::need_likely_rows() {
 template <int Axes>
 bool AxisSpeedProblem<Axes>::need_broken_rows(double part) {
     bool any = false;
-    const auto need = [&](bool& row) { any = any || !row, row = true; };
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         Cell& cell = cells_[i];
+        const auto need = [&](bool& row) { cell.changed = cell.changed || !row, row = true; };
         const double* c = &value_[i];
         const Weights& begin = begins_[i];
         const double b = dot(begin.b, c), curve = dot(begin.curve, c), slope = dot(begin.slope, c);
@@ -140,12 +140,14 @@ bool AxisSpeedProblem<Axes>::need_broken_rows(double part) {
                 need(row);
             } else if (part >= 1) {  // between the rows
                 cell.jerk_share *= lowering * cell.limits.jerk / along_path;
-                any = true;
+                cell.changed = true;
             }
         }
         if (!may_break(cell, part, 0.5 * std::max(std::abs(slope), std::abs(last_slope)), greatest, along_path,
-                       along_path))
+                       along_path)) {
+            any = any || cell.changed;
             continue;
+        }
         for (std::uint32_t s = cell.first_sample; s < cell.end_sample; ++s) {
             HeldSample& held_sample = samples_[s];
             const Sample& sample = held_sample.sample;
@@ -171,9 +173,10 @@ bool AxisSpeedProblem<Axes>::need_broken_rows(double part) {
                                     root;
                 if (jerk > part * limits_.jerk[x]) broken |= jerk_bit<Axes>(x);
             }
-            any = any || (broken & ~held_sample.needed) != 0;
+            cell.changed = cell.changed || (broken & ~held_sample.needed) != 0;
             held_sample.needed |= broken;
         }
+        any = any || cell.changed;
     }
     return any;
 }
@@ -200,60 +203,70 @@ void AxisSpeedProblem<Axes>::add_jerk(std::uint32_t number, Row kind, std::size_
     rows_.add({{w[0] / limit, w[1] / limit, w[2] / limit}, b, 0, 1, static_cast<std::uint32_t>(cell), number, kind});
 }
 
+/// Anew, or but for cells that have changed as they are in the middle of in `before`.
 template <int Axes>
-void AxisSpeedProblem<Axes>::make_rows() {
+void AxisSpeedProblem<Axes>::make_rows(const LimitRows* before) {
     rows_.clear();
     for (std::size_t i = 0; i < cells_.size(); ++i) {
-        Cell& cell = cells_[i];
-        const bool last_cell = i + 1 == cells_.size();
-        const std::array<Weights, 3> along = weights_along(i);
-        const Weights& last = along[2];
-        // A cell's b lies below the greatest of its coefficient and b at its ends (they are its Bézier points).
-        if (i > 0 && !last_cell) add_cap(0, i, {0, 1, 0}, cell.limits.cap);
-        if (!last_cell) {
-            const CellLimits& next = cells_[i + 1].limits;
-            add_cap(1, i, last.b, std::min(cell.limits.cap, next.cap));
-            if (cell.acceleration)
-                add_row(2, Row::tangential_acceleration, i, sum(0.5, last.slope, 0, last.slope),
-                        acceleration_share * acceleration_at_end(i));
+        if (before != nullptr && !cells_[i].changed) {
+            rows_.keep(*before, static_cast<std::uint32_t>(i));
+        } else {
+            make_rows_of(i);
+            cells_[i].changed = false;
         }
-        const double jerk = jerk_share * cell.jerk_share * cell.limits.jerk;
-        for (std::uint32_t k = 0; k < 3; ++k) {
-            if (cell.jerk[k])
-                add_jerk(3 + k, Row::tangential_jerk, i, sum(0.5, along[k].curve, 0, along[k].curve), along[k].b, jerk);
-        }
-        for (std::uint32_t s = cell.first_sample; s < cell.end_sample; ++s) {
-            if (samples_[s].needed == 0) continue;
-            const Sample& sample = samples_[s].sample;
-            const Weights w = weights_at(i, sample.at);
-            const std::uint32_t first = 6 + rows_of_sample<Axes> * (s - cell.first_sample);
-            for (int x = 0; x < Axes; ++x) {
-                const std::uint32_t number = first + 2 * static_cast<std::uint32_t>(x);
-                if ((samples_[s].needed & acceleration_bit(x)) != 0) {
-                    add_row(number, Row::axis_acceleration, i, sum(0.5 * sample.slope[x], w.slope, sample.bend[x], w.b),
-                            acceleration_share * limits_.acceleration[x]);
-                }
-                if ((samples_[s].needed & jerk_bit<Axes>(x)) != 0) {
-                    const double limit = jerk_share * limits_.jerk[x];
-                    const double steady =
-                        std::abs(sample.twist[x]) * cell.limits.cap * cell.limits.cap * cell.limits.cap;
-                    const Three moving = sum(1.5 * sample.bend[x], w.slope, sample.twist[x], w.b);
-                    add_jerk(number + 1, steady > 0.5 * limit ? Row::corner_jerk : Row::axis_jerk, i,
-                             sum(0.5 * sample.slope[x], w.curve, 1, moving), w.b, limit);
-                }
+    }
+}
+
+template <int Axes>
+void AxisSpeedProblem<Axes>::make_rows_of(std::size_t i) {
+    const Cell& cell = cells_[i];
+    const bool last_cell = i + 1 == cells_.size();
+    const std::array<Weights, 3> along = weights_along(i);
+    const Weights& last = along[2];
+    // A cell's b lies below the greatest of its coefficient and b at its ends (they are its Bézier points).
+    if (i > 0 && !last_cell) add_cap(0, i, {0, 1, 0}, cell.limits.cap);
+    if (!last_cell) {
+        const CellLimits& next = cells_[i + 1].limits;
+        add_cap(1, i, last.b, std::min(cell.limits.cap, next.cap));
+        if (cell.acceleration)
+            add_row(2, Row::tangential_acceleration, i, sum(0.5, last.slope, 0, last.slope),
+                    acceleration_share * acceleration_at_end(i));
+    }
+    const double jerk = jerk_share * cell.jerk_share * cell.limits.jerk;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        if (cell.jerk[k])
+            add_jerk(3 + k, Row::tangential_jerk, i, sum(0.5, along[k].curve, 0, along[k].curve), along[k].b, jerk);
+    }
+    for (std::uint32_t s = cell.first_sample; s < cell.end_sample; ++s) {
+        if (samples_[s].needed == 0) continue;
+        const Sample& sample = samples_[s].sample;
+        const Weights w = weights_at(i, sample.at);
+        const std::uint32_t first = 6 + rows_of_sample<Axes> * (s - cell.first_sample);
+        for (int x = 0; x < Axes; ++x) {
+            const std::uint32_t number = first + 2 * static_cast<std::uint32_t>(x);
+            if ((samples_[s].needed & acceleration_bit(x)) != 0) {
+                add_row(number, Row::axis_acceleration, i, sum(0.5 * sample.slope[x], w.slope, sample.bend[x], w.b),
+                        acceleration_share * limits_.acceleration[x]);
             }
-            if ((samples_[s].needed & path_bit<Axes>) != 0)
-                add_row(first + 2 * Axes, Row::tangential_acceleration, i,
-                        sum(0.5 * sample.pace.value, w.slope, sample.pace.slope, w.b),
-                        acceleration_share * limits_.path_acceleration);
-            if ((samples_[s].needed & path_jerk_bit<Axes>) != 0)
-                add_jerk(first + 2 * Axes + 1, Row::tangential_jerk, i,
-                         sum(0.5 * sample.pace.value, w.curve, 1,
-                             sum(1.5 * sample.pace.slope, w.slope, sample.pace.curve, w.b)),
-                         w.b, jerk_share * limits_.path_jerk);
-            if ((samples_[s].needed & speed_bit<Axes>) != 0)
-                add_row(first + 2 * Axes + 2, Row::bend, i, w.b, acceleration_share * sample.cap * sample.cap);
+            if ((samples_[s].needed & jerk_bit<Axes>(x)) != 0) {
+                const double limit = jerk_share * limits_.jerk[x];
+                const double steady = std::abs(sample.twist[x]) * cell.limits.cap * cell.limits.cap * cell.limits.cap;
+                const Three moving = sum(1.5 * sample.bend[x], w.slope, sample.twist[x], w.b);
+                add_jerk(number + 1, steady > 0.5 * limit ? Row::corner_jerk : Row::axis_jerk, i,
+                         sum(0.5 * sample.slope[x], w.curve, 1, moving), w.b, limit);
+            }
         }
+        if ((samples_[s].needed & path_bit<Axes>) != 0)
+            add_row(first + 2 * Axes, Row::tangential_acceleration, i,
+                    sum(0.5 * sample.pace.value, w.slope, sample.pace.slope, w.b),
+                    acceleration_share * limits_.path_acceleration);
+        if ((samples_[s].needed & path_jerk_bit<Axes>) != 0)
+            add_jerk(
+                first + 2 * Axes + 1, Row::tangential_jerk, i,
+                sum(0.5 * sample.pace.value, w.curve, 1, sum(1.5 * sample.pace.slope, w.slope, sample.pace.curve, w.b)),
+                w.b, jerk_share * limits_.path_jerk);
+        if ((samples_[s].needed & speed_bit<Axes>) != 0)
+            add_row(first + 2 * Axes + 2, Row::bend, i, w.b, acceleration_share * sample.cap * sample.cap);
     }
 }
 
@@ -278,7 +291,9 @@ template void AxisSpeedProblem<3>::add_jerk(std::uint32_t number, Row kind, std:
                                             const Three& b, double limit);
 template void AxisSpeedProblem<5>::add_jerk(std::uint32_t number, Row kind, std::size_t cell, const Three& w,
                                             const Three& b, double limit);
-template void AxisSpeedProblem<3>::make_rows();
-template void AxisSpeedProblem<5>::make_rows();
+template void AxisSpeedProblem<3>::make_rows(const LimitRows* before);
+template void AxisSpeedProblem<5>::make_rows(const LimitRows* before);
+template void AxisSpeedProblem<3>::make_rows_of(std::size_t cell);
+template void AxisSpeedProblem<5>::make_rows_of(std::size_t cell);
 
 }  // namespace clsurf

@@ -9,18 +9,18 @@
 namespace clsurf {
 namespace {
 
-constexpr std::size_t most_cells_of_window = 250;
-constexpr double run_share = 0.85;   ///< of a window, before it is planned again
-constexpr double rest_share = 0.25;  ///< of the jerk phase next to a rest: run as planned, as v² is no quadratic there
+constexpr std::size_t most_cells_of_window = 350;
+constexpr double run_share = 0.75;   ///< of a window, before it is planned again
+constexpr double rest_share = 0.35;  ///< of the jerk phase next to a rest: run as planned, as v² is no quadratic there
 constexpr double growth = 0.15;      ///< of the time from or to a rest: longest cell
-constexpr double cells_a_ramp = 10;  ///< over the time in which the jerk reaches the greatest acceleration
+constexpr double cells_a_ramp = 20;  ///< over the time in which the jerk reaches the greatest acceleration
 constexpr double most_change = 0.05;        ///< of the speed in a cell, by the jerk
 constexpr double most_turn_of_cell = 0.05;  ///< [rad] of the path in a cell
 constexpr double approach = 0.5;            ///< of the way over which the pace would fall to nothing
 constexpr double turn_share = 0.7;          ///< of it, after which a cell ends
 // Spans share a cell until it lasts as long as that, and their samples hold the limits of each: a part of the
-// same time, as in less of it a speed hardly changes.
-constexpr double least_cells_a_ramp = 28, least_periods = 0.4, most_periods = 3;
+// same time, as in less of it a speed hardly changes. Where a straight way meets a bent one limits switch: a shorter cell ends there, too.
+constexpr double least_cells_a_ramp = 28, least_periods = 0.4, most_periods = 3, least_at_bend = 0.3;
 // The places where a part of a span is held, by the periods that it lasts: two, three, five, nine.
 constexpr double briefest = 0.5, brief = 1, middling = 2.5;
 constexpr double slight = 0.01;  ///< [rad] that it turns
@@ -78,35 +78,6 @@ double way_of_turn(const Span& span, double from, double turn) {
     rate = std::max(rate, turn_rate(span.derivatives(std::min(from + turn / rate, span.length))));
     const double way = turn / rate;
     return pace.slope < 0 ? std::min(way, approach * pace.value / -pace.slope) : way;
-}
-
-/// From rest at the greatest jerk, if that ends below every limit. With constant jerk j over a way s, v a = 3 j s and
-/// v³ = 4.5 j s²: the jerk of an axis, x′ j + 3 x″ v a + x‴ v³, grows with j alone.
-RestRamp steepest_from_rest(double way, const Span& span, const Machine& machine) {
-    if (way > span.length) return {};
-    const auto most = [way](double limit, double slope, double bend, double twist) {
-        return limit / (slope + 9 * bend * way + 4.5 * twist * way * way);
-    };
-    double jerk = span.jerk;
-    if (!span.straight()) {
-        jerk = std::min(jerk, most(machine.path.max_jerk, span.greatest_slope, span.pace_slope, span.pace_curve));
-        for (int i = 0; i < 3; ++i) {
-            const double limit = machine.axes[static_cast<std::size_t>(i)].max_jerk;
-            if (limit > 0) jerk = std::min(jerk, most(limit, span.slope[i], span.bend[i], span.twist[i]));
-        }
-    }
-    const double time = std::cbrt(6 * way / jerk);
-    const RestRamp ramp{jerk, time, 0.5 * jerk * time * time, jerk * time};
-    const double square = ramp.speed * ramp.speed;
-    bool held = ramp.speed <= (span.straight() ? span.free_cap : std::min(span.free_cap, span.cap)) &&
-                ramp.acceleration <= std::min(span.acceleration, machine.path.max_acceleration);
-    if (span.straight()) return held ? ramp : RestRamp{};
-    held = held && span.greatest_slope * ramp.acceleration + span.pace_slope * square <= machine.path.max_acceleration;
-    for (int i = 0; i < 3; ++i) {
-        const double acceleration = span.slope[i] * ramp.acceleration + span.bend[i] * square;
-        held = held && acceleration <= machine.axes[static_cast<std::size_t>(i)].max_acceleration;
-    }
-    return held ? ramp : RestRamp{};
 }
 
 KnotState state_at(const SCurve& profile, double time) {
@@ -214,6 +185,7 @@ void Refiner::add_cells(const Section& section) {
     double time = section.from;
     for (std::size_t k = 0; k < run.spans.size() && begin < arc_length_to; ++k) {
         const Span& span = run.spans[k];
+        end_cell_before(span);
         const double end = k + 1 < run.spans.size() ? begin + span.length : profile.length();
         double arc_length = std::max(begin, arc_length_from);
         const double last = std::min(end, arc_length_to);
@@ -253,6 +225,12 @@ void Refiner::add_cells(const Section& section) {
         }
         begin = end;
     }
+}
+
+/// Ends the open cell where a straight way meets a bent one, unless it would be very short.
+void Refiner::end_cell_before(const Span& span) {
+    if (open_.length == 0 || parts_.back().span->straight() == span.straight()) return;
+    if (open_.length >= least_at_bend * least_time_ * std::max(open_.end.speed, end_.speed)) close_cell();
 }
 
 void Refiner::close_cell() {

@@ -12,15 +12,10 @@
 
 #include "simulation/plan/lookahead.h"
 #include "simulation/plan/planned_motion.h"
+#include "simulation/plan/rest_ramp.h"
 #include "simulation/plan/speed_problem.h"
 
 namespace clsurf {
-
-/// From rest at constant jerk. A jerk of 0: there is none.
-struct RestRamp {
-    double jerk = 0, time = 0;           ///< [mm/s³, s]
-    double speed = 0, acceleration = 0;  ///< at its end
-};
 
 class Refiner {
 public:
@@ -63,6 +58,7 @@ private:
     void add(const Section& section);
     void divide(Section& section);
     void add_cells(const Section& section);
+    void end_cell_before(const Span& span);
     void close_cell();
     void add_part(const CellPart& part, double begin, CellLimits& limits);
     void solve(bool to_the_end);

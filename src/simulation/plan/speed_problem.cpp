@@ -18,9 +18,9 @@ constexpr double mended = 1e-4;      ///< of a bound
 constexpr double held = 1 + 3e-4;    ///< part of a limit that counts as held
 constexpr int most_rounds = 6;       ///< with rows for what the last solution broke
 // On the way to a solution rows are looked for, too: first at a gap, then whenever it has shrunk to a part of itself, until it is small.
-constexpr double early_gap = 0.3, look_step = 0.3, last_look = 0.02;  ///< of the time; of the gap; of the time
-constexpr double nearly_held = 0.8;                                   ///< part of a limit that gets a row there
-constexpr double later_slack = 0.05;                                  ///< of a bound, of a row that joins
+constexpr double early_gap = 0.3, look_step = 0.7, last_look = 0.005;  ///< of the time; of the gap; of the time
+constexpr double nearly_held = 0.8;                                    ///< part of a limit that gets a row there
+constexpr double later_slack = 0.05;                                   ///< of a bound, of a row that joins
 
 }  // namespace
 
@@ -171,7 +171,7 @@ double AxisSpeedProblem<Axes>::time_at_caps() const {
 template <int Axes>
 void AxisSpeedProblem<Axes>::add_needed_rows() {
     std::swap(rows_before_, rows_);
-    make_rows();
+    make_rows(&rows_before_);
     rows_.begin(value_.data(), gap_ / rows_before_.sides(), later_slack, &rows_before_);
 }
 
@@ -230,8 +230,12 @@ bool AxisSpeedProblem<Axes>::optimise(const KnotState& start, const KnotState& e
     weigh();
     need_likely_rows();
     for (int round = 0; round < most_rounds; ++round) {
-        make_rows();
-        rows_.begin(value_.data(), first_gap * time() / rows_.sides(), first_slack);
+        if (round == 0) {
+            make_rows();
+            rows_.begin(value_.data(), first_gap * time() / rows_.sides(), first_slack);
+        } else {
+            add_needed_rows();
+        }
         if (!iterate() || (first_ == FirstSpeeds::hold && time() > planned)) return false;
         if (!need_broken_rows(held)) {
             limiting_.assign(cells_.size(), Row::cap);

@@ -97,6 +97,7 @@ private:
         bool acceleration = false;
         std::array<bool, 3> jerk{};
         double jerk_share = 1;  ///< of the jerk along the path, lowered where it is broken between rows
+        bool changed = false;   ///< rows have become needed since they were made
     };
     struct HeldSample {
         Sample sample;
@@ -127,7 +128,8 @@ private:
     [[nodiscard]] bool need_broken_rows(double part);
     [[nodiscard]] bool may_break(const Cell& cell, double part, double acceleration, double square, double jerk,
                                  double path_jerk) const;
-    void make_rows();
+    void make_rows(const LimitRows* before = nullptr);
+    void make_rows_of(std::size_t cell);
     void add_cap(std::uint32_t number, std::size_t cell, const std::array<double, 3>& weights, double cap);
     void add_row(std::uint32_t number, Row kind, std::size_t cell, const std::array<double, 3>& w, double limit);
     void add_jerk(std::uint32_t number, Row kind, std::size_t cell, const std::array<double, 3>& w,
