@@ -4,6 +4,7 @@
 
 #include "cli/survey_options.h"
 #include "cli/terminal.h"
+#include "core/column_file.h"
 
 namespace clsurf::cli {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 ExitCode run_survey(const po::variables_map& values) {
     const std::string output = required(values, "output");
     PartOptions options = read_part_options(values);
+    if (values.count("scratch") > 0) keep_columns_in(values["scratch"].as<std::string>());
     const io::SurveyOrigin origin = survey_origin(options, values);
     const std::optional<Role> measured = take_measured_role(options);
     StageClock clock(read_common(values), 6);
@@ -45,13 +47,17 @@ Subcommand survey_subcommand() {
             "them in a file. With it `clsurf check --shard` and `clsurf export --shard` work on a part of the log without\n"
             "reading the rest, on one machine or on many (docs/howto/shards.md). The log is a BIIP file of a machine with\n"
             "three axes. Give the same options for program and log to every step.\n"
-            "The file takes 8 bytes a point and is for the version of clsurf that made it.\n\n"
+            "The file takes 8 bytes a point and is for the version of clsurf that made it. Where memory is too small for\n"
+            "24 bytes a point, --scratch keeps them in files without a name, which are gone when the survey ends.\n\n"
             "  clsurf survey part.nc run.biip -o run.survey\n"
             "  clsurf check part.nc run.biip --survey run.survey --shard 1/8 -o shard1.json\n"
             "  clsurf check part.nc run.biip --survey run.survey --merge shard*.json -o whole.json",
         .declare =
             [](po::options_description& options) {
                 options.add_options()("output,o", po::value<std::string>()->value_name("FILE"), "the survey");
+                options.add_options()(
+                    "scratch", po::value<std::string>()->value_name("FOLDER"),
+                    "keep what the log takes in files in this folder, not in memory: 24 bytes a point");
                 declare_part(options);
             },
         .positional = {"PROGRAM", "LOG"},

@@ -7,6 +7,7 @@
 //
 // A sparse column has a size and takes memory for those pages only that are written; a borrowed one shows memory of
 // someone else, such as a mapped file. Both are there for logs of which only a part is looked at (core/block_fill.h).
+// Large columns may be kept in files (core/column_file.h).
 
 #include <sys/mman.h>
 
@@ -17,6 +18,8 @@
 #include <span>
 #include <type_traits>
 #include <utility>
+
+#include "core/column_file.h"
 
 namespace clsurf {
 
@@ -61,17 +64,20 @@ public:
         : data_(std::exchange(other.data_, nullptr)),
           size_(std::exchange(other.size_, 0)),
           capacity_(std::exchange(other.capacity_, 0)),
+          descriptor_(std::exchange(other.descriptor_, -1)),
           storage_(std::exchange(other.storage_, Storage::owned)) {}
     Column& operator=(Column other) noexcept {
         std::swap(data_, other.data_);
         std::swap(size_, other.size_);
         std::swap(capacity_, other.capacity_);
+        std::swap(descriptor_, other.descriptor_);
         std::swap(storage_, other.storage_);
         return *this;
     }
     ~Column() {
         if (storage_ == Storage::owned) std::free(data_);
         if (storage_ == Storage::sparse) ::munmap(static_cast<void*>(data_), capacity_ * sizeof(T));
+        if (storage_ == Storage::file) column_file::remove({data_, descriptor_}, capacity_ * sizeof(T));
     }
 
     /// Of a sparse column: all values are zero again, and take no memory.
@@ -87,6 +93,10 @@ public:
     void reserve(std::size_t capacity) {
         if (capacity <= capacity_) return;
         if (capacity > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_alloc();
+        if (storage_ == Storage::file || (storage_ == Storage::owned && column_file::is_wanted(capacity * sizeof(T)))) {
+            grow_in_file(capacity);
+            return;
+        }
         if (storage_ != Storage::owned) throw std::bad_alloc();
         void* grown = std::realloc(static_cast<void*>(data_), capacity * sizeof(T));
         if (grown == nullptr) throw std::bad_alloc();
@@ -141,11 +151,28 @@ public:
     operator std::span<T>() noexcept { return {data_, size_}; }
 
 private:
-    enum class Storage : unsigned char { owned, sparse, borrowed };
+    enum class Storage : unsigned char { owned, sparse, borrowed, file };
+
+    void grow_in_file(std::size_t capacity) {
+        if (storage_ == Storage::file) {
+            column_file::Mapping mapping{data_, descriptor_};
+            column_file::grow(mapping, capacity_ * sizeof(T), capacity * sizeof(T));
+            data_ = static_cast<T*>(mapping.data);
+        } else {
+            const column_file::Mapping mapping = column_file::make(capacity * sizeof(T));
+            if (size_ > 0) std::memcpy(mapping.data, static_cast<const void*>(data_), size_ * sizeof(T));
+            std::free(data_);
+            data_ = static_cast<T*>(mapping.data);
+            descriptor_ = mapping.descriptor;
+            storage_ = Storage::file;
+        }
+        capacity_ = capacity;
+    }
 
     T* data_ = nullptr;
     std::size_t size_ = 0;
     std::size_t capacity_ = 0;
+    int descriptor_ = -1;  ///< of a column in a file
     Storage storage_ = Storage::owned;
 };
 

@@ -11,6 +11,7 @@
 #include <numeric>
 #include <string>
 
+#include "core/column_file.h"
 #include "core/error.h"
 #include "io/formats/biip.h"
 #include "io/formats/shard_file.h"
@@ -343,6 +344,21 @@ TEST_F(Shards, TheMotionOfAllPointsIsThatOfTheWholeLog) {
         expect_within_the_bound(merged.mismatch, at_once.mismatch);
         expect_within_the_bound(merged.jerk, at_once.jerk);
     }
+}
+
+TEST_F(Shards, ASurveyWhoseColumnsAreInFilesIsTheSame) {
+    keep_columns_in(*folder / "", 1000);
+    const Survey survey = make_survey(whole());
+    const std::string file = *folder / "scratch.survey";
+    io::write_survey(file, survey, origin);
+    keep_columns_in("");
+    const Survey a = io::read_survey(kept, origin), b = io::read_survey(file, origin);
+    EXPECT_EQ(a.points, b.points);
+    EXPECT_EQ(a.step_over, b.step_over);
+    EXPECT_EQ(a.thresholds.of, b.thresholds.of);
+    EXPECT_TRUE(std::equal(a.neighbours.left.begin(), a.neighbours.left.end(), b.neighbours.left.begin()));
+    EXPECT_TRUE(std::equal(a.neighbours.right.begin(), a.neighbours.right.end(), b.neighbours.right.begin()));
+    EXPECT_TRUE(std::equal(a.arc_lengths.begin(), a.arc_lengths.end(), b.arc_lengths.begin()));
 }
 
 TEST_F(Shards, ASurveyOfSomethingElseIsAnError) {
