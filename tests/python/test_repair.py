@@ -1,7 +1,10 @@
 """The repair of programs against that of the program."""
 
+import math
+import subprocess
+
 import clsurf
-from conftest import files, run_json
+from conftest import DATA, PROGRAM, run_json
 
 
 def compare(tmp_path, program, log=None):
@@ -15,15 +18,34 @@ def compare(tmp_path, program, log=None):
     return report
 
 
+def crowded(tmp_path):
+    """Six passes over a wave, the fourth of which has fifty points in a millimetre: quickly repaired."""
+    lines = ["G21 G90", "G64 P0.005", "G0 X0 Y0 Z10", "G1 Z0 F1000", "G1 F3000"]
+    for k in range(6):
+        w = 0.0
+        while w < 9.01:
+            x = 9 - w if k % 2 else w
+            lines.append(f"X{x:.3f} Y{0.4 * k:.3f} Z{0.5 * math.sin(0.8 * x):.3f}")
+            w += 0.02 if k == 3 and 3 < w < 4 else 0.25
+    program = tmp_path / "part.nc"
+    program.write_text("\n".join([*lines, "G0 Z10", "M2", ""]))
+    return program
+
+
 def test_a_repaired_program(tmp_path):
-    program, _ = files("bottle_uneven.nc")
-    lines = open(program, encoding="utf-8").readlines()
-    beginning = tmp_path / "beginning.nc"
-    beginning.write_text("".join(lines[:500]))
-    assert compare(tmp_path, beginning)["accepted"]
+    assert compare(tmp_path, crowded(tmp_path))["accepted"]
 
 
 def test_a_machine_that_is_fitted_to_the_log(tmp_path):
-    report = compare(tmp_path, *files("planted_loops.nc"))
-    assert not report["accepted"] and report["reason"]
+    program, log = crowded(tmp_path), tmp_path / "run.biip"
+    machine = DATA / "machines" / "linuxcnc_logs.toml"
+    subprocess.run([PROGRAM, "simulate", program, "--machine", machine, "-o", log, "-q"], check=True)
+    report = compare(tmp_path, program, log)
     assert report["log"]["points"] > 1000
+
+
+def test_a_program_that_is_refused(tmp_path):
+    program = tmp_path / "part.nc"
+    program.write_text("G21 G90\nG0 X0 Y0 Z0\nG1 X10 F600 (A)\nY0.3 (B)\nX0 (C)\nY0.6 (D)\nX10 (E)\nY0.9 (F)\nX0 (G)\nM2\n")
+    report = compare(tmp_path, program)
+    assert not report["accepted"] and report["reason"]
