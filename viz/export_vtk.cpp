@@ -156,13 +156,36 @@ vtkNew<vtkPolyData> poly_data(VtkPiece& piece, const std::vector<PointData>& dat
     return poly;
 }
 
+/// Blanks between the head of a file and its data. VTK 9.1 and ParaView 5.11 read blocks of 4096 bytes until the parser has
+/// told them of the element AppendedData. Expat 2.6, and 2.5.0-1+deb12u2 of Debian 12, tell of it when another block has
+/// come, which may have nothing but blanks then: the document has ended for the parser.
+class RoomBeforeData final : public vtkXMLPolyDataWriter {
+public:
+    static RoomBeforeData* New() {
+        auto* made = new RoomBeforeData;
+        made->InitializeObjectBase();
+        return made;
+    }
+    vtkTypeMacro(RoomBeforeData, vtkXMLPolyDataWriter)
+
+        protected : int WriteHeader() override {
+        constexpr std::size_t blocks = 3, block = 4096;
+        const int written = Superclass::WriteHeader();
+        if (written == 0 || !Stream->good()) return written;
+        Stream->seekp(-1, std::ios::cur);  // the _ before the data
+        *Stream << std::string(blocks * block, ' ') << "\n   _";
+        AppendedDataPosition = Stream->tellp();
+        return Stream->good() ? written : 0;
+    }
+};
+
 void write_poly(const std::string& path, vtkPolyData& poly) {
-    vtkNew<vtkXMLPolyDataWriter> writer;
+    vtkNew<RoomBeforeData> writer;
     writer->SetInputData(&poly);
     writer->SetFileName(path.c_str());
     writer->SetDataModeToAppended();
     // Not raw: VTK 9.1 and ParaView 5.11 cannot read that with expat 2.6, or 2.5.0-1+deb12u2 of Debian 12
-    // (gitlab.kitware.com/vtk/vtk/-/issues/19258). Not inline: that writer crashes on a full disk.
+    // (gitlab.kitware.com/vtk/vtk/-/issues/19258; they read base64 behind some room). Not inline: that writer crashes on a full disk.
     writer->EncodeAppendedDataOn();
     // A full disk is told by the error code alone, with a page of text on standard error.
     const int warnings = vtkObject::GetGlobalWarningDisplay();
