@@ -150,11 +150,7 @@ Subcommand render_subcommand() {
             "  clsurf render part.nc run.biip -o map.png\n"
             "  clsurf render part.nc run.biip -o map.png --color acceleration --view top --range 0,800\n"
             "  clsurf render part.nc run.biip -o map.png --surface formed --tool ball:6",
-        .declare =
-            [](po::options_description& options) {
-                declare_render(options);
-                declare_render_shards(options);
-            },
+        .declare = declare_render_with_shards,
         .positional = {"PROGRAM", "LOG"},
         .run = run_render,
     };

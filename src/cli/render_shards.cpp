@@ -208,7 +208,8 @@ int read_shard_count(const po::variables_map& values) {
 
 }  // namespace
 
-void declare_render_shards(po::options_description& options) {
+void declare_render_with_shards(po::options_description& options) {
+    declare_render(options);
     // clang-format off
     options.add_options()
         ("survey", po::value<std::string>()->value_name("FILE"), "the survey of the log (`clsurf survey`): the map is drawn shard by shard, with the memory of one")

@@ -5,8 +5,8 @@
 
 namespace clsurf::cli {
 
-/// --survey, --shards.
-void declare_render_shards(po::options_description& options);
+/// The options of `render`, with --survey and --shards.
+void declare_render_with_shards(po::options_description& options);
 
 /// Draws the map with the memory of one shard where --survey is given; false: it is not. Throws UsageError: an option that
 /// needs the whole log, a field without a range that is known before.
