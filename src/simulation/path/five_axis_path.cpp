@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/not_finite.h"
+
 namespace clsurf {
 namespace {
 
@@ -142,6 +144,18 @@ void FiveAxisPath::fit(double Joint::*width, int first, int count, const std::ve
 std::size_t FiveAxisPath::chord_at(double u) const {
     const auto found = std::upper_bound(ends_.begin(), ends_.end(), u);
     return std::min(static_cast<std::size_t>(found - ends_.begin()), ends_.size() - 1);
+}
+
+double FiveAxisPath::clearance(double u) const {
+    const std::size_t chord = chord_at(u);
+    double clear = infinite;
+    const std::size_t low = chord > joints_reached ? chord - joints_reached : 0,
+                      high = std::min(joints_.size(), chord + joints_reached);
+    for (std::size_t j = low; j < high; ++j) {
+        const double width = std::max(joints_[j].tip_width, joints_[j].angle_width);
+        clear = std::min(clear, std::abs(u - ends_[j]) - width);
+    }
+    return std::max(0.0, clear);
 }
 
 double FiveAxisPath::part_at(std::size_t chord, double u) const {

@@ -49,6 +49,10 @@ public:
     /// Which part of its block lies behind u.
     [[nodiscard]] double part_at(std::size_t chord, double u) const;
     [[nodiscard]] FiveAxisPlace at(double u) const;
+    /// How far u is from the nearest rounding, or from a joint that has none; 0: it lies within one.
+    [[nodiscard]] double clearance(double u) const;
+    /// How far the angles turn by u there [rad], but for roundings.
+    [[nodiscard]] double turning(double u) const { return slopes_[chord_at(u)].tail<2>().norm(); }
     /// Derivatives of x, y, z, tilt and rotation by u; `tip`: those of the tip.
     [[nodiscard]] AxisSample<5> derivatives(double u, PathDerivatives& tip) const;
     /// Where derivatives change fast, in order: a polyline through them misses no corner.

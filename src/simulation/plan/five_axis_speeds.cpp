@@ -13,12 +13,13 @@
 namespace clsurf {
 namespace {
 
-constexpr double first_share = 0.5;   ///< of the limits, for the first speeds
-constexpr double steady_share = 0.8;  ///< of the limits, that bends alone may take of them
-constexpr double rest_part = 0.25;    ///< of the jerk phase next to a rest: the jerk is constant there
-constexpr double rest_jerk = 0.95;    ///< of what the axes allow at the rest
-constexpr double cells_in_ramp = 10;  ///< over the time in which the jerk reaches the acceleration
-constexpr double cell_growth = 0.15;  ///< of the time from or to a rest: longest cell
+constexpr double first_share = 0.5;      ///< of the limits, for the first speeds
+constexpr double steady_share = 0.8;     ///< of the limits, that bends alone may take of them
+constexpr double rest_part = 0.25;       ///< of the jerk phase next to a rest: the jerk is constant there
+constexpr double rest_jerk = 0.95;       ///< of what the axes allow at the rest
+constexpr double cells_in_ramp = 10;     ///< over the time in which the jerk reaches the acceleration
+constexpr double cell_growth = 0.15;     ///< of the time from or to a rest or a rounding: longest cell
+constexpr double most_cell_turn = 0.05;  ///< [rad] of the angles in a cell that is longer
 constexpr std::size_t window_cells = 1500, samples_of_cell = 4;
 constexpr double kept_share = 0.6;                                             ///< of a window
 constexpr std::array<double, 6> slower_tries{1, 0.5, 0.25, 0.1, 0.03, 0.003};  ///< first v², tried in turn
@@ -132,14 +133,16 @@ private:
 
     /// Where a window of cells ends.
     [[nodiscard]] double horizon() {
-        double time = 0;
-        const double most = static_cast<double>(window_cells) * ramp_ / cells_in_ramp;
+        double cells = 0;
         auto place = std::lower_bound(places_.begin(), places_.end(), at_,
                                       [](const LimitPlace& p, double u) { return p.u < u; });
         for (double u = at_; place != places_.end(); ++place) {
-            time += (place->u - u) / std::max(1e-6, place->cap);
+            const double in_step = (place->u - u) / std::max(1e-6, place->cap) * cells_in_ramp / ramp_;
+            const double grown = std::log1p(cell_growth * in_step) / cell_growth +
+                                 path_->turning(0.5 * (u + place->u)) * (place->u - u) / most_cell_turn;
+            cells += std::min(in_step, grown);
             u = place->u;
-            if (time > most && u > at_) break;
+            if (cells > static_cast<double>(window_cells) && u > at_) break;
         }
         return place == places_.end() ? path_->length() : place->u;
     }
@@ -209,7 +212,9 @@ private:
         }
         last_piece_ = {last_u, end_time, {}, -end_jerk, LimitingFactor::lookahead_end};
         if (!(last_u > u)) return false;
-        divide(u, last_u, start, stop, start.speed > 0 && start_time > 0 ? start_time : -1, end_time);
+        // In the middle of a way cells grow as from a rest that is far enough away for the first.
+        if (start_time == 0) start_time = ramp_ / cells_in_ramp / cell_growth;
+        divide(u, last_u, start, stop, start_time, end_time);
         start_ = start;
         stop_ = stop;
         return problem_.solve(start, stop);
@@ -224,9 +229,15 @@ private:
         return b > a ? x + (y - x) * std::clamp((u - a) / (b - a), 0.0, 1.0) : x;
     }
 
+    /// The longest cell from u on at a speed: far from roundings little changes.
+    [[nodiscard]] double longest_step(double u, double speed) const {
+        const double clear = cell_growth * path_->clearance(u) / speed;
+        const double turn = most_cell_turn / std::max(1e-9, path_->turning(u)) / speed;
+        return std::max(ramp_ / cells_in_ramp, std::min(clear, turn));
+    }
+
     void divide(double from, double to, const KnotState& start, const KnotState& stop, double since, double until) {
         std::size_t cursor = first_;
-        const double longest = ramp_ / cells_in_ramp;
         const double from_square = start.speed * start.speed, to_square = stop.speed * stop.speed;
         // Times to the end come first: cells shorten before it.
         std::vector<double> steps;
@@ -235,13 +246,12 @@ private:
             while (cursor < last_ && places_[cursor].u <= u) ++cursor;
             const double speed = std::sqrt(std::max(1e-18, square_near(u, cursor, from, from_square, to, to_square)));
             const double way_left = to - u;
-            double step = longest;
-            if (since >= 0) step = std::min(step, cell_growth * since);
+            double step = std::min(longest_step(u, speed), cell_growth * since);
             step = std::min(step, cell_growth * (until + 1.5 * way_left / std::max(speed, stop.speed)));
             double next = u + step * speed;
             if (to - next < 0.5 * step * speed) next = to;
             steps.push_back(next - u);
-            if (since >= 0) since += step;
+            since += step;
             u = next;
         }
         u = from;

@@ -120,6 +120,16 @@ void AxisSpeedProblem<Axes>::fix_ends(const KnotState& start, const KnotState& e
     value_[n + 1] = value_[n] + 2 * end.acceleration * last;
 }
 
+/// Where a path nearly reverses, a cap is low over a way that first speeds hardly see: b at both ends of such a cell
+/// depends on its neighbours' coefficients, too.
+template <int Axes>
+void AxisSpeedProblem<Axes>::lower_to_caps() {
+    for (std::size_t i = 1; i + 1 < cells_.size(); ++i) {
+        const double cap = std::min({cells_[i - 1].limits.cap, cells_[i].limits.cap, cells_[i + 1].limits.cap});
+        value_[i + 1] = std::min(value_[i + 1], cap * cap);
+    }
+}
+
 /// The weights at the begins of all cells.
 template <int Axes>
 void AxisSpeedProblem<Axes>::weigh() {
@@ -225,6 +235,7 @@ bool AxisSpeedProblem<Axes>::optimise(const KnotState& start, const KnotState& e
     for (std::size_t i = 1; i + 1 < value_.size(); ++i) {
         if (!(value_[i] > 0)) return false;
     }
+    if (first_ == FirstSpeeds::guess) lower_to_caps();
     const double planned = time();
     if (first_ == FirstSpeeds::hold && planned < (1 + end_gap) * time_at_caps()) return false;
     weigh();

@@ -112,6 +112,7 @@ private:
     // speed_problem.cpp: the solution
     [[nodiscard]] bool optimise(const KnotState& start, const KnotState& end);
     void fix_ends(const KnotState& start, const KnotState& end);
+    void lower_to_caps();
     void weigh();
     [[nodiscard]] bool iterate();
     void assemble();
