@@ -8,8 +8,12 @@
 #include <fstream>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 #include "io/readers/machine_file.h"
+#include "simulation/path/five_axis_path.h"
+#include "simulation/plan/five_axis_speeds.h"
 #include "support/made_five_axis.h"
 #include "toolpath/tip_motions.h"
 #include "toolpath/toolpath.h"
@@ -136,6 +140,36 @@ TEST(FiveAxisSimulator, AShortLineTakesTheTimeOfItsFeed) {
     EXPECT_TRUE(r.summary.run.limits_ok);
     EXPECT_GT(r.summary.run.duration, 1.2);
     EXPECT_LT(r.summary.run.duration, 1.4);
+}
+
+// From corner to corner of such a zigzag the tip nearly reverses, where its speed has to fall within a thousandth of a millimetre.
+TEST(FiveAxisSimulator, LongRapidsThatNearlyReverseArePlanned) {
+    const Machine machine = trunnion();
+    std::string text = "G17 G21 G90\nG43.4 H1\nG0 X0 Y0 Z0 A0 C0\n";
+    for (int i = 1; i <= 16; ++i)
+        text += fmt::format("X{} Y{} Z{} A{} C{}\n", 200 * (i % 2), 2 * i, i % 5, 10 * (i % 2), 7 * i % 90);
+    const Recorded r = run(text + "M30\n", machine);
+    EXPECT_TRUE(r.summary.run.limits_ok);
+    EXPECT_LE(worst_share(r, machine), 1.0011);
+}
+
+/// Of a zigzag of ten lines, which turn both axes.
+std::size_t planned_motions(double length) {
+    const Machine machine = trunnion();
+    std::vector<FiveAxisChord> chords(10);
+    for (std::size_t k = 0; k < chords.size(); ++k) {
+        const double n = static_cast<double>(k + 1);
+        chords[k].end << (k % 2 == 0 ? length : 0.0), 5 * n, 0, 0.02 * n, 0.1 * n;
+        chords[k].feed = 50;
+        chords[k].tolerance = 0.01;
+        chords[k].block = static_cast<std::uint32_t>(k);
+    }
+    const FiveAxisPath path(machine.kinematics, Vec3::Zero(), FiveAxes::Zero(), chords);
+    return plan_speeds(path, machine, [](std::size_t) { return Place{}; }).size();
+}
+
+TEST(FiveAxisSimulator, LongLinesCostNoMoreThanShortOnes) {
+    EXPECT_LT(static_cast<double>(planned_motions(2000)), 1.5 * static_cast<double>(planned_motions(100)));
 }
 
 TEST(FiveAxisSimulator, FeedOfZeroNamesTheLine) {

@@ -10,10 +10,10 @@ namespace clsurf {
 namespace {
 
 constexpr std::size_t most_cells_of_window = 350;
-constexpr double run_share = 0.75;   ///< of a window, before it is planned again
+constexpr double run_share = 0.85;   ///< of a window, before it is planned again
 constexpr double rest_share = 0.35;  ///< of the jerk phase next to a rest: run as planned, as v² is no quadratic there
 constexpr double growth = 0.15;      ///< of the time from or to a rest: longest cell
-constexpr double cells_a_ramp = 20;  ///< over the time in which the jerk reaches the greatest acceleration
+constexpr double cells_a_ramp = 14;  ///< over the time in which the jerk reaches the greatest acceleration
 constexpr double most_change = 0.05;        ///< of the speed in a cell, by the jerk
 constexpr double most_turn_of_cell = 0.05;  ///< [rad] of the path in a cell
 constexpr double approach = 0.5;            ///< of the way over which the pace would fall to nothing
