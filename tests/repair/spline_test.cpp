@@ -9,8 +9,10 @@
 #include "repair/line_edit.h"
 #include "repair/parts.h"
 #include "repair/points/deviation.h"
+#include "repair/points/resample.h"
 #include "repair/points/section_spline.h"
 #include "repair/spline_lines.h"
+#include "surface/programmed_surface.h"
 
 namespace clsurf {
 namespace {
@@ -329,6 +331,26 @@ TEST(Deviation, OfASplineInPlaceOfALine) {
     const Deviation deviation = measure_deviation(line, spline);
     EXPECT_EQ(deviation.disordered, 0U);
     EXPECT_NEAR(deviation.greatest, 0.015, 1e-6);
+}
+
+/// How many of the sections of a program get more lines than they had.
+int growing_sections(const std::string& text, bool splines) {
+    const Program program = read_as(text, "linuxcnc");
+    const LineEditor editor(program);
+    const ResampleRules rules{0.005, 0.25, 0.001, 0, 0.5, 0, splines};
+    int growing = 0;
+    for (const ResampledSegment& s : resample(program, build_programmed_surface(program), editor, rules, {}, nullptr)) {
+        EXPECT_FALSE(s.spline);
+        if (static_cast<std::int64_t>(s.points.size()) > s.last - s.first + 1) ++growing;
+    }
+    return growing;
+}
+
+// LinuxCNC has no splines for passes on which Z moves, and even lines over this wave have to be shorter than those of the program.
+TEST(Splines, WhereThereIsNoneLinesDoNotBecomeMore) {
+    const std::string text = wavy_zigzag(3, 9, [](int, double) { return 0.5; });
+    EXPECT_GT(growing_sections(text, false), 0);
+    EXPECT_EQ(growing_sections(text, true), 0);
 }
 
 }  // namespace
