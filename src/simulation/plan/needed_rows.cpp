@@ -120,7 +120,6 @@ void AxisSpeedProblem<Axes>::need_likely_rows() {
 /// Rows for what is above a part of its limit and has none; false: nothing is.
 template <int Axes>
 bool AxisSpeedProblem<Axes>::need_broken_rows(double part) {
-    bool any = false;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         Cell& cell = cells_[i];
         const auto need = [&](bool& row) { cell.changed = cell.changed || !row, row = true; };
@@ -144,10 +143,8 @@ bool AxisSpeedProblem<Axes>::need_broken_rows(double part) {
             }
         }
         if (!may_break(cell, part, 0.5 * std::max(std::abs(slope), std::abs(last_slope)), greatest, along_path,
-                       along_path)) {
-            any = any || cell.changed;
+                       along_path))
             continue;
-        }
         for (std::uint32_t s = cell.first_sample; s < cell.end_sample; ++s) {
             HeldSample& held_sample = samples_[s];
             const Sample& sample = held_sample.sample;
@@ -176,9 +173,8 @@ bool AxisSpeedProblem<Axes>::need_broken_rows(double part) {
             cell.changed = cell.changed || (broken & ~held_sample.needed) != 0;
             held_sample.needed |= broken;
         }
-        any = any || cell.changed;
     }
-    return any;
+    return std::any_of(cells_.begin(), cells_.end(), [](const Cell& cell) { return cell.changed; });
 }
 
 template <int Axes>
