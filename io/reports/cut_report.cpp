@@ -44,6 +44,14 @@ std::string rejected_text(const CutReport& report, const ScanCut& cut) {
     return text + "\n";
 }
 
+std::string correction_text(const CorrectedPass& corrected) {
+    const Compensation& by = corrected.by;
+    return fmt::format(
+        "  deviations of {}: corrected by at most {:.4f} mm, at X {:.6g}; they scatter by {:.2g} mm rms about their fit, {} "
+        "rejected\n",
+        corrected.program, by.greatest, by.greatest_x, by.scatter, by.rejected.size());
+}
+
 }  // namespace
 
 std::string_view name_of(WindowJoin join) {
@@ -56,7 +64,7 @@ std::string cut_text(const CutReport& report, const ScanCut& cut) {
                                    cut.scan.x.back());
     if (report.missing > 0) text += fmt::format(", {} more without a height", report.missing);
     if (cut.scan.averaged > 0) text += fmt::format(", {} of the same x averaged", cut.scan.averaged);
-    text += "\n" + rejected_text(report, cut);
+    text += "\n" + (report.corrected ? correction_text(*report.corrected) : rejected_text(report, cut));
     text += fmt::format(
         "  fit of degree {}, windows of {} points, join {}: residual {:.4f} mm rms, {:.4f} mm at most, at X {:.6g}\n",
         report.rules.fit.degree, report.rules.fit.window, name_of(report.rules.fit.join), cut.rms, cut.worst,
@@ -78,36 +86,47 @@ std::string cut_json(const CutReport& report, const ScanCut& cut, const Diagnost
     Json rejected = Json::array();
     for (const ScanPoint& point : cut.scan.rejected)
         rejected.push_back(Json::array({number(point.x), number(point.z)}));
-    return dump(Json{{"file", report.scan},
-                     {"output", report.output},
-                     {"dialect", report.dialect},
-                     {"points", report.read},
-                     {"missing", report.missing},
-                     {"rejected", cut.scan.rejected.size()},
-                     {"rejected_mm", rejected},
-                     {"averaged", cut.scan.averaged},
-                     {"scatter_mm", number(cut.scan.scatter)},
-                     {"outliers", number(report.rules.outliers)},
-                     {"degree", report.rules.fit.degree},
-                     {"window", report.rules.fit.window},
-                     {"join", name_of(report.rules.fit.join)},
-                     {"pieces", cut.fit.pieces.size()},
-                     {"x_mm", Json::array({number(cut.scan.x.front()), number(cut.scan.x.back())})},
-                     {"rms_residual_mm", number(cut.rms)},
-                     {"max_residual_mm", number(cut.worst)},
-                     {"max_residual_at_mm", number(cut.worst_x)},
-                     {"window_jumps",
-                      {{"count", jumps.count},
-                       {"rms_mm", number(jumps.rms)},
-                       {"max_mm", number(jumps.most)},
-                       {"max_at_mm", number(jumps.most_x)},
-                       {"max_slope", number(jumps.most_slope)}}},
-                     {"tool_offset_mm", number(report.rules.radius)},
-                     {"blocks", report.splines ? "splines" : "lines"},
-                     {"output_points", report.written.motions + 1},
-                     {"tolerance_mm", number(report.rules.tolerance)},
-                     {"chord_error_mm", number(report.written.deviation)},
-                     {"diagnostics", list(diagnostics)}});
+    Json json{{"file", report.scan},
+              {"output", report.output},
+              {"dialect", report.dialect},
+              {"points", report.read},
+              {"missing", report.missing},
+              {"rejected", cut.scan.rejected.size()},
+              {"rejected_mm", rejected},
+              {"averaged", cut.scan.averaged},
+              {"scatter_mm", number(cut.scan.scatter)},
+              {"outliers", number(report.rules.outliers)},
+              {"degree", report.rules.fit.degree},
+              {"window", report.rules.fit.window},
+              {"join", name_of(report.rules.fit.join)},
+              {"pieces", cut.fit.pieces.size()},
+              {"x_mm", Json::array({number(cut.scan.x.front()), number(cut.scan.x.back())})},
+              {"rms_residual_mm", number(cut.rms)},
+              {"max_residual_mm", number(cut.worst)},
+              {"max_residual_at_mm", number(cut.worst_x)},
+              {"window_jumps",
+               {{"count", jumps.count},
+                {"rms_mm", number(jumps.rms)},
+                {"max_mm", number(jumps.most)},
+                {"max_at_mm", number(jumps.most_x)},
+                {"max_slope", number(jumps.most_slope)}}},
+              {"tool_offset_mm", number(report.rules.radius)},
+              {"blocks", report.splines ? "splines" : "lines"},
+              {"output_points", report.written.motions + 1},
+              {"tolerance_mm", number(report.rules.tolerance)},
+              {"chord_error_mm", number(report.written.deviation)},
+              {"diagnostics", list(diagnostics)}};
+    if (report.corrected) {
+        const Compensation& by = report.corrected->by;
+        Json outliers = Json::array();
+        for (const ScanPoint& point : by.rejected) outliers.push_back(Json::array({number(point.x), number(point.z)}));
+        json["compensation"] = {{"program", report.corrected->program},
+                                {"max_mm", number(by.greatest)},
+                                {"max_at_mm", number(by.greatest_x)},
+                                {"scatter_mm", number(by.scatter)},
+                                {"rejected_mm", std::move(outliers)}};
+    }
+    return dump(json);
 }
 
 }  // namespace clsurf::io

@@ -1,13 +1,21 @@
 #pragma once
 // What became of a scan: the points, the fit, and the program of `profile`, as text and JSON.
 
+#include <optional>
 #include <string>
 
 #include "core/diagnostic.h"
+#include "scan/compensate.h"
 #include "scan/read_back.h"
 #include "scan/scan_cut.h"
 
 namespace clsurf::io {
+
+/// A finished pass that was corrected.
+struct CorrectedPass {
+    std::string program;
+    Compensation by;
+};
 
 struct CutReport {
     std::string scan, output, dialect;
@@ -16,13 +24,15 @@ struct CutReport {
     ScanCutRules rules;
     ReadBack written;
     bool splines = false;
+    std::optional<CorrectedPass> corrected;  ///< the scan has deviations then
 };
 
 [[nodiscard]] std::string cut_text(const CutReport& report, const ScanCut& cut);
 /// Keys: file, output, dialect, points, missing, rejected, rejected_mm[][x, z], averaged, scatter_mm, outliers, degree,
 /// window, join, pieces, x_mm[2], rms_residual_mm, max_residual_mm, max_residual_at_mm, window_jumps{count, rms_mm, max_mm,
-/// max_at_mm, max_slope}, tool_offset_mm, blocks, output_points, tolerance_mm, chord_error_mm, diagnostics[].
-/// chord_error_mm is of the written program, read again.
+/// max_at_mm, max_slope}, tool_offset_mm, blocks, output_points, tolerance_mm, chord_error_mm, diagnostics[]; of a
+/// corrected pass also compensation{program, max_mm, max_at_mm, scatter_mm, rejected_mm[][x, deviation]}, and all but points
+/// and missing is of the corrected profile. chord_error_mm is of the written program, read again.
 [[nodiscard]] std::string cut_json(const CutReport& report, const ScanCut& cut, const Diagnostics& diagnostics);
 
 [[nodiscard]] std::string_view name_of(WindowJoin join);

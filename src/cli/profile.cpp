@@ -4,6 +4,8 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -15,6 +17,7 @@
 #include "core/file_name.h"
 #include "io/readers/program_file.h"
 #include "io/reports/cut_report.h"
+#include "scan/compensate.h"
 #include "scan/cut_program.h"
 
 namespace clsurf::cli {
@@ -50,6 +53,34 @@ std::string program_of(const ScanCut& cut, const ProfileOptions& options, const 
     return options.splines ? span_program(cut.path.spans(), rules) : line_program(cut.path.points(), rules);
 }
 
+/// What the tool is to follow, the plane of it, and the pass that it corrects where there is one.
+struct PlannedCut {
+    ScanCut cut;
+    double plane = 0;
+    std::optional<io::CorrectedPass> corrected;
+};
+
+PlannedCut planned_cut(const MeasuredData& data, const ProfileOptions& options) {
+    const std::vector<ScanPoint> points = placed_scan(data.points, options.mount);
+    const double plane = plane_of(data);
+    if (options.pass.empty()) return {scan_cut(data.name, points, options.cut), plane, {}};
+    const Program pass = io::read_program(options.pass, {});
+    const PassTips tips = pass_tips(pass);
+    const ScanCutRules& rules = options.cut;
+    Compensation by =
+        compensate(data.name, points, tips.places, {rules.fit, rules.outliers, rules.radius, rules.tolerance});
+    // The profile is dense and has no outliers: a short window follows it.
+    const ScanCutRules follow{0, FitRules(), rules.radius, rules.tolerance};
+    ScanCut cut = scan_cut(options.pass, by.target, follow);
+    if (cut.worst > rules.tolerance)
+        throw InputError(
+            Place::of_file(options.pass),
+            fmt::format("the corrected profile is met within {:.4f} mm only, at X {:.3f} mm: the tolerance is {:g}",
+                        cut.worst, cut.worst_x, rules.tolerance),
+            "a pass of lines has corners as high as its tolerance: a larger --tolerance");
+    return {std::move(cut), tips.y, io::CorrectedPass{options.pass, std::move(by)}};
+}
+
 ExitCode run_profile(const po::variables_map& values) {
     const std::string scan = required(values, "SCAN");
     const std::string path = required(values, "output");
@@ -57,13 +88,13 @@ ExitCode run_profile(const po::variables_map& values) {
     const ProfileOptions options = read_profile_options(values);
     require_program_ending(path);
     const MeasuredData data = io::read_measured(scan, options.columns);
-    const double plane = plane_of(data);
     io::AtomicFile output(path);
     std::optional<PictureOutput> picture;
     if (values.count("picture") > 0)
         picture.emplace(values["picture"].as<std::string>(), "--picture", PictureKind::drawing);
-    const ScanCut cut = scan_cut(data.name, placed_scan(data.points, options.mount), options.cut);
-    const std::string text = program_of(cut, options, data, plane);
+    PlannedCut planned = planned_cut(data, options);
+    const ScanCut& cut = planned.cut;
+    const std::string text = program_of(cut, options, data, planned.plane);
     const Program program = read_written(path, text, options.dialect);
     io::CutReport report{data.name,
                          path,
@@ -72,7 +103,8 @@ ExitCode run_profile(const po::variables_map& values) {
                          data.missing,
                          options.cut,
                          read_back(program, cut.path),
-                         options.splines};
+                         options.splines,
+                         std::move(planned.corrected)};
     const double rounding = std::pow(10.0, -cut_decimals);
     if (report.written.deviation > options.cut.tolerance + rounding)
         throw InputError(
@@ -108,9 +140,12 @@ Subcommand profile_subcommand() {
             "the residuals.\n\n"
             "With --tool-offset a ball leaves the profile. If it would cut below it, because the profile is tighter than the\n"
             "ball, the message says where, and no program is written.\n\n"
+            "With --compensate SCAN has deviations that were measured along a finished pass, such as x and dz [µm]: what was left\n"
+            "too high is taken off where the ball touched, and the corrected pass is written.\n\n"
             "  clsurf profile scan.csv -o cut.ngc\n"
             "  clsurf profile scan.csv --window 30 --tool-offset 3 --picture fit.png -o cut.ngc\n"
-            "  clsurf profile laser.txt --x 0 --z 2 --distance 120 --sensor-offset 35 --dialect siemens --blocks splines -o cut.mpf",
+            "  clsurf profile laser.txt --x 0 --z 2 --distance 120 --sensor-offset 35 --dialect siemens --blocks splines -o cut.mpf\n"
+            "  clsurf profile deviations.csv --z dz --compensate cut.ngc --tool-offset 3 -o corrected.ngc",
         .declare =
             [](po::options_description& options) {
                 // clang-format off

@@ -45,6 +45,7 @@ void declare_profile_options(po::options_description& options) {
         ("window", po::value<int>()->value_name("POINTS")->default_value(10), "scanned points of a window")
         ("join", po::value<std::string>()->value_name("c1|blend|none"), "how windows meet (default: c1): c1, one fit with continuous slope; blend, windows that overlap by half and pass into each other; none, each for itself, with jumps")
         ("tool-offset", po::value<double>()->value_name("RADIUS")->default_value(0, "0"), "radius of a ball that leaves the fitted profile [mm]: its tip is programmed; without it the tip follows the fit")
+        ("compensate", po::value<std::string>()->value_name("PROGRAM"), "SCAN has deviations along this finished pass, measured height less wanted height: the pass is corrected by them; --tool-offset is then the radius of the ball that made it")
         ("tolerance", po::value<double>()->value_name("MM")->default_value(0.01, "0.01"), "distance between program and path [mm], at most")
         ("blocks", po::value<std::string>()->value_name("lines|splines"), "what is written (default: lines): G1 (L), or cubic splines: POLY of siemens, SPL of klartext")
         ("dialect", po::value<std::string>()->value_name("DIALECT"), "language of the program (default: linuxcnc)")
@@ -67,6 +68,9 @@ ProfileOptions read_profile_options(const po::variables_map& values) {
     options.cut.radius = number_of(values, "tool-offset", 0, longest);
     if (options.cut.radius > 0 && options.cut.fit.join == WindowJoin::none)
         throw UsageError("--tool-offset needs a profile without jumps", "--join c1 or --join blend");
+    if (values.count("compensate") > 0) options.pass = values["compensate"].as<std::string>();
+    if (!options.pass.empty() && options.mount.reference)
+        throw UsageError("--distance does not apply to --compensate: deviations are heights, not distances");
     constexpr double finest = 0.0005, coarsest = 10;  // mm: coordinates have four decimals
     options.cut.tolerance = number_of(values, "tolerance", finest, coarsest);
     options.splines = values.count("blocks") > 0 && values["blocks"].as<std::string>() == "splines";

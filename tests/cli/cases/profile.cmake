@@ -43,3 +43,20 @@ clsurf_cli_test(NAME profile_ball_over_jumps SETUP "${few}" ARGS profile m.csv -
 clsurf_cli_test(NAME profile_splines_of_fanuc SETUP "${few}" ARGS profile m.csv --blocks splines --dialect fanuc -o c.nc EXIT 2 STDERR "is of siemens and klartext, not of fanuc")
 clsurf_cli_test(NAME profile_unknown_dialect SETUP "${few}" ARGS profile m.csv --dialect rs -o c.nc EXIT 2 STDERR "rs")
 clsurf_cli_test(NAME profile_over_its_scan SETUP "${few}" ARGS profile m.csv --degree 2 --window 3 -o m.csv EXIT 2)
+
+# Deviations along a finished pass become a corrected one. The part is cut by brute force in NumPy.
+set(compensated "/usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/scan/compensated_part.py")
+foreach(radius 0 3)
+  clsurf_cli_test(NAME profile_compensates_radius_${radius}
+    SETUP "${compensated} make . ${radius}; $CLSURF profile deviations.csv --z dz --compensate pass.ngc --tool-offset ${radius} --tolerance 0.001 -o corrected.ngc -q; ${compensated} check . ${radius}; rm corrected.ngc"
+    ARGS profile deviations.csv --z dz --compensate pass.ngc --tool-offset ${radius} --tolerance 0.001 -o corrected.ngc FILE corrected.ngc
+    STDOUT "deviations of pass.ngc: corrected by at most 0.04[0-9]+ mm, at X 17")
+endforeach()
+clsurf_cli_test(NAME profile_compensates_in_json SETUP "${compensated} make . 3"
+  ARGS profile deviations.csv --z dz --compensate pass.ngc --tool-offset 3 --tolerance 0.002 -o c.ngc --json STDOUT "\"compensation\": {" "\"max_mm\": 0.04")
+clsurf_cli_test(NAME profile_compensates_no_distances SETUP "${compensated} make . 0"
+  ARGS profile deviations.csv --z dz --distance 100 --compensate pass.ngc -o c.ngc EXIT 2 STDERR "--distance does not apply to --compensate")
+clsurf_cli_test(NAME profile_compensates_no_gouge SETUP "${compensated} make . 0"
+  ARGS profile deviations.csv --z dz --compensate pass.ngc --tool-offset 60 --tolerance 0.001 -o c.ngc EXIT 3 NO_FILE c.ngc STDERR "error: ")
+clsurf_cli_test(NAME profile_compensates_where_it_was_measured SETUP "${compensated} make . 0; sed -i '60,$d' deviations.csv"
+  ARGS profile deviations.csv --z dz --compensate pass.ngc -o c.ngc EXIT 3 NO_FILE c.ngc STDERR "has deviations from X 4.000 to 32.500 mm: the pass goes from 5.000 to")
