@@ -72,6 +72,12 @@ struct PageRelief {
     std::string note;
 };
 
+/// The path as it is programmed: thin lines below those of a log.
+struct PageProgrammed {
+    std::vector<Vec3> corners;        ///< [mm]
+    std::vector<std::uint8_t> begin;  ///< per corner: 1 where no line leads to it from the one before
+};
+
 /// How a field is distributed over the cutting points, in shown units.
 struct PagePercentiles {
     std::string field;
@@ -95,6 +101,7 @@ struct ReportPage {
     std::vector<PageColourMap> colour_maps;
     std::vector<std::string> field_maps;  ///< per field, the name of the map that suits it
     std::optional<PageRelief> relief;
+    std::optional<PageProgrammed> programmed;  ///< nothing: it is not that of the tool in the workpiece
     std::uint64_t most_bytes = 0;  ///< the limit that the points were chosen for
 };
 

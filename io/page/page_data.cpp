@@ -340,6 +340,21 @@ void add_relief(Blocks& blocks, Json& manifest, const PageRelief& relief) {
     blocks.add(at("/relief", "missing"), [flags = std::move(missing)] { return pack_bytes(flags); });
 }
 
+void add_programmed(Blocks& blocks, Json& manifest, const PageProgrammed& programmed) {
+    manifest["programmed"] = {{"quantum_mm", position_quantum}};
+    const char* names[] = {"x", "y", "z"};
+    for (int axis = 0; axis < 3; ++axis) {
+        blocks.add(at("/programmed", names[axis]), [&programmed, axis] {
+            std::vector<std::int64_t> steps;
+            for (const Vec3& corner : programmed.corners)
+                steps.push_back(std::llround(corner[axis] / position_quantum));
+            return pack_integers(steps);
+        });
+    }
+    blocks.add(at("/programmed", "begin"),
+               [&programmed] { return pack_bytes(std::string(programmed.begin.begin(), programmed.begin.end())); });
+}
+
 }  // namespace
 
 PageData page_data(const ReportPage& page) {
@@ -378,6 +393,7 @@ PageData page_data(const ReportPage& page) {
         m["surfaces"].push_back(
             surface_json(blocks, "/surfaces/" + std::to_string(k), page, page.surfaces[k], names[k]));
     if (page.relief) add_relief(blocks, m, *page.relief);
+    if (page.programmed) add_programmed(blocks, m, *page.programmed);
     blocks.add(at("/program", "text"), [&text] { return pack_bytes(text.text()); });
     blocks.pack(data);
     return data;

@@ -54,6 +54,7 @@ ExitCode write_page(const ReportOptions& options, const po::variables_map& value
 
     clock.begin("measure");
     io::ReportPage page = report_page_of(shown, logs, options);
+    page.programmed = programmed_path(shown, options);
     std::optional<ReportedForm> as_machined;
     if (shown.part.tool && shown.surface.step_over > 0) {
         as_machined = form_for_report(shown, options, clock);

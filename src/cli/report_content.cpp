@@ -10,8 +10,10 @@
 
 #include "cli/report_pictures.h"
 #include "field/field_set.h"
+#include "io/readers/program_file.h"
 #include "log/health.h"
 #include "pipeline/contacts.h"
+#include "pipeline/programmed_part.h"
 #include "pipeline/signals_of.h"
 #include "predictor/outline.h"
 #include "viz/field_colours.h"
@@ -114,6 +116,30 @@ io::PageRelief page_relief_of(const ReportedForm& as_machined) {
             as_machined.map.field.values,
             as_machined.range,
             as_machined.map.field.info.note};
+}
+
+std::optional<io::PageProgrammed> programmed_path(const ReportLog& shown, const ReportOptions& options) {
+    constexpr PointIndex most_corners = 200'000;  // of a long program some are left out: it is drawn thinly
+    if (options.part.program == "-" || shown.part.path.kinematics != nullptr) return std::nullopt;
+    io::ProgramOptions how = options.part.program_options;
+    how.coordinates = Coordinates::workpiece;
+    const ProgrammedPart made = programmed_part(io::read_program(options.part.program, how));
+    const PointIndex step = made.surface.positions.size() / most_corners + 1;
+    io::PageProgrammed programmed;
+    bool joined = false;
+    for (const Pass& pass : made.surface.passes) {
+        if (pass.kind == PassKind::rapid) {
+            joined = false;
+            continue;
+        }
+        for (PointIndex i = pass.first; i <= pass.last; i = i < pass.last ? std::min(i + step, pass.last) : i + 1) {
+            programmed.corners.push_back(made.surface.positions.absolute(i));
+            programmed.begin.push_back(joined ? 0 : 1);
+            joined = true;
+        }
+    }
+    if (programmed.corners.empty()) return std::nullopt;
+    return programmed;
 }
 
 io::ReportPage report_page_of(const ReportLog& shown, const std::vector<ReportLog>& logs,

@@ -22,6 +22,10 @@ struct ReportedForm {
 [[nodiscard]] ReportedForm form_for_report(const ReportLog& shown, const ReportOptions& options, StageClock& clock);
 [[nodiscard]] io::PageRelief page_relief_of(const ReportedForm& as_machined);
 
+/// The path of the program in the coordinates of the log. Nothing: the program came from standard input, or its machine has
+/// rotary axes, whose programmed path is not that of the tool in the workpiece.
+[[nodiscard]] std::optional<io::PageProgrammed> programmed_path(const ReportLog& shown, const ReportOptions& options);
+
 /// The page without its pictures and the machined surface. Refers to `shown`. Throws UsageError: none of its fields is
 /// called --color.
 [[nodiscard]] io::ReportPage report_page_of(const ReportLog& shown, const std::vector<ReportLog>& logs,

@@ -13,7 +13,7 @@
 namespace clsurf::cli {
 namespace {
 
-constexpr std::size_t most_fields = 16;          ///< where none are named
+constexpr std::size_t most_fields = 28;          ///< where none are named
 constexpr double usual_bytes = 24;               ///< of a point in the page, before it is known
 constexpr std::uint64_t usual_rest = 3'000'000;  ///< [bytes] of pictures, text and the page's own program
 

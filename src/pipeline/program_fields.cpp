@@ -22,6 +22,7 @@ namespace {
 
 using PerMotion = Column<float>;
 
+constexpr int in_reports = 200;                          ///< report_rank: after what the machine did
 constexpr double least_curvature = 1e-4;                 ///< [1/mm] below it a path counts as straight
 constexpr double least_corner = 45 * rad_per_deg;        ///< between two lines; a smaller angle is curvature
 constexpr ValueRange usual_angles{0, 15 * rad_per_deg};  ///< of finishing; a turn between two passes is beyond
@@ -146,6 +147,7 @@ FieldInfo info_of(const ProgramFieldRow& row) {
     FieldInfo info{std::string(row.name), std::string(row.label), row.unit, FieldScale::sequential, {}};
     info.preference = row.preference;
     info.usual_range = row.usual_range;
+    info.report_rank = in_reports;
     return info;
 }
 

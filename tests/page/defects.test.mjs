@@ -104,6 +104,10 @@ test('the card of a defect stays until it is closed', async () => {
     // The defect, in the middle of the map, is not below it.
     const [layer, over] = [await page.locator('.layer').first().boundingBox(), await card.boundingBox()];
     assert.ok(over.x > layer.x + layer.width / 2, `${over.x}`);
+    // Nor is the legend, right of the map.
+    const view = await page.locator('.view').boundingBox();
+    const legend = layer.x + layer.width;
+    assert.ok(over.x >= view.x + view.width || over.x + over.width <= legend, `${over.x} is over ${legend}`);
     await card.locator('[data-action="card-line"]').first().click();
     await settled(page);
     assert.equal(await chosenLine(page), defect.lines[0][0]);

@@ -119,6 +119,15 @@ export function actionsOf(
             run: () => store.set({ over: state.over === 'time' ? 'length' : 'time' }),
         },
         {
+            name: 'records',
+            text: 'Records',
+            key: 'j',
+            title: 'the records of the log as a list, in place of the curves',
+            group: 'Curves',
+            run: () => store.set({ records: !state.records }),
+            pressed: () => state.records,
+        },
+        {
             name: 'next-map',
             text: '',
             key: 'k',

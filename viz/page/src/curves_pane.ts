@@ -42,6 +42,7 @@ export class CurvesPane {
     ) {
         store.on((state, changed) => {
             if (changed.has('field')) this.store.set({ curves: [state.field, ...state.curves.slice(1)] });
+            if (changed.has('records')) this.element.hidden = state.records;
             if (changed.has('curves') || changed.has('theme')) this.build();
             else if (changed.has('over') || changed.has('shown')) this.showAll();
             else if (changed.has('vertex')) this.reveal();

@@ -72,6 +72,8 @@ export class GlView {
     private readonly data = vtkPolyData.newInstance();
     private readonly coarse = vtkActor.newInstance({ visibility: false }); // what stands for a mesh while a slow machine turns it
     private readonly coarseData = vtkPolyData.newInstance();
+    private readonly path = vtkActor.newInstance({ visibility: false }); // as it is programmed
+    private readonly pathData = vtkPolyData.newInstance();
     private radius = 1;
     private middle = [0, 0, 0];
     private coarseVertices = new Uint32Array(0);
@@ -97,6 +99,13 @@ export class GlView {
         this.coarse.getProperty().setPointSize(4);
         this.coarse.getProperty().setColor(1, 1, 1);
         this.coarse.getProperty().setLighting(false);
+        const lines = vtkMapper.newInstance();
+        lines.setInputData(this.pathData);
+        lines.setScalarVisibility(false);
+        this.path.setMapper(lines);
+        this.path.getProperty().setLighting(false);
+        this.path.getProperty().setLineWidth(1);
+        this.renderer.addActor(this.path);
         this.renderer.addActor(this.coarse);
         this.renderer.addActor(this.actor);
         this.renderer.getActiveCamera().setParallelProjection(true);
@@ -137,6 +146,19 @@ export class GlView {
         this.radius = Math.max(1e-3, Math.hypot(...[0, 2, 4].map((k) => bounds[k + 1] - bounds[k])) / 2);
         this.data.modified();
         this.setCoarsePoints(xyz, mesh.points);
+    }
+
+    /** Thin lines that lie in the surface. */
+    setPath(xyz: Float32Array, segments: Uint32Array): void {
+        this.pathData.getPoints().setData(xyz, 3);
+        this.pathData.setLines(vtkCellArray.newInstance({ values: cells(segments, 2) }));
+        this.pathData.modified();
+    }
+    showPath(shown: boolean): void {
+        this.path.setVisibility(shown);
+    }
+    setPathColour(rgb: readonly number[]): void {
+        this.path.getProperty().setColor(rgb[0] / 255, rgb[1] / 255, rgb[2] / 255);
     }
 
     /** Every so many-th vertex. */
@@ -231,6 +253,9 @@ export class GlView {
         const c = camera.centre;
         eye.setFocalPoint(c[0], c[1], c[2]);
         eye.setPosition(c[0] + 2 * far * towards[0], c[1] + 2 * far * towards[1], c[2] + 2 * far * towards[2]);
+        // In front of the surface by two pixels, as seen by the eye: else parts of it would be in front of the lines.
+        const ahead = 2 * camera.mmPerPixel;
+        this.path.setPosition(ahead * towards[0], ahead * towards[1], ahead * towards[2]);
         eye.setViewUp(up[0], up[1], up[2]);
         eye.setParallelScale((camera.mmPerPixel * camera.height) / 2);
         eye.setClippingRange(0.9 * far, 3.1 * far);

@@ -19,8 +19,10 @@ import { readManifest, type Defect, type Manifest } from './manifest';
 import { ProgramPane } from './program_pane';
 import { ProgramText } from './program_text';
 import { Player } from './player';
+import { readProgrammed } from './programmed';
 import { rememberKeys, rememberedKeys } from './preferences';
 import { RangePane } from './range_pane';
+import { RecordsPane } from './records_pane';
 import { readRelief } from './relief';
 import { Store } from './store';
 import { readSurface } from './surface';
@@ -62,6 +64,9 @@ async function begin(app: HTMLElement): Promise<void> {
     for (let k = 0; k < manifest.surfaces.length; ++k) surfaces.push(await readSurface(manifest, k));
     const text = new ProgramText(await readBytes(manifest.program.text), manifest.program.lines);
     const relief = manifest.relief ? await readRelief(manifest.relief, manifest.surfaces[0].origin_mm) : null;
+    const programmed = manifest.programmed
+        ? await readProgrammed(manifest.programmed, manifest.surfaces[0].origin_mm)
+        : null;
     const maps = manifest.colour_maps.map((info) => new ColourMap(info));
 
     const first = Math.max(
@@ -78,6 +83,7 @@ async function begin(app: HTMLElement): Promise<void> {
         role: 0,
         formed: false,
         defects: false,
+        programmed: false,
         shown: 'after',
         playing: false,
         time: null,
@@ -95,6 +101,7 @@ async function begin(app: HTMLElement): Promise<void> {
         tool: 'turn',
         over: 'time',
         curves: [first, secondCurve(manifest, first)],
+        records: false,
         theme: dark() ? 'dark' : 'light',
         keys: rememberedKeys(),
     });
@@ -113,7 +120,7 @@ async function begin(app: HTMLElement): Promise<void> {
     });
     system.addEventListener('change', () => store.set({ theme: system.matches ? 'dark' : 'light' }));
 
-    const view = new ViewPane(manifest, store, surfaces, maps, relief);
+    const view = new ViewPane(manifest, store, surfaces, maps, relief, programmed);
     const surface = () => view.surface;
     const goToDefect = (index: number) => {
         const defect = manifest.defects[index];
@@ -184,6 +191,7 @@ async function begin(app: HTMLElement): Promise<void> {
     const toolbar = new Toolbar(manifest, store, actions, locate);
     const range = new RangePane(store, view);
     const curves = new CurvesPane(manifest, store, surfaces, surface);
+    const records = new RecordsPane(manifest, store, surface);
     const tree = new TreePane(manifest, store, surface, { goToDefect, goToGone }, relief !== null);
     const program = new ProgramPane(manifest, text, store, surface);
     const table = new TablePane(manifest, text, store, surface);
@@ -207,6 +215,7 @@ async function begin(app: HTMLElement): Promise<void> {
         player.element,
         program.element,
         curves.element,
+        records.element,
         table.element,
     );
     app.hidden = false;
@@ -214,6 +223,8 @@ async function begin(app: HTMLElement): Promise<void> {
     const setHeight = () => document.documentElement.style.setProperty('--summary', `${summary?.offsetHeight ?? 0}px`);
     if (summary) new ResizeObserver(setHeight).observe(summary);
     setHeight();
+    const setCard = () => document.documentElement.style.setProperty('--card', `${card.element.offsetHeight}px`);
+    new ResizeObserver(setCard).observe(card.element);
     view.begin();
     range.begin();
     curves.build();

@@ -117,6 +117,15 @@ export interface ReliefInfo {
     missing: PackedColumn;
 }
 
+/** The path as it is programmed. */
+export interface ProgrammedInfo {
+    quantum_mm: number;
+    x: PackedColumn;
+    y: PackedColumn;
+    z: PackedColumn;
+    begin: PackedColumn; // per corner: 1 where no line leads to it
+}
+
 /** A defect of the log before that is gone. */
 export interface GoneDefect {
     id: number; // in the report of the log before
@@ -149,6 +158,7 @@ export interface Manifest {
     gone: GoneDefect[];
     surfaces: SurfaceInfo[];
     relief?: ReliefInfo;
+    programmed?: ProgrammedInfo;
 }
 
 export function readManifest(): Manifest {

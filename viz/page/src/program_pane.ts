@@ -1,13 +1,11 @@
 // The program's text, only the rows that are seen: half a million lines scroll as one does.
 
-import { element, oncePerFrame } from './dom';
+import { element } from './dom';
 import type { Manifest } from './manifest';
 import type { ProgramText } from './program_text';
+import { RowWindow } from './row_window';
 import type { Store } from './store';
 import type { Surface } from './surface';
-
-const rowHeight = 19;
-const tallest = 8_000_000; // px that every browser's scroll bar can have
 
 export class ProgramPane {
     readonly element = element('div', {
@@ -16,10 +14,9 @@ export class ProgramPane {
         role: 'listbox',
         'aria-label': 'the program; arrow keys move from line to line',
     });
-    private readonly spacer = element('div');
     private readonly rows = element('div', { class: 'rows' });
     private readonly marks = new Map<number, string>(); // class of lines of the defect that is chosen
-    private readonly draw = oncePerFrame(() => this.drawNow());
+    private readonly window: RowWindow;
 
     constructor(
         manifest: Manifest,
@@ -27,10 +24,19 @@ export class ProgramPane {
         private readonly store: Store,
         private readonly surface: () => Surface,
     ) {
-        this.element.append(this.spacer, this.rows);
-        this.spacer.style.height = `${this.height}px`;
-        this.element.addEventListener('scroll', () => this.draw());
-        new ResizeObserver(() => this.draw()).observe(this.element);
+        const spacer = element('div');
+        this.element.append(spacer, this.rows);
+        this.window = new RowWindow(
+            this.element,
+            spacer,
+            this.rows,
+            () => this.text.lineCount,
+            (begin, end) => this.fill(begin, end),
+        );
+        // The card of a defect may take a part of the room: the chosen line stays in the rest.
+        new ResizeObserver(() => {
+            if (store.state.line > 0) this.window.reveal(store.state.line - 1);
+        }).observe(this.element);
         this.rows.addEventListener('click', (event) => {
             const row = (event.target as HTMLElement).closest<HTMLElement>('[data-line]');
             if (row) this.choose(Number(row.dataset.line));
@@ -54,19 +60,9 @@ export class ProgramPane {
                             this.marks.set(n, name);
                 }
             }
-            if (changed.has('line') && state.line > 0) this.reveal(state.line);
-            if (changed.has('line') || changed.has('defect')) this.draw();
+            if (changed.has('line') && state.line > 0) this.window.reveal(state.line - 1);
+            if (changed.has('line') || changed.has('defect')) this.window.draw();
         });
-    }
-
-    private get height(): number {
-        return Math.min(tallest, this.text.lineCount * rowHeight);
-    }
-    /** Lines a pixel of the scroll bar moves, beyond one for one where the text is taller than it can be. */
-    private get first(): number {
-        const room = this.height - this.element.clientHeight;
-        const lines = this.text.lineCount - this.element.clientHeight / rowHeight;
-        return room > 0 ? Math.max(0, (this.element.scrollTop / room) * lines) : 0;
     }
 
     /** The first point of the line, where it has one; else the line alone. */
@@ -75,21 +71,9 @@ export class ProgramPane {
         this.store.set({ line, vertex: runs.length > 0 ? runs[0][0] : null, defect: null, pass: 0 });
     }
 
-    reveal(line: number): void {
-        const seen = this.element.clientHeight / rowHeight;
-        if (line - 1 >= this.first + 1 && line <= this.first + seen - 1) return;
-        const lines = this.text.lineCount - seen;
-        const room = this.height - this.element.clientHeight;
-        if (lines > 0) this.element.scrollTop = (Math.max(0, Math.min(lines, line - 1 - seen / 2)) / lines) * room;
-        this.drawNow(); // in this frame: while the tool moves there is a jump in each
-    }
-
-    private drawNow(): void {
-        const first = this.first;
-        const begin = Math.floor(first);
-        const count = Math.ceil(this.element.clientHeight / rowHeight) + 1;
+    private fill(begin: number, end: number): HTMLElement[] {
         const made: HTMLElement[] = [];
-        for (let n = begin + 1; n <= Math.min(this.text.lineCount, begin + count); ++n) {
+        for (let n = begin + 1; n <= end; ++n) {
             const chosen = n === this.store.state.line;
             const row = element('div', {
                 class: `row ${this.marks.get(n) ?? ''} ${chosen ? 'chosen' : ''}`,
@@ -103,7 +87,6 @@ export class ProgramPane {
             );
             made.push(row);
         }
-        this.rows.replaceChildren(...made);
-        this.rows.style.transform = `translateY(${this.element.scrollTop - (first - begin) * rowHeight}px)`;
+        return made;
     }
 }

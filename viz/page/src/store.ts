@@ -17,6 +17,7 @@ export interface State {
     role: number; // of the surface's roles
     formed: boolean; // the formed surface in place of the CL surface
     defects: boolean; // outlined
+    programmed: boolean; // the programmed path is drawn
     shown: Shown;
     playing: boolean;
     time: number | null; // [s] where the tool stands; null: it is not drawn
@@ -34,6 +35,7 @@ export interface State {
     tool: Tool;
     over: 'time' | 'length';
     curves: number[]; // fields; the first follows `field`
+    records: boolean; // the list of records in place of the curves
     theme: 'light' | 'dark';
     keys: boolean; // one-letter keys are on
 }

@@ -107,6 +107,12 @@ export class TreePane {
                 ),
             );
         }
+        if (this.manifest.programmed)
+            list.append(
+                this.choice('programmed', 'programmed', 'draw the programmed path in thin lines', () =>
+                    this.store.set({ programmed: !this.store.state.programmed }),
+                ),
+            );
         return element('div', { class: 'group' }, element('h2', {}, 'Motion'), list);
     }
 
@@ -226,6 +232,7 @@ export class TreePane {
             state.formed ? 'formed' : `role-${state.role}`,
             `defect-${state.defect}`,
             `pass-${state.pass}`,
+            state.programmed ? 'programmed' : '',
             ...[Kind.cut, Kind.link, Kind.rapid].filter((k) => (state.kinds >> k) & 1).map((k) => `kind-${k}`),
         ]);
         for (const button of this.element.querySelectorAll<HTMLElement>('[data-choice]')) {

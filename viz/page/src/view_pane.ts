@@ -10,6 +10,7 @@ import { marksOf } from './marks';
 import { legendWidth, Overlay, viewName, type OverlayScene } from './overlay';
 import { drawTool } from './tool_shape';
 import { Picker } from './picker';
+import type { ProgrammedPath } from './programmed';
 import type { Relief } from './relief';
 import type { State, Store } from './store';
 import { ShownValues, type Ends } from './shown_values';
@@ -69,12 +70,15 @@ export class ViewPane {
         surfaces: Surface[],
         private readonly maps: ColourMap[],
         private readonly relief: Relief | null,
+        programmed: ProgrammedPath | null,
     ) {
         this.shown = new ShownValues(manifest, store, surfaces, relief);
         for (const surface of surfaces) {
             const box = element('div', { class: 'layer' });
             this.element.append(box);
-            this.layers.push({ surface, view: new GlView(box), box, picker: null, normals: new Map() });
+            const view = new GlView(box);
+            if (programmed) view.setPath(programmed.xyz, programmed.segments);
+            this.layers.push({ surface, view, box, picker: null, normals: new Map() });
         }
         const canvas = element('canvas', { class: 'overlay' });
         this.element.append(canvas);
@@ -131,14 +135,19 @@ export class ViewPane {
         if (any(...mesh, 'field', 'low', 'high', 'map', 'bins'))
             for (const layer of this.layers) layer.view.setColours(this.scale);
         if (any('tool')) this.element.dataset.tool = this.store.state.tool;
-        if (any('theme')) for (const layer of this.layers) layer.view.setBackground(rgbOf(styleValue('--view')));
+        if (any('theme'))
+            for (const layer of this.layers) {
+                layer.view.setBackground(rgbOf(styleValue('--view')));
+                layer.view.setPathColour(rgbOf(styleValue('--ink')));
+            }
+        if (any('programmed')) for (const layer of this.layers) layer.view.showPath(this.store.state.programmed);
         const { shown, wipe } = this.store.state;
         this.layers.forEach((layer, k) => {
             const seen = this.layers.length === 1 || shown === 'wipe' || (shown === 'before') === (k === 1);
             layer.box.style.visibility = seen ? 'visible' : 'hidden';
             layer.box.style.clipPath = shown === 'wipe' && k === 1 ? `inset(0 ${100 * (1 - wipe)}% 0 0)` : '';
         });
-        if (any(...mesh, 'field', 'low', 'high', 'map', 'bins', 'theme', 'shown')) this.draw();
+        if (any(...mesh, 'field', 'low', 'high', 'map', 'bins', 'theme', 'shown', 'programmed')) this.draw();
         else if (changed.size > 1 || !changed.has('hover')) this.drawLater();
     }
 
