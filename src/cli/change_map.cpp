@@ -68,4 +68,24 @@ std::optional<viz::Image> draw_change(const Shown& before, const Shown& after, d
     return viz::draw_map({panel}, camera, viz::scale_of(change.info, -most, most), texts, options.shown.look);
 }
 
+viz::Image draw_with_change(const Shown& before, const Shown& after, double range, RenderOptions options,
+                            const std::function<viz::Image(const viz::Look&)>& draw) {
+    constexpr double wide_picture = 1.9;  // width over height
+    const viz::Look whole = options.shown.look;
+    const bool wide = whole.width > wide_picture * whole.height;
+    viz::Look& part = options.shown.look;
+    if (wide)
+        part.width = whole.width / 3;
+    else
+        part.height = whole.height / 2;
+    const std::optional<viz::Image> change = draw_change(before, after, range, options);
+    if (!change) return draw(whole);
+    viz::Look rest = whole;
+    if (wide)
+        rest.width -= part.width;
+    else
+        rest.height -= part.height;
+    return wide ? viz::beside(draw(rest), *change) : viz::stacked(draw(rest), *change);
+}
+
 }  // namespace clsurf::cli

@@ -1,6 +1,7 @@
 #pragma once
 // What changed from one run to the other: the third map of `render --before`.
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -18,5 +19,10 @@ namespace clsurf::cli {
 /// that nowhere follow the same path.
 [[nodiscard]] std::optional<viz::Image> draw_change(const Shown& before, const Shown& after, double range,
                                                     const RenderOptions& options);
+
+/// A picture with what changed below it, in a wide picture beside it, where there is something to compare. `draw` makes the
+/// picture itself, for a look of its size.
+[[nodiscard]] viz::Image draw_with_change(const Shown& before, const Shown& after, double range, RenderOptions options,
+                                          const std::function<viz::Image(const viz::Look&)>& draw);
 
 }  // namespace clsurf::cli

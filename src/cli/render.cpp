@@ -46,30 +46,14 @@ MapScale scale_of_map(const Shown& after, const std::optional<Shown>& before, co
             fmt::format(" {:g} to {:g} {}", range.low, range.high, after.field.info.unit.name), range.high - range.low};
 }
 
-/// Before and after side by side, and what changed below them, in a wide picture beside them, where there is something to
-/// compare.
+/// One map, or before and after side by side, with what changed.
 viz::Image draw_maps(const std::vector<viz::MapPanel>& panels, const Shown& after, const std::optional<Shown>& before,
-                     const MapScale& scale, RenderOptions options) {
+                     const MapScale& scale, const RenderOptions& options) {
     const viz::MapTexts texts = texts_of(after, before, options, scale.notes);
-    const auto draw = [&] {
-        return viz::draw_map(panels, viz::map_camera(panels, options.shown.look), scale.colours, texts,
-                             options.shown.look);
+    const auto draw = [&](const viz::Look& look) {
+        return viz::draw_map(panels, viz::map_camera(panels, look), scale.colours, texts, look);
     };
-    if (!before) return draw();
-    constexpr double wide_picture = 1.9;  // width over height
-    viz::Look& look = options.shown.look;
-    const int width = look.width;
-    const int height = look.height;
-    const bool wide = width > wide_picture * height;
-    if (wide)
-        look.width = width / 3;
-    else
-        look.height = height / 2;
-    const std::optional<viz::Image> change = draw_change(*before, after, scale.span, options);
-    look.width = change && wide ? width - width / 3 : width;
-    look.height = change && !wide ? height - height / 2 : height;
-    if (!change) return draw();
-    return wide ? viz::beside(draw(), *change) : viz::stacked(draw(), *change);
+    return before ? draw_with_change(*before, after, scale.span, options, draw) : draw(options.shown.look);
 }
 
 /// `last`: the log is complete. Problems of the part are said then.
