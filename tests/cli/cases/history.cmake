@@ -88,7 +88,7 @@ set(laser @DATA@/parameters/laser_drilling.toml)
 set(with_parameters "$CLSURF convert @LOGS@/planted_loops.biip --parameters ${laser} --param hole=12 --param feed=1200 --param c=359.5deg --param laser_power=3 -o laser.biip -q")
 clsurf_cli_test(NAME parameters_are_shown_with_the_log SETUP "${with_parameters}" ARGS info laser.biip
   STDOUT "parameters: c=359.5 deg, feed=1200 mm/min, hole=12, laser_power=3")
-clsurf_cli_test(NAME parameters_are_in_the_json_of_the_log SETUP "${with_parameters}" ARGS info laser.biip --json STDOUT "\"parameters\": {[^}]*\"feed\": \"1200 mm/min\"")
+clsurf_cli_test(NAME parameters_are_in_the_json_of_the_log SETUP "${with_parameters}" ARGS info laser.biip --json STDOUT "\"parameters\": ." "\"feed\": \"1200 mm/min\"")
 clsurf_cli_test(NAME parameters_keep_to_their_range ARGS convert @LOGS@/planted_loops.biip --parameters ${laser} --param a=100 -o laser.biip EXIT 2
   STDERR "a=100 is out of range: -95 … 95 deg" NO_FILE laser.biip)
 clsurf_cli_test(NAME parameters_keep_to_their_unit ARGS convert @LOGS@/planted_loops.biip --parameters ${laser} --param feed=1200mm/s -o laser.biip EXIT 2
