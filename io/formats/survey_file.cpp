@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -344,6 +345,19 @@ std::vector<std::uint32_t> block_crcs_of(const std::array<SurveyBytes, survey_se
     return crcs;
 }
 
+/// Passes as they are read in place, with zeros between their members.
+std::vector<std::byte> bytes_of_passes(const Passes& passes) {
+    std::vector<std::byte> bytes(passes.size() * sizeof(Pass));
+    std::byte* out = bytes.data();
+    for (const Pass& pass : passes) {
+        std::memcpy(out + offsetof(Pass, first), &pass.first, sizeof pass.first);
+        std::memcpy(out + offsetof(Pass, last), &pass.last, sizeof pass.last);
+        std::memcpy(out + offsetof(Pass, kind), &pass.kind, sizeof pass.kind);
+        out += sizeof(Pass);
+    }
+    return bytes;
+}
+
 }  // namespace
 
 std::string hash_of_ends(const Source& log) {
@@ -360,10 +374,11 @@ void write_survey(const std::string& path, const Survey& s, const SurveyOrigin& 
     std::vector<Corners> box;
     for (const Eigen::AlignedBox3f& b : s.boxes)
         box.push_back({b.min().x(), b.min().y(), b.min().z(), b.max().x(), b.max().y(), b.max().z()});
+    const std::vector<std::byte> passes = bytes_of_passes(s.passes);
     std::array<SurveyBytes, survey_sections> columns{
         survey_bytes(s.arc_lengths.data(), s.arc_lengths.size()),
         survey_bytes(box.data(), box.size()),
-        survey_bytes(s.passes.data(), s.passes.size()),
+        passes,
         survey_bytes(low.data(), low.size()),
         survey_bytes(s.step_over_moves.data(), s.step_over_moves.size()),
         survey_bytes(s.neighbours.left.data(), s.neighbours.left.size()),
