@@ -12,7 +12,8 @@ namespace {
 constexpr double least_coefficient = 0.2;  ///< of a coefficient, of what it began with
 // The spline holds the limits at samples; a little is left for what lies between them.
 constexpr double acceleration_share = 0.9995, jerk_share = 0.997;
-constexpr double lowering = 0.998;  ///< of a limit that is broken between its rows, besides
+constexpr double path_acceleration_share = 0.998;  ///< on a rounded path, whose pace varies fast where it bends sharply
+constexpr double lowering = 0.998;                 ///< of a limit that is broken between its rows, besides
 // In from the beginning is what comes near its limit with the speeds to begin with, or could with some more speed and acceleration.
 constexpr double near_limit = 0.6;
 constexpr double faster = 1.1, steeper = 0.15;
@@ -255,7 +256,7 @@ void AxisSpeedProblem<Axes>::make_rows_of(std::size_t i) {
         if ((samples_[s].needed & path_bit<Axes>) != 0)
             add_row(first + 2 * Axes, Row::tangential_acceleration, i,
                     sum(0.5 * sample.pace.value, w.slope, sample.pace.slope, w.b),
-                    acceleration_share * limits_.path_acceleration);
+                    path_acceleration_share * limits_.path_acceleration);
         if ((samples_[s].needed & path_jerk_bit<Axes>) != 0)
             add_jerk(
                 first + 2 * Axes + 1, Row::tangential_jerk, i,
