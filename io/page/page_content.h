@@ -102,7 +102,7 @@ struct ReportPage {
     std::vector<std::string> field_maps;  ///< per field, the name of the map that suits it
     std::optional<PageRelief> relief;
     std::optional<PageProgrammed> programmed;  ///< nothing: it is not that of the tool in the workpiece
-    std::uint64_t most_bytes = 0;  ///< the limit that the points were chosen for
+    std::uint64_t most_bytes = 0;              ///< the limit that the points were chosen for
 };
 
 /// Percentiles of PagePercentiles.

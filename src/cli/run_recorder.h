@@ -49,7 +49,7 @@ public:
 private:
     std::string database_;
     std::string settings_;
-    std::string time_;  ///< empty: that of the log's file
+    std::string time_;                     ///< empty: that of the log's file
     std::optional<ParameterRules> rules_;  ///< --parameters
     ParameterRules in_force_;              ///< they, else those of the database
     std::vector<RunParameter> parameters_;
