@@ -5,7 +5,8 @@
 #include <utility>
 
 #include "viz/map_axes.h"
-#include "viz/scene.h"
+#include "viz/relief.h"
+#include "viz/surface_extent.h"
 
 namespace clsurf::viz {
 namespace {

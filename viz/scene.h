@@ -4,17 +4,11 @@
 
 #include <functional>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "viz/map_panel.h"
 
 namespace clsurf::viz {
-
-/// Extent along the axes of a view of the points that do not belong to rapids [mm]. O(points), parallel.
-[[nodiscard]] Box3 extent_of(const ClSurface& surface, const ViewAxes& axes);
-/// The same of some passes of a surface.
-[[nodiscard]] Box3 extent_of(const Positions& positions, std::span<const Pass> passes, const ViewAxes& axes);
 
 /// What the map panels show: a camera of the panels' size. What the part fills of the box,
 /// where there is one, else all that is drawn.

@@ -26,6 +26,7 @@
 #include "surface/surface_part.h"
 #include "viz/map_texts.h"
 #include "viz/scene.h"
+#include "viz/surface_extent.h"
 
 namespace clsurf::cli {
 namespace {
