@@ -4,9 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Core>
-
 #include "core/block.h"
+#include "core/extremes.h"
 
 namespace clsurf {
 namespace {
@@ -29,8 +28,8 @@ bool has_position(const Positions& p, PointIndex i) {
 
 /// Where a column is lowest and highest in [first, last]; −1: it has no value there.
 PointRange extremes(const Column<float>& values, PointIndex first, PointIndex last) {
-    const Eigen::Map<const Eigen::ArrayXf> all(values.data() + first, last - first + 1);
-    const float low = all.minCoeff<Eigen::PropagateNumbers>(), high = all.maxCoeff<Eigen::PropagateNumbers>();
+    const std::span<const float> all(values.data() + first, static_cast<std::size_t>(last - first + 1));
+    const auto [low, high] = extremes_of(all);
     if (!(low <= high)) return {-1, -1};
     const auto place = [&](float value) { return first + (std::find(all.begin(), all.end(), value) - all.begin()); };
     return {place(low), place(high)};
