@@ -152,7 +152,7 @@ std::uint32_t padded_crc(SurveyBytes bytes) { return crc32c({bytes, survey_paddi
 class SurveyReader {
 public:
     explicit SurveyReader(Source source) : source_(std::move(source)) {
-        const SurveyBytes all = source.bytes;
+        const SurveyBytes all = source_.bytes;
         if (all.size() < survey_head || std::memcmp(all.data(), survey_magic.data(), survey_magic.size()) != 0)
             fail("is no survey of clsurf");
         if (get<std::uint32_t>(8) != survey_layout || get<std::uint32_t>(12) != survey_sections) fail(other_version);
