@@ -55,6 +55,7 @@ list(JOIN python_versions "), python3 (<< " python_versions)
 set(CPACK_DEBIAN_PYTHON3-CLSURF_PACKAGE_DEPENDS
   "clsurf (= ${PROJECT_VERSION}), python3-numpy, python3 (>= ${python_versions})")
 set(CPACK_DEBIAN_PYTHON3-CLSURF_PACKAGE_SUGGESTS "python3-pandas, python3-vtk9")
+set(CPACK_DEBIAN_PYTHON3-CLSURF_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_LIST_DIR}/python/prerm)
 set(CPACK_DEBIAN_PYTHON3-CLSURF_DESCRIPTION "Python package of clsurf, which finds the NC program lines that mark a machined surface: points as NumPy arrays, defects as a table, maps in notebooks.")
 set(CPACK_DEBIAN_CLSURF-DOC_PACKAGE_NAME clsurf-doc)
 set(CPACK_DEBIAN_CLSURF-DOC_PACKAGE_SECTION doc)
