@@ -124,11 +124,12 @@ TEST(FieldSet, ReportsHaveWhatCanBeComputedInTheirOrder) {
     Circle circle;
     EXPECT_EQ(FieldSet(circle.log, circle.path, circle.passes).report_names(16),
               (std::vector<std::string>{"speed", "acceleration", "tangential_acceleration", "jerk", "following_error",
-                                        "contour_error"}));
+                                        "contour_error", "speed.x", "speed.y", "speed.z", "acceleration.x",
+                                        "acceleration.y", "acceleration.z", "speed.c", "acceleration.c"}));
     std::erase_if(circle.log.channels, [](const Channel& c) { return c.name.starts_with("fb."); });
     EXPECT_EQ(FieldSet(circle.log, circle.path, circle.passes).report_names(3),
               (std::vector<std::string>{"speed", "acceleration", "tangential_acceleration"}));
-    EXPECT_EQ(FieldSet(circle.log, circle.path, circle.passes).report_names(16).size(), 4U);
+    EXPECT_EQ(FieldSet(circle.log, circle.path, circle.passes).report_names(16).size(), 12U);
 }
 
 // ---- what is shared is computed once ----

@@ -44,7 +44,7 @@ set(rules "printf '[tool]\nvalues = [\"D6R3\", \"D8R1\"]\nrequired = true\n[wear
 set(ruled "${rules}; $CLSURF history shop.db add ${planted} @LOGS@/planted_loops.biip --parameters rules.toml --param tool=D6R3 --param wear=0.05mm -q")
 clsurf_cli_test(NAME history_parameters_are_kept SETUP "${ruled}" ARGS history shop.db list STDOUT "tool=D6R3 wear=0.05$")
 clsurf_cli_test(NAME history_parameter_out_of_range SETUP "${ruled}" ARGS history shop.db add ${planted} @LOGS@/planted_loops.biip --param tool=D6R3 --param wear=0.3 EXIT 2 STDERR "wear=0.3 is out of range: 0 … 0.2 mm")
-clsurf_cli_test(NAME history_parameter_of_no_name SETUP "${ruled}" ARGS history shop.db add ${planted} @LOGS@/planted_loops.biip --param tol=D6R3 EXIT 2 STDERR "has no parameter 'tol'" "did you mean 'tool'")
+clsurf_cli_test(NAME history_parameter_of_no_name SETUP "${ruled}" ARGS history shop.db add ${planted} @LOGS@/planted_loops.biip --param tol=D6R3 EXIT 2 STDERR "there is no parameter 'tol'" "did you mean 'tool'")
 clsurf_cli_test(NAME history_parameter_missing SETUP "${ruled}" ARGS history shop.db add ${planted} @LOGS@/planted_loops.biip EXIT 2 STDERR "the parameter 'tool' is required")
 clsurf_cli_test(NAME history_parameter_without_a_value ARGS history shop.db add ${planted} @LOGS@/planted_loops.biip --param tool EXIT 2 STDERR "--param: 'tool' is not NAME=VALUE")
 clsurf_cli_test(NAME history_parameters_malformed SETUP "printf '[wear]\nkind = \"nubmer\"\n' > rules.toml" ARGS history shop.db add ${planted} @LOGS@/planted_loops.biip --parameters rules.toml EXIT 3 STDERR "rules.toml:2:[0-9]+: error: 'nubmer' is not text, number or integer")
