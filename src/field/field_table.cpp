@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry.h"
+
 namespace clsurf {
 namespace {
 

@@ -290,7 +290,7 @@ template void AxisSpeedProblem<5>::add_jerk(std::uint32_t number, Row kind, std:
                                             const Three& b, double limit);
 template void AxisSpeedProblem<3>::make_rows(const LimitRows* before);
 template void AxisSpeedProblem<5>::make_rows(const LimitRows* before);
-template void AxisSpeedProblem<3>::make_rows_of(std::size_t cell);
-template void AxisSpeedProblem<5>::make_rows_of(std::size_t cell);
+template void AxisSpeedProblem<3>::make_rows_of(std::size_t i);
+template void AxisSpeedProblem<5>::make_rows_of(std::size_t i);
 
 }  // namespace clsurf

@@ -130,7 +130,7 @@ private:
     [[nodiscard]] bool may_break(const Cell& cell, double part, double acceleration, double square, double jerk,
                                  double path_jerk) const;
     void make_rows(const LimitRows* before = nullptr);
-    void make_rows_of(std::size_t cell);
+    void make_rows_of(std::size_t i);
     void add_cap(std::uint32_t number, std::size_t cell, const std::array<double, 3>& weights, double cap);
     void add_row(std::uint32_t number, Row kind, std::size_t cell, const std::array<double, 3>& w, double limit);
     void add_jerk(std::uint32_t number, Row kind, std::size_t cell, const std::array<double, 3>& w,
