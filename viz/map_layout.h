@@ -16,7 +16,7 @@ struct MapLayout {
     double title_width = 0;    ///< of the column of a wide picture
     double legend_height = 0;  ///< the least below the part in a tall picture
 
-    explicit MapLayout(const Look& look, Arrangement arrangement = Arrangement::usual);
+    explicit MapLayout(const Look& look, Arrangement arranged = Arrangement::usual);
     /// What is left for panels and their scales.
     [[nodiscard]] Rect map_area(const Look& look) const;
 };

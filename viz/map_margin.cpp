@@ -287,8 +287,9 @@ void add_class_legend(Sheet& sheet, const std::vector<ShownClass>& classes, bool
     const std::size_t rows = short_columns || count > in_a_column ? (count + most_columns - 1) / most_columns : count;
     const double column = most_columns > 1 ? layout.legend_width : room.width;
     for (std::size_t k = 0; k < count; ++k) {
-        const double x = room.x + 0.6 * t + static_cast<double>(k / rows) * column;
-        const double y = top - step * static_cast<double>(k % rows);
+        const std::size_t columns_before = k / rows, row = k % rows;
+        const double x = room.x + 0.6 * t + static_cast<double>(columns_before) * column;
+        const double y = top - step * static_cast<double>(row);
         const Rect rect{x, y - 0.5 * box, 1.4 * t, box};
         std::string words = "no value";
         if (k < classes.size()) {
