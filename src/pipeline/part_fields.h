@@ -14,4 +14,8 @@ namespace clsurf {
 [[nodiscard]] FieldSet fields_of(const Part& part, const ClSurface& surface,
                                  const std::vector<std::shared_ptr<const FieldProvider>>& more = {});
 
+/// Those that depend only on a point and on what lies close to it on the path: not on adjacent passes, nor on the run as a
+/// whole. Part and surface must outlive it.
+[[nodiscard]] FieldSet path_fields_of(const Part& part, const ClSurface& surface);
+
 }  // namespace clsurf
