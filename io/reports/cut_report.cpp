@@ -44,6 +44,12 @@ std::string rejected_text(const CutReport& report, const ScanCut& cut) {
     return text + "\n";
 }
 
+Json points_json(const std::vector<ScanPoint>& points) {
+    Json list = Json::array();
+    for (const ScanPoint& point : points) list.push_back(Json::array({number(point.x), number(point.z)}));
+    return list;
+}
+
 std::string correction_text(const CorrectedPass& corrected) {
     const Compensation& by = corrected.by;
     return fmt::format(
@@ -83,16 +89,13 @@ std::string cut_text(const CutReport& report, const ScanCut& cut) {
 
 std::string cut_json(const CutReport& report, const ScanCut& cut, const Diagnostics& diagnostics) {
     const Jumps jumps = jumps_of(cut.fit);
-    Json rejected = Json::array();
-    for (const ScanPoint& point : cut.scan.rejected)
-        rejected.push_back(Json::array({number(point.x), number(point.z)}));
     Json json{{"file", report.scan},
               {"output", report.output},
               {"dialect", report.dialect},
               {"points", report.read},
               {"missing", report.missing},
               {"rejected", cut.scan.rejected.size()},
-              {"rejected_mm", rejected},
+              {"rejected_mm", points_json(cut.scan.rejected)},
               {"averaged", cut.scan.averaged},
               {"scatter_mm", number(cut.scan.scatter)},
               {"outliers", number(report.rules.outliers)},
@@ -118,13 +121,11 @@ std::string cut_json(const CutReport& report, const ScanCut& cut, const Diagnost
               {"diagnostics", list(diagnostics)}};
     if (report.corrected) {
         const Compensation& by = report.corrected->by;
-        Json outliers = Json::array();
-        for (const ScanPoint& point : by.rejected) outliers.push_back(Json::array({number(point.x), number(point.z)}));
         json["compensation"] = {{"program", report.corrected->program},
                                 {"max_mm", number(by.greatest)},
                                 {"max_at_mm", number(by.greatest_x)},
                                 {"scatter_mm", number(by.scatter)},
-                                {"rejected_mm", std::move(outliers)}};
+                                {"rejected_mm", points_json(by.rejected)}};
     }
     return dump(json);
 }
