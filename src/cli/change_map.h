@@ -20,8 +20,8 @@ namespace clsurf::cli {
 [[nodiscard]] std::optional<viz::Image> draw_change(const Shown& before, const Shown& after, double range,
                                                     const RenderOptions& options);
 
-/// A picture with what changed below it, in a wide picture beside it, where there is something to compare. `draw` makes the
-/// picture itself, for a look of its size.
+/// The map that `draw` makes, with the map of the differences below it, or at its right in a wide picture. Without the second
+/// one if there is nothing to compare. `draw` gets a look with the size that the first map has.
 [[nodiscard]] viz::Image draw_with_change(const Shown& before, const Shown& after, double range, RenderOptions options,
                                           const std::function<viz::Image(const viz::Look&)>& draw);
 

@@ -13,7 +13,7 @@ namespace clsurf::cli {
 
 /// The run that a map shows: "run.biip", "simulated on mill", "as programmed".
 [[nodiscard]] std::string run_name(const Shown& shown, const RenderOptions& options);
-/// Its ramps at the ends of passes say nothing, because all passes have them: they are paler.
+/// The ramps at the ends of passes are drawn paler, because all passes have them.
 [[nodiscard]] bool is_speed(const FieldInfo& field);
 /// One part with its marks. Refers to `shown`. Throws UsageError: a mark that the log does not have.
 [[nodiscard]] viz::MapPanel panel_of(const Shown& shown, const RenderOptions& options, std::string caption);

@@ -1,5 +1,5 @@
 #pragma once
-// What `profile` makes of its points: the path of the tool along a scan, or of a finished pass that deviations correct.
+// The tool path that `profile` plans: along a scan, or a finished pass corrected by measured deviations.
 
 #include <optional>
 

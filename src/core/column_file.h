@@ -1,19 +1,20 @@
 #pragma once
-// Columns in files: large columns of a log that does not fit into memory are kept in files without a name, which are
-// mapped. The system then writes to disk what is not looked at, and reads it again when it is.
+// Columns in files: large columns of a log that does not fit in memory are kept in unnamed temporary files, which are mapped.
+// The system writes pages that are not in use to disk, and reads them back when they are needed.
 
 #include <cstddef>
 #include <string>
 
 namespace clsurf {
 
-/// From now on columns that grow to `least` bytes or more are kept in files in this folder; empty: all are in memory, as
-/// they are at the beginning. Nobody may be making columns meanwhile. Throws SystemError: files cannot be made there.
+/// Columns that grow to `least` bytes or more from now on are kept in files in this folder; an empty folder name keeps all in
+/// memory, which is the default. Not thread-safe: call it before columns are made. Throws SystemError: files cannot be made
+/// there.
 void keep_columns_in(const std::string& folder, std::size_t least = std::size_t{64} << 20U);
 
 namespace column_file {
 
-/// A mapped file without a name.
+/// A mapped temporary file.
 struct Mapping {
     void* data = nullptr;
     int descriptor = -1;
@@ -22,7 +23,7 @@ struct Mapping {
 [[nodiscard]] bool is_wanted(std::size_t bytes);
 /// Throws SystemError: the disk is full.
 [[nodiscard]] Mapping make(std::size_t bytes);
-/// Grows the file, and maps it where there is room. Throws SystemError: the disk is full; then it is as before.
+/// Grows the file; the mapping may move. Throws SystemError: the disk is full; the mapping is then unchanged.
 void grow(Mapping& mapping, std::size_t before, std::size_t bytes);
 void remove(const Mapping& mapping, std::size_t bytes) noexcept;
 

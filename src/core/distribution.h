@@ -1,6 +1,6 @@
 #pragma once
-// Distribution: what is kept of many sizes, so that parts of them can be counted apart and joined: how many there are in
-// narrow bins, and the exact sum of their squares.
+// Distribution: counts of magnitudes in narrow bins, and the exact sum of their squares. Distributions of parts of the data
+// can be added, in any order, with the same result.
 
 #include <array>
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace clsurf {
 
-/// The sum of squares of floats, exactly: the same in whatever order and parts they are added.
+/// The exact sum of squares of floats: the order of the additions does not matter.
 class SumOfSquares {
 public:
     static constexpr std::size_t digit_count = 20;
@@ -28,19 +28,19 @@ public:
 private:
     void carry();
 
-    std::array<std::uint64_t, digit_count> sums_{};  ///< of digits; what is above 32 bits is not carried yet
-    std::uint32_t not_carried_ = 0;                  ///< values since the last time that it was
+    std::array<std::uint64_t, digit_count> sums_{};  ///< of digits; the bits above 32 are not carried yet
+    std::uint32_t not_carried_ = 0;                  ///< values added since the last carry
 };
 
 class Distribution {
 public:
-    /// Numbers of bins rise with the sizes in them. Each power of two has 2048.
+    /// Larger magnitudes have larger bin numbers. Each power of two has 2048 bins.
     struct Bin {
         std::uint32_t number = 0;
         std::uint64_t count = 0;
         friend bool operator==(const Bin&, const Bin&) = default;
     };
-    /// A quantile differs from that of the sizes themselves by no more than this share of it.
+    /// Greatest relative error of a quantile.
     static constexpr double quantile_error = 1.0 / 4096;
     static constexpr std::uint32_t bin_count = 0x7f800000U >> 12;
 

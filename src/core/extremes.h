@@ -1,5 +1,5 @@
 #pragma once
-// The least and the greatest of many values at once.
+// The least and the greatest of many values in one call.
 
 #include <span>
 
@@ -12,8 +12,7 @@ struct Extremes {
     float greatest = 0;
 };
 
-/// Values that are not known (NaN) do not count; all of them: both are NaN. Side by side, as the processor compares them.
-/// Domain: at least one value.
+/// NaN values are ignored; if all are NaN, both results are NaN. Vectorised. Domain: at least one value.
 [[nodiscard]] inline Extremes extremes_of(std::span<const float> values) {
     const Eigen::Map<const Eigen::ArrayXf> all(values.data(), static_cast<Eigen::Index>(values.size()));
     return {all.minCoeff<Eigen::PropagateNumbers>(), all.maxCoeff<Eigen::PropagateNumbers>()};

@@ -32,7 +32,7 @@ struct MotionQuality {
                                            const Column<float>& speed_differences,
                                            std::shared_ptr<const MotionEstimate> estimate = nullptr);
 
-/// What percentiles and means are taken of, of a part of the points: those of all parts are joined.
+/// The distributions behind percentiles and rms values, for a part of the points. Those of all parts are added.
 struct MotionSizes {
     Distribution mismatch;  ///< [mm/s]
     Distribution jerk;      ///< [mm/s³]
@@ -47,8 +47,8 @@ struct MotionSizes {
 [[nodiscard]] MotionSizes motion_sizes(const Log& log, const Trajectory& path, const ClSurface& surface,
                                        const Signals& signals, const PointRange& points);
 
-/// The quality of the whole, from the sizes of all its points: the percentiles within Distribution::quantile_error, all
-/// else exactly. O(rest before and after the motion).
+/// The quality of the whole from the distributions of all its points: percentiles within Distribution::quantile_error, all
+/// else exact. O(standstill before and after the motion).
 [[nodiscard]] MotionQuality motion_quality(const MotionSizes& sizes, const ClSurface& surface, double period);
 
 }  // namespace clsurf

@@ -39,9 +39,9 @@ struct Survey {
     Column<std::uint8_t> confidences;  ///< LineMap::confidences()
     ProgramMatch match;
     std::shared_ptr<const void> keep_alive;
-    std::string file;  ///< that it was read from
-    /// Of columns of a file: check(first, last) throws InputError where what it has of points [first, last), a block, is
-    /// damaged. Called when they are first read; empty: nothing to check.
+    std::string file;  ///< the file that it was read from
+    /// Checks for a survey from a file, called with a block of points [first, last) when it is first read. Throw InputError if
+    /// the file is damaged there. Empty if there is nothing to check.
     BlockFill::Fill check_neighbours, check_lines;
 };
 

@@ -34,7 +34,7 @@ constexpr float link_accelerates = 0.15F;  ///< the same at a link: both of its 
 constexpr float ramp_share = 0.2F;         ///< the same along the path, between the bend and its ramp's end
 constexpr float accelerates_more = 1.35F;  ///< a bend that is taken 16 % faster
 constexpr float rises_again = 1.03F;       ///< of the least speed: beyond, it was another slow place
-/// [s] No mill brakes longer for a bend. Where a log hardly ever accelerates, its usual acceleration says less.
+/// [s] No mill needs longer to brake for a bend. This limits the search in logs with hardly any acceleration.
 constexpr float longest_braking = 0.5F;
 constexpr float hardly_slower = 0.5F;  ///< of the threshold
 

@@ -10,7 +10,8 @@ constexpr int passes_enough = 3;  ///< on the side where there are some
 constexpr std::size_t sites_enough = 3;
 constexpr float steady_share = 0.1F;     ///< of the usual acceleration along the path: below, the speed is steady
 constexpr double flank_seconds = 0.020;  ///< by which a height may outlast the motion that makes it
-constexpr float falls_to = 0.7F;     ///< of its height at the border: a flank is lower where it is no longer next to it
+constexpr float falls_to =
+    0.7F;  ///< of the height at the border: a flank must be lower than that beyond the sites next to it
 constexpr double flank_ramps = 1.5;  ///< jerk makes ramps longer than the acceleration alone
 
 }  // namespace

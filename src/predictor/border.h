@@ -16,16 +16,16 @@ public:
     Border(const ClSurface& surface, const Signals& signals, const ArcLength& arc_length,
            const DefectCandidates& candidates, double along, const Thresholds& thresholds);
 
-    /// Where sites away from the border are the flank of something at it: their strongest one lies next to a site of the border
-    /// that is as strong or stronger, along the pass or beside it. That one; null: there is none. O(sites + log candidates).
+    /// The border site whose flank the sites of `core` may be: as strong as their strongest one or stronger, and next to it
+    /// along the pass or across. nullptr if there is none. O(sites + log candidates).
     [[nodiscard]] const DefectCandidate* flank_of(const DefectCandidates& core, Quantity quantity) const;
 
     /// How far [mm] a flank reaches from there: as far as the tool needs to make up the difference with the usual acceleration.
     [[nodiscard]] double flank_reach(const DefectCandidates& core, Quantity quantity) const;
 
-    /// A site belongs to the flank of the site `at` of the border: it lies next to it, or within `reach` and a ramp makes the
-    /// difference. Where neither the tool nor those beside it speed up or slow down, no ramp does; and a height that a ramp
-    /// makes falls with the distance from the border.
+    /// Whether a site belongs to the flank of the border site `at`: it is next to `at`, or it is within `reach` [mm] and a ramp
+    /// causes the difference. In speed, a ramp needs an acceleration of this pass or of an adjacent one. In height, the
+    /// difference must be smaller than at the border.
     [[nodiscard]] bool on_flank(const DefectCandidate& site, const DefectCandidate& at, double reach,
                                 Quantity quantity) const;
 

@@ -154,7 +154,7 @@ private:
                 segment.angles.push_back(standing(segment.last));
         }
         if (splines_) segment.spline = spline_of(old, curve, segment.first);
-        // Who asks for splines asks for fewer blocks: where no spline saves any, lines do not become more.
+        // With --splines the user wants fewer blocks: where no spline saves any, there must not be more lines than before.
         if (splines_ && !segment.spline && segment.points.size() + 1 > old.points.size()) return;
         if (segment.spline || !stays(old, segment)) segments.push_back(std::move(segment));
     }
