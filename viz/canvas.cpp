@@ -306,6 +306,16 @@ double text_width(const FlatText& text) {
     return static_cast<double>(box[1] - box[0]) / larger + 1;
 }
 
+Rect text_rect(const FlatText& text) {
+    const double width = text_width(text);
+    return {text.x - share_at_left(text.align) * width, text.y - 0.5 * text.size, width, text.size};
+}
+
+FlatLine halo_of(const FlatText& text, const Rgb& background) {
+    const Rect rect = text_rect(text);
+    return {{{rect.x, text.y}, {rect.x + rect.width, text.y}}, 1.1 * text.size, background, Level::halo};
+}
+
 FlatText fitted(FlatText text, double width) {
     if (text_width(text) <= width) return text;
     const std::string whole = text.text;
@@ -333,13 +343,11 @@ namespace {
 
 /// Where a text stands in the picture, with some room for its smoothed edges.
 PixelBox box_of(const FlatText& text, int height) {
-    const double width = text_width(text);
-    const double left = text.align == Align::left ? 0 : text.align == Align::right ? 1 : 0.5;
+    const Rect rect = text_rect(text);
     constexpr double room = 2;  // [px]
-    const double x = text.x - left * width - room;
     const double top = height - text.y - 0.75 * text.size - room;
-    return {static_cast<int>(std::floor(x)), static_cast<int>(std::floor(top)),
-            static_cast<int>(std::ceil(width + 2 * room)) + 1,
+    return {static_cast<int>(std::floor(rect.x - room)), static_cast<int>(std::floor(top)),
+            static_cast<int>(std::ceil(rect.width + 2 * room)) + 1,
             static_cast<int>(std::ceil(1.5 * text.size + 2 * room)) + 1};
 }
 
@@ -360,10 +368,6 @@ Drawing drawing_of(const Sheet& sheet) {
     }
     return drawing;
 }
-
-}  // namespace
-
-namespace {
 
 using Renderers = std::array<vtkNew<vtkRenderer>, flat_layers>;
 
@@ -399,22 +403,33 @@ public:
         for (const auto& panel : panels_) panel->DrawOff();
     }
 
-    /// Flat things have no depth among each other: each kind is a layer of its own.
-    void add_flat_layers(const Sheet& sheet) {
+    /// The picture with the flat things of a sheet. They have no depth among each other: each kind is a layer of its own.
+    [[nodiscard]] Image picture_with(const Sheet& sheet) {
         for (int k = 0; k < flat_layers; ++k) {
-            flat_[static_cast<std::size_t>(k)]->SetLayer(2 + k);
-            window_.window()->AddRenderer(flat_[static_cast<std::size_t>(k)]);
+            vtkRenderer* const layer = flat_[static_cast<std::size_t>(k)];
+            layer->SetLayer(2 + k);
+            layer->DrawOn();
+            window_.window()->AddRenderer(layer);
         }
         add_quads(flat_[0], sheet.quads, supersample_);
         for (std::size_t k = 0; k < levels.size(); ++k) add_lines(flat_[1 + k], sheet.lines, levels[k], supersample_);
         add_texts(flat_.back(), sheet.texts, supersample_);
+        Image image = window_.render(supersample_);
+        for (const FlatText& text : sheet.texts) image.texts.push_back(box_of(text, sheet.height));
+        return image;
     }
-    void show_flat_layers(bool shown) {
-        for (const auto& renderer : flat_) renderer->SetDraw(shown ? 1 : 0);
+
+    /// What was drawn besides flat things, in full size, below a drawing of them.
+    [[nodiscard]] Drawing::Ground ground(const Sheet& sheet) {
+        for (const auto& renderer : flat_) renderer->DrawOff();
+        Image image = window_.render(1);
+        return {image.width,
+                image.height,
+                std::move(image.rgb),
+                {0, 0, static_cast<double>(sheet.width), static_cast<double>(sheet.height)}};
     }
 
     void draw() { window_.window()->Render(); }
-    [[nodiscard]] Image image(int factor) { return window_.render(factor); }
 
 private:
     GlWindow window_;
@@ -424,25 +439,15 @@ private:
     Renderers flat_;
 };
 
-Drawing::Ground ground_of(Image image, const Sheet& sheet) {
-    return {image.width,
-            image.height,
-            std::move(image.rgb),
-            {0, 0, static_cast<double>(sheet.width), static_cast<double>(sheet.height)}};
-}
-
 }  // namespace
 
 Image draw(const Sheet& sheet, const std::string& gl, int supersample) {
     Canvas canvas(sheet, gl, supersample);
     for (const MeshPanel& panel : sheet.panels) canvas.add_panel(sheet, panel);
-    canvas.add_flat_layers(sheet);
-    Image image = canvas.image(supersample);
-    for (const FlatText& text : sheet.texts) image.texts.push_back(box_of(text, sheet.height));
+    Image image = canvas.picture_with(sheet);
     if (sheet.keep_drawing) {
         auto drawing = std::make_shared<Drawing>(drawing_of(sheet));
-        canvas.show_flat_layers(false);
-        if (!sheet.panels.empty()) drawing->grounds.push_back(ground_of(canvas.image(1), sheet));
+        if (!sheet.panels.empty()) drawing->grounds.push_back(canvas.ground(sheet));
         image.drawing = std::move(drawing);
     }
     return image;
@@ -463,11 +468,9 @@ Image draw(const SheetInParts& sheet, const std::string& gl, int supersample) {
     std::shared_ptr<Drawing> drawing;
     if (flat.keep_drawing) {
         drawing = std::make_shared<Drawing>(drawing_of(flat));
-        drawing->grounds.push_back(ground_of(canvas.image(1), flat));
+        drawing->grounds.push_back(canvas.ground(flat));
     }
-    canvas.add_flat_layers(flat);
-    Image image = canvas.image(supersample);
-    for (const FlatText& text : flat.texts) image.texts.push_back(box_of(text, flat.height));
+    Image image = canvas.picture_with(flat);
     image.drawing = std::move(drawing);
     return image;
 }

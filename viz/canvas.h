@@ -57,6 +57,10 @@ struct SheetInParts {
 
 /// Width of a text [px].
 [[nodiscard]] double text_width(const FlatText& text);
+/// Where a text stands: as wide as it is, and as high as its size [px].
+[[nodiscard]] Rect text_rect(const FlatText& text);
+/// Interrupts the lines behind a text.
+[[nodiscard]] FlatLine halo_of(const FlatText& text, const Rgb& background);
 /// Shortens a text in its middle until it is at most so wide [px].
 [[nodiscard]] FlatText fitted(FlatText text, double width);
 

@@ -273,11 +273,9 @@ private:
             text(x, y - 3.45 * t, mark.cause, layout_.small_text, false, grey, width / columns - t);
             below = y - row * t;
         }
+        tell_rest(anchors.size() - outside - named.size(), outside, layout_.margin, below - 0.6 * t);
         if (named.size() > most_numbers) named.resize(most_numbers);
         number_marks(named, anchors);
-        tell_rest(
-            anchors.size() - outside - std::min(anchors.size() - outside, static_cast<std::size_t>(rows * columns)),
-            outside, layout_.margin, below - 0.6 * t);
     }
 
     /// The numbers of marks beside their anchors, as far as there is room.

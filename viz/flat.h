@@ -16,6 +16,10 @@ struct Rect {
 };
 
 enum class Align : std::uint8_t { left, centre, right };
+/// The share of a text's width that lies left of its place.
+[[nodiscard]] constexpr double share_at_left(Align align) {
+    return align == Align::left ? 0 : align == Align::right ? 1 : 0.5;
+}
 
 struct FlatText {
     double x = 0, y = 0;  ///< baseline side, middle of the line's height

@@ -70,9 +70,8 @@ void draw_text(cairo_t* page, const FlatText& text, double width, double height)
     cairo_text_extents(page, text.text.c_str(), &extents);
     const double own = extents.x_advance;
     const double scale = own > 0 ? std::clamp(width / own, narrowest, 1.0) : 1.0;
-    const double align = text.align == Align::left ? 0 : text.align == Align::right ? 1 : 0.5;
     cairo_save(page);
-    cairo_translate(page, text.x - align * scale * own, height - text.y + baseline * text.size);
+    cairo_translate(page, text.x - share_at_left(text.align) * scale * own, height - text.y + baseline * text.size);
     cairo_scale(page, scale, 1);
     set_colour(page, text.rgb);
     cairo_move_to(page, 0, 0);

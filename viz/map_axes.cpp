@@ -33,6 +33,7 @@ public:
         : sheet_(sheet),
           panel_(panel),
           size_(layout.small_text),
+          background_(look.background),
           ink_(faint(ink_for(look.background), look.background)),
           corner_(panel.rect.x, panel.rect.y) {}
 
@@ -149,16 +150,11 @@ private:
             FlatText text{label.x(), label.y(), tick_text(tick, step), size_, Align::centre, false, ink_};
             if (beside) text.align = outwards.x() < 0 ? Align::right : Align::left;
             if (beside) text.x = at.x() + (tick_length + 0.25) * size_ * (outwards.x() < 0 ? -1 : 1);
-            const double width = text_width(text);
-            widest = std::max(widest, width);
+            const Rect rect = text_rect(text);
+            widest = std::max(widest, rect.width);
             // At a corner two scales meet: "20" and "−10" would be read as one number.
-            if (!take({text.x - (text.align == Align::right    ? 1
-                                 : text.align == Align::centre ? 0.5
-                                                               : 0) *
-                                    width,
-                       text.y - 0.5 * size_, width, size_}))
-                continue;
-            sheet_.texts.push_back(std::move(text));
+            if (!take(rect)) continue;
+            add_words(std::move(text));
         }
         name_axis(corner_ + a, corner_ + b, axis, outwards, of, beside, widest);
     }
@@ -183,7 +179,7 @@ private:
         const double width = text_width(text);
         text.x =
             std::clamp(middle.x() - 0.5 * width, corner_.x(), corner_.x() + std::max(0.0, panel_.rect.width - width));
-        sheet_.texts.push_back(std::move(text));
+        add_words(std::move(text));
     }
 
     /// "X [mm, G54]", where no number is: beyond the numbers, in the middle between two ticks.
@@ -203,12 +199,19 @@ private:
             text.x = middle.x();
             text.y = middle.y();
         }
+        add_words(std::move(text));
+    }
+
+    /// Edges of the box, and lines to the names of defects, are interrupted where they pass behind a text.
+    void add_words(FlatText text) {
+        sheet_.lines.push_back(halo_of(text, background_));
         sheet_.texts.push_back(std::move(text));
     }
 
     Sheet& sheet_;
     const MeshPanel& panel_;
     double size_;
+    Rgb background_;
     Rgb ink_;
     Vec2 corner_;
     std::vector<Rect> numbers_;

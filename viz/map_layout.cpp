@@ -40,6 +40,11 @@ Rect MapLayout::map_area(const Look& look) const {
     return area;
 }
 
+bool is_wide(const Look& look) {
+    constexpr double wide_picture = 1.9;  // width over height
+    return look.width > wide_picture * look.height;
+}
+
 Rgb ink_for(const Rgb& background) {
     const double lightness = 0.3 * background[0] + 0.59 * background[1] + 0.11 * background[2];
     return lightness > 128 ? Rgb{20, 20, 24} : Rgb{240, 240, 240};

@@ -5,8 +5,8 @@
 
 namespace clsurf::viz {
 
-/// Where the words of a map stand: title above the part and legend at its right; title in a column at the left of a wide
-/// picture, whose height is the part's then; legend below the part in a tall picture, whose width is the part's then.
+/// The layout of title and legend. `usual`: title above the part, legend at its right. `wide`: title in a column at the left,
+/// so that the part has the full height. `tall`: legend below the part, so that the part has the full width.
 enum class Arrangement : std::uint8_t { usual, wide, tall };
 
 /// [px]
@@ -14,12 +14,15 @@ struct MapLayout {
     Arrangement arrangement;
     double text, small_text, margin, title_height, note_height, legend_width;
     double title_width = 0;    ///< of the column of a wide picture
-    double legend_height = 0;  ///< the least below the part in a tall picture
+    double legend_height = 0;  ///< least height below the part in a tall picture
 
     explicit MapLayout(const Look& look, Arrangement arranged = Arrangement::usual);
-    /// What is left for panels and their scales.
+    /// The rectangle for the panels and their scales, without title, notes and legend.
     [[nodiscard]] Rect map_area(const Look& look) const;
 };
+
+/// So wide that there is room beside the part.
+[[nodiscard]] bool is_wide(const Look& look);
 
 /// What is read on a background.
 [[nodiscard]] Rgb ink_for(const Rgb& background);

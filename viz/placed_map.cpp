@@ -84,7 +84,7 @@ Box3 extent_of_panel(const MapPanel& map, const ViewAxes& axes) {
 }
 
 PlacedMap placed_map(const std::vector<MapPanel>& panels, const Look& look) {
-    constexpr double wide_picture = 1.9, tall_picture = 1.2;  // width over height; height over width
+    constexpr double tall_picture = 1.2;  // height over width
     constexpr double clearly = 0.97;
     const Framing framing = framing_of(panels, look);
     PlacedMap best = placed_map(Arrangement::usual, panels, framing, look);
@@ -93,7 +93,7 @@ PlacedMap placed_map(const std::vector<MapPanel>& panels, const Look& look) {
         PlacedMap other = placed_map(arrangement, panels, framing, look);
         if (other.camera.mm_per_pixel < clearly * best.camera.mm_per_pixel) best = std::move(other);
     };
-    if (look.width > wide_picture * look.height) consider(Arrangement::wide);
+    if (is_wide(look)) consider(Arrangement::wide);
     if (look.height > tall_picture * look.width) consider(Arrangement::tall);
     return best;
 }

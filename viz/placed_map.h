@@ -19,7 +19,8 @@ struct PlacedMap {
 /// Of the surface or the relief of a panel along the axes of a view [mm]. O(points), parallel.
 [[nodiscard]] Box3 extent_of_panel(const MapPanel& map, const ViewAxes& axes);
 
-/// Of the arrangements that fit the shape of the picture, the one in which the part is largest.
+/// Of the arrangements that fit the shape of the picture, the one in which the part is largest. The camera has the size of
+/// the panels, and sees what the part fills of Look::box, where there is one, else all that is drawn. O(points), parallel.
 [[nodiscard]] PlacedMap placed_map(const std::vector<MapPanel>& panels, const Look& look);
 
 /// Where panel k is [px]: at the left or the top, where names follow; a map in the middle of what its legend leaves.

@@ -12,7 +12,6 @@
 #include "viz/map_axes.h"
 #include "viz/map_margin.h"
 #include "viz/map_marks.h"
-#include "viz/placed_map.h"
 
 namespace clsurf::viz {
 namespace {
@@ -148,12 +147,6 @@ Detail detail_of(const MapPanel& map, const Camera& camera, const Look& look) {
                                  : visible_detail(*map.surface, map.field->values, request);
 }
 
-}  // namespace
-
-Camera map_camera(const std::vector<MapPanel>& panels, const Look& look) { return placed_map(panels, look).camera; }
-
-namespace {
-
 /// Leaves the cells of `size` corners whose first one is a point that belongs to the part.
 void keep_own(Column<std::uint32_t>& cells, std::size_t size, const Column<PointIndex>& vertices,
               const PanelPart& part) {
@@ -201,21 +194,12 @@ Sheet empty_sheet(const Look& look) {
     return sheet;
 }
 
-/// Scales in millimetres of a panel, and beside the last one the axes. The lines to the names of defects go behind numbers.
+/// Scales in millimetres of a panel, and beside the last one the axes.
 void add_scales_of(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const std::string& frame, bool last,
                    const Look& look, const MapLayout& layout, const DepthBuffer* depth = nullptr) {
     if (!look.legend) return;
     const Rgb ink = ink_for(look.background);
-    const std::size_t first = sheet.texts.size();
     add_scales(sheet, panel, shown_box(map, look), frame, look, layout, depth);
-    for (std::size_t k = first; map.defects != nullptr && k < sheet.texts.size(); ++k) {
-        const FlatText& text = sheet.texts[k];
-        const double width = text_width(text);
-        const double left =
-            text.align == Align::left ? text.x : text.x - (text.align == Align::right ? 1 : 0.5) * width;
-        sheet.lines.push_back(
-            {{{left, text.y}, {left + width, text.y}}, 1.1 * text.size, look.background, Level::halo});
-    }
     if (!last || has_frame(look)) return;
     add_axes(sheet, panel, look, layout, ink);
     if (!has_box(look)) add_scale_bar(sheet, panel, layout, ink);
@@ -237,9 +221,8 @@ void add_words(Sheet& sheet, const MapPanel& map, const ColourScale& scale, cons
 
 }  // namespace
 
-Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const ColourScale& scale,
+Sheet map_sheet(const std::vector<MapPanel>& panels, const PlacedMap& placed, const ColourScale& scale,
                 const MapTexts& texts, const Look& look) {
-    const PlacedMap placed{placed_map(panels, look).layout, camera};
     const MapLayout& layout = placed.layout;
     const Rgb ink = ink_for(look.background);
     Sheet sheet = empty_sheet(look);
@@ -250,7 +233,7 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const
         const MapPanel& map = panels[k];
         MeshPanel panel;
         panel.rect = panel_rect(panels, k, look, placed);
-        panel.camera = camera;  // each panel shows the same part at the same scale
+        panel.camera = placed.camera;  // each panel shows the same part at the same scale
         widen(beyond, fill_panel(map, scale, look, panel));
         if (map.defects != nullptr) add_defects(sheet, map, panel, legend, look, layout);
         without_room += add_marks(sheet, map, panel, look, layout);
@@ -269,14 +252,13 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const
     return sheet;
 }
 
-Image draw_map(const MapInParts& map, const Camera& camera, const ColourScale& scale, const Look& look) {
+Image draw_map(const MapInParts& map, const PlacedMap& placed, const ColourScale& scale, const Look& look) {
     const std::vector<MapPanel> panels{map.whole};
-    const PlacedMap placed{placed_map(panels, look).layout, camera};
     MeshPanel frame;
     frame.rect = panel_rect(panels, 0, look, placed);
-    frame.camera = camera;
+    frame.camera = placed.camera;
     Beyond beyond;
-    DepthBuffer depth(camera);
+    DepthBuffer depth(placed.camera);
     SheetInParts sheet;
     sheet.empty = empty_sheet(look);
     sheet.next = [&](MeshPanel& panel) {
@@ -284,7 +266,7 @@ Image draw_map(const MapInParts& map, const Camera& camera, const ColourScale& s
         if (!part) return false;
         panel = MeshPanel();
         panel.rect = frame.rect;
-        panel.camera = camera;
+        panel.camera = placed.camera;
         widen(beyond, fill_panel(part->panel, scale, look, panel, &*part));
         if (has_box(look)) depth.add(panel.geometry);
         return true;
@@ -298,9 +280,9 @@ Image draw_map(const MapInParts& map, const Camera& camera, const ColourScale& s
     return draw(sheet, look.gl, look.supersample);
 }
 
-Image draw_map(const std::vector<MapPanel>& panels, const Camera& camera, const ColourScale& scale,
+Image draw_map(const std::vector<MapPanel>& panels, const PlacedMap& placed, const ColourScale& scale,
                const MapTexts& texts, const Look& look) {
-    return draw(map_sheet(panels, camera, scale, texts, look), look.gl, look.supersample);
+    return draw(map_sheet(panels, placed, scale, texts, look), look.gl, look.supersample);
 }
 
 }  // namespace clsurf::viz

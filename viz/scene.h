@@ -7,19 +7,16 @@
 #include <vector>
 
 #include "viz/map_panel.h"
+#include "viz/placed_map.h"
 
 namespace clsurf::viz {
 
-/// What the map panels show: a camera of the panels' size. What the part fills of the box,
-/// where there is one, else all that is drawn.
-[[nodiscard]] Camera map_camera(const std::vector<MapPanel>& panels, const Look& look);
-
-/// The sheet of one map, or of two side by side on one scale; `camera` is map_camera's.
-[[nodiscard]] Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const ColourScale& scale,
+/// The sheet of one map, or of two side by side on one scale; `placed` is placed_map() of them.
+[[nodiscard]] Sheet map_sheet(const std::vector<MapPanel>& panels, const PlacedMap& placed, const ColourScale& scale,
                               const MapTexts& texts, const Look& look);
 
 /// Draws it. Throws SystemError, UsageError.
-[[nodiscard]] Image draw_map(const std::vector<MapPanel>& panels, const Camera& camera, const ColourScale& scale,
+[[nodiscard]] Image draw_map(const std::vector<MapPanel>& panels, const PlacedMap& placed, const ColourScale& scale,
                              const MapTexts& texts, const Look& look);
 
 /// Some passes of a surface, and what lies beside them (surface/surface_part.h).
@@ -36,7 +33,9 @@ struct MapInParts {
     std::function<MapTexts()> texts;                 ///< asked for after the last part
 };
 
-/// Draws it: the same picture as draw_map() of the whole. Throws SystemError, UsageError.
-[[nodiscard]] Image draw_map(const MapInParts& map, const Camera& camera, const ColourScale& scale, const Look& look);
+/// Draws it: the same picture as draw_map() of the whole. `placed` is placed_map() of the whole. Throws SystemError,
+/// UsageError.
+[[nodiscard]] Image draw_map(const MapInParts& map, const PlacedMap& placed, const ColourScale& scale,
+                             const Look& look);
 
 }  // namespace clsurf::viz

@@ -59,20 +59,19 @@ std::optional<viz::Image> draw_change(const Shown& before, const Shown& after, d
         panel.outlines = outlines_of_change(before, after, match);
         texts.subtitle = "Defects: " + changed_defects_text(before, after);
     }
-    const viz::Camera camera = viz::map_camera({panel}, options.shown.look);
     const ShownRange shown = find_range(change, after.surface, {});
     const double most = std::max({std::abs(shown.low), std::abs(shown.high), least_share * range});
     if (alignment.aligned < alignment.arc_length)
         texts.notes.push_back(fmt::format("the runs share {:.0f} % of the path",
                                           std::floor(100 * alignment.aligned / alignment.arc_length)));
-    return viz::draw_map({panel}, camera, viz::scale_of(change.info, -most, most), texts, options.shown.look);
+    const viz::Look& look = options.shown.look;
+    return viz::draw_map({panel}, viz::placed_map({panel}, look), viz::scale_of(change.info, -most, most), texts, look);
 }
 
 viz::Image draw_with_change(const Shown& before, const Shown& after, double range, RenderOptions options,
                             const std::function<viz::Image(const viz::Look&)>& draw) {
-    constexpr double wide_picture = 1.9;  // width over height
     const viz::Look whole = options.shown.look;
-    const bool wide = whole.width > wide_picture * whole.height;
+    const bool wide = viz::is_wide(whole);
     viz::Look& part = options.shown.look;
     if (wide)
         part.width = whole.width / 3;

@@ -67,7 +67,7 @@ viz::Image draw_place(const JudgedPart& judged, std::size_t index, const viz::Ca
     const double room =
         std::max(least_surroundings * judged.surface.step_over, surroundings * section.sizes().maxCoeff());
     look.box = Box3(section.min() - Vec3::Constant(room), section.max() + Vec3::Constant(room));
-    return viz::draw_map({panel}, viz::map_camera({panel}, look), {}, {}, look);
+    return viz::draw_map({panel}, viz::placed_map({panel}, look), {}, {}, look);
 }
 
 /// Curves of one quantity along the section, with the band of what is usual.

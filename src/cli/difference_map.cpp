@@ -61,7 +61,6 @@ DrawnDifference drawn_difference(RunDifferences& differences, RunQuantity quanti
 void draw_difference(const DrawnDifference& shown, const Trajectory& path, const ClSurface& surface,
                      const LookOptions& look, PictureOutput& output) {
     const viz::MapPanel panel{&surface, &shown.field, "", {}, {}, {}};
-    const viz::Camera camera = viz::map_camera({panel}, look.look);
     const ShownRange range = range_of(shown, surface, look);
     viz::MapTexts texts;
     texts.title =
@@ -70,7 +69,8 @@ void draw_difference(const DrawnDifference& shown, const Trajectory& path, const
         fmt::format("{} points of {}, {} path", path.count, file_name(shown.reference), name_of(path.role));
     texts.notes = viz::notes_of(range);
     if (!shown.note.empty()) texts.notes.insert(texts.notes.begin(), shown.note);
-    const viz::Image image = viz::draw_map({panel}, camera, scale_of(shown.field.info, range, look), texts, look.look);
+    const viz::Image image = viz::draw_map({panel}, viz::placed_map({panel}, look.look),
+                                           scale_of(shown.field.info, range, look), texts, look.look);
     output.write(image, fmt::format("clsurf difference of {} and {}: {} {:g} to {:g} {}", file_name(shown.run),
                                     file_name(shown.reference), shown.field.info.name, range.low, range.high,
                                     shown.field.info.unit.name));

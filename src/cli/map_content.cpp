@@ -92,8 +92,7 @@ viz::Image draw_defect_map(const Shown& shown, const RenderOptions& options) {
     texts.subtitle = fmt::format("{} · {} · {} · {}", count, file_name(options.part.program), run_name(shown, options),
                                  viz::counts_of(shown.surface));
     texts.notes = {"coloured: the sections at fault", "darker: farther above the threshold; 1: the farthest"};
-    const viz::Camera camera = viz::map_camera({panel}, options.shown.look);
-    return viz::draw_map({panel}, camera, {}, texts, options.shown.look);
+    return viz::draw_map({panel}, viz::placed_map({panel}, options.shown.look), {}, texts, options.shown.look);
 }
 
 }  // namespace clsurf::cli

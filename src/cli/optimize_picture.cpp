@@ -28,7 +28,7 @@ viz::Image draw_pair(const Optimized& result, const Field& before, const Field& 
     const ShownRange a = find_range(before, result.before.surface.passes, {}, {}),
                      b = find_range(after, result.after.surface.passes, {}, {});
     const viz::ColourScale scale = viz::scale_of(before.info, std::min(a.low, b.low), std::max(a.high, b.high));
-    return viz::draw_map(panels, viz::map_camera(panels, look), scale, texts, look);
+    return viz::draw_map(panels, viz::placed_map(panels, look), scale, texts, look);
 }
 
 Field speed_of(const JudgedRun& run) { return FieldSet(run.log, run.path, run.surface.passes).get("speed"); }

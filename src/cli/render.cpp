@@ -51,7 +51,7 @@ viz::Image draw_maps(const std::vector<viz::MapPanel>& panels, const Shown& afte
                      const MapScale& scale, const RenderOptions& options) {
     const viz::MapTexts texts = texts_of(after, before, options, scale.notes);
     const auto draw = [&](const viz::Look& look) {
-        return viz::draw_map(panels, viz::map_camera(panels, look), scale.colours, texts, look);
+        return viz::draw_map(panels, viz::placed_map(panels, look), scale.colours, texts, look);
     };
     return before ? draw_with_change(*before, after, scale.span, options, draw) : draw(options.shown.look);
 }
@@ -73,8 +73,8 @@ ExitCode draw_once(RenderOptions options, const po::variables_map& values, bool 
         options.shown.look.names = true;
     }
     if (options.defect_map) {
-        warn_of_marks_outside(after, options, viz::map_camera({panel_of(after, options, "")}, options.shown.look),
-                              values);
+        warn_of_marks_outside(after, options,
+                              viz::placed_map({panel_of(after, options, "")}, options.shown.look).camera, values);
         clock.begin("draw");
         const viz::Image image = draw_defect_map(after, options);
         clock.begin("write the picture");
@@ -96,7 +96,7 @@ ExitCode draw_once(RenderOptions options, const po::variables_map& values, bool 
     panels.push_back(panel_of(after, options, before ? "after: " + file_name(options.part.log) : ""));
 
     clock.begin("choose the range");
-    const viz::Camera camera = viz::map_camera(panels, options.shown.look);
+    const viz::Camera camera = viz::placed_map(panels, options.shown.look).camera;
     warn_of_marks_outside(after, options, camera, values);
     const MapScale shown = scale_of_map(after, before, options, camera);
     clock.begin("draw");

@@ -16,13 +16,9 @@
 #include "cli/picture_output.h"
 #include "cli/survey_options.h"
 #include "core/file_name.h"
-#include "field/channel_fields.h"
 #include "field/pass_ramps.h"
 #include "field/range.h"
-#include "pipeline/channel_classes.h"
-#include "pipeline/feed_fields.h"
 #include "pipeline/part_fields.h"
-#include "pipeline/program_fields.h"
 #include "surface/surface_part.h"
 #include "viz/map_texts.h"
 #include "viz/scene.h"
@@ -40,18 +36,7 @@ void refuse_what_needs_the_whole(const RenderOptions& options, const po::variabl
     if (options.part.log.empty()) throw UsageError("a survey is of a log: clsurf render part.nc run.biip …");
 }
 
-/// Fields of a point and what lies close to it on the path.
-FieldSet fields_of_shards(const Part& part, const ClSurface& surface) {
-    FieldSet fields(part.log.records);
-    const auto positions = std::make_shared<const PositionFields>(part.log, part.path, surface.passes);
-    fields.add(positions);
-    fields.add(std::make_shared<const FeedFields>(part.program, part.lines, positions));
-    fields.add(std::make_shared<const ProgramFields>(part.program, part.lines));
-    fields.add(std::make_shared<const ChannelFields>(part.log, channel_classes()));
-    return fields;
-}
-
-/// The range of colours, which has to be known before the first shard is drawn.
+/// The colour range, which must be known before the first shard is drawn.
 ShownRange range_of_shards(const FieldInfo& field, const RangeRule& rule) {
     if (rule.kind == RangeRule::Kind::fixed) return {rule.low, rule.high, 0, 0, "range as given"};
     const double unit = field.unit.per_inside;
@@ -61,14 +46,14 @@ ShownRange range_of_shards(const FieldInfo& field, const RangeRule& rule) {
                      "give it: --range MIN,MAX, in " + field.unit.name);
 }
 
-/// The map of a log that is surveyed, whose shards are read one after the other.
+/// The map of a surveyed log. Reads one shard after the other.
 class MapOfShards {
 public:
     MapOfShards(const RenderOptions& options, Shown shown, const Survey& survey, int shards)
         : options_(options),
           shown_(std::move(shown)),
           survey_(survey),
-          fields_(fields_of_shards(shown_.part, shown_.surface)),
+          fields_(path_fields_of(shown_.part, shown_.surface)),
           shards_(shards) {
         const std::string usual = fields_.can_compute("feed_share") ? "feed_share" : "speed";
         name_ = options.field.empty() ? usual : options.field;
@@ -92,9 +77,10 @@ public:
 
     [[nodiscard]] viz::Image draw() {
         const viz::Look& look = options_.shown.look;
-        camera_ = viz::map_camera({whole_}, look);
+        const viz::PlacedMap placed = viz::placed_map({whole_}, look);
+        camera_ = placed.camera;
         const viz::MapInParts map{whole_, [this] { return next(); }, [this] { return texts(); }};
-        return viz::draw_map(map, camera_, scale_of(shown_.field.info, range_, options_.shown), look);
+        return viz::draw_map(map, placed, scale_of(shown_.field.info, range_, options_.shown), look);
     }
 
 private:
@@ -102,7 +88,7 @@ private:
         return points_of_shard(shown_.surface.passes, survey_.points, {number, shards_});
     }
 
-    /// Positions that were read take no memory any more.
+    /// Frees the memory of the positions that were read.
     void forget() {
         Positions& p = shown_.surface.positions;
         p.fill->forget();
@@ -143,7 +129,7 @@ private:
         return part;
     }
 
-    /// The field at the points of the part; none at those that are nowhere.
+    /// The values of the field at the points of the part; NaN for points outside of its ranges.
     void take_field() {
         field_.info = shown_.field.info;
         field_.values = Column<float>(part_.points.size(), missing<float>);

@@ -21,7 +21,7 @@ std::size_t index_of_field(const PicturedPart& shown, const std::string& name) {
 std::string draw(const viz::MapPanel& panel, const ShownRange& range, const viz::MapTexts& texts,
                  const viz::Look& look) {
     const viz::ColourScale scale = viz::scale_of(panel.field->info, range.low, range.high);
-    const viz::Image image = viz::draw_map({panel}, viz::map_camera({panel}, look), scale, texts, look);
+    const viz::Image image = viz::draw_map({panel}, viz::placed_map({panel}, look), scale, texts, look);
     return viz::encode_image(image, texts.title, "png");
 }
 

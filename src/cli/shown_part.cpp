@@ -139,7 +139,7 @@ void show_selection(Shown& shown, const Selection& selection) {
 void show_as_machined(Shown& shown, const RenderOptions& options, StageClock& clock) {
     viz::MapPanel panel;
     panel.surface = &shown.surface;
-    const viz::Camera camera = viz::map_camera({panel}, options.shown.look);
+    const viz::Camera camera = viz::placed_map({panel}, options.shown.look).camera;
     const CuttingTool tool = required_tool(shown.part, "--surface formed", "--surface formed --tool ball:6");
     clock.begin("sweep the tool");
     const AsMachinedPart as_machined(shown.part, shown.surface, options.swept, tool);

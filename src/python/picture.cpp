@@ -80,7 +80,7 @@ std::string draw_picture(const LoadedPart& loaded, const PictureRequest& request
         scale = scale_of_picture(field, *panel.surface, request, texts);
     }
     const std::scoped_lock lock(drawing);
-    const viz::Image image = viz::draw_map({panel}, viz::map_camera({panel}, look), scale, texts, look);
+    const viz::Image image = viz::draw_map({panel}, viz::placed_map({panel}, look), scale, texts, look);
     return viz::encode_image(image, "clsurf map of " + texts.subtitle + ": " + field.info.name, "png");
 }
 

@@ -35,7 +35,7 @@ public:
         MapTexts texts;
         texts.title = "Path speed, commanded surface";
         texts.subtitle = "part.nc · run.biip";
-        return map_sheet({panel}, map_camera({panel}, look), scale_of(field_.info, 0, 1), texts, look);
+        return map_sheet({panel}, placed_map({panel}, look), scale_of(field_.info, 0, 1), texts, look);
     }
     /// Size of the part in the picture [px].
     [[nodiscard]] Vec2 size_in(const Sheet& sheet) const {
