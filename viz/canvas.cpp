@@ -242,6 +242,27 @@ void add_quads(vtkRenderer* renderer, const std::vector<FlatQuad>& quads, int su
     add_flat(renderer, points, polygons, colours);
 }
 
+/// What of a convex polygon lies in a rectangle [px, times `supersample`]: cut by one edge after the other (Sutherland and
+/// Hodgman 1974). Empty: nothing.
+std::vector<Vec2> clipped(std::vector<Vec2> corners, const Rect& rect, int supersample) {
+    const Vec2 low = Vec2(rect.x, rect.y) * supersample;
+    const Vec2 high = Vec2(rect.x + rect.width, rect.y + rect.height) * supersample;
+    for (int edge = 0; edge < 4; ++edge) {
+        const int axis = edge / 2;
+        const auto inside = [&](const Vec2& p) { return edge % 2 == 0 ? p[axis] - low[axis] : high[axis] - p[axis]; };
+        std::vector<Vec2> kept;
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const Vec2& from = corners[i];
+            const Vec2& to = corners[(i + 1) % corners.size()];
+            const double here = inside(from), there = inside(to);
+            if (here >= 0) kept.push_back(from);
+            if ((here >= 0) != (there >= 0)) kept.emplace_back(from + here / (here - there) * (to - from));
+        }
+        corners = std::move(kept);
+    }
+    return corners;
+}
+
 /// Lines as quads along their steps: llvmpipe's wide lines have no joints.
 void add_lines(vtkRenderer* renderer, const std::vector<FlatLine>& lines, Level level, int supersample) {
     vtkNew<vtkPoints> points;
@@ -257,13 +278,12 @@ void add_lines(vtkRenderer* renderer, const std::vector<FlatLine>& lines, Level 
             if (!(length > 0)) continue;
             const Vec2 along = 0.5 * line.width * supersample / length * (b - a);
             const Vec2 side(-along.y(), along.x());
-            vtkIdType ids[4];
-            int k = 0;
-            for (const Vec2& p : {Vec2(a - along * 0.5 + side), Vec2(a - along * 0.5 - side),
-                                  Vec2(b + along * 0.5 - side), Vec2(b + along * 0.5 + side)}) {
-                ids[k++] = points->InsertNextPoint(p.x(), p.y(), 0);
-            }
-            polygons->InsertNextCell(4, ids);
+            std::vector<Vec2> corners{a - along * 0.5 + side, a - along * 0.5 - side, b + along * 0.5 - side,
+                                      b + along * 0.5 + side};
+            if (line.clip) corners = clipped(std::move(corners), *line.clip, supersample);
+            if (corners.empty()) continue;
+            polygons->InsertNextCell(static_cast<int>(corners.size()));
+            for (const Vec2& p : corners) polygons->InsertCellPoint(points->InsertNextPoint(p.x(), p.y(), 0));
             colours->InsertNextTypedTuple(line.rgb.data());
         }
     }

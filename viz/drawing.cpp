@@ -17,6 +17,10 @@ void add(Drawing& onto, const Drawing& other, double x, double y) {
     }
     for (FlatLine line : other.lines) {
         for (Vec2& point : line.points) point += Vec2(x, y);
+        if (line.clip) {
+            line.clip->x += x;
+            line.clip->y += y;
+        }
         onto.lines.push_back(std::move(line));
     }
     for (FlatText text : other.texts) {

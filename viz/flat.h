@@ -3,6 +3,7 @@
 // its lower left corner.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,7 @@ struct FlatLine {
     double width = 1;
     Rgb rgb{0, 0, 0};
     Level level = Level::line;
+    std::optional<Rect> clip{};  ///< nothing is drawn outside; by default, all of it is drawn
 };
 
 }  // namespace clsurf::viz

@@ -57,8 +57,15 @@ void draw_ground(cairo_t* page, const Drawing::Ground& ground, double height) {
 void draw_line(cairo_t* page, const FlatLine& line, double height) {
     set_colour(page, line.rgb);
     cairo_set_line_width(page, line.width);
+    cairo_save(page);
+    if (line.clip) {
+        const Rect& r = *line.clip;
+        cairo_rectangle(page, r.x, height - r.y - r.height, r.width, r.height);
+        cairo_clip(page);
+    }
     for (const Vec2& point : line.points) cairo_line_to(page, point.x(), height - point.y());
     cairo_stroke(page);
+    cairo_restore(page);
 }
 
 /// As wide as it was measured, in whatever font is installed.

@@ -1,7 +1,9 @@
 #include "viz/vector_picture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -85,9 +87,22 @@ std::string svg_text(const Drawing& drawing, const std::string& title) {
                            down(top), std::abs(quad.rect.width), std::abs(quad.rect.height), hex(quad.rgb));
     }
     svg += "<g fill=\"none\" stroke-linejoin=\"round\">\n";
+    std::map<std::array<double, 4>, int> clips;  // each rectangle once
     for (const FlatLine& line : drawing.lines) {
         if (line.points.size() < 2) continue;
-        svg += fmt::format("<polyline stroke=\"{}\" stroke-width=\"{:.2f}\" points=\"", hex(line.rgb), line.width);
+        std::string clip;
+        if (line.clip) {
+            const Rect& r = *line.clip;
+            const auto [found, is_new] =
+                clips.try_emplace({r.x, r.y, r.width, r.height}, static_cast<int>(clips.size()) + 1);
+            if (is_new)
+                svg += fmt::format(
+                    "<clipPath id=\"clip{}\"><rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\"/></clipPath>\n",
+                    found->second, r.x, down(r.y + r.height), r.width, r.height);
+            clip = fmt::format(" clip-path=\"url(#clip{})\"", found->second);
+        }
+        svg +=
+            fmt::format("<polyline{} stroke=\"{}\" stroke-width=\"{:.2f}\" points=\"", clip, hex(line.rgb), line.width);
         for (std::size_t i = 0; i < line.points.size(); ++i)
             svg += fmt::format("{}{:.2f},{:.2f}", i > 0 ? " " : "", line.points[i].x(), down(line.points[i].y()));
         svg += "\"/>\n";

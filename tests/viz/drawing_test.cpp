@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "viz/drawing.h"
 #include "viz/gl_context.h"
+#include "viz/vector_picture.h"
 
 namespace clsurf::viz {
 namespace {
@@ -43,6 +45,47 @@ TEST(Drawing, GivesAPixelItsColour) {
     EXPECT_EQ(middle[1], 30);
     EXPECT_EQ(middle[2], 40);
     EXPECT_EQ(image.pixel(1, 1)[0], 255);
+}
+
+/// Two wide lines across the picture, of which the middle 40 by 10 pixels are drawn.
+Sheet clipped_lines() {
+    Sheet sheet;
+    sheet.width = 80;
+    sheet.height = 60;
+    for (const double y : {26.0, 34.0}) {
+        FlatLine line{{{5, y}, {75, y}}, 16, {10, 20, 200}};
+        line.clip = Rect{20, 25, 40, 10};
+        sheet.lines.push_back(line);
+    }
+    return sheet;
+}
+
+TEST(Drawing, LinesEndAtTheirClip) {
+    ::unsetenv("DISPLAY");
+    const Image image = draw(clipped_lines(), "osmesa", 2);
+    for (int y = 0; y < 60; ++y) {
+        for (int x = 0; x < 80; ++x) {
+            const bool inside = x >= 20 && x < 60 && y >= 25 && y < 35;  // the same from above as from below
+            EXPECT_EQ(image.pixel(x, y)[0], inside ? 10 : 255) << x << ", " << y;
+        }
+    }
+    Sheet whole = clipped_lines();
+    for (FlatLine& line : whole.lines) line.clip.reset();
+    EXPECT_EQ(draw(whole, "osmesa", 2).pixel(10, 30)[0], 10);
+}
+
+TEST(Drawing, ClipsAreWrittenOnceAndMoveWithTheirPicture) {
+    Drawing drawing;
+    drawing.width = 200;
+    drawing.height = 60;
+    Drawing part;
+    part.lines = clipped_lines().lines;
+    add(drawing, part, 100, 0);
+    const std::string svg = svg_text(drawing, "clips");
+    EXPECT_NE(svg.find("<clipPath id=\"clip1\"><rect x=\"120.00\" y=\"25.00\" width=\"40.00\" height=\"10.00\"/>"),
+              std::string::npos)
+        << svg;
+    EXPECT_EQ(svg.find("clip2"), std::string::npos) << svg;
 }
 
 TEST(Drawing, GivesWhatLiesBetweenVerticesAColourOfTheRamp) {
