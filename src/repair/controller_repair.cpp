@@ -88,8 +88,7 @@ private:
         const double ratio = static_cast<double>(lines) / static_cast<double>(program_.main().line_count());
         const double gain = gain_of(before, after, ratio, rules_.more_time);
         reason = why_not_better(before, after, rules_.more_time);
-        if (reason.empty() && gain < least_gain)
-            reason = fmt::format("the gain is {:.1f} %, less than {:.0f} %", 100 * gain, 100 * least_gain);
+        if (reason.empty()) reason = too_little_gain("the gain", gain);
         return gain;
     }
 

@@ -45,9 +45,9 @@ std::string why_not_better(const EnsembleResult& result, double more_time) {
     const EnsembleRun mean = result.mean();
     if (const std::string reason = why_not_better(mean.before, mean.after, more_time); !reason.empty())
         return fmt::format("on the mean of {} machines that the machine file allows, {}", result.runs.size(), reason);
-    if (mean.gain < least_gain)
-        return fmt::format("the mean gain on {} machines that the machine file allows is {:.1f} %, less than {:.0f} %",
-                           result.runs.size(), 100 * mean.gain, 100 * least_gain);
+    const std::string what =
+        fmt::format("the mean gain on {} machines that the machine file allows", result.runs.size());
+    if (std::string reason = too_little_gain(what, mean.gain); !reason.empty()) return reason;
     for (const EnsembleRun& run : result.runs) {
         const double longest = run.before.duration * (1 + more_time + most_time_on_one_machine);
         if (run.after.duration > longest)

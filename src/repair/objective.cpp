@@ -36,6 +36,12 @@ double gain_of(const RunMeasures& before, const RunMeasures& after, double line_
     return 1 - objective(before, after, line_ratio, more_time) / objective(before, before, 1, more_time);
 }
 
+std::string too_little_gain(std::string_view what, double gain) {
+    if (gain >= least_gain) return {};
+    const double percent = std::round(1000 * gain) / 10 + 0.0;  // − 0 + 0 is 0: no "-0.0"
+    return fmt::format("{} is {:.1f} %, less than {:.0f} %", what, percent, 100 * least_gain);
+}
+
 std::string why_not_better(const RunMeasures& before, const RunMeasures& after, double more_time) {
     const bool is_less = after.mismatch < before.mismatch, is_none = after.mismatch <= least_mismatch * before.speed;
     if (!is_less && !is_none)

@@ -3,6 +3,7 @@
 // leaves, and the length of the program.
 
 #include <string>
+#include <string_view>
 
 #include "core/not_finite.h"
 
@@ -35,6 +36,9 @@ inline constexpr double least_gain = 0.02;
 
 /// By which share the objective falls from that of the unchanged program; negative: it rises.
 [[nodiscard]] double gain_of(const RunMeasures& before, const RunMeasures& after, double line_ratio, double more_time);
+
+/// "`what` is 1.3 %, less than 2 %"; empty: it is at least least_gain.
+[[nodiscard]] std::string too_little_gain(std::string_view what, double gain);
 
 /// Why `after` is not better than `before` in every respect: mismatch, defects, time (with `more_time`, a share), roughness; empty:
 /// it is.

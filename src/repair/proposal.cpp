@@ -167,9 +167,7 @@ std::string Evaluator::objection(const Evaluation& e, const RunMeasures& before,
     // Some controllers exceed them by themselves, as where blocks overlap in corners.
     if (!limits_ok && summary_before_.limits_ok) return "the machine's limits would not be kept";
     if (std::string reason = why_not_better(before, after, more_time_); !reason.empty()) return reason;
-    const double gain = gain_of(before, after, line_ratio(e), more_time_);
-    if (gain < least_gain) return fmt::format("the gain is {:.1f} %, less than {:.0f} %", 100 * gain, 100 * least_gain);
-    return {};
+    return too_little_gain("the gain", gain_of(before, after, line_ratio(e), more_time_));
 }
 
 double Evaluator::score(const Proposal& p) const {

@@ -23,6 +23,13 @@ TEST(Objective, AddsTheSharesThatRemain) {
     EXPECT_DOUBLE_EQ(gain_of(before, {8, 10, 100}, 2, 0), 1 - 1.41 / 2.08);
 }
 
+TEST(Objective, SaysWhichGainIsTooLittle) {
+    EXPECT_EQ(too_little_gain("the gain", 0.02), "");
+    EXPECT_EQ(too_little_gain("the gain", 0.0131), "the gain is 1.3 %, less than 2 %");
+    EXPECT_EQ(too_little_gain("the gain", -0.0004), "the gain is 0.0 %, less than 2 %");
+    EXPECT_EQ(too_little_gain("the gain", -0.031), "the gain is -3.1 %, less than 2 %");
+}
+
 TEST(Objective, EveryMeasureMustNotBeWorse) {
     EXPECT_EQ(why_not_better(before, {9, 20, 100}, 0), "");
     EXPECT_NE(why_not_better(before, {10, 19, 100}, 0), "") << "the same mismatch";
