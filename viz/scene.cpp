@@ -238,7 +238,9 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const PlacedMap& placed, co
         if (map.defects != nullptr) add_defects(sheet, map, panel, legend, look, layout);
         without_room += add_marks(sheet, map, panel, look, layout);
         if (!map.caption.empty()) {
-            const double y = panel.rect.y + panel.rect.height + 0.5 * caption_lines * layout.text;
+            // The name of the upright scale stands above the frame.
+            const double above = has_frame(look) ? axes_room(look, layout).top : 0;
+            const double y = panel.rect.y + panel.rect.height + above + 0.5 * caption_lines * layout.text;
             sheet.texts.push_back(
                 fitted({panel.rect.x + layout.margin, y, map.caption, layout.text, Align::left, true, ink},
                        panel.rect.width - 2 * layout.margin));
