@@ -23,7 +23,8 @@ constexpr double hidden_width = 0.14;      ///< of the dots of hidden parts
 constexpr double dot_every = 0.4;          ///< from one dot to the next, in text sizes
 constexpr double axes_height = 6.2;        ///< of the picture's axes beside the key, in text sizes
 constexpr double name_width = 15;          ///< of a name in a column, in text sizes
-constexpr double lightest = 0.45;          ///< share of the colour in the weakest mark; the rest is white
+constexpr double with_lines = 2.5, with_place = 3.45, with_cause = 4.4;  ///< heights of names in columns, in text sizes
+constexpr double lightest = 0.45;  ///< share of the colour in the weakest mark; the rest is white
 
 Rgb mixed(const Rgb& rgb, double share) {
     Rgb result;
@@ -85,12 +86,15 @@ public:
     void draw() {
         const std::vector<DefectMark>& marks = map_.defects->marks;
         std::vector<std::optional<Vec2>> anchors(marks.size());
+        const std::size_t before = sheet_.lines.size();
         // The strongest last, on top of the others; regions below all.
         for (const bool region : {true, false}) {
             for (std::size_t k = marks.size(); k-- > 0;) {
                 if (marks[k].region == region) anchors[k] = draw_mark(marks[k]);
             }
         }
+        // A mark is as wide as its strip of the part; where it runs along an edge of the picture, half of it is outside.
+        for (std::size_t k = before; k < sheet_.lines.size(); ++k) sheet_.lines[k].clip = panel_.rect;
         if (!look_.legend) return;
         if (layout_.arrangement == Arrangement::tall)
             tabulate(anchors);
@@ -243,15 +247,27 @@ private:
         if (!words.empty()) text(x, y, words, layout_.small_text, false, faint(ink_, look_.background));
     }
 
+    /// Height of a name in a column, in text sizes as `room` is: with its place and its cause, or with fewer of them where
+    /// so many rows have no room otherwise.
+    static double row_height(double room, double rows) {
+        for (const double height : {with_cause, with_place}) {
+            if (rows * height <= room) return height;
+        }
+        return with_lines;
+    }
+
     /// Names in columns below the part, the strongest first, row by row.
     void tabulate(const std::vector<std::optional<Vec2>>& anchors) {
         constexpr std::size_t most_numbers = 24;  // on the part; more would cover it
-        constexpr double row = 4.4, rest = 1.6;   // heights, in text sizes
+        constexpr double rest = 1.6;              // height below the names, in text sizes
         const double t = layout_.text;
         const double top = room_.y + room_.height - 0.8 * t;
         const double lowest = add_key(layout_.margin, room_.y) + rest * t;
         const double width = room_.width - 2 * layout_.margin;
         const double columns = std::max(1.0, std::floor(width / (name_width * t)));
+        const auto shown = std::count_if(anchors.begin(), anchors.end(), [](const auto& at) { return at.has_value(); });
+        const double wanted = std::min(static_cast<double>(most_named_defects), static_cast<double>(shown));
+        const double row = row_height((top - lowest) / t, std::ceil(wanted / columns));
         const double rows = std::max(0.0, std::floor((top - lowest) / (row * t)));
         std::vector<std::size_t> named;
         std::size_t outside = 0;
@@ -269,8 +285,10 @@ private:
             const DefectMark& mark = map_.defects->marks[named[k]];
             add_texts_of(mark, Vec2(x, y - 1.0 * t), width / columns - t);
             const Rgb grey = faint(ink_, look_.background);
-            text(x, y - 2.5 * t, mark.place, layout_.small_text, false, grey, width / columns - t);
-            text(x, y - 3.45 * t, mark.cause, layout_.small_text, false, grey, width / columns - t);
+            if (row >= with_place)
+                text(x, y - 2.5 * t, mark.place, layout_.small_text, false, grey, width / columns - t);
+            if (row >= with_cause)
+                text(x, y - 3.45 * t, mark.cause, layout_.small_text, false, grey, width / columns - t);
             below = y - row * t;
         }
         tell_rest(anchors.size() - outside - named.size(), outside, layout_.margin, below - 0.6 * t);

@@ -20,7 +20,7 @@ MapLayout::MapLayout(const Look& look, Arrangement arranged)
       text(text_size(look, arranged)),
       small_text(std::max(8.0, 0.78 * text)),
       margin(0.8 * text),
-      title_height(3.6 * text),
+      title_height((arranged == Arrangement::tall ? 5.2 : 3.6) * text),
       note_height(3.0 * small_text),
       legend_width(!look.legend ? 0
                    : look.names ? 15.0 * text

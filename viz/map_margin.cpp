@@ -189,11 +189,15 @@ void add_title(Sheet& sheet, const MapTexts& texts, double beside, const Look& l
         return;
     }
     const double width = look.width - 2 * layout.margin;
-    title.text = texts.title;
+    if (layout.arrangement == Arrangement::tall) {
+        const double below = add_wrapped(sheet, texts.title, title, width);
+        subtitle.y += below + 1.25 * title.size - title.y;
+    } else {
+        title.text = texts.title;
+        title.size /= std::clamp(text_width(title) / width, 1.0, most_smaller);
+        sheet.texts.push_back(fitted(std::move(title), width));
+    }
     subtitle.text = texts.subtitle;
-    const double too_long = text_width(title) / width;
-    title.size /= std::clamp(too_long, 1.0, most_smaller);
-    sheet.texts.push_back(fitted(std::move(title), width));
     sheet.texts.push_back(fitted(std::move(subtitle), width));
     add_notes(sheet, texts.notes, note, look.width - layout.margin - beside, most_notes);
 }
