@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/block.h"
+#include "toolpath/smoother_fit.h"
 
 namespace clsurf {
 namespace {
 
-constexpr double gap = 1.5;                 ///< periods between records that end a piece
 constexpr double standing_seconds = 0.020;  ///< the derivatives' usual window …
 constexpr PointIndex fewest_standing = 3;   ///< … and no fewer records
 
@@ -68,25 +69,7 @@ std::vector<PointRange> smoothing_segments(const Log& log, const Passes& passes)
         }
         before = pass.kind;
     }
-    const Channel* time = log.find("time");
-    if (time == nullptr) return pieces;
-    std::vector<PointRange> whole;
-    std::vector<double> t;
-    for (PointRange piece : pieces) {
-        for (PointIndex begin = piece.first; begin < piece.last; begin += block_points) {
-            const PointIndex end = std::min(piece.last, begin + block_points);
-            t.resize(static_cast<std::size_t>(end - begin + 1));
-            copy_block(time->values, begin, t);
-            for (std::size_t i = 1; i < t.size(); ++i) {
-                if (t[i] - t[i - 1] <= gap * log.period) continue;
-                const PointIndex cut = begin + static_cast<PointIndex>(i);
-                whole.push_back({piece.first, cut - 1});
-                piece.first = cut;
-            }
-        }
-        whole.push_back(piece);
-    }
-    return whole;
+    return cut_at_gaps(log, std::move(pieces));
 }
 
 std::vector<PointRange> split_at_standstills(const std::vector<PointRange>& pieces, const Trajectory& path) {

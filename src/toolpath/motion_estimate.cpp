@@ -11,18 +11,11 @@
 #include "core/statistics.h"
 #include "core/units.h"
 #include "log/quantum.h"
+#include "toolpath/smoother_fit.h"
 
 namespace clsurf {
 namespace {
 
-constexpr PointIndex looked_at = 2000;   ///< points of a section that the model is measured on
-constexpr PointIndex sections = 48;      ///< evenly spaced over the pieces
-constexpr PointIndex least_piece = 100;  ///< points
-constexpr double finest = 1e-8;          ///< [mm] no position is more exact
-constexpr double most_wandering = 1e6, least_wandering = 1e-17;
-constexpr double moving_steps = 10;   ///< an axis that stays within so many steps teaches nothing of the motion
-constexpr PointIndex most_lead = 12;  ///< records: further ahead no control has been seen to record a signal
-constexpr double better_lead = 0.8;   ///< squares of a lead that counts, over those of none
 constexpr double near_record = 0.05;  ///< leads so near a whole number of records are that number
 /// A channel that differs by more of the speed is not a measurement of it: a programmed feed, or a filtered display.
 constexpr double most_disagreement = 0.05;
@@ -33,31 +26,6 @@ constexpr double disturbed = 4, disturbed_by_width = 2;
 /// So many standard deviations hold this share of the measured errors, as of a normal distribution.
 constexpr double within_sigmas = 3, covered = 0.9973;
 constexpr double most_nees = 2;
-constexpr double two_periods_7 = 128;  ///< 2⁷: `wandering` with a period twice as long
-/// A model is sure of itself only so far: the wandering is found to a factor of √10.
-constexpr double wandering_step = 3.1622776601683795;
-
-/// Sections spread over the pieces that are long enough to tell anything.
-std::vector<PointRange> samples_of(const std::vector<PointRange>& pieces) {
-    PointIndex all = 0;
-    for (const PointRange& piece : pieces) all += piece.size() >= least_piece ? piece.size() : 0;
-    const PointIndex every = std::max(looked_at, all / sections);
-    std::vector<PointRange> samples;
-    PointIndex next = 0;  // where the next section begins, counted from the piece's first point
-    for (const PointRange& piece : pieces) {
-        if (piece.size() < least_piece) continue;
-        for (; next < piece.size(); next += every) {
-            const PointIndex first = piece.first + std::min(next, piece.size() - least_piece);
-            samples.push_back({first, std::min(piece.last, first + looked_at - 1)});
-        }
-        next -= piece.size();
-    }
-    if (samples.empty() && !pieces.empty())
-        samples.push_back(*std::max_element(pieces.begin(), pieces.end(), [](const PointRange& a, const PointRange& b) {
-            return a.size() < b.size();
-        }));
-    return samples;
-}
 
 double norm(const SmoothedState& state, std::size_t d) { return std::sqrt(state[d].square().sum()); }
 
@@ -66,33 +34,16 @@ Measurements all_of(const MotionEstimate::Scratch& scratch) {
     return {{p[0], p[1], p[2]}, {v[0], v[1], v[2]}, {a[0], a[1], a[2]}};
 }
 
-/// Values of a channel that is `lead` records ahead, at points from `first`; cubic between records, NaN beyond them.
-void copy_ahead(const ChannelView& view, PointIndex count, PointIndex first, double lead, std::vector<double>& out) {
-    const auto whole = static_cast<PointIndex>(std::floor(-lead));
-    const double u = -lead - static_cast<double>(whole);
-    const std::array<double, 4> weights{-u * (u - 1) * (u - 2) / 6, (u + 1) * (u - 1) * (u - 2) / 2,
-                                        -(u + 1) * u * (u - 2) / 2, (u + 1) * u * (u - 1) / 6};
-    const auto n = static_cast<PointIndex>(out.size());
-    const PointIndex from = first + whole - 1;  // of the four records around the first point's
-    std::vector<double> records(out.size() + 3, std::numeric_limits<double>::quiet_NaN());
-    const PointIndex begin = std::max<PointIndex>(from, 0);
-    const PointIndex end = std::min(from + n + 3, count);
-    if (begin < end)
-        copy_block(
-            view, begin,
-            std::span(records).subspan(static_cast<std::size_t>(begin - from), static_cast<std::size_t>(end - begin)));
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        out[i] = u == 0 ? records[i + 1]
-                        : weights[0] * records[i] + weights[1] * records[i + 1] + weights[2] * records[i + 2] +
-                              weights[3] * records[i + 3];
-    }
-}
-
 }  // namespace
 
 MotionEstimate::MotionEstimate(const Log& log, const Trajectory& path, const std::vector<PointRange>& pieces)
     : log_(log), path_(path) {
-    measure_positions(pieces);
+    NoiseFitter fitter;
+    if (FusedPositions::applies(log, path)) {
+        fused_.emplace(log, path, pieces, fitter);
+        path_ = fused_->path();
+    }
+    measure_positions(pieces, fitter);
     across_.emplace(model_);
     // The axes' own speeds are not those of a tool that also turns.
     if (path.kinematics == nullptr) measure_components(pieces);
@@ -100,56 +51,40 @@ MotionEstimate::MotionEstimate(const Log& log, const Trajectory& path, const std
     calibrate(pieces);
 }
 
-void MotionEstimate::measure_positions(const std::vector<PointRange>& pieces) {
-    double floor = finest;
-    if (path_.kinematics == nullptr) {
+void MotionEstimate::measure_positions(const std::vector<PointRange>& pieces, NoiseFitter& fitter) {
+    double floor = finest_position;
+    if (path_.kinematics == nullptr && !fused_) {
         for (const ChannelView& view : path_.axes) floor = std::max(floor, quantum_of(view) / std::sqrt(12.0));
     }
-    model_.period = path_.period;
+    const double step = fused_ ? fused_->scale_floor() : floor;
+    if (fused_) floor = fused_->floor();
     // An axis that stands still teaches nothing of the motion.
     std::vector<std::vector<double>> moving;
-    for (const PointRange& sample : samples_of(pieces)) {
+    for (const PointRange& sample : sample_sections(pieces)) {
         std::array<std::vector<double>, 3> p;
         for (std::vector<double>& axis : p) axis.resize(static_cast<std::size_t>(sample.size()));
         path_.read(sample.first, p[0], p[1], p[2]);
         for (std::vector<double>& axis : p) {
-            const auto [low, high] = std::minmax_element(axis.begin(), axis.end());
-            if (*high - *low > moving_steps * floor) moving.push_back(std::move(axis));
+            if (!moves(axis, step)) continue;
+            if (fused_)
+                for (const PointRange& part : fused_->fused_ranges(sample))
+                    moving.emplace_back(axis.begin() + (part.first - sample.first),
+                                        axis.begin() + (part.last + 1 - sample.first));
+            else
+                moving.push_back(std::move(axis));
         }
     }
-    double least = std::numeric_limits<double>::infinity();
-    model_.position_sigma = floor;
-    for (double wandering = most_wandering; wandering > least_wandering; wandering /= wandering_step) {
-        SmootherModel tried;
-        tried.period = 1;
-        tried.position_sigma = 1;
-        tried.wandering = wandering;
-        const KalmanSmoother filter(tried);
-        double squares = 0;
-        double count = 0;
-        double log_variance = 0;
-        for (const std::vector<double>& axis : moving) {
-            const KalmanSmoother::Innovations sums = filter.innovations(axis);
-            squares += sums.squares;
-            count += static_cast<double>(sums.count);
-            log_variance = sums.log_variance;
-        }
-        if (!(count > 0)) break;
-        // The likelihood at its greatest over the uncertainty of a position, which the quantum bounds from below.
-        const double variance = std::max(squares / count, floor * floor);
-        const double cost = std::log(variance) + squares / count / variance + log_variance;
-        if (!(cost < least)) continue;
-        least = cost;
-        model_.position_sigma = std::sqrt(variance);
-        rounding_rules_ = variance <= 2 * floor * floor && floor > finest;
-        model_.wandering = wandering;
-    }
+    const NoiseFit fit = fitter.fit(moving, floor);
+    model_.period = path_.period;
+    model_.position_sigma = fit.sigma;
+    rounding_rules_ = fit.rounding_rules;
+    if (fit.moved) model_.wandering = fit.wandering;
 }
 
 template <typename Visit>
 void MotionEstimate::visit_samples(const std::vector<PointRange>& pieces, Visit&& visit) const {
     Scratch scratch;
-    for (const PointRange& sample : samples_of(pieces)) {
+    for (const PointRange& sample : sample_sections(pieces)) {
         read(sample.first, sample.last, scratch);
         const auto n = static_cast<std::size_t>(sample.size());
         scratch.states.resize(n);
@@ -273,6 +208,11 @@ void MotionEstimate::calibrate(const std::vector<PointRange>& pieces) {
     const double of_channel =
         path_speed_ == nullptr ? 0.0 : std::pow(quantum_of(path_speed_->values) / seconds_per_minute, 2) / 12;
     std::array<std::vector<double>, 3> ratios;  // squared errors of the speed, in units of the variance stated of them
+    std::vector<double> of_difference_held_out;
+    for (std::size_t k = 0; k < 3 && fused_; ++k) {
+        const std::vector<double>& more = fused_->axes()[k].held_out;
+        of_difference_held_out.insert(of_difference_held_out.end(), more.begin(), more.end());
+    }
     const auto compare = [&ratios](std::size_t with, double off, double variance) {
         if (!std::isnan(off)) ratios[with].push_back(off * off / variance);
     };
@@ -309,22 +249,28 @@ void MotionEstimate::calibrate(const std::vector<PointRange>& pieces) {
             if (path_speed_ != nullptr) compare(2, speed - scratch.path_speed[i], variance + of_channel);
         }
     });
-    set_scale(ratios);
+    set_scale(ratios, of_difference_held_out);
 }
 
 /// By squared errors in units of the variance that is stated of them, of each kind. Changes their order.
-void MotionEstimate::set_scale(std::array<std::vector<double>, 3>& ratios) {
+void MotionEstimate::set_scale(std::array<std::vector<double>, 3>& ratios, std::vector<double>& of_difference) {
     // While an axis moves by less than a step, its rounding stays: up to half a step, √3 of the standard deviation of steps.
     double scale = rounding_rules_ ? 3 : 1;
-    for (std::vector<double>& of : ratios) {
-        if (!of.empty()) scale = std::max(scale, nearest_quantile(of, covered) / (within_sigmas * within_sigmas));
-    }
+    const auto raise = [](double& variance, std::vector<double>& of) {
+        if (!of.empty()) variance = std::max(variance, nearest_quantile(of, covered) / (within_sigmas * within_sigmas));
+    };
+    for (std::vector<double>& of : ratios) raise(scale, of);
+    double difference_scale = 1;
+    raise(difference_scale, of_difference);
     scale_ = std::sqrt(scale);
+    difference_scale_ = std::sqrt(difference_scale);
     nees_ = 0;
-    for (const std::vector<double>& of : ratios) {
+    const auto note = [this](const std::vector<double>& of, double variance) {
         const double sum = std::accumulate(of.begin(), of.end(), 0.0);
-        if (!of.empty()) nees_ = std::max(nees_, sum / static_cast<double>(of.size()) / scale);
-    }
+        if (!of.empty()) nees_ = std::max(nees_, sum / static_cast<double>(of.size()) / variance);
+    };
+    for (const std::vector<double>& of : ratios) note(of, scale);
+    note(of_difference, difference_scale);
     if (nees_ > most_nees)
         throw InputError(
             Place::of_file(log_.name),
@@ -435,11 +381,64 @@ void MotionEstimate::sigmas(int derivative, PointRange piece, PointIndex first, 
                             std::span<double> out) const {
     best(derivative).sigmas(derivative, piece.size(), first - piece.first, out);
     for (std::size_t i = 0; i < out.size(); ++i) out[i] *= scale_ * std::sqrt(scratch.inflation[i]);
+    if (!fused_) return;
+    std::vector<double> worst(out.size(), 0.0), of_axis(out.size());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        difference_sigmas(axis, derivative, piece, first, of_axis);
+        std::transform(worst.begin(), worst.end(), of_axis.begin(), worst.begin(),
+                       [](double a, double b) { return std::max(a, b); });
+    }
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = std::hypot(out[i], difference_scale_ * worst[i]);
+}
+
+void MotionEstimate::position_sigmas(PointRange piece, PointIndex first, const Scratch& scratch,
+                                     std::array<std::vector<double>, 3>& out) const {
+    const std::size_t n = out[0].size();
+    std::vector<double> common(n), of_axis(n, 0.0);
+    best(0).sigmas(0, piece.size(), first - piece.first, common);
+    for (std::size_t i = 0; i < n; ++i) common[i] *= scale_ * std::sqrt(scratch.inflation[i]);
+    for (std::vector<double>& variances : out) variances.assign(n, 0.0);
+    for (std::size_t axis = 0; axis < 3 && fused_; ++axis) {
+        difference_sigmas(axis, 0, piece, first, of_axis);
+        for (std::size_t along = 0; along < 3; ++along) {
+            const double share = path_.turn(static_cast<int>(along), static_cast<int>(axis));
+            for (std::size_t i = 0; i < n; ++i) out[along][i] += std::pow(share * difference_scale_ * of_axis[i], 2);
+        }
+    }
+    for (std::vector<double>& values : out) {
+        for (std::size_t i = 0; i < n; ++i) values[i] = std::sqrt(values[i] + common[i] * common[i]);
+    }
+}
+
+/// What the encoder's difference adds. Where the scale is used alone, and as near to it as its noise reaches, all is as
+/// uncertain as by the scale.
+void MotionEstimate::difference_sigmas(std::size_t axis, int derivative, PointRange piece, PointIndex first,
+                                       std::span<double> out) const {
+    const PointIndex reach = disturbed_points();
+    const PointIndex from = std::max(piece.first, first - reach);
+    const PointIndex to = std::min(piece.last, first + static_cast<PointIndex>(out.size()) - 1 + reach);
+    std::vector<double> around(static_cast<std::size_t>(to - from + 1));
+    fused_->sigmas(axis, derivative, from, around);
+    const double most = scale_ / difference_scale_ * best(derivative).sigma(derivative) * fused_->alone();
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] = std::min(most, around[static_cast<std::size_t>(first - from) + i]);
+    for (PointIndex at = from; at <= to; ++at) {
+        if (!std::isinf(around[static_cast<std::size_t>(at - from)])) continue;
+        const PointIndex begin = std::max(first, at - reach);
+        const PointIndex end = std::min(first + static_cast<PointIndex>(out.size()), at + reach + 1);
+        for (PointIndex i = begin; i < end; ++i) out[static_cast<std::size_t>(i - first)] = most;
+    }
+}
+
+double MotionEstimate::sigma(int derivative) const {
+    const double of_difference = fused_ ? difference_scale_ * fused_->remaining(derivative) : 0.0;
+    return std::hypot(scale_ * best(derivative).sigma(derivative), of_difference);
 }
 
 std::string MotionEstimate::note(int derivative) const {
     std::string text =
         fmt::format("Kalman smoother: positions \u00b1{:.2g} \u00b5m", model_.position_sigma * um_per_mm);
+    if (fused_) text += fmt::format(" ({})", fused_->note());
     const double speed = along_ ? along_->model().speed_sigma : model_.speed_sigma;
     if (std::isfinite(speed)) text += fmt::format(", speeds \u00b1{:.2g} mm/min", speed * seconds_per_minute);
     const double lead = along_ ? path_speed_lead_ : component_lead_[0];
@@ -452,7 +451,7 @@ std::string MotionEstimate::note(int derivative) const {
         case 1: return text + fmt::format("; speed known to \u00b1{:.2g} mm/min", left * seconds_per_minute);
         case 2: return text + fmt::format("; acceleration known to \u00b1{:.2g} mm/s\u00b2", left);
         case 3: return text + fmt::format("; jerk known to \u00b1{:.2g} mm/s\u00b3", left);
-        default: return text;
+        default: return text + fmt::format("; position known to \u00b1{:.2g} \u00b5m", left * um_per_mm);
     }
 }
 

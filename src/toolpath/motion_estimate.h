@@ -27,6 +27,7 @@
 
 #include "log/log.h"
 #include "numeric/kalman_smoother.h"
+#include "toolpath/fused_positions.h"
 #include "toolpath/trajectory.h"
 
 namespace clsurf {
@@ -58,12 +59,18 @@ public:
     /// position (0), at points [first, first + out.size()) of a piece. `scratch` is that of their estimate.
     void sigmas(int derivative, PointRange piece, PointIndex first, const Scratch& scratch,
                 std::span<double> out) const;
-    /// Far from the ends of pieces and from jumps of the acceleration [mm/s^d].
-    [[nodiscard]] double sigma(int derivative) const { return scale_ * best(derivative).sigma(derivative); }
+    /// Standard deviations of each coordinate of the position [mm], at points [first, first + out[0].size()).
+    void position_sigmas(PointRange piece, PointIndex first, const Scratch& scratch,
+                         std::array<std::vector<double>, 3>& out) const;
+    /// Far from the ends of pieces, from jumps of the acceleration and from reversals [mm/s^d].
+    [[nodiscard]] double sigma(int derivative) const;
     /// Normalised estimation error squared, measured in the log: 1 where the errors are as large as stated.
     [[nodiscard]] double nees() const { return nees_; }
     /// How many records the channel of the path's speed is ahead of the positions; 0: none is used.
     [[nodiscard]] double speed_lead() const { return path_speed_lead_; }
+
+    /// Encoder and scale, where the positions are actual ones and the log has both; else nullptr.
+    [[nodiscard]] const FusedPositions* fused() const { return fused_ ? &*fused_ : nullptr; }
 
     /// What was measured and with which uncertainty, for legends: "Kalman smoother, positions ± 0.29 µm …".
     [[nodiscard]] std::string note(int derivative) const;
@@ -73,11 +80,13 @@ private:
     [[nodiscard]] const KalmanSmoother& best(int derivative) const {
         return along_ && derivative == 1 ? *along_ : *across_;
     }
-    void measure_positions(const std::vector<PointRange>& pieces);
+    void measure_positions(const std::vector<PointRange>& pieces, NoiseFitter& fitter);
     void measure_components(const std::vector<PointRange>& pieces);
     void measure_path_speed(const std::vector<PointRange>& pieces);
     void calibrate(const std::vector<PointRange>& pieces);
-    void set_scale(std::array<std::vector<double>, 3>& ratios);
+    void difference_sigmas(std::size_t axis, int derivative, PointRange piece, PointIndex first,
+                           std::span<double> out) const;
+    void set_scale(std::array<std::vector<double>, 3>& ratios, std::vector<double>& of_difference);
     void read(PointIndex first, PointIndex last, Scratch& scratch) const;
     [[nodiscard]] PointIndex disturbed_points() const;
     void set_inflation(PointIndex from, PointIndex first, PointIndex last, Scratch& scratch) const;
@@ -91,13 +100,15 @@ private:
                                  Estimated&& estimated) const;
 
     const Log& log_;
-    const Trajectory& path_;
+    Trajectory path_;
+    std::optional<FusedPositions> fused_;                        ///< what `path_` is then
     std::array<std::array<const Channel*, 3>, 2> components_{};  ///< speed.x …, acceleration.x …; nullptr: not measured
     const Channel* path_speed_ = nullptr;
     std::array<double, 2> component_lead_{};  ///< records by which they are ahead of the positions
     double path_speed_lead_ = 0;
     bool rounding_rules_ = false;  ///< rounding is at least half the variance of the positions
-    double scale_ = 1;             ///< of all standard deviations
+    double scale_ = 1;             ///< of all standard deviations …
+    double difference_scale_ = 1;  ///< … but those of what is left of the encoder's difference
     double nees_ = 1;              ///< normalised estimation error squared, as measured
     SmootherModel model_;
     std::optional<KalmanSmoother> across_;  ///< of all that is measured of the components
