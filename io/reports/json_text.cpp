@@ -74,6 +74,13 @@ std::string query_json(const std::vector<QueryMatch>& matches, const Diagnostics
             all.back()["speed_uncertainty_mm_min"] = number(*m.speed_uncertainty * seconds_per_minute);
         if (m.acceleration_uncertainty)
             all.back()["acceleration_uncertainty_mm_s2"] = number(*m.acceleration_uncertainty);
+        if (!m.estimated_from.empty()) all.back()["estimated_from"] = m.estimated_from;
+        if (!m.fused) continue;
+        const auto three = [](const Vec3& v, int digits) {
+            return Json::array({number(v.x(), digits), number(v.y(), digits), number(v.z(), digits)});
+        };
+        all.back()["table_mm"] = three(m.fused->position, 6);
+        all.back()["table_uncertainty_um"] = three(m.fused->uncertainty * um_per_mm, 4);
     }
     return dump(Json{{"matches", std::move(all)}, {"diagnostics", list(diagnostics)}});
 }

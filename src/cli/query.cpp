@@ -38,6 +38,12 @@ void print_matches(const std::vector<QueryMatch>& matches) {
             "\n  speed {:.1f}{} mm/min, acceleration {:.1f}{} mm/s²; points {} … {} belong to the line (confidence {:.2f})\n",
             m.speed * seconds_per_minute, known(m.speed_uncertainty, seconds_per_minute), m.acceleration,
             known(m.acceleration_uncertainty, 1), m.line_points.first, m.line_points.last, m.confidence);
+        if (m.fused) {
+            const Vec3 sigma = m.fused->uncertainty * um_per_mm;
+            fmt::print("  table {}, known to \u00b1{:.2g}, \u00b1{:.2g}, \u00b1{:.2g} \u00b5m\n",
+                       text(m.fused->position), sigma.x(), sigma.y(), sigma.z());
+        }
+        if (!m.estimated_from.empty()) fmt::print("  {}\n", m.estimated_from);
         if (!m.why.reasons.empty())
             fmt::print("  slow: {:.0f} of F{:.0f} mm/min: {}\n", m.speed * seconds_per_minute,
                        m.why.programmed_feed * seconds_per_minute, fmt::join(m.why.reasons, "; "));

@@ -9,8 +9,8 @@ namespace clsurf {
 namespace {
 
 constexpr std::array<std::string_view, needs::kinds> need_names{
-    "position",           "velocity",       "acceleration",       "jerk",       "commanded positions",
-    "measured positions", "velocity sigma", "acceleration sigma", "jerk sigma", "time"};
+    "position",       "velocity",           "acceleration", "jerk", "commanded positions", "measured positions",
+    "velocity sigma", "acceleration sigma", "jerk sigma",   "time", "position sigma"};
 
 std::size_t index_of(unsigned need) { return static_cast<std::size_t>(std::countr_zero(need)); }
 

@@ -16,12 +16,13 @@ namespace needs {
 inline constexpr unsigned position = 1, velocity = 2, acceleration = 4, jerk = 8;
 /// Both ends of the following error: commanded positions, and measured ones at the same time.
 inline constexpr unsigned commanded = 16, measured = 32, error = commanded | measured;
-/// Standard deviations that the Kalman smoother gives its derivatives.
+/// Standard deviations that the Kalman smoother gives its derivatives, and each coordinate of positions that are fused.
 inline constexpr unsigned velocity_sigma = 64, acceleration_sigma = 128, jerk_sigma = 256;
 inline constexpr unsigned time = 512;  ///< since the first record
 inline constexpr unsigned derivatives = velocity | acceleration | jerk;
-inline constexpr unsigned sigmas = velocity_sigma | acceleration_sigma | jerk_sigma;
-inline constexpr int kinds = 10;
+inline constexpr unsigned position_sigma = 1024;
+inline constexpr unsigned sigmas = velocity_sigma | acceleration_sigma | jerk_sigma | position_sigma;
+inline constexpr int kinds = 11;
 }  // namespace needs
 
 /// What the positions, and all that is derived of them, are those of.

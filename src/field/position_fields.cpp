@@ -73,10 +73,11 @@ struct Plan {
     }
 };
 
-/// Angles and tool axes have no measured speeds.
+/// Angles and tool axes have no measured speeds. Positions are as they are recorded, where they are not fused.
 bool is_smoothed(const FieldRow& row, const Derivation& derivation) {
-    return derivation.estimate && row.subject == FieldSubject::tip &&
-           (row.needs & (needs::derivatives | needs::sigmas)) != 0;
+    if (!derivation.estimate || row.subject != FieldSubject::tip) return false;
+    const unsigned positions = derivation.estimate->fused() != nullptr ? needs::position : 0;
+    return (row.needs & (needs::derivatives | needs::sigmas | positions)) != 0;
 }
 
 Role measured_role_of(const Trajectory& path) { return path.role == Role::commanded ? Role::feedback : path.role; }
@@ -87,6 +88,10 @@ std::optional<UsageError> refusal(const FieldRow& row, const Log& log, const Tra
     if ((row.needs & needs::sigmas) != 0 && !derivation.estimate)
         return UsageError(fmt::format("field '{}' is what a Kalman smoother leaves open", row.name),
                           "--derivative kalman");
+    if ((row.needs & needs::position_sigma) != 0 && derivation.estimate->fused() == nullptr)
+        return UsageError(
+            fmt::format("field '{}' needs an estimate from the scale and the encoder of each axis", row.name),
+            "--surface actual, with feedback and actual positions in the log");
     if (row.subject == FieldSubject::tool_axis && path.kinematics == nullptr)
         return UsageError(fmt::format("field '{}' needs the kinematics of a machine with rotary axes", row.name),
                           "give them with --machine FILE");
@@ -226,6 +231,12 @@ private:
             plan_.estimate->sigmas(d, piece, first_, scratch_, values);
             fill(bit_of_sigma(d), {values.data()});
         }
+        if ((plan_.needs & needs::position_sigma) != 0) {
+            for (std::vector<double>& axis : position_sigmas_) axis.resize(count_);
+            plan_.estimate->position_sigmas(piece, first_, scratch_, position_sigmas_);
+            fill(needs::position_sigma,
+                 {position_sigmas_[0].data(), position_sigmas_[1].data(), position_sigmas_[2].data()});
+        }
         if ((plan_.needs & needs::time) == 0) return;
         time_.resize(count_);
         for (std::size_t i = 0; i < count_; ++i) time_[i] = plan_.log->time_of(first_ + static_cast<PointIndex>(i));
@@ -237,7 +248,7 @@ private:
     PointIndex first_ = 0, last_ = 0;
     std::size_t count_ = 0;
     std::array<FieldBlock::Vector, needs::kinds> filled_{};  ///< by the number of the bit
-    Columns samples_, commanded_, measured_, inside_, sigmas_;
+    Columns samples_, commanded_, measured_, inside_, sigmas_, position_sigmas_;
     std::array<Columns, 3> derived_;  ///< by derivative − 1
     std::array<Columns, 4> estimated_;
     MotionEstimate::Scratch scratch_;
@@ -294,7 +305,7 @@ const FieldRow& PositionFields::row(std::string_view name) const {
 
 std::string PositionFields::note_of(const FieldRow& row) const {
     const int d = derivative_of(row);
-    if (d == 0) return {};
+    if (d == 0) return is_smoothed(row, derivation_) ? derivation_.estimate->note(d) : std::string();
     if (derivation_.estimate && row.subject == FieldSubject::tip) return derivation_.estimate->note(d);
     const DerivativeFilter filter = derivative_filter(d, log_->period, derivation_.coarsest_period);
     return fmt::format("{}-point window ({:.3g} ms, \u22123 dB at {:.0f} Hz)", filter.points,

@@ -58,6 +58,7 @@ PointQuery::PointQuery(const Part& part, bool needs_surface)
     if (part.derivative == DerivativeMethod::kalman)
         estimate = estimate_motion(part, find_runs(gather(part.path), *part.lines));
     estimated_ = estimate != nullptr;
+    fused_ = estimated_ && estimate->fused() != nullptr;
     fields_.emplace(part.log, part.path, Passes(), Derivation{std::move(estimate), 0});
     if (needs_surface || part.tool) surface_ = stitch(part);
     if (part.tool) contacts_ = std::make_unique<const PartContacts>(part, *surface_, *part.tool);
@@ -107,10 +108,12 @@ void PointQuery::add_motion(QueryMatch& match) const {
         spread(match.point, part_.log.records, window, [&](PointIndex i) { return kind_at(i) == kind; });
     Passes local;
     local.push_back({piece.first, piece.last, PassKind::cut});
-    static constexpr std::array<std::string_view, 4> names{"speed", "acceleration", "speed_uncertainty",
-                                                           "acceleration_uncertainty"};
+    static constexpr std::array<std::string_view, 10> names{
+        "speed",      "acceleration", "speed_uncertainty",      "acceleration_uncertainty", "position.x",
+        "position.y", "position.z",   "position_uncertainty.x", "position_uncertainty.y",   "position_uncertainty.z"};
+    const std::size_t wanted = fused_ ? 10 : estimated_ ? 4 : 2;
     const std::vector<Field> values =
-        fields_->within(local).compute(std::span(names).first(estimated_ ? 4 : 2), {match.point, match.point});
+        fields_->within(local).compute(std::span(names).first(wanted), {match.point, match.point});
     const auto value = [&](std::size_t k) { return static_cast<double>(values[k].values[0]); };
     match.speed = value(0);
     match.acceleration = value(1);
@@ -118,7 +121,10 @@ void PointQuery::add_motion(QueryMatch& match) const {
     if (estimated_) {
         match.speed_uncertainty = value(2);
         match.acceleration_uncertainty = value(3);
+        match.estimated_from = values[0].info.note;
     }
+    if (fused_)
+        match.fused = QueryMatch::FusedPosition{Vec3(value(4), value(5), value(6)), Vec3(value(7), value(8), value(9))};
 }
 
 bool PointQuery::is_off_the_part(double distance) const {

@@ -24,8 +24,14 @@ struct QueryMatch {
     double speed = 0;                  ///< [mm/s]
     double acceleration = 0;           ///< [mm/s²]
     std::optional<double> speed_uncertainty, acceleration_uncertainty;  ///< standard deviations, where known
-    SpeedReasons why;                                                   ///< the tool is slower than programmed
-    double confidence = 0;                                              ///< 0 … 1
+    std::string estimated_from;  ///< what speed and acceleration are estimated from; empty: positions in a window
+    /// Where the table was, by scale and encoder together, with the standard deviation of each coordinate [mm].
+    struct FusedPosition {
+        Vec3 position, uncertainty;
+    };
+    std::optional<FusedPosition> fused;
+    SpeedReasons why;        ///< the tool is slower than programmed
+    double confidence = 0;   ///< 0 … 1
     double distance = 0;     ///< [mm] to the asked position; 0 where none was asked
     CallChain calls;         ///< of a point in a subprogram
     PointRange line_points;  ///< the run of points of this line round the point
@@ -60,6 +66,7 @@ private:
     const Part& part_;
     CallChains chains_;
     bool estimated_ = false;  ///< fields have standard deviations
+    bool fused_ = false;      ///< positions are those of scale and encoder together
     std::optional<PositionFields> fields_;
     std::optional<ClSurface> surface_;
     std::unique_ptr<const PartContacts> contacts_;

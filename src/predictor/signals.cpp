@@ -166,8 +166,9 @@ public:
         signals.speed_note = note("speed", speed_.filter().points);
         signals.acceleration_note = note("acceleration", acceleration_.filter().points);
         if (estimate_ != nullptr) {
-            signals.speed_note = "speed by a Kalman smoother";
-            signals.acceleration_note = "acceleration by a Kalman smoother";
+            const std::string_view of = estimate_->fused() != nullptr ? " of scale and encoder" : "";
+            signals.speed_note = fmt::format("speed by a Kalman smoother{}", of);
+            signals.acceleration_note = fmt::format("acceleration by a Kalman smoother{}", of);
         }
         signals.height_note = note("heights", static_cast<int>(2 * smoother_.reach() + 1));
     }
