@@ -11,12 +11,13 @@
 namespace clsurf {
 namespace {
 
-constexpr PointIndex half_window = 8;   ///< records to each side over which way and speed are compared
-constexpr double sure = 3;              ///< standard errors by which a lead must differ from a whole number
-constexpr double known_lead = 0.1;      ///< records: the standard error of a lead that counts
-constexpr int alignment_steps = 4;      ///< of Gauss and Newton
-constexpr double sure_compliance = 5;   ///< standard errors
-constexpr double reversal_sigmas = 12;  ///< an axis has turned when it has come back by so many deviations
+constexpr PointIndex half_window = 8;    ///< records to each side over which way and speed are compared
+constexpr double sure = 3;               ///< standard errors by which a lead must differ from a whole number
+constexpr double known_lead = 0.1;       ///< records: the standard error of a lead that counts
+constexpr double most_difference = 0.3;  ///< an encoder that is off by more of the motion is not that of the axis
+constexpr int alignment_steps = 4;       ///< of Gauss and Newton
+constexpr double sure_compliance = 5;    ///< standard errors
+constexpr double reversal_sigmas = 12;   ///< an axis has turned when it has come back by so many deviations
 /// The motor's way from a reversal [mm] from which on the backlash is crossed; measured between it and twice of it. Where the
 /// motor turns round again sooner, it is a quarter of the way until there, and below the least nothing is measured.
 constexpr double beyond_backlash = 0.1, least_beyond = 0.02;
@@ -24,6 +25,7 @@ constexpr double sure_backlash = 5;       ///< standard errors
 constexpr double transit_backlash = 1.5;  ///< the motor's way after a reversal on which the table may still stand …
 constexpr double transit_sigmas = 3;      ///< … with so many standard deviations of a difference
 constexpr PointIndex margin = 1;          ///< records around it
+constexpr PointIndex longest_range = 1 << 18;  ///< records that are smoothed at once: 200 bytes each
 constexpr double not_known = std::numeric_limits<double>::infinity();
 
 using Values = std::vector<double>;
@@ -53,6 +55,25 @@ NoiseFit noise_of(const Values& values, const std::vector<PointRange>& samples, 
 }
 
 double floor_of(const ChannelView& view) { return std::max(finest_position, quantum_of(view) / std::sqrt(12.0)); }
+
+/// Whether both measure the same axis: the difference changes by much less than the position.
+bool agree(const Differences& both, const std::vector<PointRange>& samples) {
+    double of_difference = 0, of_scale = 0;
+    for (const PointRange& sample : samples) {
+        double count = 0, d_mean = 0, s_mean = 0;
+        for (PointIndex i = sample.first; i <= sample.last; ++i) {
+            const double d = both.at(i), s = both.scale[static_cast<std::size_t>(i)];
+            if (std::isnan(d)) continue;
+            ++count;
+            const double d_before = d_mean, s_before = s_mean;
+            d_mean += (d - d_mean) / count;
+            s_mean += (s - s_mean) / count;
+            of_difference += (d - d_before) * (d - d_mean);
+            of_scale += (s - s_before) * (s - s_mean);
+        }
+    }
+    return of_difference < most_difference * most_difference * of_scale;
+}
 
 /// The number of whole records at which the ways of both over a window agree best.
 double whole_lead(const Differences& both, const std::vector<PointRange>& samples) {
@@ -201,7 +222,7 @@ std::vector<PointRange> smooth_ranges(const Differences& both, const std::vector
         PointIndex first = range.first;
         for (PointIndex i = range.first; i <= range.last + 1; ++i) {
             if (i <= range.last && !std::isnan(both.at(i))) continue;
-            if (i > first) ranges.push_back({first, i - 1});
+            for (; first < i; first += longest_range) ranges.push_back({first, std::min(i, first + longest_range) - 1});
             first = i + 1;
         }
     };
@@ -379,6 +400,7 @@ FusedAxis fuse_axis(const AxisRecords& records, NoiseFitter& fitter) {
     axis.encoder_sigma = encoder.sigma;
     if (!scale.moved || !encoder.moved) return axis;
     Alignment alignment = align(records, whole_lead(both, records.samples), records.samples, both);
+    if (!agree(both, records.samples)) return axis;
     const double sigma = std::hypot(scale.sigma, encoder.sigma);
     const double threshold = reversal_sigmas * encoder.sigma;
     std::vector<std::vector<Reversal>> reversals;

@@ -470,6 +470,14 @@ TEST(EncoderAndScale, AreRefusedWhereTheirErrorsCannotBeStated) {
     }
 }
 
+TEST(EncoderAndScale, AnEncoderOfAnotherAxisIsNotUsed) {
+    Machine machine{Drive{}};
+    std::swap(machine.encoder[0], machine.encoder[1]);
+    for (std::size_t k = 0; k < 2; ++k) machine.log.channels[3 + k].values = view_of(machine.encoder[k]);
+    const MotionEstimate estimate = machine.estimate_of(machine.log, Role::actual);
+    EXPECT_NE(estimate.note(1).find("(scale alone)"), std::string::npos) << estimate.note(1);
+}
+
 // A motor's encoder that fails once in 600 records is noisier than the scale, and hardly counts.
 TEST(EncoderAndScale, AFaultyEncoderHardlyCounts) {
     Machine machine{Drive{}};
