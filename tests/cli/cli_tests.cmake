@@ -345,21 +345,6 @@ clsurf_cli_test(NAME tool_axis_needs_the_machine SETUP "${turning}" ARGS export 
 clsurf_cli_test(NAME moves_tool_axis SETUP "${trunnion} && printf 'G90 G0 X0 Y0 Z0\\nG43.5 H1\\nG1 X1 I0.6 J0 K0.8 F100\\n' > v.nc" ARGS moves v.nc --machine m.toml
   STDOUT "feed,ti,tj,tk" "0.6,0,0.8")
 
-# ---- one estimate of all that was measured ----
-clsurf_cli_test(NAME kalman_query ARGS query ${part} ${run} --point 4848 --derivative kalman --json STDOUT "\"acceleration_uncertainty_mm_s2\": [0-9.]+" "\"speed_uncertainty_mm_min\"")
-clsurf_cli_test(NAME kalman_renders ARGS render ${part} ${run} --derivative kalman --color acceleration_uncertainty --size 200x150 -o u.png FILE u.png)
-clsurf_cli_test(NAME uncertainty_needs_kalman ARGS export ${part} ${run} -o out.csv --columns speed_uncertainty EXIT 2 STDERR "--derivative kalman")
-clsurf_cli_test(NAME kalman_check ARGS check @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip --derivative kalman -v STDOUT "85 % slower" "speed by a Kalman smoother")
-clsurf_cli_test(NAME kalman_diff ARGS diff @LOGS@/bottle_uneven.biip @LOGS@/bottle_uneven.biip --derivative kalman STDOUT "speed .mm/min. +0.00 +0.00 +0.00")
-clsurf_cli_test(NAME kalman_report ARGS report @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip --tool none --derivative kalman -o page.html FILE page.html)
-set(table_of_motors "/usr/bin/python3 -B ${CMAKE_CURRENT_LIST_DIR}/encoder_and_scale.py")
-clsurf_cli_test(NAME encoder_and_scale
-  SETUP "${table_of_motors} make @LOGS@/dome_loops.biip run.csv truth.npy && ${table_of_motors} compare $CLSURF @DATA@/programs/dome_loops.nc run.csv truth.npy"
-  ARGS query @DATA@/programs/dome_loops.nc run.csv --surface actual --derivative kalman --point 5000
-  STDOUT "table X .*known to ±0" "scale ±0.* and encoder ±0.*, 2 records ahead, backlash")
-clsurf_cli_test(NAME position_uncertainty_needs_both ARGS export ${part} ${run} -o out.csv --derivative kalman --columns position_uncertainty.x EXIT 2 STDERR "scale and the encoder of each axis")
-clsurf_cli_test(NAME derivative_unknown ARGS query ${part} ${run} --point 1 --derivative kalmann EXIT 2 STDERR "not one of savgol, kalman")
-
 # ---- controller simulation ----
 set(simulated @DATA@/programs/bottle_uneven.nc)
 clsurf_cli_test(NAME simulate_text ARGS simulate ${simulated} -o run.biip STDOUT "greatest jerk" "off the path +0.00[45]" FILE run.biip)
