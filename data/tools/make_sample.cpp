@@ -1,12 +1,21 @@
-// clsurf_make_sample PATTERN POINTS PROGRAM.nc LOG.biip: a finishing program on a wavy surface and the
+// clsurf_make_sample PATTERN POINTS PROGRAM.nc LOG.biip [options]: a finishing program on a wavy surface and the
 // log of an ideal run of it, for benchmarks. The size of the part follows from the number of points:
 // 0.05 mm from record to record and 0.1 mm between passes, as finishing has them; 10^8 points are a
 // square of 0.7 m. Both files are streamed a pass at a time: memory does not grow with the points.
+//
+// The axes lag by 3, 4 and 5 ms unless --lag says otherwise: then the feedback of a zigzag differs from pass to pass on
+// every slope, as on a badly tuned machine. With one lag for all axes and a flat surface a log has no defects but those
+// of --slow, which are printed.
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
@@ -20,18 +29,29 @@
 namespace clsurf {
 namespace {
 
-constexpr double period = 0.001;                           // [s]
-constexpr double feed = 50;                                // [mm/s]
-constexpr double rapid_feed = 250;                         // [mm/s]
-constexpr double corner_speed = 5;                         // [mm/s] at the ends of passes
-constexpr double acceleration = 500;                       // [mm/s²]
-constexpr double step_over = 0.1;                          // [mm]
-constexpr double chord = 0.5;                              // [mm] of a programmed line
-constexpr double retract = 5;                              // [mm] over the surface
-constexpr double raw_unit = 1e-6;                          // [mm] of a position in the log
-constexpr std::array<double, 3> lag{0.003, 0.004, 0.005};  // [s] of the feedback
+constexpr double period = 0.001;      // [s]
+constexpr double feed = 50;           // [mm/s]
+constexpr double rapid_feed = 250;    // [mm/s]
+constexpr double corner_speed = 5;    // [mm/s] at the ends of passes
+constexpr double acceleration = 500;  // [mm/s²]
+constexpr double step_over = 0.1;     // [mm]
+constexpr double retract = 5;         // [mm] over the surface
+constexpr double slow_feed = 0.5;     // of the feed, at a slow place
+constexpr double slow_length = 30;    // [mm]
 
 enum class Pattern { zigzag, one_way, loops };
+constexpr std::array<std::string_view, 3> pattern_names{"zigzag", "one-way", "loops"};
+
+/// What a command line asks for.
+struct Wishes {
+    Pattern pattern = Pattern::zigzag;
+    std::int64_t points = 0;
+    double line = 0.5;  ///< [mm] of a programmed line
+    double wave = 100;  ///< [mm] of the surface
+    double height = 3;  ///< [mm] of its waves over the middle, where the part is larger than a wave
+    std::array<double, 3> lag{0.003, 0.004, 0.005};  ///< [s] of the feedback
+    std::int64_t slow = 0;                           ///< passes with a slow place
+};
 
 struct Waypoint {
     Vec3 position;
@@ -43,12 +63,23 @@ double to_micrometre(double v) { return std::round(v * 1000) / 1000; }
 /// The passes of a part, one after the other.
 class Part {
 public:
-    Part(Pattern pattern, std::int64_t points) : pattern_(pattern) {
-        const double area = static_cast<double>(points) * feed * period * step_over;
+    explicit Part(const Wishes& wishes) : wishes_(wishes) {
+        const double area = static_cast<double>(wishes.points) * feed * period * step_over;
         // The outermost loop bounds the part; a raster grows until the points are used up.
-        size_ = pattern == Pattern::loops ? std::sqrt(area * 4 / std::numbers::pi) : std::sqrt(area);
+        size_ = wishes.pattern == Pattern::loops ? std::sqrt(area * 4 / std::numbers::pi) : std::sqrt(area);
         size_ = std::max(size_, 4.0);
+        wave_ = std::min(size_, wishes.wave);
+        // Rapid moves and ramps take points, too: there are fewer passes than would fit.
+        constexpr double surely_there = 0.7;
+        const double passes = surely_there * size_ / step_over / (wishes.pattern == Pattern::loops ? 2 : 1);
+        for (std::int64_t i = 0; i < wishes.slow; ++i)
+            slow_.push_back(std::llround((static_cast<double>(i) + 0.5) * passes / static_cast<double>(wishes.slow)));
     }
+
+    /// [mm] of the outermost coordinates.
+    [[nodiscard]] double size() const { return size_; }
+    /// Whether pass k has a slow place.
+    [[nodiscard]] bool is_slow(std::int64_t k) const { return std::ranges::binary_search(slow_, k); }
 
     /// Where the tool is before the first pass.
     [[nodiscard]] Vec3 start() const { return {0, 0, to_micrometre(height_over_all())}; }
@@ -56,20 +87,20 @@ public:
     /// The waypoints of pass k after the last one of k − 1; empty: there are no more.
     [[nodiscard]] std::vector<Waypoint> pass(std::int64_t k) const {
         std::vector<Waypoint> route;
-        if (pattern_ == Pattern::loops) {
+        if (wishes_.pattern == Pattern::loops) {
             add_loop(route, 0.5 * size_ - static_cast<double>(k) * step_over, k == 0);
             return route;
         }
         const double y = static_cast<double>(k) * step_over;
-        const bool back = pattern_ == Pattern::zigzag && k % 2 == 1;
+        const bool back = wishes_.pattern == Pattern::zigzag && k % 2 == 1;
         if (k == 0) {
             route.push_back({place(0, y, height_over_all()), true});
-        } else if (pattern_ == Pattern::one_way) {
+        } else if (wishes_.pattern == Pattern::one_way) {
             route.push_back({place(size_, y - step_over, height_over_all()), true});
             route.push_back({place(0, y, height_over_all()), true});
         }
         route.push_back({on_surface(back ? size_ : 0, y), false});
-        const auto lines = static_cast<int>(std::ceil(size_ / chord));
+        const auto lines = static_cast<int>(std::ceil(size_ / wishes_.line));
         for (int i = 1; i <= lines; ++i) {
             const double x = size_ * i / lines;
             route.push_back({on_surface(back ? size_ - x : x, y), false});
@@ -79,29 +110,43 @@ public:
 
 private:
     void add_loop(std::vector<Waypoint>& route, double radius, bool first) const {
-        if (radius < chord) return;
+        if (radius < wishes_.line) return;
         if (first) route.push_back({place(radius, 0, height_over_all()), true});
-        const auto lines = static_cast<int>(std::ceil(2 * std::numbers::pi * radius / chord));
+        const auto lines = static_cast<int>(std::ceil(2 * std::numbers::pi * radius / wishes_.line));
         for (int i = 0; i <= lines; ++i) {
             const double angle = 2 * std::numbers::pi * i / lines;
             route.push_back({on_surface(radius * std::cos(angle), radius * std::sin(angle)), false});
         }
     }
-    [[nodiscard]] double height_over_all() const { return 0.03 * size_ + retract; }
+    [[nodiscard]] double height_over_all() const { return std::max(0.03 * size_, wishes_.height) + retract; }
     /// As the program's three decimals have it.
     static Vec3 place(double x, double y, double z) { return {to_micrometre(x), to_micrometre(y), to_micrometre(z)}; }
     [[nodiscard]] Vec3 on_surface(double x, double y) const {
-        const double wave = 2 * std::numbers::pi / std::min(size_, 100.0);
-        return place(x, y, 0.03 * std::min(size_, 100.0) * std::cos(wave * x) * std::cos(0.7 * wave * y));
+        const double turns = 2 * std::numbers::pi / wave_;
+        const double height = wishes_.height * wave_ / wishes_.wave;
+        return place(x, y, height * std::cos(turns * x) * std::cos(0.7 * turns * y));
     }
 
-    Pattern pattern_;
-    double size_ = 0;  ///< [mm]
+    Wishes wishes_;
+    double size_ = 0, wave_ = 0;      ///< [mm]
+    std::vector<std::int64_t> slow_;  ///< passes, which rise
 };
 
-/// Runs along waypoints with bounded acceleration; record(position, waypoint index) once a period.
+/// [mm] from a slow place in the middle of a section; 0: inside.
+double distance_from_slow_place(double gone, double length) {
+    return std::max(0.0, std::abs(gone - 0.5 * length) - 0.5 * std::min(slow_length, length / 3));
+}
+
+/// The speed that a slow place allows at that distance [mm/s].
+double speed_near_slow_place(double distance) {
+    const double least = slow_feed * feed;
+    return std::sqrt(least * least + 2 * acceleration * distance);
+}
+
+/// Runs along waypoints with bounded acceleration; record(position, waypoint index, whether it is slow there) once a period.
+/// `slow`: sections that cut have a slow place in their middle.
 template <typename Record>
-void run(Vec3 from, const std::vector<Waypoint>& route, Record&& record) {
+void run(Vec3 from, const std::vector<Waypoint>& route, bool slow, Record&& record) {
     std::size_t i = 0;
     while (i < route.size()) {
         // A section of one kind begins and ends slowly.
@@ -117,7 +162,11 @@ void run(Vec3 from, const std::vector<Waypoint>& route, Record&& record) {
         while (gone < length) {
             const double speed_up = std::sqrt(corner_speed * corner_speed + 2 * acceleration * gone);
             const double slow_down = std::sqrt(corner_speed * corner_speed + 2 * acceleration * (length - gone));
-            gone = std::min(length, gone + std::min({most, speed_up, slow_down}) * period);
+            double speed = std::min({most, speed_up, slow_down});
+            const bool has_slow_place = slow && !route[i].rapid;
+            const double distance = has_slow_place ? distance_from_slow_place(gone, length) : length;
+            if (has_slow_place) speed = std::min(speed, speed_near_slow_place(distance));
+            gone = std::min(length, gone + speed * period);
             double line = (route[i].position - from).norm();
             while (i + 1 < end && gone > before_line + line) {
                 before_line += line;
@@ -125,7 +174,7 @@ void run(Vec3 from, const std::vector<Waypoint>& route, Record&& record) {
                 line = (route[i].position - from).norm();
             }
             const double fraction = line > 0 ? std::min(1.0, (gone - before_line) / line) : 1.0;
-            if (!record(Vec3(from + fraction * (route[i].position - from)), i)) return;
+            if (!record(Vec3(from + fraction * (route[i].position - from)), i, distance == 0)) return;
         }
         from = route[end - 1].position;
         i = end;
@@ -133,10 +182,11 @@ void run(Vec3 from, const std::vector<Waypoint>& route, Record&& record) {
 }
 
 /// The program's text up to the pass in which the points are used up.
-void write_program(const std::string& path, const Part& part, std::string_view name, std::int64_t points) {
+void write_program(const std::string& path, const Part& part, const Wishes& wishes) {
     io::AtomicFile file(path);
-    file.write(fmt::format("(clsurf_make_sample {} {})\nG21 G17 G90 G94\nF{:.0f}\n", name, points, feed * 60));
-    std::int64_t left = points;
+    file.write(fmt::format("(clsurf_make_sample {} {})\nG21 G17 G90 G94\nF{:.0f}\n",
+                           pattern_names[static_cast<std::size_t>(wishes.pattern)], wishes.points, feed * 60));
+    std::int64_t left = wishes.points;
     Vec3 from = part.start();
     fmt::memory_buffer text;
     bool rapid = false;
@@ -153,34 +203,44 @@ void write_program(const std::string& path, const Part& part, std::string_view n
                            w.position.y(), w.position.z());
         }
         file.write(std::string_view(text.data(), text.size()));
-        run(from, route, [&](const Vec3&, std::size_t) { return --left > 0; });
+        run(from, route, part.is_slow(k), [&](const Vec3&, std::size_t, bool) { return --left > 0; });
         from = route.back().position;
     }
     file.write("M30\n");
     file.commit();
 }
 
+/// [mm] of a position in the log, so that 32 bits last for the part: a nanometre, on large parts ten.
+double raw_unit_of(const Part& part) {
+    constexpr double largest = 1500;  // of a part; a raster may grow beyond it
+    return part.size() <= largest ? 1e-6 : 1e-5;
+}
+
 class LogFile {
 public:
-    LogFile(const std::string& path, const std::string& metadata, const Vec3& start)
-        : writer_(path,
-                  {{"cmd.x", "mm", ScalarType::i32, raw_unit},
-                   {"cmd.y", "mm", ScalarType::i32, raw_unit},
-                   {"cmd.z", "mm", ScalarType::i32, raw_unit},
-                   {"fb.x", "mm", ScalarType::i32, raw_unit},
-                   {"fb.y", "mm", ScalarType::i32, raw_unit},
-                   {"fb.z", "mm", ScalarType::i32, raw_unit},
+    LogFile(const std::string& path, const std::string& metadata, const Part& part, const std::array<double, 3>& lag)
+        : raw_unit_(raw_unit_of(part)),
+          writer_(path,
+                  {{"cmd.x", "mm", ScalarType::i32, raw_unit_},
+                   {"cmd.y", "mm", ScalarType::i32, raw_unit_},
+                   {"cmd.z", "mm", ScalarType::i32, raw_unit_},
+                   {"fb.x", "mm", ScalarType::i32, raw_unit_},
+                   {"fb.y", "mm", ScalarType::i32, raw_unit_},
+                   {"fb.z", "mm", ScalarType::i32, raw_unit_},
                    {"line", "", ScalarType::u32, 1.0}},
                   period, metadata),
-          feedback_(start) {}
+          feedback_(part.start()) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            approach_[axis] = lag[axis] > 0 ? 1 - std::exp(-period / lag[axis]) : 1;
+    }
 
     void record(const Vec3& commanded, std::uint32_t line) {
         std::array<std::int32_t, 7> raw;
         for (int axis = 0; axis < 3; ++axis) {
             feedback_[axis] += (commanded[axis] - feedback_[axis]) * approach_[static_cast<std::size_t>(axis)];
-            raw[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(std::lround(commanded[axis] / raw_unit));
+            raw[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(std::lround(commanded[axis] / raw_unit_));
             raw[static_cast<std::size_t>(axis) + 3] =
-                static_cast<std::int32_t>(std::lround(feedback_[axis] / raw_unit));
+                static_cast<std::int32_t>(std::lround(feedback_[axis] / raw_unit_));
         }
         raw[6] = static_cast<std::int32_t>(line);
         writer_.append(std::as_bytes(std::span(raw)));
@@ -188,28 +248,50 @@ public:
     void close() { writer_.close(); }
 
 private:
+    double raw_unit_;
     io::BiipWriter writer_;
     Vec3 feedback_;
-    std::array<double, 3> approach_{1 - std::exp(-period / lag[0]), 1 - std::exp(-period / lag[1]),
-                                    1 - std::exp(-period / lag[2])};
+    std::array<double, 3> approach_{};
 };
 
-void write_log(const std::string& path, const std::string& program, const Part& part, std::int64_t points) {
+/// Where a pass was slow.
+struct SlowPlace {
+    Vec3 first = Vec3::Zero(), last = Vec3::Zero();
+    std::uint32_t first_line = 0, last_line = 0;  ///< 0: nowhere
+
+    void add(const Vec3& position, std::uint32_t line) {
+        if (first_line == 0) first = position;
+        if (first_line == 0) first_line = line;
+        last = position;
+        last_line = line;
+    }
+    void print(std::int64_t pass) const {
+        if (first_line == 0) return;
+        fmt::print("pass {} is slow from X{:.3f} Y{:.3f} to X{:.3f} Y{:.3f}, lines {} to {}\n", pass + 1, first.x(),
+                   first.y(), last.x(), last.y(), first_line, last_line);
+    }
+};
+
+void write_log(const std::string& path, const std::string& program, const Part& part, const Wishes& wishes) {
     const ProgramReference ran = io::identify(io::map_file(program));
-    LogFile log(path, io::with_programs("", std::span(&ran, 1)), part.start());
+    LogFile log(path, io::with_programs("", std::span(&ran, 1)), part, wishes.lag);
     constexpr std::uint32_t lines_of_head = 3;
     std::uint32_t line = lines_of_head + 1;  // of the pass's first waypoint
-    std::int64_t left = points;
+    std::int64_t left = wishes.points;
     Vec3 last = part.start();
     for (std::int64_t k = 0; left > 0; ++k) {
         const std::vector<Waypoint> route = part.pass(k);
         if (route.empty()) break;
         const Vec3 from = last;
-        run(from, route, [&](const Vec3& p, std::size_t waypoint) {
+        SlowPlace slow;
+        run(from, route, part.is_slow(k), [&](const Vec3& p, std::size_t waypoint, bool is_slow) {
             last = p;
-            log.record(p, line + static_cast<std::uint32_t>(waypoint));
+            const std::uint32_t at = line + static_cast<std::uint32_t>(waypoint);
+            log.record(p, at);
+            if (is_slow) slow.add(p, at);
             return --left > 0;
         });
+        slow.print(k);
         if (left > 0) last = route.back().position;
         line += static_cast<std::uint32_t>(route.size());
     }
@@ -217,18 +299,51 @@ void write_log(const std::string& path, const std::string& program, const Part& 
     log.close();
 }
 
+constexpr const char* usage =
+    "usage: clsurf_make_sample zigzag|one-way|loops POINTS PROGRAM.nc LOG.biip [options]\n"
+    "  --line MM    length of a programmed line (0.5)\n"
+    "  --wave MM    length of the waves of the surface (100)\n"
+    "  --height MM  height of the waves (3)\n"
+    "  --lag MS     lag of all axes, 0: none (3, 4 and 5 ms of X, Y and Z)\n"
+    "  --slow N     N passes are slow for 30 mm: half of the feed. They are printed (0)\n";
+
+template <typename Number>
+bool read_number(std::string_view text, Number least, Number& number) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc() && end == text.data() + text.size() && number >= least;
+}
+
+/// One of the options with its value; false: it is none.
+bool read_option(std::string_view name, std::string_view value, Wishes& wishes) {
+    constexpr double shortest = 0.01;  // [mm]
+    if (name == "--line") return read_number(value, shortest, wishes.line);
+    if (name == "--wave") return read_number(value, shortest, wishes.wave);
+    if (name == "--height") return read_number(value, 0.0, wishes.height);
+    if (name == "--slow") return read_number(value, std::int64_t{0}, wishes.slow);
+    double milliseconds = 0;
+    if (name != "--lag" || !read_number(value, 0.0, milliseconds)) return false;
+    wishes.lag.fill(milliseconds / 1000);
+    return true;
+}
+
 int make(const std::vector<std::string>& words) {
-    constexpr std::array<std::string_view, 3> names{"zigzag", "one-way", "loops"};
-    std::int64_t points = 0;
-    const auto name = words.size() == 4 ? std::find(names.begin(), names.end(), words[0]) : names.end();
-    if (name == names.end() ||
-        std::from_chars(words[1].data(), words[1].data() + words[1].size(), points).ec != std::errc() || points < 1) {
-        std::fputs("usage: clsurf_make_sample zigzag|one-way|loops POINTS PROGRAM.nc LOG.biip\n", stderr);
+    constexpr std::size_t arguments = 4;
+    Wishes wishes;
+    bool understood = words.size() >= arguments && words.size() % 2 == 0;
+    if (understood) {
+        const auto* const name = std::ranges::find(pattern_names, words[0]);
+        wishes.pattern = static_cast<Pattern>(name - pattern_names.begin());
+        understood = name != pattern_names.end() && read_number(words[1], std::int64_t{1}, wishes.points);
+    }
+    for (std::size_t k = arguments; understood && k < words.size(); k += 2)
+        understood = read_option(words[k], words[k + 1], wishes);
+    if (!understood) {
+        std::fputs(usage, stderr);
         return 2;
     }
-    const Part part(static_cast<Pattern>(name - names.begin()), points);
-    write_program(words[2], part, *name, points);
-    write_log(words[3], words[2], part, points);
+    const Part part(wishes);
+    write_program(words[2], part, wishes);
+    write_log(words[3], words[2], part, wishes);
     return 0;
 }
 

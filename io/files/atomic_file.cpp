@@ -159,8 +159,12 @@ void AtomicFile::flush() {
 }
 
 void AtomicFile::write(std::span<const std::byte> bytes) {
-    if (buffer_.size() + bytes.size() > buffer_bytes) flush();
-    buffer_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (buffer_.size() + text.size() > buffer_bytes) flush();
+    if (text.size() > buffer_bytes)
+        write_all(descriptor_, text, path_);  // a column of gigabytes is not copied
+    else
+        buffer_.append(text);
 }
 
 void AtomicFile::write_at(std::size_t offset, std::span<const std::byte> bytes) {

@@ -39,6 +39,20 @@ TEST(AtomicFile, LeavesDevicesAndLinksWhatTheyAre) {
     EXPECT_EQ(test::read_file(target), "new");
 }
 
+TEST(AtomicFile, KeepsTheOrderOfSmallAndLargePieces) {
+    const test::TemporaryFolder folder;
+    std::string expected;
+    AtomicFile file(folder / "out");
+    // Larger than the buffer, as large, and smaller.
+    for (const std::size_t bytes : {5U, 3U << 20U, 7U, 1U << 20U, (1U << 20U) - 1, 1U, 2U << 20U}) {
+        const std::string piece(bytes, static_cast<char>('a' + expected.size() % 26));
+        file.write(piece);
+        expected += piece;
+    }
+    file.commit();
+    EXPECT_TRUE(test::read_file(folder / "out") == expected);
+}
+
 TEST(AtomicFile, SaysWhereItCannotWrite) {
     const test::TemporaryFolder folder;
     EXPECT_THROW(AtomicFile(folder / "no/such/folder"), SystemError);
