@@ -15,6 +15,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/compile.h>
@@ -69,16 +70,12 @@ public:
         size_ = wishes.pattern == Pattern::loops ? std::sqrt(area * 4 / std::numbers::pi) : std::sqrt(area);
         size_ = std::max(size_, 4.0);
         wave_ = std::min(size_, wishes.wave);
-        // Rapid moves and ramps take points, too: there are fewer passes than would fit.
-        constexpr double surely_there = 0.7;
-        const double passes = surely_there * size_ / step_over / (wishes.pattern == Pattern::loops ? 2 : 1);
-        for (std::int64_t i = 0; i < wishes.slow; ++i)
-            slow_.push_back(std::llround((static_cast<double>(i) + 0.5) * passes / static_cast<double>(wishes.slow)));
     }
 
     /// [mm] of the outermost coordinates.
     [[nodiscard]] double size() const { return size_; }
-    /// Whether pass k has a slow place.
+    /// The passes that have a slow place, which rise.
+    void set_slow(std::vector<std::int64_t> passes) { slow_ = std::move(passes); }
     [[nodiscard]] bool is_slow(std::int64_t k) const { return std::ranges::binary_search(slow_, k); }
 
     /// Where the tool is before the first pass.
@@ -179,6 +176,22 @@ void run(Vec3 from, const std::vector<Waypoint>& route, bool slow, Record&& reco
         from = route[end - 1].position;
         i = end;
     }
+}
+
+/// Evenly spaced passes of those that there will be for the points.
+std::vector<std::int64_t> choose_slow(const Part& part, const Wishes& wishes) {
+    std::int64_t points_of_one = 0;
+    const std::vector<Waypoint> before = part.pass(0), one = part.pass(1);
+    if (one.empty()) return {};
+    run(before.back().position, one, false, [&](const Vec3&, std::size_t, bool) { return ++points_of_one > 0; });
+    // Loops become shorter: of a disc there are as many as make its radius.
+    const double there = wishes.pattern == Pattern::loops
+                             ? 0.5 * part.size() / step_over
+                             : static_cast<double>(wishes.points) / static_cast<double>(points_of_one);
+    std::vector<std::int64_t> passes;
+    for (std::int64_t i = 0; i < wishes.slow; ++i)
+        passes.push_back(std::llround((static_cast<double>(i) + 0.5) * there / static_cast<double>(wishes.slow)));
+    return passes;
 }
 
 /// The program's text up to the pass in which the points are used up.
@@ -341,7 +354,8 @@ int make(const std::vector<std::string>& words) {
         std::fputs(usage, stderr);
         return 2;
     }
-    const Part part(wishes);
+    Part part(wishes);
+    part.set_slow(choose_slow(part, wishes));
     write_program(words[2], part, wishes);
     write_log(words[3], words[2], part, wishes);
     return 0;
