@@ -19,9 +19,10 @@ void judge_merged(const MergedShards& merged, std::optional<Role> measured, bool
                   CheckedRun& run) {
     run.survey = merged.survey;
     MotionSizes motion;
-    const QualityRules rules = rules_of_shards(merged.read(run.part, motion), *run.survey);
+    QualityRules rules = rules_of_shards(merged.read(run.part, motion), *run.survey);
     run.surface = surveyed_surface(run.part, *run.survey);
-    const PartSignals read = surveyed_signals(run.part, run.surface, *run.survey, measured);
+    PartSignals read = surveyed_signals(run.part, run.surface, *run.survey, measured);
+    rules.found->forget = forget_when_many(run.surface.positions, read.signals);
     run.quality = judge(run.part, run.surface, read, measured, rules, clock.stages());
     if (with_motion) run.quality.motion = motion_quality(motion, run.surface, run.part.log.period);
 }

@@ -88,13 +88,6 @@ private:
         return points_of_shard(shown_.surface.passes, survey_.points, {number, shards_});
     }
 
-    /// Frees the memory of the positions that were read.
-    void forget() {
-        Positions& p = shown_.surface.positions;
-        p.fill->forget();
-        for (Column<float>* axis : {&p.x, &p.y, &p.z}) axis->forget();
-    }
-
     [[nodiscard]] Box3 extent(const viz::ViewAxes& axes) {
         const auto known =
             std::find_if(extents_.begin(), extents_.end(), [&](const auto& e) { return e.first == axes; });
@@ -104,7 +97,7 @@ private:
         for (std::size_t first = 0; first < passes.size(); first += passes_at_once) {
             const auto some = passes.subspan(first, std::min(passes_at_once, passes.size() - first));
             all.extend(viz::extent_of(shown_.surface.positions, some, axes));
-            forget();
+            shown_.surface.positions.forget();
         }
         extents_.emplace_back(axes, all);
         return all;
@@ -117,7 +110,7 @@ private:
             own = points_of(++number_);
         }
         part_ = part_with_neighbours(shown_.surface, own);
-        forget();
+        shown_.surface.positions.forget();
         take_field();
         note_values(own);
         viz::PanelPart part;

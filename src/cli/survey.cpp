@@ -48,7 +48,7 @@ Subcommand survey_subcommand() {
             "reading the rest, on one machine or on many (docs/howto/shards.md). The log is a BIIP file of a machine with\n"
             "three axes. Give the same options for program and log to every step.\n"
             "The file takes 8 bytes a point and is for the version of clsurf that made it. Where memory is too small for\n"
-            "24 bytes a point, --scratch keeps them in files without a name, which are gone when the survey ends.\n\n"
+            "24 to 32 bytes a point, --scratch keeps them in files without a name, which are gone when the survey ends.\n\n"
             "  clsurf survey part.nc run.biip -o run.survey\n"
             "  clsurf check part.nc run.biip --survey run.survey --shard 1/8 -o shard1.json\n"
             "  clsurf check part.nc run.biip --survey run.survey --merge shard*.json -o whole.json",
@@ -57,7 +57,7 @@ Subcommand survey_subcommand() {
                 options.add_options()("output,o", po::value<std::string>()->value_name("FILE"), "the survey");
                 options.add_options()(
                     "scratch", po::value<std::string>()->value_name("FOLDER"),
-                    "keep what the log takes in files in this folder, not in memory: 24 bytes a point");
+                    "keep what the log takes in files in this folder, not in memory: up to 32 bytes a point");
                 declare_part(options);
             },
         .positional = {"PROGRAM", "LOG"},

@@ -52,6 +52,9 @@ private:
     std::atomic<PointIndex> points_{0};
 };
 
+/// Frees what was filled, once it is much: called where nobody reads. Returns whether it did. Nothing: what is filled stays.
+using ForgetBlocks = std::function<bool()>;
+
 /// The BlockFill of columns that were given one; those of an ordinary log have none, and are there as a whole. What
 /// fills knows where the columns are, so that these may be moved, but not copied.
 class BlockFillPointer {

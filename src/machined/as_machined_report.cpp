@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/block_portions.h"
 #include "core/not_finite.h"
-#include "core/parallel.h"
 #include "core/statistics.h"
 #include "machined/across_feed.h"
 #include "machined/scallop.h"
@@ -164,18 +164,15 @@ AsMachinedMark mark_of(const AsMachinedSurface& as_machined, const Signals& sign
 
 AsMachinedReport measure_as_machined(const AsMachinedSurface& as_machined, const Signals& signals,
                                      const QualityReport& report, const AsMachinedSurface* commanded,
-                                     const std::vector<double>* scallops) {
+                                     const std::vector<double>* scallops, const ForgetBlocks& forget) {
     AsMachinedReport result;
     result.marks.assign(report.defects.size(), AsMachinedMark{missing<double>, MarkNote::unknown_form});
     if (as_machined.surface().step_over <= 0) return result;
-    result.roughness = measure_roughness({as_machined, as_machined, commanded}, roughness_places(as_machined, signals));
+    result.roughness =
+        measure_roughness({as_machined, as_machined, commanded}, roughness_places(as_machined, signals), forget);
     result.scallop = scallops != nullptr ? median_or_none(*scallops) : usual_scallop(as_machined, signals);
-    parallel_for(static_cast<std::int64_t>(report.defects.size()), 1, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t k = begin; k < end; ++k) {
-            const auto mark = static_cast<std::size_t>(k);
-            result.marks[mark] = mark_of(as_machined, signals, report.defects[mark]);
-        }
-    });
+    for_each_at_once(report.defects.size(), forget,
+                     [&](std::size_t k) { result.marks[k] = mark_of(as_machined, signals, report.defects[k]); });
     return result;
 }
 

@@ -53,10 +53,11 @@ struct AsMachinedReport {
                                                   const CuttingTool& tool, const PointRange& points);
 
 /// Of a surface and every defect of `report`. `commanded`: swept along the commanded positions; nullptr: not known.
-/// `scallops`: scallop_heights() of all points; nullptr: they are looked for. Parallel.
+/// `scallops`: scallop_heights() of all points; nullptr: they are looked for. Parallel. `forget`: called between places.
 [[nodiscard]] AsMachinedReport measure_as_machined(const AsMachinedSurface& as_machined, const Signals& signals,
                                                    const QualityReport& report,
                                                    const AsMachinedSurface* commanded = nullptr,
-                                                   const std::vector<double>* scallops = nullptr);
+                                                   const std::vector<double>* scallops = nullptr,
+                                                   const ForgetBlocks& forget = {});
 
 }  // namespace clsurf

@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/block_portions.h"
 #include "core/not_finite.h"
-#include "core/parallel.h"
 #include "machined/as_machined_profile.h"
 #include "machined/form.h"
 
@@ -192,16 +192,13 @@ std::vector<float> deviation_from(const AsMachinedSurface& commanded, const AsMa
     return take_off(commanded, measured.level(), heights_of(measured, frame), frame);
 }
 
-PartRoughness measure_roughness(const RoughnessSurfaces& surfaces, std::span<const RoughnessPlace> places) {
+PartRoughness measure_roughness(const RoughnessSurfaces& surfaces, std::span<const RoughnessPlace> places,
+                                const ForgetBlocks& forget) {
     PartRoughness result;
     result.cutoff = cutoff_for(surfaces.form_of.surface().step_over);
     std::vector<RoughPatch> patches(places.size());
-    parallel_for(static_cast<std::int64_t>(places.size()), 1, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t k = begin; k < end; ++k) {
-            const auto at = static_cast<std::size_t>(k);
-            patches[at] = measure_patch(surfaces, places[at], result.cutoff);
-        }
-    });
+    for_each_at_once(places.size(), forget,
+                     [&](std::size_t k) { patches[k] = measure_patch(surfaces, places[k], result.cutoff); });
     sum_up(result, patches);
     return result;
 }

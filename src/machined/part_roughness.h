@@ -57,8 +57,8 @@ struct RoughnessSurfaces {
 [[nodiscard]] std::vector<float> deviation_from(const AsMachinedSurface& commanded, const AsMachinedSurface& measured,
                                                 const MapFrame& frame);
 
-/// Parallel.
-[[nodiscard]] PartRoughness measure_roughness(const RoughnessSurfaces& surfaces,
-                                              std::span<const RoughnessPlace> places);
+/// Parallel. `forget`: called between places.
+[[nodiscard]] PartRoughness measure_roughness(const RoughnessSurfaces& surfaces, std::span<const RoughnessPlace> places,
+                                              const ForgetBlocks& forget = {});
 
 }  // namespace clsurf

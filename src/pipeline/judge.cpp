@@ -15,15 +15,16 @@ namespace {
 /// Roughness and scallops of the formed surface, and the places of its rough patches.
 void measure_as_machined_surface(const Part& part, const ClSurface& surface, std::optional<Role> measured,
                                  const PartSignals& read, const PartContacts& contacts,
-                                 const std::vector<double>* scallops, Quality& quality) {
+                                 const std::optional<FoundInShards>& found, Quality& quality) {
     const CuttingTool tool = *part.tool;
     const std::unique_ptr<const UprightPart> upright = upright_part(part, measured, tool);
     const ToolRun run = upright ? upright->run() : ToolRun{part.path, surface, read};
     const AsMachinedSurface measured_surface = run.as_machined(tool);
     std::optional<AsMachinedSurface> commanded;
     if (run.has_both()) commanded.emplace(run.as_commanded(tool));
-    quality.as_machined = measure_as_machined(measured_surface, run.read.signals, quality.report,
-                                              commanded ? &*commanded : nullptr, scallops);
+    quality.as_machined =
+        measure_as_machined(measured_surface, run.read.signals, quality.report, commanded ? &*commanded : nullptr,
+                            found ? &found->scallops : nullptr, found ? found->forget : ForgetBlocks());
     quality.scallop = quality.as_machined->scallop;
     for (RoughPatch& patch : quality.as_machined->roughness.patches)
         patch.contact = contacts.place(patch.point).contact.value_or(patch.contact);
@@ -82,8 +83,7 @@ Quality judge(const Part& part, const ClSurface& surface, const PartSignals& rea
              {}});
         return quality;
     }
-    measure_as_machined_surface(part, surface, measured, read, contacts, rules.found ? &rules.found->scallops : nullptr,
-                                quality);
+    measure_as_machined_surface(part, surface, measured, read, contacts, rules.found, quality);
     return quality;
 }
 

@@ -44,6 +44,17 @@ ShardFindings judge_shard(const Part& part, const ClSurface& surface, const Part
     return findings;
 }
 
+ForgetBlocks forget_when_many(Positions& positions, Signals& signals, PointIndex most) {
+    return [&positions, &signals, most, before = PointIndex{0}]() mutable {
+        const PointIndex now = std::max(positions.fill->filled(), signals.motion->filled());
+        if (now - before <= most) return false;
+        before = now;
+        positions.forget();
+        signals.forget();
+        return true;
+    };
+}
+
 QualityRules rules_of_shards(std::vector<ShardFindings> shards, const Survey& survey) {
     std::erase_if(shards, [](const ShardFindings& shard) { return shard.points.size() <= 0; });
     std::sort(shards.begin(), shards.end(),

@@ -34,4 +34,8 @@ struct ShardFindings {
 /// What was found in all shards, for judge(): in any order. Throws UsageError where a shard is missing or there twice.
 [[nodiscard]] QualityRules rules_of_shards(std::vector<ShardFindings> shards, const Survey& survey);
 
+/// For QualityRules::found: once more than `most` points were read, positions and signals take no memory any more (some 85 bytes a
+/// point). Both must be those of a survey, and outlive it.
+[[nodiscard]] ForgetBlocks forget_when_many(Positions& positions, Signals& signals, PointIndex most = 1 << 23);
+
 }  // namespace clsurf

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/block.h"
+#include "core/block_portions.h"
 #include "predictor/bend.h"
 #include "predictor/oblique_alignment.h"
 #include "predictor/sites.h"
@@ -123,7 +124,8 @@ public:
 
     std::vector<PointIndex> find_starts(const PointRange& points) { return judge(sites_with_step(points)); }
 
-    FoundCandidates find(const std::vector<PointIndex>& sites) {
+    FoundCandidates find(const std::vector<PointIndex>& sites, const ForgetBlocks& forget = {}) {
+        forget_ = forget;
         std::vector<PointIndex> frontier = judge(sites);
         const auto in_order = static_cast<std::ptrdiff_t>(frontier.size());
         while (!frontier.empty()) frontier = judge(beside_all(frontier));
@@ -160,13 +162,15 @@ private:
     /// The sites on both sides of candidates.
     [[nodiscard]] std::vector<PointIndex> beside_all(const std::vector<PointIndex>& points) const {
         std::vector<PointIndex> sites;
-        for (const PointIndex i : points) {
-            for (const Side side : {Side::left, Side::right}) {
-                if (!surface_.neighbours.has(side, i)) continue;
-                const PointIndex site = sites_.nearest(surface_.neighbours.neighbour(side, i));
-                if (site >= 0) sites.push_back(site);
+        in_portions(points, [&](std::span<const PointIndex> portion) {
+            for (const PointIndex i : portion) {
+                for (const Side side : {Side::left, Side::right}) {
+                    if (!surface_.neighbours.has(side, i)) continue;
+                    const PointIndex site = sites_.nearest(surface_.neighbours.neighbour(side, i));
+                    if (site >= 0) sites.push_back(site);
+                }
             }
-        }
+        });
         return sites;
     }
 
@@ -248,8 +252,23 @@ private:
             if (!judged) fresh.push_back(site);
             judged = true;
         }
-        constexpr std::int64_t grain = 1024;
+        std::vector<PointIndex> found;
+        in_portions(fresh, [&](std::span<const PointIndex> portion) { judge_fresh(portion, found); });
+        return found;
+    }
+
+    /// f(portion) for portions of points between which signals are forgotten.
+    template <typename F>
+    void in_portions(const std::vector<PointIndex>& points, F&& f) const {
+        for_each_portion(
+            points.size(), forget_, [&](std::size_t k) { return points[k]; },
+            [&](std::size_t first, std::size_t end) { f(std::span(points).subspan(first, end - first)); });
+    }
+
+    /// Looks at sites that were not looked at yet. Appends the candidates among them to `found`.
+    void judge_fresh(std::span<const PointIndex> fresh, std::vector<PointIndex>& found) {
         const auto count = static_cast<std::int64_t>(fresh.size());
+        const std::int64_t grain = std::clamp<std::int64_t>(count / 64, 16, 1024);
         std::vector<std::vector<DefectCandidate>> of_piece(static_cast<std::size_t>((count + grain - 1) / grain));
         parallel_for(count, grain, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t k = first; k < last; ++k) {
@@ -272,12 +291,10 @@ private:
                 of_piece[static_cast<std::size_t>(first / grain)].push_back(candidate);
             }
         });
-        std::vector<PointIndex> found;
         for (std::vector<DefectCandidate>& piece : of_piece) {
             for (const DefectCandidate& candidate : piece) found.push_back(candidate.point);
             if (!piece.empty()) found_.kept.push_back(std::move(piece));
         }
-        return found;
     }
 
     const ClSurface& surface_;
@@ -288,6 +305,7 @@ private:
     Bends bends_;
     Sites sites_;
     std::vector<bool> judged_;  ///< by point
+    ForgetBlocks forget_;
     FoundCandidates found_;
 };
 
@@ -305,8 +323,9 @@ std::vector<PointIndex> find_starts(const ClSurface& surface, const Signals& sig
 }
 
 FoundCandidates find_candidates(const ClSurface& surface, const Signals& signals, const ArcLength& arc_length,
-                                const Thresholds& thresholds, const std::vector<PointIndex>& starts) {
-    return CandidateFinder(surface, signals, arc_length, thresholds).find(starts);
+                                const Thresholds& thresholds, const std::vector<PointIndex>& starts,
+                                const ForgetBlocks& forget) {
+    return CandidateFinder(surface, signals, arc_length, thresholds).find(starts, forget);
 }
 
 double joined_along(const ClSurface& surface, double record) {
@@ -316,8 +335,7 @@ double joined_along(const ClSurface& surface, double record) {
 }
 
 std::vector<DefectCandidates> group_candidates(const DefectCandidates& candidates, const ClSurface& surface,
-                                               const ArcLength& arc_length, double along) {
-    const auto count = static_cast<std::int64_t>(candidates.size());
+                                               const ArcLength& arc_length, double along, const ForgetBlocks& forget) {
     std::vector<PointIndex> points;  // side by side, to be searched
     points.reserve(candidates.size());
     for (const DefectCandidate* s : candidates) points.push_back(s->point);
@@ -352,10 +370,14 @@ std::vector<DefectCandidates> group_candidates(const DefectCandidates& candidate
         }
     };
     constexpr std::int64_t grain = 4096;
-    parallel_for(count, grain, [&](std::int64_t first, std::int64_t last) {
-        Hints hints{};
-        for (std::int64_t k = first; k < last; ++k) join(static_cast<std::size_t>(k), hints);
-    });
+    for_each_portion(
+        points.size(), forget, [&](std::size_t k) { return points[k]; },
+        [&](std::size_t begin, std::size_t end) {
+            parallel_for(static_cast<std::int64_t>(end - begin), grain, [&](std::int64_t first, std::int64_t last) {
+                Hints hints{};
+                for (std::int64_t k = first; k < last; ++k) join(begin + static_cast<std::size_t>(k), hints);
+            });
+        });
     std::vector<DefectCandidates> result;
     std::vector<std::size_t> number(candidates.size());  // of the group, by its root
     for (std::size_t k = 0; k < candidates.size(); ++k) {

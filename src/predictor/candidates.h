@@ -51,10 +51,11 @@ struct FoundCandidates {
 [[nodiscard]] std::vector<PointIndex> find_starts(const ClSurface& surface, const Signals& signals,
                                                   const ArcLength& arc_length, const Thresholds& thresholds,
                                                   const PointRange& points);
-/// … and all candidates, from those of all points. Only what lies about them is looked at.
+/// … and all candidates, from those of all points. Only what lies about them is looked at, in portions between which
+/// `forget` is called.
 [[nodiscard]] FoundCandidates find_candidates(const ClSurface& surface, const Signals& signals,
                                               const ArcLength& arc_length, const Thresholds& thresholds,
-                                              const std::vector<PointIndex>& starts);
+                                              const std::vector<PointIndex>& starts, const ForgetBlocks& forget);
 
 /// How much arc length [mm] may lie between candidates of one pass that belong together: a millimetre, two step-overs or two records, with room.
 /// `record`: the length of one at the usual speed.
@@ -62,8 +63,9 @@ struct FoundCandidates {
 
 /// Candidates that hang together along a pass (`along`: joined_along()), across to the next one or over one clean pass; each group
 /// in the order of its points, and groups in the order of their first ones. O(candidates log candidates), parallel.
+/// `forget`: called between portions of the candidates.
 [[nodiscard]] std::vector<DefectCandidates> group_candidates(const DefectCandidates& candidates,
                                                              const ClSurface& surface, const ArcLength& arc_length,
-                                                             double along);
+                                                             double along, const ForgetBlocks& forget = {});
 
 }  // namespace clsurf

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/block_fill.h"
 #include "core/cutter_place.h"
 #include "predictor/judgement.h"
 #include "predictor/mismatch.h"
@@ -71,6 +72,7 @@ struct FoundInShards {
     PointIndex compared = 0;         ///< count_compared() of all points
     std::vector<PointIndex> starts;  ///< find_starts() of all points, in order
     std::vector<double> scallops;    ///< [mm] scallop_heights() of all points (machined/as_machined_report.h)
+    ForgetBlocks forget;             ///< positions and signals that are derived when they are read
 };
 
 struct QualityRules {

@@ -409,6 +409,16 @@ private:
     std::vector<Built> built_;
 };
 
+/// Forgets the arc lengths together with the signals of a log that was judged in shards.
+ForgetBlocks forget_with(ArcLength& arc_length, const std::optional<FoundInShards>& found) {
+    if (!found || !found->forget) return {};
+    return [&arc_length, &signals = found->forget] {
+        const bool forgot = signals();
+        if (forgot) arc_length.forget();
+        return forgot;
+    };
+}
+
 }  // namespace
 
 int QualityReport::worst_severity() const {
@@ -424,7 +434,8 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
     report.has_lag = signals.measured;
     report.note = signals.speed_note + ", " + signals.acceleration_note + ", " + signals.height_note;
     report.thresholds = rules.fixed ? *rules.fixed : measure_thresholds(surface, signals, rules.thresholds);
-    const ArcLength arc_length(surface.positions);
+    ArcLength arc_length(surface.positions);
+    const ForgetBlocks forget = forget_with(arc_length, rules.found);
     const CauseFinder causes(surface, signals, lines, program, arc_length);
     const double joined = joined_along(surface, report.thresholds.usual_speed * period);
     const Builder builder(surface, signals, lines, causes, arc_length, joined, report.thresholds, rules);
@@ -435,12 +446,13 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
     for (const std::string& reason : signals.unfit) report.judgement.refuse(reason);
     judge_coverage(report.thresholds.usual_speed * period, report);
 
-    FoundCandidates found = rules.found
-                                ? find_candidates(surface, signals, arc_length, report.thresholds, rules.found->starts)
-                                : find_candidates(surface, signals, arc_length, report.thresholds);
+    FoundCandidates found =
+        rules.found ? find_candidates(surface, signals, arc_length, report.thresholds, rules.found->starts, forget)
+                    : find_candidates(surface, signals, arc_length, report.thresholds);
     const SystematicLag systematic =
-        rules.group_systematic ? take_systematic_lag(surface, signals, arc_length, report.thresholds, joined, found)
-                               : SystematicLag{};
+        rules.group_systematic
+            ? take_systematic_lag(surface, signals, arc_length, report.thresholds, joined, found, forget)
+            : SystematicLag{};
     const DefectCandidates& candidates = found.candidates;
     const double smallest = smallest_area * surface.step_over * surface.step_over;
     const std::array<Family, 3> families{motion_family, lag_family, relief_family};

@@ -406,7 +406,6 @@ struct Derivation {
     Trajectory path;
     std::optional<Trajectory> measured;
     std::vector<PointRange> pieces;
-    ArcLength arc_length;
     std::optional<Deriver> deriver;
     std::optional<ZoneMarker> marker;
 };
@@ -418,6 +417,7 @@ void Signals::forget() {
         if (*fill) (*fill)->forget();
     }
     samples.forget();
+    if (arc_length) arc_length->forget();
 }
 
 SignalFacts measure_facts(const ClSurface& surface, const Trajectory& path, const Trajectory* measured,
@@ -453,8 +453,8 @@ Signals derive_when_read(const ClSurface& surface, const Trajectory& path, const
     signals.samples = Column<Sample>::sparse(static_cast<std::size_t>(path.count));
     signals.measured = measured != nullptr;
     signals.pieces = without_moves(surface, pieces);
-    auto work = std::make_shared<Derivation>(
-        Derivation{path, {}, signals.pieces, ArcLength(surface.positions), std::nullopt, std::nullopt});
+    signals.arc_length = std::make_shared<ArcLength>(surface.positions);
+    auto work = std::make_shared<Derivation>(Derivation{path, {}, signals.pieces, std::nullopt, std::nullopt});
     if (measured != nullptr) work->measured = *measured;
     signals.motion = {path.count, [work](PointIndex first, PointIndex last) {
                           for_each_piece(work->pieces, first, last, [&](PointRange piece, PointIndex a, PointIndex b) {
@@ -474,7 +474,7 @@ Signals derive_when_read(const ClSurface& surface, const Trajectory& path, const
     const SamplesInWork samples(signals.samples.data(), signals.motion.get(), signals.zones.get());
     work->deriver.emplace(surface, work->path, work->measured ? &*work->measured : nullptr, nullptr, facts.usual_speed,
                           facts.path_quantum, samples);
-    work->marker.emplace(surface.passes, work->pieces, work->arc_length, end_zone, path.period, samples);
+    work->marker.emplace(surface.passes, work->pieces, *signals.arc_length, end_zone, path.period, samples);
     note_facts(*work->deriver, facts, signals);
     return signals;
 }

@@ -3,6 +3,7 @@
 // direction, acceleration, and two heights along the surface normal. Everything is smoothed over a
 // stated window inside one piece of the path, never across a link.
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "numeric/derivative.h"
 #include "predictor/sample.h"
 #include "surface/cl_surface.h"
+#include "toolpath/arc_length.h"
 #include "toolpath/motion_estimate.h"
 #include "toolpath/trajectory.h"
 
@@ -29,6 +31,7 @@ struct Signals {
     /// Of signals that are derived when they are read, each step from those before it; elsewhere nothing. Who reads
     /// `samples` themselves needs them first.
     BlockFillPointer motion, zones, heights;
+    std::shared_ptr<ArcLength> arc_length;  ///< of these: what zones are found with
 
     [[nodiscard]] PointIndex size() const { return static_cast<PointIndex>(samples.size()); }
     [[nodiscard]] const Sample& operator[](PointIndex i) const {

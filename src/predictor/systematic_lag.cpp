@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "core/block_portions.h"
 #include "core/not_finite.h"
 #include "core/parallel.h"
 #include "predictor/median_of.h"
@@ -148,7 +149,7 @@ struct Candidate {
 
 /// Those of `found` round which the lag alternates, in the order of their points.
 std::vector<Candidate> find_candidates(const LagComparer& comparer, const Thresholds& thresholds,
-                                       FoundCandidates& found) {
+                                       FoundCandidates& found, const ForgetBlocks& forget) {
     std::vector<Candidate> all;
     const std::size_t lag = index_of(Quantity::lag);
     for (std::vector<DefectCandidate>& piece : found.kept) {
@@ -157,10 +158,15 @@ std::vector<Candidate> find_candidates(const LagComparer& comparer, const Thresh
         }
     }
     constexpr std::int64_t grain = 1024;
-    parallel_for(static_cast<std::int64_t>(all.size()), grain, [&](std::int64_t first, std::int64_t last) {
-        for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k)
-            all[k].lag = comparer.around({all[k].defect_candidate->point, 0});
-    });
+    for_each_portion(
+        all.size(), forget, [&](std::size_t k) { return all[k].defect_candidate->point; },
+        [&](std::size_t begin, std::size_t end) {
+            parallel_for(static_cast<std::int64_t>(end - begin), grain, [&](std::int64_t first, std::int64_t last) {
+                for (std::size_t k = begin + static_cast<std::size_t>(first);
+                     k < begin + static_cast<std::size_t>(last); ++k)
+                    all[k].lag = comparer.around({all[k].defect_candidate->point, 0});
+            });
+        });
     std::erase_if(all, [&](const Candidate& c) {
         return std::abs(c.lag.alternating) < alternates * thresholds.of[index_of(Quantity::lag)];
     });
@@ -217,14 +223,15 @@ std::size_t index_by_point(const DefectCandidates& defect_candidates, PointIndex
 }  // namespace
 
 SystematicLag take_systematic_lag(const ClSurface& surface, const Signals& signals, const ArcLength& arc_length,
-                                  const Thresholds& thresholds, double along, FoundCandidates& found) {
+                                  const Thresholds& thresholds, double along, FoundCandidates& found,
+                                  const ForgetBlocks& forget) {
     SystematicLag result;
     if (!signals.measured) return result;
-    const std::vector<Candidate> candidates = find_candidates(LagComparer(surface, signals), thresholds, found);
+    const std::vector<Candidate> candidates = find_candidates(LagComparer(surface, signals), thresholds, found, forget);
     DefectCandidates defect_candidates;
     for (const Candidate& candidate : candidates) defect_candidates.push_back(candidate.defect_candidate);
     std::vector<std::size_t> wide;  // candidates of wide regions
-    for (const DefectCandidates& region : group_candidates(defect_candidates, surface, arc_length, along)) {
+    for (const DefectCandidates& region : group_candidates(defect_candidates, surface, arc_length, along, forget)) {
         std::vector<std::size_t> members;
         for (const DefectCandidate* s : region) members.push_back(index_by_point(defect_candidates, s->point));
         if (is_wide(members, candidates)) wide.insert(wide.end(), members.begin(), members.end());

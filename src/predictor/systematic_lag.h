@@ -31,9 +31,9 @@ struct SystematicLag {
 
 /// Finds where the lag of `found` alternates over a large part of the surface, and takes the alternating part out of the candidates
 /// there: their lag shares, scores and residuals are then those against the passes of the same direction. `along`: joined_along().
-/// O(candidates log candidates), parallel; the same for any number of threads.
+/// O(candidates log candidates), parallel; the same for any number of threads. `forget`: called between portions of them.
 [[nodiscard]] SystematicLag take_systematic_lag(const ClSurface& surface, const Signals& signals,
                                                 const ArcLength& arc_length, const Thresholds& thresholds, double along,
-                                                FoundCandidates& found);
+                                                FoundCandidates& found, const ForgetBlocks& forget = {});
 
 }  // namespace clsurf

@@ -54,6 +54,12 @@ void ArcLength::measure_when_read(const Positions& positions) {
              }};
 }
 
+void ArcLength::forget() {
+    if (!fill_) return;
+    fill_->forget();
+    steps_.forget();
+}
+
 double ArcLength::to(PointIndex i) const {
     const PointIndex block = i / stride;
     double arc_length = sums_[static_cast<std::size_t>(block)];

@@ -31,6 +31,10 @@ public:
     /// True where the way between two points is at least `distance` [mm]. O(1) but where it is close.
     [[nodiscard]] bool at_least(PointIndex i, PointIndex j, double distance) const;
 
+    /// Where positions are gathered when they are read: the steps take no memory until they are asked for again. Nobody may
+    /// be reading.
+    void forget();
+
 private:
     static constexpr PointIndex stride = 64;
 

@@ -53,6 +53,12 @@ void gather_block(const Trajectory& trajectory, const Vec3& from, const Gathered
 
 }  // namespace
 
+void Positions::forget() {
+    if (!fill) return;
+    fill->forget();
+    for (Column<float>* const axis : {&x, &y, &z}) axis->forget();
+}
+
 Positions gather(const Trajectory& trajectory) {
     Positions positions;
     positions.origin = first_finite(trajectory);

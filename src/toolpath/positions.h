@@ -21,6 +21,9 @@ struct Positions {
     Column<double> arc_lengths;  ///< with `fill`: as ArcLength::sums() has them
 
     [[nodiscard]] PointIndex size() const { return static_cast<PointIndex>(x.size()); }
+    /// Of positions that are gathered when they are read: they take no memory until they are asked for again. Nobody may be
+    /// reading.
+    void forget();
     [[nodiscard]] Eigen::Vector3f operator[](PointIndex i) const {
         fill.need(i);
         const auto at = static_cast<std::size_t>(i);

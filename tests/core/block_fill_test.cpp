@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
 #include <stdexcept>
 #include <vector>
 
+#include "core/block_portions.h"
 #include "core/column.h"
 
 namespace clsurf {
@@ -76,6 +78,60 @@ TEST(BlockFill, ColumnsThatAreFilledWhenReadAreNotCopied) {
     EXPECT_FALSE(copy);
     const BlockFillPointer fill(points, [](PointIndex, PointIndex) {});
     EXPECT_THROW(const BlockFillPointer other = fill, std::logic_error);
+}
+
+TEST(BlockPortions, LieInFewBlocksAndAreForgottenOneAfterTheOther) {
+    // Three in each of 200 blocks, then as many again from the first one on, by turns with those of a pass far away.
+    std::vector<PointIndex> looked_at;
+    for (PointIndex k = 0; k < 600; ++k) looked_at.push_back(k / 3 * block_points + k % 3);
+    for (PointIndex k = 0; k < 600; ++k) looked_at.push_back((k / 6 + k % 2 * 1000) * block_points);
+    std::size_t next = 0, portions = 0, forgotten = 0;
+    for_each_portion(
+        looked_at.size(),
+        [&] {
+            EXPECT_EQ(++forgotten, portions);
+            return true;
+        },
+        [&](std::size_t k) { return looked_at[k]; },
+        [&](std::size_t first, std::size_t end) {
+            EXPECT_EQ(first, next);
+            std::set<PointIndex> blocks;
+            for (std::size_t k = first; k < end; ++k) blocks.insert(looked_at[k] / block_points);
+            EXPECT_LE(blocks.size(), 64U);
+            next = end;
+            ++portions;
+        });
+    EXPECT_EQ(next, looked_at.size());
+    EXPECT_EQ(forgotten, portions);
+    // 400 blocks, of which some are shared by two portions.
+    EXPECT_GE(portions, 400U / 64);
+    EXPECT_LE(portions, 400U / 64 + 4);
+}
+
+TEST(BlockPortions, AreOneWhereNothingIsForgotten) {
+    std::size_t portions = 0;
+    for_each_portion(
+        1000, {}, [](std::size_t k) { return static_cast<PointIndex>(k) * block_points; },
+        [&](std::size_t first, std::size_t end) {
+            ++portions;
+            EXPECT_EQ(end - first, 1000U);
+        });
+    EXPECT_EQ(portions, 1U);
+}
+
+TEST(BlockPortions, LookAtAsManyRegionsAtOnceAsThereAreThreads) {
+    std::vector<int> seen(11, 0);
+    std::size_t forgotten = 0;
+    for_each_at_once(
+        seen.size(),
+        [&] {
+            ++forgotten;
+            return true;
+        },
+        [&](std::size_t k) { ++seen[k]; });
+    EXPECT_EQ(seen, std::vector<int>(11, 1));
+    const auto threads = static_cast<std::size_t>(thread_count());
+    EXPECT_EQ(forgotten, (seen.size() + threads - 1) / threads);
 }
 
 TEST(Column, BorrowsWhatAnotherOneHolds) {

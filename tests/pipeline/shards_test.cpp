@@ -106,14 +106,19 @@ TEST_F(Shards, TogetherTheyGiveTheVerdictOnTheWholeLog) {
     const Part part = whole();
     const Quality at_once = judge(part, stitch(part));
     for (const int count : {1, 7}) {
-        const Surveyed log_in_parts(log);
+        Surveyed log_in_parts(log);
         std::vector<ShardFindings> found;
         for (int number = count; number >= 1; --number) {
             // Each from the beginning, as processes of their own.
             found.push_back(Surveyed(log).judge({number, count}));
         }
-        const QualityRules rules = rules_of_shards(found, log_in_parts.survey);
+        QualityRules rules = rules_of_shards(found, log_in_parts.survey);
+        // The same, too, where what was read is forgotten whenever it may be, and derived again.
+        const bool forgets = count > 1;
+        if (forgets)
+            rules.found->forget = forget_when_many(log_in_parts.surface.positions, log_in_parts.read.signals, 0);
         expect_same(at_once, judge(log_in_parts.part, log_in_parts.surface, log_in_parts.read, std::nullopt, rules));
+        EXPECT_EQ(log_in_parts.read.signals.motion->filled() > 2 * part.path.count, forgets);
     }
 }
 
