@@ -127,18 +127,6 @@ foreach(pattern zigzag one-way loops)
 endforeach()
 clsurf_cli_test(NAME render_of_made_one_way SETUP "${make_sample} one-way 200000 a.nc a.biip"
   ARGS render a.nc a.biip -o map.png --size 160x120 -v FILE map.png)
-# A flat part and one lag for all axes: its defects are the slow places, and no others.
-foreach(pattern zigzag one-way)
-  clsurf_cli_test(NAME check_of_made_slow_${pattern}
-    SETUP "${make_sample} ${pattern} 200000 a.nc a.biip --line 8 --wave 500 --height 2 --lag 4 --slow 2 > slow; test $(wc -l < slow) = 2"
-    ARGS check a.nc a.biip STDOUT "^2 defects: 2 slower sections .up to -50 %")
-endforeach()
-foreach(arguments "spiral 100 a.nc a.biip" "zigzag 100 a.nc a.biip --slow" "zigzag 100 a.nc a.biip --slow many" "zigzag 100 a.nc a.biip --line 0")
-  string(MAKE_C_IDENTIFIER "${arguments}" name)
-  separate_arguments(words UNIX_COMMAND "${arguments}")
-  add_test(NAME make_sample_usage_${name} COMMAND clsurf_make_sample ${words})
-  set_tests_properties(make_sample_usage_${name} PROPERTIES PASS_REGULAR_EXPRESSION "usage: clsurf_make_sample zigzag")
-endforeach()
 clsurf_cli_test(NAME info_of_good_csv ARGS info @LOGS@/mixed.csv --period 0.001 STDOUT "  OK: a record every 1 ms, no jumps")
 clsurf_cli_test(NAME info_of_good_raw ARGS info @LOGS@/petal_spiral.raw --layout @DATA@/logs/petal_spiral.layout.toml STDOUT "  OK: a record every 1 ms, no jumps")
 set(own_run @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip)

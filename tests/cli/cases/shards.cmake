@@ -95,3 +95,18 @@ clsurf_cli_test(NAME shards_map_of_classes SETUP "${shards_made}" ARGS ${map_arg
 clsurf_cli_test(NAME shards_map_with_marks SETUP "${shards_made}" ARGS ${map_args} --survey run.survey --mark-point 7 EXIT 2 STDERR "--mark-point needs the whole log, without --survey")
 clsurf_cli_test(NAME shards_map_without_a_survey ARGS ${map_args} --shards 3 EXIT 2 STDERR "--shards goes with --survey")
 clsurf_cli_test(NAME shards_map_of_no_shards SETUP "${shards_made}" ARGS ${map_args} --survey run.survey --shards 0 EXIT 2 STDERR "--shards: 0 is not 1")
+
+# ---- made logs, which may be as long as one likes ----
+set(make_sample $<TARGET_FILE:clsurf_make_sample>)
+# A flat part and one lag for all axes: its defects are the slow places, and no others.
+foreach(pattern zigzag one-way)
+  clsurf_cli_test(NAME check_of_made_slow_${pattern}
+    SETUP "${make_sample} ${pattern} 200000 a.nc a.biip --line 8 --wave 500 --height 2 --lag 4 --slow 2 > slow; test $(wc -l < slow) = 2"
+    ARGS check a.nc a.biip STDOUT "^2 defects: 2 slower sections .up to -50 %")
+endforeach()
+foreach(arguments "spiral 100 a.nc a.biip" "zigzag 100 a.nc a.biip --slow" "zigzag 100 a.nc a.biip --slow many" "zigzag 100 a.nc a.biip --line 0")
+  string(MAKE_C_IDENTIFIER "${arguments}" name)
+  separate_arguments(words UNIX_COMMAND "${arguments}")
+  add_test(NAME make_sample_usage_${name} COMMAND clsurf_make_sample ${words})
+  set_tests_properties(make_sample_usage_${name} PROPERTIES PASS_REGULAR_EXPRESSION "usage: clsurf_make_sample zigzag")
+endforeach()
