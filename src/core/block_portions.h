@@ -48,4 +48,13 @@ void for_each_at_once(std::size_t count, const ForgetBlocks& forget, F&& f) {
     }
 }
 
+/// f(k) for [0, count), in parallel unless f itself forgets, which nobody else may be reading.
+template <typename F>
+void for_each_alone_or_at_once(std::size_t count, const ForgetBlocks& forget, F&& f) {
+    parallel_for(static_cast<std::int64_t>(count), forget ? static_cast<std::int64_t>(count) : 1,
+                 [&](std::int64_t first, std::int64_t last) {
+                     for (std::int64_t k = first; k < last; ++k) f(static_cast<std::size_t>(k));
+                 });
+}
+
 }  // namespace clsurf

@@ -126,9 +126,13 @@ public:
 
     FoundCandidates find(const std::vector<PointIndex>& sites, const ForgetBlocks& forget = {}) {
         forget_ = forget;
-        std::vector<PointIndex> frontier = judge(sites);
-        const auto in_order = static_cast<std::ptrdiff_t>(frontier.size());
-        while (!frontier.empty()) frontier = judge(beside_all(frontier));
+        std::ptrdiff_t in_order = 0;  // candidates that were found first
+        // Of each portion, whatever lies beside its candidates, before the next one is read.
+        in_portions(sites, [&](std::span<const PointIndex> portion) {
+            std::vector<PointIndex> frontier = judge(portion);
+            if (in_order == 0) in_order = static_cast<std::ptrdiff_t>(frontier.size());
+            while (!frontier.empty()) frontier = judge(beside_all(frontier));
+        });
         for (const std::vector<DefectCandidate>& piece : found_.kept) {
             for (const DefectCandidate& candidate : piece) found_.candidates.push_back(&candidate);
         }
@@ -245,7 +249,7 @@ private:
     }
 
     /// Looks at those that were not looked at yet. Returns the candidates among them.
-    std::vector<PointIndex> judge(const std::vector<PointIndex>& sites) {
+    std::vector<PointIndex> judge(std::span<const PointIndex> sites) {
         std::vector<PointIndex> fresh;
         for (const PointIndex site : sites) {
             std::vector<bool>::reference judged = judged_[static_cast<std::size_t>(site)];

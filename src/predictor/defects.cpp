@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/parallel.h"
+#include "core/block_portions.h"
 #include "core/statistics.h"
 #include "predictor/border.h"
 #include "predictor/candidates.h"
@@ -78,7 +78,8 @@ Quantity main_quantity(CandidateSpan group, Family family) {
 class Builder {
 public:
     Builder(const ClSurface& surface, const Signals& signals, const LineMap& lines, const CauseFinder& causes,
-            const ArcLength& arc_length, double joined, const Thresholds& thresholds, const QualityRules& rules)
+            const ArcLength& arc_length, double joined, const Thresholds& thresholds, const QualityRules& rules,
+            const ForgetBlocks& forget)
         : surface_(surface),
           signals_(signals),
           lines_(lines),
@@ -86,7 +87,8 @@ public:
           arc_length_(arc_length),
           thresholds_(thresholds),
           rules_(rules),
-          joined_(joined) {
+          joined_(joined),
+          forget_(forget) {
         std::int64_t number = 0;
         for (const Pass& pass : surface.passes) numbers_.push_back(pass.kind == PassKind::cut ? ++number : 0);
     }
@@ -107,7 +109,11 @@ public:
         return parts;
     }
     [[nodiscard]] std::vector<DefectCandidates> regroup(const DefectCandidates& sites) const {
-        return group_candidates(sites, surface_, arc_length_, joined_);
+        return group_candidates(sites, surface_, arc_length_, joined_, forget_);
+    }
+    /// Nobody else may be reading.
+    void forget() const {
+        if (forget_) forget_();
     }
 
     [[nodiscard]] std::int64_t cut_passes() const {
@@ -317,7 +323,8 @@ private:
     const ArcLength& arc_length_;
     const Thresholds& thresholds_;
     const QualityRules& rules_;
-    double joined_;                      ///< [mm] of arc length between sites that hang together
+    double joined_;  ///< [mm] of arc length between sites that hang together
+    const ForgetBlocks& forget_;
     std::vector<std::int64_t> numbers_;  ///< of the cut passes, by index
 };
 
@@ -371,6 +378,7 @@ public:
                 for (DefectCandidates& left : builder_.regroup(rest)) groups.push_back(std::move(left));
             }
             for (DefectCandidates& core : builder_.parts_of(strong_sites, quantity)) add(std::move(core), quantity);
+            builder_.forget();
         }
         return std::move(built_);
     }
@@ -438,7 +446,7 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
     const ForgetBlocks forget = forget_with(arc_length, rules.found);
     const CauseFinder causes(surface, signals, lines, program, arc_length);
     const double joined = joined_along(surface, report.thresholds.usual_speed * period);
-    const Builder builder(surface, signals, lines, causes, arc_length, joined, report.thresholds, rules);
+    const Builder builder(surface, signals, lines, causes, arc_length, joined, report.thresholds, rules, forget);
     report.passes = builder.cut_passes();
     for (const Pass& pass : surface.passes) report.points += pass.kind == PassKind::cut ? pass.size() : 0;
     report.not_finishing = surface.not_finishing;
@@ -458,10 +466,9 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
     const std::array<Family, 3> families{motion_family, lag_family, relief_family};
     const Border border(surface, signals, arc_length, candidates, joined, report.thresholds);
     std::array<std::vector<Built>, 2 * families.size()> of_family;  // away from the border and at it
-    parallel_for(of_family.size(), 1, [&](std::int64_t first, std::int64_t last) {
-        for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k) {
-            of_family[k] = FamilyBuilder(families[k / 2], k % 2 == 1, smallest, border, builder).build(candidates);
-        }
+    // What is forgotten nobody else may be reading.
+    for_each_alone_or_at_once(of_family.size(), forget, [&](std::size_t k) {
+        of_family[k] = FamilyBuilder(families[k / 2], k % 2 == 1, smallest, border, builder).build(candidates);
     });
     std::vector<Built> all;
     const PointIndex room = std::lround(std::min(effect_seconds / period, 1e6));
