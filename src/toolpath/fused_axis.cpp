@@ -394,13 +394,19 @@ FusedAxis fuse_axis(const AxisRecords& records, NoiseFitter& fitter) {
     copy_block(records.scale, 0, both.scale);
     copy_block(records.encoder, 0, both.encoder);
     axis.positions = both.scale;
-    const NoiseFit scale = noise_of(both.scale, records.samples, floor_of(records.scale), fitter);
-    const NoiseFit encoder = noise_of(both.encoder, records.samples, floor_of(records.encoder), fitter);
+    for (std::vector<float>& sigmas : axis.sigmas) sigmas.assign(n, static_cast<float>(not_known));
+    // An axis that stands in these sections may move between them.
+    std::vector<PointRange> samples = records.samples;
+    NoiseFit scale = noise_of(both.scale, samples, floor_of(records.scale), fitter);
+    if (!scale.moved) {
+        samples = sample_sections(records.pieces);
+        scale = noise_of(both.scale, samples, floor_of(records.scale), fitter);
+    }
+    const NoiseFit encoder = noise_of(both.encoder, samples, floor_of(records.encoder), fitter);
     axis.scale_sigma = scale.sigma;
     axis.encoder_sigma = encoder.sigma;
-    if (!scale.moved || !encoder.moved) return axis;
-    Alignment alignment = align(records, whole_lead(both, records.samples), records.samples, both);
-    if (!agree(both, records.samples)) return axis;
+    Alignment alignment = align(records, whole_lead(both, samples), samples, both);
+    if (scale.moved && !agree(both, samples)) return axis;
     const double sigma = std::hypot(scale.sigma, encoder.sigma);
     const double threshold = reversal_sigmas * encoder.sigma;
     std::vector<std::vector<Reversal>> reversals;
@@ -434,7 +440,6 @@ FusedAxis fuse_axis(const AxisRecords& records, NoiseFitter& fitter) {
     model.wandering = fit.wandering;
     const KalmanSmoother smoother(model);
     for (int d = 0; d < 4; ++d) axis.remaining[static_cast<std::size_t>(d)] = axis.weight * smoother.sigma(d);
-    for (std::vector<float>& sigmas : axis.sigmas) sigmas.assign(n, static_cast<float>(not_known));
     const KalmanSmoother half = of_every_second(smoother);
     const double quantum = quantum_of(records.scale);
     for (const PointRange& range : ranges) fuse_range(both, range, smoother, half, quantum, axis);

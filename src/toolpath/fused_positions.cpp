@@ -47,17 +47,23 @@ FusedPositions::FusedPositions(const Log& log, const Trajectory& path, const std
                          1.0,
                          0.0};
     }
+    // An axis that stands shows no step. It is taken to have that of the others.
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (quantum_of(path.axes[k]) > 0) continue;
+        for (float& sigma : axes_[k].sigmas[0]) sigma = std::hypot(sigma, static_cast<float>(scale_floor_));
+    }
     // What is not fused still lies in the log.
     path_.keep_alive = std::make_shared<std::pair<std::shared_ptr<const void>, std::shared_ptr<const void>>>(
         path.keep_alive, std::move(columns));
 }
 
 double FusedPositions::alone() const {
-    double most = 1;
+    double least = 0, most = 0;  // of the axes that are fused; of all scales
     for (const FusedAxis& axis : axes_) {
-        if (axis.weight > 0) most = std::max(most, axis.scale_sigma / axis.sigma());
+        if (axis.weight > 0) least = least == 0 ? axis.sigma() : std::min(least, axis.sigma());
+        most = std::max(most, axis.scale_sigma);
     }
-    return most;
+    return least == 0 ? 1 : most / least;
 }
 
 void FusedPositions::sigmas(std::size_t axis, int derivative, PointIndex first, std::span<double> out) const {
