@@ -8,7 +8,24 @@ namespace clsurf {
 namespace {
 
 constexpr double level_width = 0.003;    ///< a plateau's values are alike to this share, and rounding
-constexpr double most_exceeding = 0.01;  ///< share of the values above a quarter of the greatest
+constexpr double most_exceeding = 0.01;  ///< share of the large values
+constexpr double least_large = 0.25;     ///< of a level: a large value
+constexpr double most_of_level = 1.02;   ///< a value above this exceeds a level
+
+/// Whether values rise to [first, last) and fall from there no faster than inside: the top of a ramp up and a ramp down, as a
+/// jerk limit makes it, is no level.
+bool is_peak(const std::vector<double>& values, std::size_t first, std::size_t last) {
+    constexpr double steeper = 4;
+    const std::size_t reach = (last - first) / 2;
+    if (reach == 0 || first < reach || last + reach > values.size()) return false;
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first),
+               end = values.begin() + static_cast<std::ptrdiff_t>(last);
+    const auto [low, high] = std::minmax_element(begin, end);
+    const double sign = *low + *high < 0 ? -1 : 1;
+    const double top = sign > 0 ? *high : -*low, inside = *high - *low;
+    const double before = top - sign * values[first - reach], after = top - sign * values[last - 1 + reach];
+    return before > inside && after > inside && std::max(before, after) < steeper * inside;
+}
 
 /// Equal moves have equal plateaus, whatever limits them.
 bool at_varied_speeds(const std::vector<Plateau>& plateaus) {
@@ -43,7 +60,8 @@ void PlateauFinder::add(std::span<const std::vector<double>> all, std::size_t ow
         const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first) + quarter;
         const auto end = values.begin() + static_cast<std::ptrdiff_t>(last) - quarter;
         const double level = std::abs(std::accumulate(begin, end, 0.0)) / static_cast<double>(end - begin);
-        if (count >= least_ && level > 0.1 * greatest_ && level > 5 * error_ && counts(first)) {
+        if (count >= least_ && level > 0.1 * greatest_ && level > 5 * error_ && counts(first) &&
+            !is_peak(values, first, last)) {
             Plateau plateau{level, count, {}, 0};
             const std::size_t middle = first + (last - first) / 2;
             for (std::size_t q = 0; q < all.size(); ++q)
@@ -55,14 +73,26 @@ void PlateauFinder::add(std::span<const std::vector<double>> all, std::size_t ow
     }
 }
 
+std::size_t PlateauFinder::bin_of(double value) const {
+    return std::min(bin_count - 1, static_cast<std::size_t>(std::ceil(value / greatest_ * (bin_count - 1))));
+}
+
 double PlateauFinder::exceeding(double level) const {
-    const auto bin_of = [&](double value) {
-        return std::min(bin_count - 1, static_cast<std::size_t>(std::ceil(value / greatest_ * (bin_count - 1))));
-    };
     PointIndex above = 0, large = 0;
-    for (std::size_t k = bin_of(0.25 * level); k < bin_count; ++k) large += bins_[k];
-    for (std::size_t k = bin_of(1.02 * level + 2 * error_) + 1; k < bin_count; ++k) above += bins_[k];
+    for (std::size_t k = bin_of(least_large * level); k < bin_count; ++k) large += bins_[k];
+    for (std::size_t k = bin_of(most_of_level * level + 2 * error_) + 1; k < bin_count; ++k) above += bins_[k];
     return large > 0 ? static_cast<double>(above) / static_cast<double>(large) : 0;
+}
+
+double PlateauFinder::excess(double level) const {
+    constexpr PointIndex one_of = 1000;
+    const std::size_t first = bin_of(least_large * level);
+    std::size_t bin = bin_of(most_of_level * level + 2 * error_);
+    const PointIndex large = std::accumulate(bins_.begin() + static_cast<std::ptrdiff_t>(first),
+                                             bins_.begin() + static_cast<std::ptrdiff_t>(bin) + 1, PointIndex{0});
+    PointIndex above = 0;
+    while (bin > first && (above += bins_[bin]) * one_of <= large) --bin;
+    return std::max(0.0, greatest_ * static_cast<double>(bin) / (bin_count - 1) - error_ - level);
 }
 
 double PlateauFinder::nearly_greatest() const {
@@ -92,7 +122,9 @@ std::optional<PlateauFinder::Level> PlateauFinder::highest(std::size_t places, b
         found.value = sum / records;
         const double spread = std::sqrt(std::max(0.0, squares / records - found.value * found.value));
         // Levels differ for reasons that more plateaus do not average out.
-        found.standard_error = std::max({spread, 0.3 * error_ / std::sqrt(records), 1e-6 * found.value});
+        // Where the motion goes a little beyond the level, the planner stays below its limit in plateaus.
+        found.standard_error =
+            std::max({spread, 0.3 * error_ / std::sqrt(records), 1e-6 * found.value, excess(found.value)});
         if (exceeding(found.value) > most_exceeding) return std::nullopt;
         if (varied && !at_varied_speeds(found.plateaus)) return std::nullopt;
         return found;

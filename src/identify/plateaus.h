@@ -46,7 +46,10 @@ public:
 
 private:
     static constexpr std::size_t bin_count = 4096;
-    [[nodiscard]] double exceeding(double level) const;  ///< share of the values that are not small
+    [[nodiscard]] std::size_t bin_of(double value) const;
+    [[nodiscard]] double exceeding(double level) const;  ///< share of the large values that exceed it
+    /// How far the values go beyond a level that hardly one exceeds, without rounding and the greatest of a thousand.
+    [[nodiscard]] double excess(double level) const;
 
     double error_;
     PointIndex least_;

@@ -131,7 +131,8 @@ std::array<double, servo_terms> standard_errors(const Solution& at) {
     for (std::size_t k = 0; k < servo_terms; ++k) {
         const auto i = static_cast<Eigen::Index>(k);
         const bool seen = at.parameters.active[k] && at.sums.normal(i, i) > 0;
-        errors[k] = seen ? std::sqrt(std::max(covariance(i, i), 0.0)) : INFINITY;
+        // Less than 0: the terms are so much alike that the inverse is rounding.
+        errors[k] = seen && covariance(i, i) >= 0 ? std::sqrt(covariance(i, i)) : INFINITY;
         if (static_cast<ServoTerm>(k) <= ServoTerm::velocity_step) errors[k] = std::max(errors[k], least_error);
     }
     return errors;
@@ -160,28 +161,62 @@ std::vector<ServoParameters> starts_with(ServoTerm term, const Solution& at, std
     return starts;
 }
 
-/// The best solution from the two best starts.
-Solution with_term(const ServoProblem& problem, const Solution& base, ServoTerm term,
-                   std::span<const ServoStart> regressions) {
-    std::vector<std::pair<double, ServoParameters>> starts;
-    for (const ServoParameters& start : starts_with(term, base, regressions)) {
-        if (settles(start, problem.period())) starts.emplace_back(problem.evaluate(start).squares, start);
+/// The same from any loop: the terms that are not in `at` may have made its other values anything. `at` explains nothing of
+/// the term, so its residual says how large that may be.
+std::vector<ServoParameters> wide_starts_with(ServoTerm term, const Solution& at, double period,
+                                              std::span<const ServoStart> regressions) {
+    std::vector<ServoParameters> loops{at.parameters, at.parameters};
+    const auto take_loop = [&](const ServoParameters& of) {
+        for (const ServoTerm taken : {ServoTerm::log_gain, ServoTerm::feedforward, ServoTerm::velocity_step})
+            loops.back()[taken] = of[taken];
+    };
+    take_loop(parameters_of(ServoModel{}, period));
+    if (!regressions.empty()) {
+        loops.push_back(at.parameters);
+        take_loop(regressions.front().parameters);
     }
-    std::stable_sort(starts.begin(), starts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    Solution best = minimise(problem, starts.front().second);
-    if (starts.size() > 1 && term == ServoTerm::friction) {
-        Solution other = minimise(problem, starts[1].second);
+    const double apart = std::sqrt(at.sums.mean_square());
+    std::vector<ServoParameters> starts;
+    for (const ServoParameters& loop : loops) {
+        const double scale = term == ServoTerm::friction ? std::exp(loop[ServoTerm::log_gain]) * apart : 2 * apart;
+        for (const double factor : {0.1, 0.3, 0.6, 1.0, 1.5, 3.0, 10.0}) {
+            starts.push_back(loop);
+            starts.back()[term] = factor * scale;
+            starts.back().active[index_of(term)] = true;
+        }
+    }
+    return starts;
+}
+
+/// The best solution from the best `most` of the starts.
+Solution best_from(const ServoProblem& problem, std::span<const ServoParameters> starts, std::size_t most) {
+    std::vector<std::pair<double, ServoParameters>> sorted;
+    for (const ServoParameters& start : starts) {
+        if (settles(start, problem.period())) sorted.emplace_back(problem.evaluate(start).squares, start);
+    }
+    std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    Solution best = minimise(problem, sorted.front().second);
+    for (std::size_t k = 1; k < std::min(most, sorted.size()); ++k) {
+        Solution other = minimise(problem, sorted[k].second);
         if (other.criterion() < best.criterion()) best = std::move(other);
     }
     return best;
 }
 
-/// Adds terms one by one, each time the one that explains most, as long as there is evidence.
+/// The best solution with another term.
+Solution with_term(const ServoProblem& problem, const Solution& base, ServoTerm term,
+                   std::span<const ServoStart> regressions) {
+    return best_from(problem, starts_with(term, base, regressions), term == ServoTerm::friction ? 2 : 1);
+}
+
+/// Adds terms one by one, each time the one that explains most, as long as there is evidence. A term of no certain value that
+/// explains more than every other one is added, too: without it another would stand for it.
 Solution select_terms(const ServoProblem& problem, Solution base, std::span<const ServoStart> regressions,
                       std::vector<TermEvidence>& evidence) {
     std::vector<ServoTerm> open{ServoTerm::friction, ServoTerm::backlash, ServoTerm::dead_time};
     while (!open.empty()) {
         std::optional<Solution> best;
+        bool any_certain = false;
         ServoTerm chosen{};
         std::vector<TermEvidence> tried;
         for (const ServoTerm term : open) {
@@ -189,12 +224,13 @@ Solution select_terms(const ServoProblem& problem, Solution base, std::span<cons
             const Solution with = with_term(problem, base, term, regressions);
             const double value = with.parameters[term];
             tried.push_back({term, value, base.criterion() - with.criterion(), false});
-            const bool kept = tried.back().gain > 0 && value > significant * standard_errors(with)[index_of(term)];
-            if (!kept || (best && with.criterion() >= best->criterion())) continue;
+            if (!(tried.back().gain > 0)) continue;
+            any_certain |= value > significant * standard_errors(with)[index_of(term)];
+            if (best && with.criterion() >= best->criterion()) continue;
             best = with;
             chosen = term;
         }
-        if (!best) {
+        if (!any_certain) {
             evidence.insert(evidence.end(), tried.begin(), tried.end());
             break;
         }
@@ -207,6 +243,46 @@ Solution select_terms(const ServoProblem& problem, Solution base, std::span<cons
         base = std::move(*best);
     }
     return base;
+}
+
+/// Friction and backlash may hide each other: where the selection has one of them or leaves more than rounding, each is also
+/// the first one, from more starts. `rounding`: variance of the fed-back positions [unit²].
+Solution select_widely(const ServoProblem& problem, const Solution& base, std::span<const ServoStart> regressions,
+                       double rounding, std::vector<TermEvidence>& evidence) {
+    Solution best = select_terms(problem, base, regressions, evidence);
+    constexpr double most_explained = 2;  // of the variance
+    const bool certain = !best.parameters.has(ServoTerm::friction) && !best.parameters.has(ServoTerm::backlash);
+    if (certain && best.sums.mean_square() <= most_explained * rounding) return best;
+    for (const ServoTerm first : {ServoTerm::friction, ServoTerm::backlash}) {
+        if (base.parameters.has(first)) continue;
+        Solution with = best_from(problem, wide_starts_with(first, base, problem.period(), regressions), 3);
+        const double value = with.parameters[first];
+        if (!(value > significant * standard_errors(with)[index_of(first)])) continue;
+        std::vector<TermEvidence> found{{first, value, base.criterion() - with.criterion(), true}};
+        Solution other = select_terms(problem, std::move(with), regressions, found);
+        if (other.criterion() >= best.criterion()) continue;
+        best = std::move(other);
+        evidence = std::move(found);
+    }
+    return best;
+}
+
+/// Without the terms of no certain value that others have made unnecessary.
+Solution without_needless(const ServoProblem& problem, Solution solution, std::vector<TermEvidence>& evidence) {
+    for (const ServoTerm term : {ServoTerm::friction, ServoTerm::backlash, ServoTerm::dead_time}) {
+        if (!solution.parameters.has(term)) continue;
+        if (solution.parameters[term] > significant * standard_errors(solution)[index_of(term)]) continue;
+        const double value = solution.parameters[term], before = solution.criterion();
+        ServoParameters less = solution.parameters;
+        less.value[index_of(term)] = 0;
+        less.active[index_of(term)] = false;
+        Solution other = minimise(problem, less);
+        if (other.criterion() > before) continue;
+        solution = std::move(other);
+        std::erase_if(evidence, [&](const TermEvidence& e) { return e.term == term; });
+        evidence.push_back({term, value, solution.criterion() - before, false});
+    }
+    return solution;
 }
 
 /// The solutions of the best starts of the regression, and of a plain loop in case these are none.
@@ -272,7 +348,7 @@ bool ServoFit::knows(ServoTerm term) const {
         case ServoTerm::log_gain: return error < 0.25;
         case ServoTerm::feedforward: return error < 0.1;
         case ServoTerm::velocity_step: return error < 0.25 * parameters[term];
-        default: return parameters.has(term) && std::isfinite(error);
+        default: return parameters.has(term) && parameters[term] > significant * error;
     }
 }
 
@@ -291,8 +367,11 @@ ServoFit fit_servo(std::span<const AxisRecord> records, double period) {
     fit.records = problem.count();
     if (fit.records < least_records) return fit;
     const std::vector<ServoStart> regressions = servo_starts(problem, dead_periods_searched);
-    Solution solution = select_terms(problem, best_of_starts(problem, regressions), regressions, fit.evidence);
-    solution.rounding = std::max(fit.quantum * fit.quantum, least_quantum * least_quantum) / 12;
+    const double rounding = std::max(fit.quantum * fit.quantum, least_quantum * least_quantum) / 12;
+    Solution solution =
+        select_widely(problem, best_of_starts(problem, regressions), regressions, rounding, fit.evidence);
+    solution = without_needless(problem, std::move(solution), fit.evidence);
+    solution.rounding = rounding;
     fit.parameters = solution.parameters;
     fit.standard_error = standard_errors(solution);
     fit.residual = std::sqrt(solution.sums.mean_square());

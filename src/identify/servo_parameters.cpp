@@ -119,6 +119,11 @@ private:
         const auto found = std::find_if(fit.evidence.begin(), fit.evidence.end(),
                                         [&](const TermEvidence& e) { return e.term == term; });
         const bool tried = found != fit.evidence.end();
+        if (fit.parameters.has(term) && !fit.knows(term) && fit.knows(ServoTerm::log_gain)) {
+            result_.unidentified.push_back(
+                {name, axis_.name(), "the motion shows that there is some, but not how much"});
+            return;
+        }
         if (fit.parameters.has(term)) {
             const std::string note = tried ? fmt::format("BIC falls by {:.0f}", found->gain) : "from the best start";
             put(name, true, error(term) * factor, fit.parameters[term] * factor, unit, target, to_machine, {}, note);
