@@ -85,6 +85,20 @@ void read_arc_steps(const TomlFile& file, const toml::table& table, ControllerSe
             fmt::format("'arc_step_time' is {}, expected 0 or at least the period, {}", c.arc_step_time, c.period));
 }
 
+/// A number, or "program" where the planner does as the program says.
+void read_merging(const TomlFile& file, const toml::table& table, ControllerSettings& c) {
+    const toml::node* node = table.get("merging_tolerance");
+    if (node == nullptr) return;
+    const bool of_program = c.planner == PlannerKind::trapezoidal && node->is_string();
+    if (of_program) {
+        (void)take_word(file, table, "merging_tolerance", std::array{std::string_view("program")});
+        return;
+    }
+    double tolerance = 0;
+    take(file, table, "merging_tolerance", tolerance, Low::zero);
+    c.merging_tolerance = tolerance;
+}
+
 /// Rules for corners that are not rounded.
 void read_junction(const TomlFile& file, const toml::table& table, JunctionSettings& junction) {
     take(file, table, "junction_deviation", junction.deviation, Low::zero);
@@ -100,7 +114,7 @@ void read_controller(const TomlFile& file, const toml::table& table, ControllerS
     if (c.planner == PlannerKind::trapezoidal) {
         file.allow(table, {"planner", "feed", "period", "lookahead_blocks", "tolerance", "feed_override", "arc_blends",
                            "gap_periods", "ramp_frequency", "kink_ratio", "max_feed_override", "blocks_per_period",
-                           "cubic_interpolation"});
+                           "cubic_interpolation", "merging_tolerance"});
         read_trapezoid(file, table, c.trapezoid);
     } else {
         take_mode<4>(file, table, "corner", c.corner);
@@ -113,12 +127,14 @@ void read_controller(const TomlFile& file, const toml::table& table, ControllerS
             keys.insert(keys.end(), {"curve", "tolerance"});
         }
         if (c.corner == CornerMode::arc) keys.emplace_back("arc_step_time");
+        if (rounds_corners(c)) keys.emplace_back("merging_tolerance");
         file.allow(table, keys);
         read_junction(file, table, c.junction);
     }
     take_mode<2>(file, table, "feed", c.feed);
     take(file, table, "period", c.period, Low::above_zero, 1.0, 1.0);
     read_arc_steps(file, table, c);
+    read_merging(file, table, c);
     if (const auto blocks = file.integer(table, "lookahead_blocks", 2, 100000))
         c.lookahead_blocks = static_cast<int>(*blocks);
     take_mode<3>(file, table, "curve", c.curve);
@@ -239,6 +255,9 @@ std::string controller_text(const ControllerSettings& c) {
     if (c.planner == PlannerKind::trapezoidal) {
         const TrapezoidSettings& t = c.trapezoid;
         text += tolerance;
+        text += fmt::format("merging_tolerance = {}  # {}\n",
+                            c.merging_tolerance ? fmt::format("{}", *c.merging_tolerance) : "\"program\"",
+                            "of lines that become one, in place of Q of G64; program: Q counts");
         text += fmt::format("arc_blends = {}           # corners become arcs where that is faster\n", t.arc_blends);
         text +=
             fmt::format("gap_periods = {}             # a line that is left shorter joins the arc\n", t.gap_periods);
@@ -263,6 +282,10 @@ std::string controller_text(const ControllerSettings& c) {
                             name_of(c.curve));
         text += tolerance;
     }
+    if (rounds_corners(c))
+        text +=
+            fmt::format("merging_tolerance = {}         # lines within it of one line become that line; 0: none do\n",
+                        c.merging_tolerance.value_or(0));
     if (c.corner == CornerMode::arc) {
         text += fmt::format(
             "arc_step_time = {}             # s, arcs also with jerk limits of axes, whose accelerations step in it; 0: splines\n",
@@ -306,6 +329,8 @@ Machine read_machine(const TomlFile& file) {
             file.fail(*table, "the trapezoidal planner is for three axes", "planner = \"time-optimal\" runs five");
         if (machine.controller.corner == CornerMode::junction && machine.kinematics.has_rotary())
             file.fail(*table, "corner = \"junction\" is for three axes", "corner = \"spline\" runs five");
+        if (machine.controller.merging_tolerance.value_or(0) > 0 && machine.kinematics.has_rotary())
+            file.fail(*table, "merging_tolerance is for three axes", "merging_tolerance = 0 runs five");
         if (machine.controller.arc_step_time > 0 && machine.kinematics.has_rotary())
             file.fail(*table, "arc_step_time is for three axes", "corner = \"spline\" runs five");
     }

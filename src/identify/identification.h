@@ -37,7 +37,7 @@ struct RuleCandidate {
     double speed_error = 0;  ///< [mm/s] mean |difference| of the speed
     bool chosen = false;
     bool equal = false;  ///< explains the runs about as well as the best one
-    std::string axis{};  ///< "controller", "path"
+    std::string axis{};  ///< "controller", "path", "kinematics"
 };
 
 struct Identification {

@@ -5,11 +5,15 @@
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <boost/math/tools/minima.hpp>
+
+#include "core/error.h"
+#include "simulation/path/block_merging.h"
 
 namespace clsurf {
 namespace {
@@ -57,8 +61,6 @@ void refine(const Rule& rule, std::size_t chosen, RuleScores& scores, Machine& m
             std::vector<RuleCandidate>& candidates) {
     const std::vector<double>& numbers = rule.continuous.numbers;
     if (numbers.empty() || !(numbers[chosen] > 0)) return;
-    constexpr int bits = 10;
-    constexpr std::uintmax_t most_runs = 16;
     const auto machine_with = [&](double number) {
         Machine changed = machine;
         rule.continuous.set(changed, number);
@@ -71,7 +73,8 @@ void refine(const Rule& rule, std::size_t chosen, RuleScores& scores, Machine& m
     };
     const double below = chosen > 0 ? numbers[chosen - 1] : 0.5 * numbers[chosen],
                  above = chosen + 1 < numbers.size() ? numbers[chosen + 1] : 2 * numbers[chosen];
-    std::uintmax_t runs = most_runs;
+    constexpr int bits = 10;
+    std::uintmax_t runs = 16;
     const double shown = rounded(
         boost::math::tools::brent_find_minima(
             [&](double number) { return score_of(scores.residuals(machine_with(number))); }, below, above, bits, runs)
@@ -89,10 +92,31 @@ void refine(const Rule& rule, std::size_t chosen, RuleScores& scores, Machine& m
     rule.continuous.set(machine, best);
 }
 
+/// With what the planner does where the controller says nothing, if that is a number.
+ControllerSettings settled(ControllerSettings controller) {
+    if (controller.planner != PlannerKind::trapezoidal && !controller.merging_tolerance)
+        controller.merging_tolerance = 0;
+    return controller;
+}
+
+bool limited_alike(const MachineAxis& one, const MachineAxis& other) {
+    return one.max_speed == other.max_speed && one.max_acceleration == other.max_acceleration &&
+           one.max_jerk == other.max_jerk;
+}
+
 }  // namespace
 
+bool plan_alike(const Machine& one, const Machine& other) {
+    return settled(one.controller) == settled(other.controller) && one.path == other.path &&
+           one.kinematics.axis_tolerance == other.kinematics.axis_tolerance &&
+           std::equal(one.axes.begin(), one.axes.end(), other.axes.begin(), limited_alike) &&
+           std::equal(one.rotary.begin(), one.rotary.end(), other.rotary.begin(), limited_alike);
+}
+
 RuleScores::RuleScores(std::span<const RecordedRun> runs) {
-    constexpr PointIndex most = 200'000;
+    const bool five_axes = std::any_of(runs.begin(), runs.end(),
+                                       [](const RecordedRun& run) { return run.part().path.kinematics != nullptr; });
+    const PointIndex most = five_axes ? 50'000 : 200'000;  // simulations of five axes take longer
     for (const RecordedRun& run : runs) runs_.push_back(&run);
     std::stable_sort(runs_.begin(), runs_.end(),
                      [](const auto* a, const auto* b) { return a->part().log.records < b->part().log.records; });
@@ -105,9 +129,47 @@ RuleScores::RuleScores(std::span<const RecordedRun> runs) {
 }
 
 std::vector<float> RuleScores::residuals(const Machine& machine) {
+    const Machine asked = merging_alike(machine);
+    const auto known = std::find_if(scored_.begin(), scored_.end(),
+                                    [&](const Scored& scored) { return plan_alike(scored.machine, asked); });
+    if (known != scored_.end()) return known->residuals;
+    return scored_.emplace_back(Scored{asked, simulated(asked)}).residuals;
+}
+
+/// The machine with the first tolerance asked for that merges the same lines.
+Machine RuleScores::merging_alike(const Machine& machine) {
+    const ControllerSettings& c = machine.controller;
+    const bool merges = c.planner == PlannerKind::trapezoidal || rounds_corners(c);
+    if (machine.kinematics.has_rotary() || !merges) return machine;
+    Merging here{c.planner, c.merging_tolerance, {}};
+    for (const RecordedRun* run : runs_) {
+        const std::vector<LineNumber> lines = merged_lines(run->part().program, machine);
+        here.lines.insert(here.lines.end(), lines.begin(), lines.end());
+    }
+    Machine alike = machine;
+    const auto same = std::find_if(mergings_.begin(), mergings_.end(), [&](const Merging& other) {
+        return other.planner == here.planner && other.lines == here.lines;
+    });
+    if (same == mergings_.end())
+        mergings_.push_back(std::move(here));
+    else
+        alike.controller.merging_tolerance = same->tolerance;
+    return alike;
+}
+
+std::vector<float> RuleScores::simulated(const Machine& machine) {
     std::vector<float> all;
     for (const RecordedRun* run : runs_) {
-        const RunDifferences found = run->differences(run->simulated(machine));
+        std::optional<Part> simulation;
+        try {
+            simulation = run->simulated(machine);
+        } catch (const InputError&) {
+            // A machine that cannot drive the program did not record the run: it is apart everywhere.
+            const std::size_t samples = (run->surface().positions.size() + sample_every - 1) / sample_every;
+            all.insert(all.end(), samples, std::numeric_limits<float>::quiet_NaN());
+            continue;
+        }
+        const RunDifferences found = run->differences(*simulation);
         usual_speed_ = std::max(usual_speed_, found.usual_speed);
         const Column<float>& speed = found.of[index_of(RunQuantity::speed)];
         for (std::size_t i = 0; i < speed.size(); i += sample_every) all.push_back(std::abs(speed[i]));

@@ -2,6 +2,7 @@
 // Rules of a planner as candidates that are simulated and scored against recorded runs.
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,13 +31,17 @@ struct Rule {
     ContinuousValues continuous;
 };
 
+/// Whether two machines have the same values of all rules and limits.
+[[nodiscard]] bool plan_alike(const Machine& one, const Machine& other);
+
 /// Scores machines against the runs.
 class RuleScores {
 public:
-    /// `runs` must outlive it; long ones beyond 2·10^5 records in all are left out.
+    /// `runs` must outlive it; long ones beyond 2·10^5 records in all are left out, beyond 5·10^4 with rotary axes.
     explicit RuleScores(std::span<const RecordedRun> runs);
 
-    /// |difference of speed| at every sample [mm/s]; NaN: not compared.
+    /// |difference of speed| at every sample [mm/s]; NaN: not compared. Machines that plan alike, and those that merge the same
+    /// lines, are simulated once.
     [[nodiscard]] std::vector<float> residuals(const Machine& machine);
     /// The speed that a place counts as wrong by where the simulation does not go there [mm/s].
     [[nodiscard]] double usual_speed() const { return static_cast<double>(usual_speed_); }
@@ -44,6 +49,21 @@ public:
     [[nodiscard]] double resolution() const;
 
 private:
+    struct Scored {
+        Machine machine;
+        std::vector<float> residuals;
+    };
+    /// A tolerance of a planner, and the lines of all runs that merging within it leaves.
+    struct Merging {
+        PlannerKind planner;
+        std::optional<double> tolerance;
+        std::vector<LineNumber> lines;
+    };
+    [[nodiscard]] std::vector<float> simulated(const Machine& machine);
+    [[nodiscard]] Machine merging_alike(const Machine& machine);
+
+    std::vector<Scored> scored_;
+    std::vector<Merging> mergings_;
     std::vector<const RecordedRun*> runs_;
     float usual_speed_ = 0;
 };

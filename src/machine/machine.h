@@ -103,13 +103,21 @@ struct ControllerSettings {
     double arc_step_time = 0;
     JunctionSettings junction;
     CurveMode curve = CurveMode::none;
-    double tolerance = 0.01;         ///< of corners and path [mm]; G64 P replaces it
+    double tolerance = 0.01;  ///< of corners and path [mm]; G64 P replaces it
+    /// Lines whose ends lie within it of one line become that line before corners are rounded [mm]; 0: none do; nullopt:
+    /// as the planner does, trapezoidal as the program says (G64 Q), time_optimal never.
+    std::optional<double> merging_tolerance;
     double chord_tolerance = 0.002;  ///< of the steps of a period against arcs [mm]
     double block_time = 0;           ///< a block takes no less [s]: what the controller needs to prepare one
     bool whole_periods = false;      ///< feeds are lowered so that a block at its feed takes a whole number of periods
     double feed_override = 1;        ///< of programmed feeds, not of rapids
     [[nodiscard]] bool operator==(const ControllerSettings&) const = default;
 };
+
+/// Whether the time-optimal planner rounds corners.
+[[nodiscard]] constexpr bool rounds_corners(const ControllerSettings& controller) {
+    return controller.corner == CornerMode::spline || controller.corner == CornerMode::arc;
+}
 
 struct PathLimits {
     double max_speed = 250;                 ///< [mm/s]

@@ -12,6 +12,7 @@
 #include "core/units.h"
 #include "pipeline/simulated_log.h"
 #include "repair/parts.h"
+#include "simulation/path/block_merging.h"
 
 namespace clsurf {
 namespace {
@@ -77,6 +78,31 @@ TEST(PlannerRules, AShortLookAheadIsFound) {
     text.replace(text.find("G64 P0.005"), 10, "G64 P0.005 Q0");  // no line is merged
     const Part part = run_on(real, read_text(text));
     EXPECT_EQ(identified(part, known).machine.controller.lookahead_blocks, 7);
+}
+
+/// Lines of 0.12 mm over waves, none of which the program merges.
+Program short_lines() {
+    std::string text = wavy_zigzag(6, 20, [](int, double) { return 0.12; });
+    text.replace(text.find("G64 P0.005"), 10, "G64 P0.02 Q0");
+    return read_text(text);
+}
+
+TEST(PlannerRules, LinesThatTheControllerMergesAreFound) {
+    Machine real;
+    real.controller.planner = PlannerKind::trapezoidal;
+    real.path.max_acceleration = real.path.max_normal_acceleration = 1'000'000;
+    for (MachineAxis& axis : real.axes) axis.max_jerk = 0;
+    const Machine known = real;
+    real.controller.merging_tolerance = 0.004;
+    const Program program = short_lines();
+    ASSERT_LT(merged_lines(program, real).size(), merged_lines(program, known).size() * 7 / 10);
+    const Identification merging = identified(run_on(real, program), known);
+    EXPECT_EQ(merging.machine.controller.merging_tolerance, 0.004);
+    // Without merging the program's Q of 0 explains the run as well as a machine that never merges.
+    const Identification plain = identified(run_on(known, program), known);
+    EXPECT_EQ(plain.machine.controller.merging_tolerance, std::nullopt);
+    ASSERT_NE(chosen(plain, "merging_tolerance"), nullptr);
+    EXPECT_EQ(chosen(plain, "merging_tolerance")->value, "program");
 }
 
 /// Three polygons of 36 corners of 10° each.

@@ -151,10 +151,11 @@ TEST(TrapezoidalPlanner, StepsOfDirectionAreShared) {
 }
 
 TEST(BlockMerging, JoinsLinesWithinTheTolerance) {
-    const auto lines = [](const std::string& mode) {
+    const Machine machine = plain();
+    const auto lines = [&](const std::string& mode) {
         const Program program = program_of(mode + "G1 X0 F600\nX1 Y0.004\nX2\nX3 Y0.1\nX4 F500\nX5\nM2\n");
         WholeProgram whole(program);
-        BlockStream blocks(whole, plain(), Vec3::Zero(), Stops::programmed);
+        BlockStream blocks(whole, machine, Vec3::Zero(), Stops::programmed);
         BlockMerging merged(blocks);
         std::vector<PathElement> found;
         PathElement element;
@@ -171,6 +172,43 @@ TEST(BlockMerging, JoinsLinesWithinTheTolerance) {
     EXPECT_EQ(found[2].end, Vec3(5, 0.1, 0));
     EXPECT_EQ(lines("G64 P0.01 Q0\n").size(), 5U);
     EXPECT_EQ(lines("G61\n").size(), 5U);
+}
+
+// The lines of the test before: the machine's tolerance counts in place of that of the program, but not on an exact path.
+TEST(BlockMerging, AMachineMayMergeOtherwiseThanTheProgramSays) {
+    const auto left = [](const std::string& mode, const Machine& machine) {
+        return merged_lines(program_of(mode + "G1 X0 F600\nX1 Y0.004\nX2\nX3 Y0.1\nX4 F500\nX5\nM2\n"), machine).size();
+    };
+    Machine never = plain(), always = plain(), rounding;
+    never.controller.merging_tolerance = 0;
+    always.controller.merging_tolerance = 0.005;
+    EXPECT_EQ(left("G64 P0.01 Q0.005\n", never), 5U);
+    EXPECT_EQ(left("G64 P0.01 Q0\n", always), 3U);
+    EXPECT_EQ(left("G61\n", always), 5U);
+    // The other planner merges where the machine file says so, and never by the program.
+    EXPECT_EQ(left("G64 P0.01 Q0.005\n", rounding), 5U);
+    rounding.controller.merging_tolerance = 0.005;
+    EXPECT_EQ(left("G64 P0.01 Q0\n", rounding), 3U);
+    rounding.controller.corner = CornerMode::stop;
+    EXPECT_EQ(left("G64 P0.01 Q0.005\n", rounding), 5U);
+}
+
+// Two lines in one direction, whose ends are 1 µm beside one line: as one line they take 1 s at 10 mm/s, and the ramps.
+TEST(BlockMerging, TheTimeOptimalPlannerDrivesTheMergedLine) {
+    Machine machine;
+    const std::string text = "G21 G90 G64 P0.01\nG1 X0 F600\nX5 Y0.001\nX10 Y0\nM2\n";
+    const std::string one = "G21 G90 G64 P0.01\nG1 X0 F600\nX10 Y0\nM2\n";
+    const auto highest = [](const Recorded& r) {
+        double y = 0;
+        for (const SimulatedPoint& p : r.points) y = std::max(y, p.commanded.y());
+        return y;
+    };
+    machine.controller.merging_tolerance = 0.002;
+    const Recorded merged = run(text, machine), single = run(one, machine);
+    EXPECT_EQ(merged.points.size(), single.points.size());
+    EXPECT_LT(highest(merged), 1e-9);
+    machine.controller.merging_tolerance = 0.0005;
+    EXPECT_GT(highest(run(text, machine)), 5e-4);
 }
 
 /// The largest distance between simulated and recorded set points from the first movement on [mm], and the difference of

@@ -1,7 +1,10 @@
 #include "simulation/path/block_merging.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include "program/motion_source.h"
 
 namespace clsurf {
 namespace {
@@ -51,7 +54,20 @@ bool BlockMerging::next(PathElement& element) {
         passed_.push_back(merged_.end);
     }
     element = merged_;
+    element.block = blocks_++;
     return true;
+}
+
+std::vector<LineNumber> merged_lines(const Program& program, const Machine& machine) {
+    WholeProgram whole(program);
+    const bool trapezoidal = machine.controller.planner == PlannerKind::trapezoidal;
+    BlockStream blocks(whole, machine, Vec3::Zero(), trapezoidal ? Stops::programmed : Stops::at_corners);
+    BlockMerging merged(blocks);
+    std::vector<LineNumber> lines;
+    PathElement element;
+    while (blocks.begin_section())
+        while (merged.next(element)) lines.push_back(element.line);
+    return lines;
 }
 
 }  // namespace clsurf

@@ -41,12 +41,12 @@ bool BlockStream::stops_between(const PathElement& before, const PathElement& af
 
 void BlockStream::take(const PathMode& mode) {
     const ControllerSettings& controller = machine_->controller;
-    const bool rounds = controller.corner == CornerMode::spline || controller.corner == CornerMode::arc;
-    const bool rounded = mode.block_end == BlockEnd::rounded && rounds;
+    const bool rounded = mode.block_end == BlockEnd::rounded && rounds_corners(controller);
     tolerance_ = !rounded ? 0 : std::isfinite(mode.tolerance) ? mode.tolerance : controller.tolerance;
     // The planner that ends blocks itself knows a path without a tolerance.
     if (rounded && section_ends_ == Stops::programmed && std::isinf(mode.tolerance)) tolerance_ = mode.tolerance;
-    merging_tolerance_ = mode.merging_tolerance;
+    const double of_program = controller.planner == PlannerKind::trapezoidal ? mode.merging_tolerance : 0;
+    merging_tolerance_ = controller.merging_tolerance.value_or(of_program);
     stops_ = mode.block_end == BlockEnd::exact_stop;
 }
 

@@ -42,6 +42,10 @@ PathStream::PathStream(MotionSource& source, const Machine& machine, const Vec3&
     // Only drives that bear any jerk bear every jump of curvature.
     if ((!arcs || !only_path_jerk(machine)) && (curves || source.outline().curved)) bend_share_ = share_of_bends;
     if (limits_jerk_in_bends(machine) && !jerks_freely(machine)) top_ = top_share;
+    if (machine.controller.merging_tolerance.value_or(0) > 0) {
+        merged_ = std::make_unique<BlockMerging>(*source_);
+        source_ = merged_.get();
+    }
     if (curves) {
         curves_ = std::make_unique<CurveBlocks>(*source_, machine.controller.curve);
         source_ = curves_.get();

@@ -31,6 +31,7 @@
 #include "core/geometry.h"
 #include "core/queue.h"
 #include "machine/machine.h"
+#include "simulation/path/block_merging.h"
 #include "simulation/path/block_stream.h"
 #include "simulation/path/corner_arcs.h"
 #include "simulation/path/curve_blocks.h"
@@ -146,6 +147,7 @@ private:
     double bend_share_ = 0;  ///< of the tolerance, for jumps of curvature
     double top_ = 0;         ///< β: half-width of the top of the trapezoid, of w
     BlockStream blocks_;
+    std::unique_ptr<BlockMerging> merged_;
     std::unique_ptr<CurveBlocks> curves_;
     std::unique_ptr<CornerArcs> arcs_;
     ElementSource* source_;  ///< the last of what shapes the path

@@ -90,6 +90,16 @@ clsurf_cli_test(NAME machine_arc_steps_of_splines SETUP "printf '[controller]\\n
   EXIT 3 STDERR "unknown key 'arc_step_time'")
 clsurf_cli_test(NAME machine_arc_steps_of_five_axes SETUP "printf '[controller]\\narc_step_time = 0.001\\n[kinematics]\\ntype = \"table-table\"\\n' > m.toml" ARGS machine --check m.toml
   EXIT 3 STDERR "arc_step_time is for three axes")
+# Merging of short lines: Q of G64 belongs to the trapezoidal planner, and five axes merge nothing.
+clsurf_cli_test(NAME machine_merging SETUP "printf '[controller]\\nplanner = \"trapezoidal\"\\nmerging_tolerance = \"program\"\\n' > m.toml" ARGS machine --check m.toml STDOUT "can be used")
+clsurf_cli_test(NAME machine_merging_of_no_program SETUP "printf '[controller]\\nmerging_tolerance = \"program\"\\n' > m.toml" ARGS machine --check m.toml
+  EXIT 3 STDERR "m.toml:2:21: error: 'merging_tolerance'")
+clsurf_cli_test(NAME machine_merging_below_zero SETUP "printf '[controller]\\nmerging_tolerance = -0.01\\n' > m.toml" ARGS machine --check m.toml
+  EXIT 3 STDERR "'merging_tolerance' is -0.01, expected 0 or more")
+clsurf_cli_test(NAME machine_merging_without_rounding SETUP "printf '[controller]\\ncorner = \"stop\"\\nmerging_tolerance = 0.01\\n' > m.toml" ARGS machine --check m.toml
+  EXIT 3 STDERR "unknown key 'merging_tolerance'")
+clsurf_cli_test(NAME machine_merging_of_five_axes SETUP "printf '[controller]\\nmerging_tolerance = 0.01\\n[kinematics]\\ntype = \"table-table\"\\n' > m.toml" ARGS machine --check m.toml
+  EXIT 3 STDERR "merging_tolerance is for three axes")
 # On three_axis_mill, 90° with a tolerance of 0.01 mm: r = 24.142 µm, v = √(80000 r · 0.001) = 1.38974 mm/s (arc_steps_test.cpp: 1.1328 s).
 clsurf_cli_test(NAME simulate_arcs_with_jerk_limits
   SETUP "sed 's/^arc_step_time = 0 /arc_step_time = 0.001 /' @DATA@/machines/three_axis_mill.toml > m.toml && printf 'G21 G90 G64\\nG1 X10 F3000\\nY10\\nX0\\nY0\\nM2\\n' > square.nc"
