@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "identify/parameter_uncertainty.h"
 #include "identify/planner_rules.h"
 #include "identify/servo_parameters.h"
+#include "pipeline/simulated_log.h"
 
 namespace clsurf {
 namespace {
@@ -29,6 +31,18 @@ void identify_period(std::span<const IdentifyRun> runs, Identification& result) 
     }
     result.machine.controller.period = period;
     result.parameters.push_back({"period", "controller", period, "s", {}, {}, "of the records"});
+}
+
+/// Nothing, and the reason in `result`, where the machine cannot drive the program: limits that the runs never reached may be
+/// too low for it.
+std::optional<RunFidelity> fidelity_of(const RecordedRun& run, const Machine& machine, Identification& result) {
+    try {
+        return run.fidelity(machine);
+    } catch (const InputError& error) {
+        result.unidentified.push_back(
+            {"fidelity", "controller", run.part().log.name + " cannot be simulated: " + error.what()});
+        return std::nullopt;
+    }
 }
 
 }  // namespace
@@ -71,11 +85,11 @@ Identification identify_parts(std::span<const Part> parts, const Machine& known)
     for (const Part& part : parts) recorded.emplace_back(part);
     identify_rules(recorded, result);
     for (const RecordedRun& run : recorded) {
-        RunFidelity fidelity = run.fidelity(result.machine);
-        if (fidelity.compared > 0)
-            result.fit.push_back(std::move(fidelity));
-        else
-            result.unidentified.push_back({"fidelity", "controller", fidelity.log + " follows its program nowhere"});
+        const std::optional<RunFidelity> fidelity = fidelity_of(run, result.machine, result);
+        if (fidelity && fidelity->compared > 0)
+            result.fit.push_back(*fidelity);
+        else if (fidelity)
+            result.unidentified.push_back({"fidelity", "controller", fidelity->log + " follows its program nowhere"});
     }
     result.machine.fidelity = summary_of(result.fit, FidelityBasis::fit);
     result.machine.uncertainty = uncertainty_of(result);
@@ -83,12 +97,13 @@ Identification identify_parts(std::span<const Part> parts, const Machine& known)
 }
 
 std::string why_not_simulated(std::span<const Part> parts, const Machine& known) {
-    if (known.kinematics.has_rotary()) return "runs of five axes are not compared with simulations";
     for (const Part& part : parts) {
         if (!part.log.has(Role::commanded)) return part.log.name + " has no commanded positions";
         if (part.program.motions.size() == 0) return part.log.name + " has no program";
-        if (find_rotary_motion(part.log, Role::commanded))
-            return part.log.name + " moves rotary axes, and the kinematics are not known (--machine)";
+        if (!find_rotary_motion(part.log, Role::commanded) || runs_on_five_axes(part.program, known)) continue;
+        return part.log.name + (known.kinematics.has_rotary()
+                                    ? " moves rotary axes, and its program does not"
+                                    : " moves rotary axes, and the kinematics are not known (--machine)");
     }
     return {};
 }
@@ -98,7 +113,8 @@ void cross_validate(std::vector<Part>& parts, const Machine& known, Identificati
     for (std::size_t k = 0; k < parts.size(); ++k) {
         std::rotate(parts.begin(), parts.begin() + 1, parts.end());  // the last one is left out
         const Identification others = identify_parts(std::span(parts).first(parts.size() - 1), known);
-        result.cross_validation.push_back(RecordedRun(parts.back()).fidelity(others.machine));
+        if (const auto fidelity = fidelity_of(RecordedRun(parts.back()), others.machine, result))
+            result.cross_validation.push_back(*fidelity);
     }
     result.machine.fidelity = summary_of(result.cross_validation, FidelityBasis::cross_validation);
 }
