@@ -230,7 +230,8 @@ public:
         greatest_ = greatest_of(motion, kind.order, stride);
         std::vector<PlateauFinder> finders;
         for (std::size_t q = 0; q < greatest_.size(); ++q)
-            finders.emplace_back(error_of(motion.rounding, time_, kind.order), kind.least, greatest_[q]);
+            finders.emplace_back(error_of(motion.rounding, time_, kind.order), kind.least, greatest_[q],
+                                 kind.order == 2);
         for (const MotionPiece& piece : motion.pieces) {
             if (piece.rapid.size() <= static_cast<std::size_t>(kind.order) * stride) continue;
             const Quantities quantities = quantities_of(piece, motion, kind.order, stride);

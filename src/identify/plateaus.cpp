@@ -61,7 +61,7 @@ void PlateauFinder::add(std::span<const std::vector<double>> all, std::size_t ow
         const auto end = values.begin() + static_cast<std::ptrdiff_t>(last) - quarter;
         const double level = std::abs(std::accumulate(begin, end, 0.0)) / static_cast<double>(end - begin);
         if (count >= least_ && level > 0.1 * greatest_ && level > 5 * error_ && counts(first) &&
-            !is_peak(values, first, last)) {
+            !(ramps_ && is_peak(values, first, last))) {
             Plateau plateau{level, count, {}, 0};
             const std::size_t middle = first + (last - first) / 2;
             for (std::size_t q = 0; q < all.size(); ++q)

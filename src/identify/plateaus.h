@@ -26,8 +26,9 @@ struct Plateau {
 class PlateauFinder {
 public:
     /// `error`: the most that a value is off by rounding; `least`: records of a plateau; `greatest`: of all values.
-    PlateauFinder(double error, PointIndex least, double greatest)
-        : error_(error), least_(least), greatest_(greatest), bins_(bin_count, 0) {}
+    /// `ramps`: the next derivative has a limit, too, so that the top of two ramps may look like a plateau.
+    PlateauFinder(double error, PointIndex least, double greatest, bool ramps)
+        : error_(error), least_(least), greatest_(greatest), ramps_(ramps), bins_(bin_count, 0) {}
 
     /// A piece of consecutive values. `all[q][i]`: every quantity, of which this is number `own`; `speeds` of the path.
     /// `allowed`: where a plateau counts; empty: everywhere. O(values).
@@ -54,6 +55,7 @@ private:
     double error_;
     PointIndex least_;
     double greatest_;
+    bool ramps_;
     std::vector<PointIndex> bins_;
     std::vector<Plateau> plateaus_;
 };
