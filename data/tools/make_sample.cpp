@@ -61,16 +61,17 @@ struct Waypoint {
 
 double to_micrometre(double v) { return std::round(v * 1000) / 1000; }
 
+/// The side of a raster, or the diameter of the outermost loop, whose passes use up the points [mm].
+double size_of(const Wishes& wishes) {
+    const double area = static_cast<double>(wishes.points) * feed * period * step_over;
+    return std::max(4.0, wishes.pattern == Pattern::loops ? std::sqrt(area * 4 / std::numbers::pi) : std::sqrt(area));
+}
+
 /// The passes of a part, one after the other.
 class Part {
 public:
-    explicit Part(const Wishes& wishes) : wishes_(wishes) {
-        const double area = static_cast<double>(wishes.points) * feed * period * step_over;
-        // The outermost loop bounds the part; a raster grows until the points are used up.
-        size_ = wishes.pattern == Pattern::loops ? std::sqrt(area * 4 / std::numbers::pi) : std::sqrt(area);
-        size_ = std::max(size_, 4.0);
-        wave_ = std::min(size_, wishes.wave);
-    }
+    explicit Part(const Wishes& wishes)
+        : wishes_(wishes), size_(size_of(wishes)), wave_(std::min(size_, wishes.wave)) {}
 
     /// [mm] of the outermost coordinates.
     [[nodiscard]] double size() const { return size_; }
