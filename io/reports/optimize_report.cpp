@@ -33,8 +33,8 @@ std::string program_of(const ControllerRun& run) {
 std::string controller_text(const std::vector<ControllerRun>& runs) {
     std::string text;
     const auto words = [](const RunMeasures& m) {
-        return fmt::format("{:.3f} s, speed mismatch {:.1f} mm/min, {:.0f} defects", m.duration,
-                           m.mismatch * seconds_per_minute, m.defects);
+        return fmt::format("{:.3f} s, speed mismatch {:.1f} mm/min, {:.0f} defect{}", m.duration,
+                           m.mismatch * seconds_per_minute, m.defects, m.defects == 1 ? "" : "s");
     };
     for (std::size_t k = 0; k < runs.size(); ++k) {
         const ControllerRun& run = runs[k];
@@ -132,9 +132,9 @@ std::string optimize_text(const Optimized& r) {
     };
     if (r.measured) {
         text += fmt::format(
-            "log: {:.3f} s, speed mismatch {:.1f} mm/min (p95), {} defects; {} motions need repair, the others stay as they are\n",
+            "log: {:.3f} s, speed mismatch {:.1f} mm/min (p95), {} defect{}; {} motions need repair, the others stay as they are\n",
             r.measured->duration, r.measured->mismatch * seconds_per_minute, r.measured->defects,
-            r.measured->motions_in_need);
+            r.measured->defects == 1 ? "" : "s", r.measured->motions_in_need);
     }
     text += "machine: " + r.machine + "\n";
     const bool controller =

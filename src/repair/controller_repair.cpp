@@ -68,6 +68,9 @@ public:
         result.roughness_after = std::move(roughness_after_);
         result.before = std::move(before_);
         result.after = std::move(after_);
+        // Those of the runs that are shown, whether the candidate was taken or not.
+        result.evaluation.defects_before = result.before.report.defects.size();
+        result.evaluation.defects_after = result.after.report.defects.size();
         return result;
     }
 
@@ -227,8 +230,6 @@ private:
         best_round_.clear();
         result.text = finalist.text;
         result.evaluation = finalist.evaluation;
-        result.evaluation.defects_before = before_.report.defects.size();
-        result.evaluation.defects_after = after_.report.defects.size();
         result.ensemble = finalist.ensemble;
         result.fidelity = found.fidelity;
         result.measured = found.measured;

@@ -10,8 +10,12 @@ set(crowded_part "awk 'BEGIN { print \"G21 G90\\nG64 P0.005\\nG0 X0 Y0 Z10\\nG1 
 set(mill @DATA@/machines/linuxcnc_logs.toml)
 set(other_mill "${crowded_part}; sed '0,/max_acceleration = .*/s//max_acceleration = 1300/' ${mill} > other.toml")
 clsurf_cli_test(NAME optimize_on_a_controller SETUP "${other}; ${crowded_part}"
-  ARGS optimize part.nc --controller "$CLSURF simulate {program} --machine other.toml -o {log} -q" --runs 2 -o better.nc FILE better.nc
-  STDOUT "machine: that of clsurf machine --defaults, fitted to the runs of the controller" "run 1, the program: [0-9.]+ s, speed mismatch [0-9.]+ mm/min, [0-9]+ defects" "run 2, candidate 1: .*. promised .*. accepted" "on the controller +before" "accepted")
+  ARGS optimize part.nc --controller "$CLSURF simulate {program} --machine other.toml -o {log} -q" --runs 3 -o better.nc FILE better.nc
+  STDOUT "machine: that of clsurf machine --defaults, fitted to the runs of the controller" "run 1, the program: [0-9.]+ s, speed mismatch [0-9.]+ mm/min, [0-9]+ defect" "run [23], candidate [12]: .*. promised .*. accepted" "on the controller +before" "accepted")
+# The table has the defects of the runs above it, also where no candidate is taken.
+clsurf_cli_test(NAME optimize_refused_by_a_controller
+  SETUP "${other_mill}; sed 's/max_acceleration = .*/max_acceleration = 300/' ${mill} > slow.toml; printf '#!/bin/sh\\ngrep -q optimize \"$1\" && m=slow || m=other\\n\"$CLSURF\" simulate \"$1\" --machine $m.toml -o \"$2\" -q\\n' > controller; chmod +x controller; $CLSURF optimize part.nc --machine ${mill} --machines 0 --controller './controller {program} {log}' --runs 2 -o better.nc > out.txt || test $? -eq 1; grep -q 'refused: on the controller' out.txt && awk '/^run 1/ { a = $11 } /^run 2/ { b = $11 } /^defects / { exit !(a == $2 && b == $3 && a != b) }' out.txt"
+  ARGS --version NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_controller_json SETUP "${other_mill}"
   ARGS optimize part.nc --machine ${mill} --controller "$CLSURF simulate {program} --machine other.toml -o {log} -q" --runs 2 -o better.nc --json
   STDOUT "\"controller_runs\"" "\"promised\"" "\"proof\": \"controller\"" "\"ensemble\"" "\"worst\"")
