@@ -104,7 +104,7 @@ struct Alignment {
     double yield = 0;                                     ///< [mm] rms, over a window
 };
 
-/// What is left of the ways' difference over a window is the remaining lead times the change of speed, and the compliance of
+/// The remaining difference between both ways over a window is the remaining lead times the change of speed, and the compliance of
 /// the drive times that of the acceleration: least squares of both. Windows lie inside `ranges`; in them the motor does not
 /// turn round.
 Alignment alignment_step(const Differences& both, const std::vector<PointRange>& ranges) {

@@ -18,7 +18,7 @@
 // counts as noise of the encoder, and the scale the more.
 //
 // Rounding is white noise only where positions lie anywhere between two codes of the scale. Where an axis creeps, or always
-// goes on by the same part of a code, the rounding stays in b̂, and σ_b is widened by it.
+// advances by the same part of a code, the rounding stays in b̂, and σ_b is widened by it.
 
 #include <array>
 #include <span>

@@ -28,7 +28,7 @@ public:
     /// By how much more a position is uncertain where the scale is used alone: σ_s / σ of both, of the worst axis.
     [[nodiscard]] double alone() const;
 
-    /// Standard deviation of what is left of the encoder's difference in a derivative of an axis' position [mm/s^d]; infinite
+    /// Standard deviation of the remaining difference of the encoder, in a derivative of an axis' position [mm/s^d]; infinite
     /// where its scale is used alone.
     void sigmas(std::size_t axis, int derivative, PointIndex first, std::span<double> out) const;
     /// Parts of a range in which no axis that moves has its scale alone.

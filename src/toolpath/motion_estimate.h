@@ -108,7 +108,7 @@ private:
     double path_speed_lead_ = 0;
     bool rounding_rules_ = false;  ///< rounding is at least half the variance of the positions
     double scale_ = 1;             ///< of all standard deviations …
-    double difference_scale_ = 1;  ///< … but those of what is left of the encoder's difference
+    double difference_scale_ = 1;  ///< … except those of the remaining difference of the encoder
     double nees_ = 1;              ///< normalised estimation error squared, as measured
     SmootherModel model_;
     std::optional<KalmanSmoother> across_;  ///< of all that is measured of the components

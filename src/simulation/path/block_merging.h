@@ -15,7 +15,7 @@ public:
     explicit BlockMerging(ElementSource& source) : source_(&source) {}
 
     /// A line that stands for several blocks keeps the line number of the last, and its greatest distance from the
-    /// blocks as deviation. Blocks are numbered anew: a look-ahead counts what is left of them.
+    /// blocks as deviation. Blocks are numbered anew: a look-ahead counts those that remain.
     [[nodiscard]] bool next(PathElement& element) override;
 
 private:
