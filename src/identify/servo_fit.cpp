@@ -188,12 +188,13 @@ std::vector<ServoParameters> wide_starts_with(ServoTerm term, const Solution& at
     return starts;
 }
 
-/// The best solution from the best `most` of the starts.
+/// The best solution from the best `most` of the starts that settle; from the first one where none does.
 Solution best_from(const ServoProblem& problem, std::span<const ServoParameters> starts, std::size_t most) {
     std::vector<std::pair<double, ServoParameters>> sorted;
     for (const ServoParameters& start : starts) {
         if (settles(start, problem.period())) sorted.emplace_back(problem.evaluate(start).squares, start);
     }
+    if (sorted.empty()) return minimise(problem, starts.front());
     std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     Solution best = minimise(problem, sorted.front().second);
     for (std::size_t k = 1; k < std::min(most, sorted.size()); ++k) {
