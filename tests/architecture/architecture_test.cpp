@@ -9,7 +9,7 @@
 
 #include "architecture/sources.h"
 
-namespace clsurf::test {
+namespace clsurf::test::architecture_test {
 namespace {
 
 // Room → rooms whose headers it may include besides its own.
@@ -287,4 +287,4 @@ TEST(Documentation, ReadmeShowsTheProgramThatTheConsumerTestRuns) {
 }
 
 }  // namespace
-}  // namespace clsurf::test
+}  // namespace clsurf::test::architecture_test

@@ -9,7 +9,7 @@
 
 #include "architecture/sources.h"
 
-namespace clsurf::test {
+namespace clsurf::test::components_test {
 namespace {
 
 // Components that still include each other. Only ever fewer.
@@ -119,4 +119,4 @@ TEST(Folders, IncludeEachOtherWithoutCycles) {
 }
 
 }  // namespace
-}  // namespace clsurf::test
+}  // namespace clsurf::test::components_test

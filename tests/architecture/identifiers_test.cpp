@@ -6,7 +6,7 @@
 
 #include "architecture/sources.h"
 
-namespace clsurf::test {
+namespace clsurf::test::identifiers_test {
 namespace {
 
 /// Proper names, and names of others' code.
@@ -137,4 +137,4 @@ TEST(Identifiers, InDocumentsForAuthorsExist) {
 }
 
 }  // namespace
-}  // namespace clsurf::test
+}  // namespace clsurf::test::identifiers_test

@@ -7,7 +7,7 @@
 #include "architecture/functions.h"
 #include "architecture/sources.h"
 
-namespace clsurf::test {
+namespace clsurf::test::structure_test {
 namespace {
 
 constexpr std::size_t longest_file = 500;     // lines
@@ -239,4 +239,4 @@ TEST(Top, HoldsWhatARepositoryNeedsAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace clsurf::test
+}  // namespace clsurf::test::structure_test

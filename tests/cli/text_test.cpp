@@ -6,7 +6,7 @@
 
 #include "cli/progress_bar.h"
 
-namespace clsurf::cli {
+namespace clsurf::cli::text_test {
 namespace {
 
 TEST(Text, CountsCodePointsNotBytes) {
@@ -56,4 +56,4 @@ TEST(ProgressLine, IsCutBetweenCharacters) {
 }
 
 }  // namespace
-}  // namespace clsurf::cli
+}  // namespace clsurf::cli::text_test

@@ -11,7 +11,7 @@
 #include "io/formats/log_format.h"
 #include "predictor/quality_fields.h"
 
-namespace clsurf::cli {
+namespace clsurf::cli::vocabulary_test {
 namespace {
 
 TEST(Vocabulary, ListsEveryRowOfTheTables) {
@@ -75,4 +75,4 @@ TEST(CommandLine, RefusesAnOptionWhereAValueIsMissing) {
 }
 
 }  // namespace
-}  // namespace clsurf::cli
+}  // namespace clsurf::cli::vocabulary_test

@@ -6,7 +6,7 @@
 
 #include "compare/field_difference.h"
 
-namespace clsurf {
+namespace clsurf::defect_match_test {
 namespace {
 
 constexpr double step_over = 0.5;  // [mm]
@@ -116,4 +116,4 @@ TEST(FieldDifference, IsTakenWhereTheRunsMeet) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::defect_match_test

@@ -8,7 +8,7 @@
 #include "mapping/line_map.h"
 #include "support/made_run.h"
 
-namespace clsurf {
+namespace clsurf::run_difference_test {
 namespace {
 
 using test::MadeRun;
@@ -359,4 +359,4 @@ TEST(DriftedRun, IsTheOneThatDepartsFromTheOthers) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::run_difference_test

@@ -9,7 +9,7 @@
 #include "core/block_portions.h"
 #include "core/column.h"
 
-namespace clsurf {
+namespace clsurf::block_fill_test {
 namespace {
 
 constexpr PointIndex points = 10 * block_points + 77;
@@ -148,4 +148,4 @@ TEST(Column, BorrowsWhatAnotherOneHolds) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::block_fill_test

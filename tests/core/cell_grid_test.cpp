@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf {
+namespace clsurf::cell_grid_test {
 namespace {
 
 std::vector<CellGrid::Key> near(const CellGrid& grid, const Vec3& p) {
@@ -59,4 +59,4 @@ TEST(CellGrid, PlacesTooFarAwayOrNotFiniteAreInOutermostCells) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::cell_grid_test

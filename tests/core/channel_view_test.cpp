@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf {
+namespace clsurf::channel_view_test {
 namespace {
 
 template <typename T>
@@ -54,4 +54,4 @@ TEST(ChannelView, GivesTheBadValueWhereALineNumberIsNone) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::channel_view_test

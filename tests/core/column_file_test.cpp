@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "support/temporary_folder.h"
 
-namespace clsurf {
+namespace clsurf::column_file_test {
 namespace {
 
 /// Bytes of mapped files without a name in a folder.
@@ -73,4 +73,4 @@ TEST_F(ColumnFile, ADiskThatIsTooSmallIsAnError) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::column_file_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf {
+namespace clsurf::diagnostic_test {
 namespace {
 
 TEST(Diagnostics, KeepsTheFirstFewOfACodeAndCountsTheRest) {
@@ -29,4 +29,4 @@ TEST(Diagnostic, PutsTheCaretUnderTheColumn) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::diagnostic_test

@@ -10,7 +10,7 @@
 
 #include "core/statistics.h"
 
-namespace clsurf {
+namespace clsurf::distribution_test {
 namespace {
 
 using Floats = std::numeric_limits<float>;
@@ -93,4 +93,4 @@ TEST(Distribution, HoldsWhateverAFloatCanBe) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::distribution_test

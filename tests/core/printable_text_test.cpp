@@ -4,7 +4,7 @@
 
 #include "core/diagnostic.h"
 
-namespace clsurf {
+namespace clsurf::printable_text_test {
 namespace {
 
 TEST(PrintableText, KeepsTextAndShowsWhatATerminalWouldObey) {
@@ -22,4 +22,4 @@ TEST(PrintableText, GuardsDiagnosticsAndTheirSourceLines) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::printable_text_test

@@ -2,7 +2,7 @@
 
 #include "core/queue.h"
 
-namespace clsurf {
+namespace clsurf::queue_test {
 namespace {
 
 TEST(Queue, KeepsTheOrderWhileItsItemsMove) {
@@ -23,4 +23,4 @@ TEST(Queue, KeepsTheOrderWhileItsItemsMove) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::queue_test

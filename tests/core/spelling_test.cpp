@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf {
+namespace clsurf::spelling_test {
 namespace {
 
 constexpr std::array<std::string_view, 3> words{"speed", "acceleration", "jerk"};
@@ -14,4 +14,4 @@ TEST(Spelling, CountsSwappedLettersOnce) { EXPECT_EQ(nearest_word("jrek", words)
 TEST(Spelling, SaysNothingWhenNothingIsNear) { EXPECT_EQ(did_you_mean("colour", words), ""); }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::spelling_test

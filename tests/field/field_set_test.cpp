@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "field/range.h"
 
-namespace clsurf {
+namespace clsurf::field_set_test {
 namespace {
 
 constexpr double radius = 20;  // [mm]
@@ -167,4 +167,4 @@ TEST(FieldSet, ShowsChannelsInTheUnitsOfTheLog) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::field_set_test

@@ -9,7 +9,7 @@
 #include "field/field_set.h"
 #include "support/made_five_axis.h"
 
-namespace clsurf {
+namespace clsurf::five_axis_fields_test {
 namespace {
 
 constexpr double period = 0.001;
@@ -93,4 +93,4 @@ TEST(FiveAxisFields, AxisSpeedsAndToolAxis) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::five_axis_fields_test

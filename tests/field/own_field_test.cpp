@@ -10,7 +10,7 @@
 #include "field/channel_fields.h"
 #include "field/field_set.h"
 
-namespace clsurf {
+namespace clsurf::own_field_test {
 namespace {
 
 constexpr double radius = 20;  // [mm]
@@ -227,4 +227,4 @@ TEST(FieldTable, EachRowReadsAllThatItNeedsAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::own_field_test

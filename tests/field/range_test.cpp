@@ -4,7 +4,7 @@
 
 #include "field/pass_ramps.h"
 
-namespace clsurf {
+namespace clsurf::range_test {
 namespace {
 
 /// 10,000 points of value 100 on one pass of 1 ms periods.
@@ -111,4 +111,4 @@ TEST_F(RangeTest, APassAtFullSpeedHasNoRamp) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::range_test

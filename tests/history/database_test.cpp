@@ -20,7 +20,7 @@
 #include "core/error.h"
 #include "io/files/utc.h"
 
-namespace clsurf::io {
+namespace clsurf::io::database_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -390,4 +390,4 @@ TEST(Utc, ReadsZones) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::database_test

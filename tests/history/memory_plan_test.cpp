@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 
-namespace clsurf {
+namespace clsurf::memory_plan_test {
 namespace {
 
 TEST(MemoryPlan, StartsAsManyAsThereAreJobs) {
@@ -90,4 +90,4 @@ TEST(Memory, IsReadWithItsUnit) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::memory_plan_test

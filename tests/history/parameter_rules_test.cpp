@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 
-namespace clsurf {
+namespace clsurf::parameter_rules_test {
 namespace {
 
 ParameterRules rules() {
@@ -82,4 +82,4 @@ TEST(Identity, IsOfContentNotOfNames) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::parameter_rules_test

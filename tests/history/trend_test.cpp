@@ -12,7 +12,7 @@
 #include "history/outliers.h"
 #include "history/run_comparison.h"
 
-namespace clsurf {
+namespace clsurf::trend_test {
 namespace {
 
 RunRecord run_of(std::int64_t id, double score, const std::string& tool = "") {
@@ -166,4 +166,4 @@ TEST(Comparison, TheBestRunIsOfTheSameProgram) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::trend_test

@@ -8,7 +8,7 @@
 
 #include "log/log.h"
 
-namespace clsurf {
+namespace clsurf::axis_record_test {
 namespace {
 
 ChannelView view_of(const std::vector<double>& values) {
@@ -61,4 +61,4 @@ TEST(AxisRecord, AMotionThatBeginsAtOnceIsNoJump) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::axis_record_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf {
+namespace clsurf::parameter_uncertainty_test {
 namespace {
 
 TEST(ParameterUncertainty, AStandardErrorCountsRelativeToTheValue) {
@@ -69,4 +69,4 @@ TEST(ParameterUncertainty, ValuesThatExplainTheRunsAlikeAreAlternatives) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::parameter_uncertainty_test

@@ -14,7 +14,7 @@
 #include "repair/parts.h"
 #include "simulation/path/block_merging.h"
 
-namespace clsurf {
+namespace clsurf::planner_rules_test {
 namespace {
 
 /// A zigzag over waves with a cluster of short lines on every third pass.
@@ -153,4 +153,4 @@ TEST(PlannerRules, WhatTheRunDoesNotShowKeepsItsValueAndIsNamed) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::planner_rules_test

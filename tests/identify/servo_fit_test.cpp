@@ -10,7 +10,7 @@
 #include "simulation/run/servo.h"
 #include "support/vector_rows.h"
 
-namespace clsurf {
+namespace clsurf::servo_fit_test {
 namespace {
 
 /// Positions of a run of one axis.
@@ -169,4 +169,4 @@ TEST(ServoFit, GapsAreNotBridged) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::servo_fit_test

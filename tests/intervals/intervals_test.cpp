@@ -11,7 +11,7 @@
 
 #include "intervals/intervals.h"
 
-namespace clsurf {
+namespace clsurf::intervals_test {
 namespace {
 
 struct Case {
@@ -146,4 +146,4 @@ TEST(Intervals, CharacteristicPointsOfALoopAreThoseOfItsHalves) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::intervals_test

@@ -16,7 +16,7 @@
 #include "intervals/interval_feeds.h"
 #include "program/interpreter.h"
 
-namespace clsurf {
+namespace clsurf::program_intervals_test {
 namespace {
 
 constexpr double wave_length = 30, amplitude = 3, length = 60;
@@ -108,4 +108,4 @@ TEST(IntervalFeeds, HoldTheSpeedThatTheCurvatureAllows) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::program_intervals_test

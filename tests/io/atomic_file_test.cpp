@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "support/temporary_folder.h"
 
-namespace clsurf::io {
+namespace clsurf::io::atomic_file_test {
 namespace {
 
 TEST(AtomicFile, LeavesTheOldFileUntilItIsCommitted) {
@@ -60,4 +60,4 @@ TEST(AtomicFile, SaysWhereItCannotWrite) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::atomic_file_test

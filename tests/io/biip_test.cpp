@@ -8,7 +8,7 @@
 #include "io/files/crc32c.h"
 #include "support/temporary_folder.h"
 
-namespace clsurf::io {
+namespace clsurf::io::biip_test {
 namespace {
 
 TEST(Crc32c, HasTheCheckValueOfItsDefinition) {
@@ -145,4 +145,4 @@ TEST(Biip, SurvivesEveryChangedByteOfItsHeader) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::biip_test

@@ -15,7 +15,7 @@
 #include "io/readers/program_file.h"
 #include "support/temporary_folder.h"
 
-namespace clsurf::io {
+namespace clsurf::io::compressed_test {
 namespace {
 
 std::string gzip_at(int level, const std::string& text) {
@@ -159,4 +159,4 @@ TEST(Compressed, LogsAndProgramsComeCompressed) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::compressed_test

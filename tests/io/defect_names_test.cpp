@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf::io {
+namespace clsurf::io::defect_names_test {
 namespace {
 
 DefectRun run_of(std::int64_t pass, LineNumber first, LineNumber last, PointRange points = {0, 9}) {
@@ -92,4 +92,4 @@ TEST(LinesLabel, NamesTheStrongestSection) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::defect_names_test

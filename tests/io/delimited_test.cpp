@@ -8,7 +8,7 @@
 #include "io/formats/text_head.h"
 #include "support/temporary_folder.h"
 
-namespace clsurf::io {
+namespace clsurf::io::delimited_test {
 namespace {
 
 Log open(const test::TemporaryFolder& folder, const std::string& text, const LogOptions& options = {}) {
@@ -282,4 +282,4 @@ TEST(Delimited, SampleWithEventsHasTheLinesThatWereRecorded) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::delimited_test

@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "support/temporary_folder.h"
 
-namespace clsurf::io {
+namespace clsurf::io::edge_json_test {
 namespace {
 
 Log open(const std::string& text, const LogOptions& options = {}) {
@@ -112,4 +112,4 @@ TEST(Edge, SampleHasItsGapsAndPrograms) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::edge_json_test

@@ -18,7 +18,7 @@
 #include "io/files/compressed.h"
 #include "support/temporary_folder.h"
 
-namespace clsurf::io {
+namespace clsurf::io::growing_log_test {
 namespace {
 
 using test::read_file;
@@ -224,4 +224,4 @@ TEST(GrowingLog, FormatsThatAreWrittenAsAWholeAreRefused) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::growing_log_test

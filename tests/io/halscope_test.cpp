@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "support/temporary_folder.h"
 
-namespace clsurf::io {
+namespace clsurf::io::halscope_test {
 namespace {
 
 Log open(const std::string& text, const LogOptions& options = {}) {
@@ -92,4 +92,4 @@ TEST(Halscope, SampleHasTheLinesThatWereRecorded) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::halscope_test

@@ -21,7 +21,7 @@
 #include "io/files/crc32c.h"
 #include "support/temporary_folder.h"
 
-namespace clsurf::io {
+namespace clsurf::io::header_memory_test {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -284,4 +284,4 @@ TEST(HeaderMemory, OfMetadataWhateverItSays) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::header_memory_test

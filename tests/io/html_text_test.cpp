@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf::io {
+namespace clsurf::io::html_text_test {
 namespace {
 
 TEST(HtmlText, MarkupIsText) {
@@ -41,4 +41,4 @@ TEST(HtmlText, JsonHasNoLessThan) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::html_text_test

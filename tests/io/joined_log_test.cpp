@@ -8,7 +8,7 @@
 #include "io/formats/biip.h"
 #include "support/temporary_folder.h"
 
-namespace clsurf::io {
+namespace clsurf::io::joined_log_test {
 namespace {
 
 /// A log of the times 0, 1, 2 … n − 1 times `period` and a channel that counts from `first`.
@@ -80,4 +80,4 @@ TEST_F(JoinedLog, RefusesWhatDoesNotBelongTogether) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::joined_log_test

@@ -11,7 +11,7 @@
 #include "program/program.h"
 #include "surface/cl_surface.h"
 
-namespace clsurf {
+namespace clsurf::kept_points_test {
 namespace {
 
 constexpr PointIndex points = 20'000;
@@ -171,4 +171,4 @@ TEST(KeptPoints, APointWithoutAPositionIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::kept_points_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf::io {
+namespace clsurf::io::line_ranges_test {
 namespace {
 
 DefectRun run(LineNumber first, LineNumber last) { return {1, {0, 1}, first, last}; }
@@ -31,4 +31,4 @@ TEST(LineRanges, SayLineOfOneAndLinesOfMore) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::line_ranges_test

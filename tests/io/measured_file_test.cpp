@@ -12,7 +12,7 @@
 #include "core/error.h"
 #include "support/temporary_folder.h"
 
-namespace clsurf::io {
+namespace clsurf::io::measured_file_test {
 namespace {
 
 Source source_of(std::string text) {
@@ -196,4 +196,4 @@ TEST(SurfaceDataFile, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::measured_file_test

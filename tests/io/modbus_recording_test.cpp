@@ -13,7 +13,7 @@
 #include "support/modbus_server.h"
 #include "support/temporary_folder.h"
 
-namespace clsurf::io {
+namespace clsurf::io::modbus_recording_test {
 namespace {
 
 using test::ModbusServer;
@@ -318,4 +318,4 @@ TEST_F(ModbusRecording, MakesGapsOfAnswersToOtherRequests) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::modbus_recording_test

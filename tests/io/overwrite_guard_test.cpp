@@ -7,7 +7,7 @@
 #include "io/files/mapped_file.h"
 #include "support/temporary_folder.h"
 
-namespace clsurf::io {
+namespace clsurf::io::overwrite_guard_test {
 namespace {
 
 constexpr int refused = 7;
@@ -64,4 +64,4 @@ TEST(OverwriteGuard, LetsGoWhatIsWritten) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::overwrite_guard_test

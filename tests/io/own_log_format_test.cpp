@@ -8,7 +8,7 @@
 #include "io/formats/log_format.h"
 #include "io/formats/owned_columns.h"
 
-namespace clsurf::io {
+namespace clsurf::io::own_log_format_test {
 namespace {
 
 /// "TRACE 0.002": the period; then lines of X Y Z in micrometres.
@@ -70,4 +70,4 @@ TEST(OwnLogFormat, IsNamedWhereNoFormatSuits) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::own_log_format_test

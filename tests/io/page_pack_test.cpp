@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace clsurf::io {
+namespace clsurf::io::page_pack_test {
 namespace {
 
 std::string from_base64(std::string_view text) {
@@ -104,4 +104,4 @@ TEST(PagePack, CornersOfTrianglesAreComparedWithTheSameCornerBefore) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::page_pack_test

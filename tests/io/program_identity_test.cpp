@@ -5,7 +5,7 @@
 
 #include "io/files/sha256.h"
 
-namespace clsurf::io {
+namespace clsurf::io::program_identity_test {
 namespace {
 
 std::string hash_of(std::string_view text) { return sha256(std::as_bytes(std::span(text.data(), text.size()))); }
@@ -93,4 +93,4 @@ TEST(ProgramIdentity, LeavesOutMetadataOfTooManyKeys) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::program_identity_test

@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "support/temporary_folder.h"
 
-namespace clsurf::io {
+namespace clsurf::io::record_layout_test {
 namespace {
 
 Log open(const test::TemporaryFolder& folder, const std::string& bytes, const std::string& layout) {
@@ -52,4 +52,4 @@ TEST(RecordLayout, SuggestsTheNearestTypeAndKey) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::record_layout_test

@@ -8,7 +8,7 @@
 #include "io/modbus/modbus_address.h"
 #include "support/temporary_folder.h"
 
-namespace clsurf::io {
+namespace clsurf::io::register_map_test {
 namespace {
 
 double value(RegisterType type, ByteOrder order, std::array<std::uint16_t, 2> words, double scale = 1,
@@ -141,4 +141,4 @@ TEST(ModbusAddress, HasTheFormsOfItsPage) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::register_map_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf::io {
+namespace clsurf::io::simulation_origin_test {
 namespace {
 
 Log log_with(std::string metadata) {
@@ -66,4 +66,4 @@ TEST(SimulationOrigin, OtherMetadata) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::simulation_origin_test

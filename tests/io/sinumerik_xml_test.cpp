@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "support/temporary_folder.h"
 
-namespace clsurf::io {
+namespace clsurf::io::sinumerik_xml_test {
 namespace {
 
 Log open(const std::string& text, const LogOptions& options = {}) {
@@ -100,4 +100,4 @@ TEST(SinumerikXml, SampleHasTheLinesThatWereRecorded) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::sinumerik_xml_test

@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "support/temporary_folder.h"
 
-namespace clsurf::io {
+namespace clsurf::io::tool_table_file_test {
 namespace {
 
 ToolTable read(const std::string& text) {
@@ -45,4 +45,4 @@ TEST(ToolTableFile, SaysInWhichLineItCannotBeRead) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::tool_table_file_test

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "support/temporary_folder.h"
 
-namespace clsurf::io {
+namespace clsurf::io::twincat_csv_test {
 namespace {
 
 Log open(const std::string& text, const LogOptions& options = {}) {
@@ -98,4 +98,4 @@ TEST(TwinCat, SampleHasTheLinesThatWereRecorded) {
 }
 
 }  // namespace
-}  // namespace clsurf::io
+}  // namespace clsurf::io::twincat_csv_test

@@ -13,7 +13,7 @@
 #include "log/quantum.h"
 #include "program/interpreter.h"
 
-namespace clsurf {
+namespace clsurf::judge_limits_test {
 namespace {
 
 constexpr double period = 0.001;
@@ -270,4 +270,4 @@ TEST(Resolution, IsTheStepThatPositionsWereRoundedTo) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::judge_limits_test

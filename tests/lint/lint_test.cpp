@@ -11,7 +11,7 @@
 #include "numeric/polyline.h"
 #include "repair/parts.h"
 
-namespace clsurf {
+namespace clsurf::lint_test {
 namespace {
 
 LintReport lint_text(const std::string& text, const LintThresholds& rules = {}) {
@@ -111,4 +111,4 @@ TEST(Polyline, CurvatureOfThreePoints) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::lint_test

@@ -7,7 +7,7 @@
 #include "lint/lint_rule.h"
 #include "repair/parts.h"
 
-namespace clsurf {
+namespace clsurf::own_lint_rule_test {
 namespace {
 
 constexpr double slowest = 20;  // [mm/s]
@@ -58,4 +58,4 @@ TEST(OwnLintRule, StandsBesideOursInEveryReport) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::own_lint_rule_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf {
+namespace clsurf::channel_test {
 namespace {
 
 /// A log of one channel with these values.
@@ -61,4 +61,4 @@ TEST(Channel, TimeIsCountedInSecondsFromTheFirstRecord) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::channel_test

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf {
+namespace clsurf::health_test {
 namespace {
 
 constexpr double period = 0.002;  // [s]
@@ -322,4 +322,4 @@ TEST(Health, TellsADeadChannelFromAnAxisAtRest) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::health_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf {
+namespace clsurf::held_values_test {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -89,4 +89,4 @@ TEST(HeldValues, CountRecordsWhereThereIsNoTime) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::held_values_test

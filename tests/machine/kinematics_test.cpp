@@ -10,7 +10,7 @@
 
 #include "support/vector_rows.h"
 
-namespace clsurf {
+namespace clsurf::kinematics_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -214,4 +214,4 @@ TEST(Kinematics, FollowingGoesThroughThePole) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::kinematics_test

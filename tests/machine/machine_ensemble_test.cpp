@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace clsurf {
+namespace clsurf::machine_ensemble_test {
 namespace {
 
 TEST(MachineEnsemble, IsTheSameAtEveryCall) {
@@ -84,4 +84,4 @@ TEST(MachineEnsemble, OnlyValuesThatPlanTheMotionAreUncertain) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::machine_ensemble_test

@@ -14,7 +14,7 @@
 #include "surface/smoothing_segments.h"
 #include "surface/stitch.h"
 
-namespace clsurf {
+namespace clsurf::as_machined_report_test {
 namespace {
 
 /// A planted log as far as its formed surface.
@@ -194,4 +194,4 @@ TEST(Form, OnACurvedSurfaceItPassesThroughTheContacts) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::as_machined_report_test

@@ -15,7 +15,7 @@
 #include "machined/ungouged_contacts.h"
 #include "support/made_surface.h"
 
-namespace clsurf {
+namespace clsurf::as_machined_surface_test {
 namespace {
 
 using test::MadeSurface;
@@ -339,4 +339,4 @@ TEST(Form, WhatTheToolCutsAwayAgainIsNoForm) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::as_machined_surface_test

@@ -13,7 +13,7 @@
 #include "machined/place_search.h"
 #include "support/stitched_path.h"
 
-namespace clsurf {
+namespace clsurf::contact_points_test {
 namespace {
 
 struct SurfacePoint {
@@ -317,4 +317,4 @@ TEST(PlaceSearch, FromAboveTheTopmostLevelIsMeant) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::contact_points_test

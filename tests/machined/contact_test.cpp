@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace clsurf {
+namespace clsurf::contact_test {
 namespace {
 
 const CuttingTool ball{ToolKind::ball, 3, 3};
@@ -73,4 +73,4 @@ TEST(Contact, TheLargerRadiusIsThatOfTheTorus) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::contact_test

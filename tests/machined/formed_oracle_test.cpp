@@ -14,7 +14,7 @@
 #include "machined/part_roughness.h"
 #include "support/made_surface.h"
 
-namespace clsurf {
+namespace clsurf::formed_oracle_test {
 namespace {
 
 constexpr double step_over = 0.3;
@@ -171,4 +171,4 @@ TEST(FormedOracle, ScallopsInClosedFormAreTheCuspsThatTheZBufferLeaves) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::formed_oracle_test

@@ -9,7 +9,7 @@
 
 #include "support/made_surface.h"
 
-namespace clsurf {
+namespace clsurf::part_roughness_test {
 namespace {
 
 using test::MadeSurface;
@@ -106,4 +106,4 @@ TEST(PartRoughness, AnotherRunIsMeasuredAtTheSamePlacesOverTheSameForm) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::part_roughness_test

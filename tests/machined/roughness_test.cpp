@@ -8,7 +8,7 @@
 
 #include "machined/scallop.h"
 
-namespace clsurf {
+namespace clsurf::roughness_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -83,4 +83,4 @@ TEST(Roughness, AnAreaIsMeasuredAboutItsMean) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::roughness_test

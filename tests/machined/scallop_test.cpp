@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace clsurf {
+namespace clsurf::scallop_test {
 namespace {
 
 constexpr double flat = std::numeric_limits<double>::infinity();
@@ -50,4 +50,4 @@ TEST(Scallop, RefusesWhatCannotBeCut) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::scallop_test

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace clsurf {
+namespace clsurf::swept_pieces_test {
 namespace {
 
 struct Motion {
@@ -109,4 +109,4 @@ TEST(SweptPieces, UnderAFlatBottomAllThatIsEvenIsLeftAsItIs) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::swept_pieces_test

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace clsurf {
+namespace clsurf::tool_test {
 namespace {
 
 TEST(CuttingTool, ReadsItsThreeKinds) {
@@ -22,4 +22,4 @@ TEST(CuttingTool, RefusesWhatIsNone) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::tool_test

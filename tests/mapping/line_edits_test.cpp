@@ -15,7 +15,7 @@
 #include "mapping/map_lines.h"
 #include "program/motion_rows.h"
 
-namespace clsurf {
+namespace clsurf::line_edits_test {
 namespace {
 
 struct TextLine {
@@ -139,4 +139,4 @@ TEST(LineEdits, AtRandomLeaveThePointsOnTheirLines) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::line_edits_test

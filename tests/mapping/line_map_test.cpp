@@ -14,7 +14,7 @@
 #include "mapping/map_lines.h"
 #include "program/interpreter.h"
 
-namespace clsurf {
+namespace clsurf::line_map_test {
 namespace {
 
 struct Sample {
@@ -164,4 +164,4 @@ TEST(LineMap, GoesOnBehindAWayThatIsNoneOfTheProgramsOwn) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::line_map_test

@@ -14,7 +14,7 @@
 #include "program/interpreter.h"
 #include "toolpath/toolpath.h"
 
-namespace clsurf {
+namespace clsurf::motion_track_test {
 namespace {
 
 constexpr double step = 0.4;  ///< [mm] from point to point
@@ -182,4 +182,4 @@ TEST(MotionTrack, ALineOfAnotherFileIsToldFromThatOfTheMainProgram) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::motion_track_test

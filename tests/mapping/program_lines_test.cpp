@@ -6,7 +6,7 @@
 #include "mapping/map_lines.h"
 #include "program/interpreter.h"
 
-namespace clsurf {
+namespace clsurf::program_lines_test {
 namespace {
 
 struct Recorded {
@@ -143,4 +143,4 @@ TEST(ProgramCourse, FindsAPause) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::program_lines_test

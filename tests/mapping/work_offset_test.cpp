@@ -12,7 +12,7 @@
 #include "program/motion_rows.h"
 #include "toolpath/toolpath.h"
 
-namespace clsurf {
+namespace clsurf::work_offset_test {
 namespace {
 
 struct Sample {
@@ -175,4 +175,4 @@ TEST(WorkOffsetAmbiguous, ACubesEdgesFitAtEveryQuarterTurn) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::work_offset_test

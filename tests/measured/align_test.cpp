@@ -8,7 +8,7 @@
 
 #include "support/made_surface.h"
 
-namespace clsurf {
+namespace clsurf::align_test {
 namespace {
 
 constexpr double radius = 3, apart = 0.3, length = 12;
@@ -190,4 +190,4 @@ TEST(Align, APartThatLiesElsewhereIsRefused) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::align_test

@@ -13,7 +13,7 @@
 
 #include "numeric/akima.h"
 
-namespace clsurf {
+namespace clsurf::akima_test {
 namespace {
 
 using Case = std::map<std::string, std::vector<double>>;
@@ -163,4 +163,4 @@ TEST(Akima, AtArcLengthInvertsTheArcLength) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::akima_test

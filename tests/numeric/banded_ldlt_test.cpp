@@ -10,7 +10,7 @@
 
 #include "core/geometry.h"
 
-namespace clsurf {
+namespace clsurf::banded_ldlt_test {
 namespace {
 
 /// A random positive definite matrix by its diagonals, and all of it.
@@ -90,4 +90,4 @@ TEST(BandedLdlt, RefusesAMatrixThatIsNotPositiveDefinite) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::banded_ldlt_test

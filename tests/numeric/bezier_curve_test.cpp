@@ -8,7 +8,7 @@
 
 #include "numeric/bezier_curve.h"
 
-namespace clsurf {
+namespace clsurf::bezier_curve_test {
 namespace {
 
 /// A quarter of a circle of radius 10 about the origin.
@@ -138,4 +138,4 @@ TEST(BezierCurve, ADirectionWhereTheSpeedIsZero) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::bezier_curve_test

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf {
+namespace clsurf::derivative_test {
 namespace {
 
 constexpr double period = 0.001;
@@ -142,4 +142,4 @@ TEST(Derivative, IsThatOfSciPyToItsEnds) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::derivative_test

@@ -10,7 +10,7 @@
 
 #include <Eigen/Dense>
 
-namespace clsurf {
+namespace clsurf::kalman_smoother_test {
 namespace {
 
 using State = Eigen::Vector4d;
@@ -217,4 +217,4 @@ TEST(KalmanSmoother, PartsOfALongRunAgree) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::kalman_smoother_test

@@ -10,7 +10,7 @@
 #include "numeric/least_squares.h"
 #include "support/vector_rows.h"
 
-namespace clsurf {
+namespace clsurf::least_squares_test {
 namespace {
 
 class Profile : public testing::Test {
@@ -93,4 +93,4 @@ TEST(LeastSquaresSpans, GoBesideThePointsOfACubicExactlyAndBackTheSame) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::least_squares_test

@@ -9,7 +9,7 @@
 
 #include "numeric/point_spline.h"
 
-namespace clsurf {
+namespace clsurf::point_spline_test {
 namespace {
 
 using Case = std::map<std::string, std::vector<Vec3>>;
@@ -76,4 +76,4 @@ TEST(PointSpline, TwoPointsAreALine) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::point_spline_test

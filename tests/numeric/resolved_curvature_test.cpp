@@ -9,7 +9,7 @@
 
 #include "numeric/speed_intervals.h"
 
-namespace clsurf {
+namespace clsurf::resolved_curvature_test {
 namespace {
 
 constexpr double least = 1e-3;
@@ -81,4 +81,4 @@ TEST(ResolvedCurvature, IsTheSameForthAndBack) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::resolved_curvature_test

@@ -7,7 +7,7 @@
 
 #include "numeric/tube.h"
 
-namespace clsurf {
+namespace clsurf::tube_test {
 namespace {
 
 constexpr double radius = 0.004;
@@ -79,4 +79,4 @@ TEST(Tube, LeavesAParabolaAlone) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::tube_test

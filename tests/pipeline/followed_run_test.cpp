@@ -16,7 +16,7 @@
 #include "io/readers/part_file.h"
 #include "support/temporary_folder.h"
 
-namespace clsurf {
+namespace clsurf::followed_run_test {
 namespace {
 
 std::string log_of(const std::string& name) { return std::string(SAMPLE_LOGS) + "/" + name + ".biip"; }
@@ -185,4 +185,4 @@ TEST(FollowedRun, ALogOfAnotherProgramHasNoFindings) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::followed_run_test

@@ -16,7 +16,7 @@
 #include "pipeline/simulated_log.h"
 #include "repair/parts.h"
 
-namespace clsurf {
+namespace clsurf::part_test {
 namespace {
 
 /// Nine passes, the fourth with points 0.02 mm apart over 2 mm, where blocks of 2 ms are slower than the feed.
@@ -135,4 +135,4 @@ TEST(Pipeline, ReadsWhatFilesSayOfEachOther) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::part_test

@@ -15,7 +15,7 @@
 #include "pipeline/simulated_log.h"
 #include "repair/parts.h"
 
-namespace clsurf {
+namespace clsurf::programmed_part_test {
 namespace {
 
 constexpr double deg = std::numbers::pi / 180;
@@ -110,4 +110,4 @@ TEST(SimulatedPart, IsThePartOfTheSimulatedLog) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::programmed_part_test

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-namespace clsurf {
+namespace clsurf::roles_test {
 namespace {
 
 constexpr double zeros[3]{};
@@ -69,4 +69,4 @@ TEST(Roles, CompareTwoLogsByWhatBothHave) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::roles_test

@@ -21,7 +21,7 @@
 #include "repair/parts.h"
 #include "support/temporary_folder.h"
 
-namespace clsurf {
+namespace clsurf::shards_test {
 namespace {
 
 /// Three hundred passes, some of them with sections of short blocks, and a machine that takes its time for these.
@@ -376,4 +376,4 @@ TEST_F(Shards, ASurveyOfSomethingElseIsAnError) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::shards_test

@@ -9,7 +9,7 @@
 
 #include "support/stitched_path.h"
 
-namespace clsurf {
+namespace clsurf::bend_test {
 namespace {
 
 constexpr double apart = 0.3, outer = 20, fine = 0.01;
@@ -103,4 +103,4 @@ TEST(Bends, ACircleAwayFromItsLinkHasNone) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::bend_test

@@ -6,7 +6,7 @@
 
 #include "support/made_surface.h"
 
-namespace clsurf {
+namespace clsurf::defect_profile_test {
 namespace {
 
 constexpr double apart = 0.4;
@@ -90,4 +90,4 @@ TEST(DefectProfile, ShowsAPassThatLiesLower) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::defect_profile_test

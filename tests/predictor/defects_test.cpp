@@ -16,7 +16,7 @@
 #include "surface/smoothing_segments.h"
 #include "surface/stitch.h"
 
-namespace clsurf {
+namespace clsurf::defects_test {
 namespace {
 
 using planted::Shape;
@@ -446,4 +446,4 @@ TEST(Defects, AreNotJudgedWherePassesHaveNoNeighbours) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::defects_test

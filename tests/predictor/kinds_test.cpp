@@ -8,7 +8,7 @@
 
 #include "planted_score.h"
 
-namespace clsurf {
+namespace clsurf::kinds_test {
 namespace {
 
 planted::Score score_of(const planted::LogKind& kind, std::uint64_t seed, bool clean, double& coverage) {
@@ -110,4 +110,4 @@ TEST(Kinds, AHeightThatLastsBesideACornerIsNoFlank) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::kinds_test

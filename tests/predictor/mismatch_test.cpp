@@ -7,7 +7,7 @@
 
 #include "support/made_surface.h"
 
-namespace clsurf {
+namespace clsurf::mismatch_test {
 namespace {
 
 constexpr double apart = 0.4;
@@ -103,4 +103,4 @@ TEST(Relief, OfAWideFilletIsNone) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::mismatch_test

@@ -8,7 +8,7 @@
 #include "predictor/mismatch.h"
 #include "support/made_surface.h"
 
-namespace clsurf {
+namespace clsurf::oblique_alignment_test {
 namespace {
 
 constexpr double apart = 0.4, length = 40;
@@ -81,4 +81,4 @@ TEST(ObliqueComparison, IsNotLookedForWherePassesAgreeStraightAcross) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::oblique_alignment_test

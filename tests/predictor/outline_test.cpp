@@ -4,7 +4,7 @@
 
 #include "support/made_surface.h"
 
-namespace clsurf {
+namespace clsurf::outline_test {
 namespace {
 
 constexpr double apart = 0.4;  ///< [mm] between passes
@@ -89,4 +89,4 @@ TEST_F(Outline, TheOutermostPassHasAnOuterSideToo) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::outline_test

@@ -7,7 +7,7 @@
 
 #include "support/made_surface.h"
 
-namespace clsurf {
+namespace clsurf::position_noise_test {
 namespace {
 
 std::vector<PointRange> pieces_of(const test::MadeSurface& made) {
@@ -43,4 +43,4 @@ TEST(PositionNoise, IsNotKnownOfAFewRecords) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::position_noise_test

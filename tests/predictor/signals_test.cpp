@@ -9,7 +9,7 @@
 #include "support/made_surface.h"
 #include "surface/smoothing_segments.h"
 
-namespace clsurf {
+namespace clsurf::signals_test {
 namespace {
 
 using test::MadeSurface;
@@ -160,4 +160,4 @@ TEST(Signals, AMeasuredPathOutsideAWallRunsAboveItWhicheverWayTheToolRuns) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::signals_test

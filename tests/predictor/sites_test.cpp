@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf {
+namespace clsurf::sites_test {
 namespace {
 
 /// A straight pass along a unit vector, from a place on, a point a millisecond.
@@ -95,4 +95,4 @@ TEST(Sites, AreNoneOutsideOfPassesAndWhereTheToolStands) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::sites_test

@@ -4,7 +4,7 @@
 
 #include "program/motion_rows.h"
 
-namespace clsurf {
+namespace clsurf::adversarial_test {
 namespace {
 
 constexpr std::size_t megabytes = 1'000'000;
@@ -85,4 +85,4 @@ TEST(Adversarial, OtherEncodingsAndBytes) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::adversarial_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf {
+namespace clsurf::arc_test {
 namespace {
 
 const ArcTolerance usual = fanuc_rules.arc_tolerance_in(1);
@@ -141,4 +141,4 @@ TEST(ArcChords, ASpiralOfSeveralTurnsStaysWithinTheError) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::arc_test

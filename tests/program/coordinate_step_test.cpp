@@ -11,7 +11,7 @@
 #include "program/dialects/dialect.h"
 #include "program/interpreter.h"
 
-namespace clsurf {
+namespace clsurf::coordinate_step_test {
 namespace {
 
 double step_of(const std::string& text) {
@@ -49,4 +49,4 @@ TEST(CoordinateStep, ToleratesAFewOthers) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::coordinate_step_test

@@ -10,7 +10,7 @@
 
 #include "program/motion_rows.h"
 
-namespace clsurf {
+namespace clsurf::curves_test {
 namespace {
 
 Vec3 at(const Program& program, std::size_t curve, double t) { return program.motions.curves.at(curve).span->at(t); }
@@ -241,4 +241,4 @@ TEST(Curves, ThePublishedCurvesAreTheSameInAllFourForms) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::curves_test

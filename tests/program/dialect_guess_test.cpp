@@ -4,7 +4,7 @@
 
 #include "program/motion_rows.h"
 
-namespace clsurf {
+namespace clsurf::dialect_guess_test {
 namespace {
 
 std::string guess(std::string_view text, std::string_view name = "part.nc") {
@@ -82,4 +82,4 @@ TEST(DialectGuess, KlartextAsDinIsoIsAnErrorThatSaysSo) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::dialect_guess_test

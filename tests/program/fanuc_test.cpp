@@ -5,7 +5,7 @@
 
 #include "program/motion_rows.h"
 
-namespace clsurf {
+namespace clsurf::fanuc_test {
 namespace {
 
 Rows rows(const std::string& text) { return motions(parse(text, "fanuc")); }
@@ -274,4 +274,4 @@ TEST(Programs, TellOfMissingFeedsEndsAndAxes) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::fanuc_test

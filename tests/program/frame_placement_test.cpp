@@ -10,7 +10,7 @@
 #include "program/motion_rows.h"
 #include "program/program_reader.h"
 
-namespace clsurf {
+namespace clsurf::frame_placement_test {
 namespace {
 
 Rows placed(const std::string& text, const char* dialect, Coordinates coordinates, const FramePoses& poses = {}) {
@@ -166,4 +166,4 @@ TEST(WorkFrames, AProgramInPiecesIsOnTheMachineToo) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::frame_placement_test

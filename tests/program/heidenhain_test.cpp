@@ -4,7 +4,7 @@
 
 #include "program/motion_rows.h"
 
-namespace clsurf {
+namespace clsurf::heidenhain_test {
 namespace {
 
 Rows rows(const std::string& text) { return motions(parse(text, "heidenhain-iso")); }
@@ -95,4 +95,4 @@ TEST(Heidenhain, ReportsWhatItDoesNotCarryOut) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::heidenhain_test

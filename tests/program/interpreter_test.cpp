@@ -8,7 +8,7 @@
 #include "io/readers/program_file.h"
 #include "program/motion_rows.h"
 
-namespace clsurf {
+namespace clsurf::interpreter_test {
 namespace {
 
 TEST(Interpreter, KeepsModalMotionAndAxes) {
@@ -172,4 +172,4 @@ TEST(Program, ReadsARealFiveAxisProgram) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::interpreter_test

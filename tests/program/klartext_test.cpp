@@ -5,7 +5,7 @@
 #include "program/dialects/dialect_guess.h"
 #include "program/motion_rows.h"
 
-namespace clsurf {
+namespace clsurf::klartext_test {
 namespace {
 
 Program program_of(const std::string& text) { return parse(text, "klartext"); }
@@ -183,4 +183,4 @@ TEST(Klartext, IsRecognised) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::klartext_test

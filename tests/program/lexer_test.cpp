@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf {
+namespace clsurf::lexer_test {
 namespace {
 
 double decimal(std::string_view text) {
@@ -64,4 +64,4 @@ TEST(PlainBlock, LeavesExpressionsCommentsAndControlWordsToTheDialect) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::lexer_test

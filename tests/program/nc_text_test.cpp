@@ -4,7 +4,7 @@
 
 #include "program/text/nc_text.h"
 
-namespace clsurf {
+namespace clsurf::nc_text_test {
 namespace {
 
 TEST(NcText, WritesNumbers) {
@@ -37,4 +37,4 @@ TEST(NcText, FindsTheEndOfLines) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::nc_text_test

@@ -6,7 +6,7 @@
 #include "program/interpret/interpreter_state.h"
 #include "program/motion_rows.h"
 
-namespace clsurf {
+namespace clsurf::own_dialect_test {
 namespace {
 
 // A drilling machine's language: G77 moves at half the feed, M41 doubles it, "TURN" rotates what follows by 90°,
@@ -64,4 +64,4 @@ TEST(OwnDialect, MeansWhatItsRulesSay) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::own_dialect_test

@@ -7,7 +7,7 @@
 
 #include "program/motion_rows.h"
 
-namespace clsurf {
+namespace clsurf::path_modes_test {
 namespace {
 
 /// "motion end tolerance" of every event that sets a path mode; ends: rounded, path, stop; "own" and "free" tolerances.
@@ -71,4 +71,4 @@ TEST(PathModes, CtolReplacesTheTolerance) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::path_modes_test

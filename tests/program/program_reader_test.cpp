@@ -10,7 +10,7 @@
 #include "program/motion_rows.h"
 #include "program/program_reader.h"
 
-namespace clsurf {
+namespace clsurf::program_reader_test {
 namespace {
 
 bool same(const Xyz& a, const Xyz& b) {
@@ -123,4 +123,4 @@ TEST(ProgramReader, ForgetsWhatWasGoneThrough) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::program_reader_test

@@ -10,7 +10,7 @@
 
 #include "program/interpreter.h"
 
-namespace clsurf {
+namespace clsurf::random_expressions_test {
 namespace {
 
 struct Tree {
@@ -104,4 +104,4 @@ TEST(RandomExpressions, AreWhatTheirTreesAre) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::random_expressions_test

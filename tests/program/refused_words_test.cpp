@@ -4,7 +4,7 @@
 
 #include "program/motion_rows.h"
 
-namespace clsurf {
+namespace clsurf::refused_words_test {
 namespace {
 
 void expect_error(const std::string& text, const char* dialect, const std::string& begin, const std::string& hint) {
@@ -62,4 +62,4 @@ TEST(RefusedWords, MessagesHoldNoControlCharacters) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::refused_words_test

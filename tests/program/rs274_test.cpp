@@ -4,7 +4,7 @@
 
 #include "program/motion_rows.h"
 
-namespace clsurf {
+namespace clsurf::rs274_test {
 namespace {
 
 std::string inside_comp(const std::string& path) { return "G41.1 D4\nG1 F60 X10\nX20\n" + path + "G40\nG1 X50\n"; }
@@ -244,4 +244,4 @@ TEST(Rs274, SplinesRefuseWhatLinuxCncRefuses) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::rs274_test

@@ -6,7 +6,7 @@
 
 #include "program/motion_rows.h"
 
-namespace clsurf {
+namespace clsurf::siemens_test {
 namespace {
 
 Rows rows(const std::string& text) { return motions(parse(text, "siemens")); }
@@ -267,4 +267,4 @@ TEST(SiemensVariables, OfTheControlAreToldToBeDeclared) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::siemens_test

@@ -6,7 +6,7 @@
 
 #include "repair/parts.h"
 
-namespace clsurf {
+namespace clsurf::ensemble_test {
 namespace {
 
 /// Loops that differ: the axes trail by other times, so that forward and backward passes lag apart nearly everywhere.
@@ -40,4 +40,4 @@ TEST(Ensemble, ASystematicLagCountsOnceAsInCheck) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::ensemble_test

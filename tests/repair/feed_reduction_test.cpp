@@ -13,7 +13,7 @@
 #include "surface/path_location.h"
 #include "toolpath/toolpath.h"
 
-namespace clsurf {
+namespace clsurf::feed_reduction_test {
 namespace {
 
 /// Flat passes, the fourth of which has 100 points in 2 mm: blocks of 0.02 mm in 2 ms are passed at 10 mm/s instead of 50.
@@ -213,4 +213,4 @@ TEST(JudgedRun, IsJudgedByTheThresholdsOfAnother) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::feed_reduction_test

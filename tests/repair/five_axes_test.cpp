@@ -22,7 +22,7 @@
 #include "surface/stitch.h"
 #include "toolpath/tip_motions.h"
 
-namespace clsurf {
+namespace clsurf::five_axes_test {
 namespace {
 
 const Vec3 zero(5, -8, 12);
@@ -330,4 +330,4 @@ TEST(FiveAxisOptimizer, WithoutRotaryAxesNamesTheLine) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::five_axes_test

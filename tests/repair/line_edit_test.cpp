@@ -8,7 +8,7 @@
 #include "repair/line_edit.h"
 #include "repair/parts.h"
 
-namespace clsurf {
+namespace clsurf::line_edit_test {
 namespace {
 
 TEST(PlainLine, IsNumberG1AndAxesOnly) {
@@ -184,4 +184,4 @@ TEST(LineEditor, WithoutEditsIsTheProgram) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::line_edit_test

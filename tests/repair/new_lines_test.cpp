@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace clsurf {
+namespace clsurf::new_lines_test {
 namespace {
 
 // An old point that lies beside the line between two aligned points by a little more than it may gets a point of its own. Where
@@ -58,4 +58,4 @@ TEST(NewLines, HaveNoStumps) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::new_lines_test

@@ -6,7 +6,7 @@
 
 #include "repair/ensemble.h"
 
-namespace clsurf {
+namespace clsurf::objective_test {
 namespace {
 
 constexpr RunMeasures before{.mismatch = 10, .defects = 20, .duration = 100};
@@ -80,4 +80,4 @@ TEST(EnsembleTest, TheMeanMustBeBetterAndNoMachineWorse) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::objective_test

@@ -16,7 +16,7 @@
 #include "repair/points/resample.h"
 #include "repair/repair_mask.h"
 
-namespace clsurf {
+namespace clsurf::optimizer_test {
 namespace {
 
 std::vector<Vec3> corners_of(const Program& program) {
@@ -258,4 +258,4 @@ TEST(Optimizer, RefusesASinglePass) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::optimizer_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace clsurf {
+namespace clsurf::ramp_test {
 namespace {
 
 constexpr double period = 0.001;
@@ -106,4 +106,4 @@ TEST(Ramp, IsTheLeastOfAxesAndPath) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::ramp_test

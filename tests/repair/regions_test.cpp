@@ -11,7 +11,7 @@
 #include "repair/parts.h"
 #include "repair/repair_mask.h"
 
-namespace clsurf {
+namespace clsurf::regions_test {
 namespace {
 
 /// Blocks of 0.02 mm take 2 ms: they are passed at 10 mm/s instead of 50.
@@ -131,4 +131,4 @@ TEST(Optimizer, IsNeverWorseThanADraftTakenWhole) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::regions_test

@@ -14,7 +14,7 @@
 #include "repair/spline_lines.h"
 #include "surface/programmed_surface.h"
 
-namespace clsurf {
+namespace clsurf::spline_test {
 namespace {
 
 OldSegment segment_of(const std::vector<Vec3>& points) {
@@ -354,4 +354,4 @@ TEST(Splines, WhereThereIsNoneLinesDoNotBecomeMore) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::spline_test

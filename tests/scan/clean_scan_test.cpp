@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace clsurf {
+namespace clsurf::clean_scan_test {
 namespace {
 
 std::vector<ScanPoint> wave(std::size_t count, double noise) {
@@ -63,4 +63,4 @@ TEST(CleanScan, TheSamePlaceScannedTwiceIsOne) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::clean_scan_test

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "io/readers/program_file.h"
 
-namespace clsurf {
+namespace clsurf::compensate_test {
 namespace {
 
 Program program_of(const std::string& text) {
@@ -88,4 +88,4 @@ TEST(Compensate, RefusesAPassThatGoesOnWithoutDeviations) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::compensate_test

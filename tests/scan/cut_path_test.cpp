@@ -14,7 +14,7 @@
 #include "scan/read_back.h"
 #include "scan/scan_cut.h"
 
-namespace clsurf {
+namespace clsurf::cut_path_test {
 namespace {
 
 Program read_text(const std::string& text, std::string_view dialect) {
@@ -119,4 +119,4 @@ TEST(CutProgram, AProgramThatGoesElsewhereIsSeen) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::cut_path_test

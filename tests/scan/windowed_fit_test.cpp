@@ -11,7 +11,7 @@
 
 #include "support/vector_rows.h"
 
-namespace clsurf {
+namespace clsurf::windowed_fit_test {
 namespace {
 
 std::map<std::string, std::vector<double>> numbers_of(const std::string& room, const std::string& file) {
@@ -120,4 +120,4 @@ TEST(WindowedFit, JoinedWindowsHaveOneValueAndOneSlope) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::windowed_fit_test

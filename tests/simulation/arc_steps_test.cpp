@@ -10,7 +10,7 @@
 #include "simulation/path/transition_arc.h"
 #include "support/made_motion.h"
 
-namespace clsurf {
+namespace clsurf::arc_steps_test {
 namespace {
 
 constexpr double tolerance = 0.01, feed = 50, axis_jerk = 80000, path_jerk = 50000, period = 0.001;
@@ -137,4 +137,4 @@ TEST(ArcSteps, WithoutATimeThereAreSplines) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::arc_steps_test

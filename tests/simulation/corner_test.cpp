@@ -13,7 +13,7 @@
 #include "support/made_motion.h"
 #include "support/vector_rows.h"
 
-namespace clsurf {
+namespace clsurf::corner_test {
 namespace {
 
 void near(double value, double expected, double relative, double absolute, const std::string& what) {
@@ -234,4 +234,4 @@ TEST(Corner, IsRoundedBesideAnExactPath) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::corner_test

@@ -11,7 +11,7 @@
 #include "simulation/path/curve_blocks.h"
 #include "support/made_motion.h"
 
-namespace clsurf {
+namespace clsurf::curve_blocks_test {
 namespace {
 
 std::string lines_through(const std::vector<Vec3>& points) {
@@ -133,4 +133,4 @@ TEST(CurveBlocks, TakeTheFacetsOutOfACircle) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::curve_blocks_test

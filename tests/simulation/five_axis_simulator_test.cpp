@@ -18,7 +18,7 @@
 #include "toolpath/tip_motions.h"
 #include "toolpath/toolpath.h"
 
-namespace clsurf {
+namespace clsurf::five_axis_simulator_test {
 namespace {
 
 const Vec3 zero(5, -8, 12);
@@ -180,4 +180,4 @@ TEST(FiveAxisSimulator, FeedOfZeroNamesTheLine) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::five_axis_simulator_test

@@ -11,7 +11,7 @@
 #include "simulation/plan/scurve.h"
 #include "support/made_motion.h"
 
-namespace clsurf {
+namespace clsurf::junction_test {
 namespace {
 
 /// Without a jerk limit, 500 mm/s² for the path, normal to it, and for each axis; corners by junction deviation.
@@ -157,4 +157,4 @@ TEST(WholePeriods, AFeedIsLoweredToAWholeNumberOfPeriods) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::junction_test

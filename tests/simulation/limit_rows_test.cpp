@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Core>
 
-namespace clsurf {
+namespace clsurf::limit_rows_test {
 namespace {
 
 constexpr std::size_t coefficients = 12;
@@ -148,4 +148,4 @@ TEST(LimitRows, NameTheNearestLimitOfACell) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::limit_rows_test

@@ -13,7 +13,7 @@
 
 #include "support/made_motion.h"
 
-namespace clsurf {
+namespace clsurf::random_programs_test {
 namespace {
 
 /// What a file of random machines and programs is made of.
@@ -201,4 +201,4 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::random_programs_test

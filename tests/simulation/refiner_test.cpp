@@ -12,7 +12,7 @@
 #include "simulation/plan/refiner.h"
 #include "support/made_motion.h"
 
-namespace clsurf {
+namespace clsurf::refiner_test {
 namespace {
 
 /// What a Refiner passes on: speed and acceleration along the programmed path at the ends of each part.
@@ -134,4 +134,4 @@ TEST(Refiner, ALineBetweenRestsStaysAsPlanned) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::refiner_test

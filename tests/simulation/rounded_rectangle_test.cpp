@@ -13,7 +13,7 @@
 #include "simulation/path/transition_arc.h"
 #include "simulation/plan/scurve.h"
 
-namespace clsurf {
+namespace clsurf::rounded_rectangle_test {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity();
@@ -88,4 +88,4 @@ TEST(RoundedRectangle, ThreeArcLengthMinimumAtACorner) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::rounded_rectangle_test

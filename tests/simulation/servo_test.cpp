@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf {
+namespace clsurf::servo_test {
 namespace {
 
 ServoModel ideal() {
@@ -95,4 +95,4 @@ TEST(Servo, ReadsWholeStepsOfTheEncoder) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::servo_test

@@ -16,7 +16,7 @@
 #include "simulation/run/recorder.h"
 #include "support/made_motion.h"
 
-namespace clsurf {
+namespace clsurf::simulator_test {
 namespace {
 
 Recorded run(const std::string& text, const Machine& machine) { return run_program(program_of(text), machine); }
@@ -456,4 +456,4 @@ TEST(Simulator, RefusesWhatItCannotRun) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::simulator_test

@@ -9,7 +9,7 @@
 
 #include "support/vector_rows.h"
 
-namespace clsurf {
+namespace clsurf::speed_problem_test {
 namespace {
 
 constexpr double length = 12;  // [mm]
@@ -154,4 +154,4 @@ TEST(SpeedProblem, KeepsItsValuesWhereNothingIsFaster) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::speed_problem_test

@@ -5,7 +5,7 @@
 
 #include "simulation/plan/speed_scan.h"
 
-namespace clsurf {
+namespace clsurf::speed_scan_test {
 namespace {
 
 double time_of(const SpeedScan& scan) {
@@ -132,4 +132,4 @@ TEST(SpeedScan, HoldsItsLimitsIsTightAndTheSameBackwards) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::speed_scan_test

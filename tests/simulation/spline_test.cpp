@@ -9,7 +9,7 @@
 #include "simulation/path/spline_sections.h"
 #include "support/made_motion.h"
 
-namespace clsurf {
+namespace clsurf::spline_test {
 namespace {
 
 /// A half circle of radius 10, in four rational quadratic pieces of 45°, and the same as one arc.
@@ -101,4 +101,4 @@ TEST(Splines, SectionsAreArcsWithCommonTangentsBesideTheCurve) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::spline_test

@@ -9,7 +9,7 @@
 
 #include "support/vector_rows.h"
 
-namespace clsurf {
+namespace clsurf::tool_axis_path_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -108,4 +108,4 @@ TEST(ToolAxisPath, DegenerateEnds) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::tool_axis_path_test

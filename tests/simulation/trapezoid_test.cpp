@@ -16,7 +16,7 @@
 #include "support/temporary_folder.h"
 #include "toolpath/trajectory.h"
 
-namespace clsurf {
+namespace clsurf::trapezoid_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -278,4 +278,4 @@ TEST(MachineFile, RefusesKeysThatThePlannerDoesNotUse) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::trapezoid_test

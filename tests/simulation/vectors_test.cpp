@@ -13,7 +13,7 @@
 #include "simulation/run/interpolator.h"
 #include "support/vector_rows.h"
 
-namespace clsurf {
+namespace clsurf::vectors_test {
 namespace {
 
 std::vector<VectorRow> rows(const std::string& file) { return vector_rows("simulation", file); }
@@ -148,4 +148,4 @@ TEST(LookaheadVectors, JerkLimitedScan) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::vectors_test

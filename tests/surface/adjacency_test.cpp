@@ -5,7 +5,7 @@
 #include "core/parallel.h"
 #include "support/made_path.h"
 
-namespace clsurf {
+namespace clsurf::adjacency_test {
 namespace {
 
 Adjacency neighbours_of(const Positions& p, double step_over) {
@@ -80,4 +80,4 @@ TEST(Adjacency, IsTheSameForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::adjacency_test

@@ -5,7 +5,7 @@
 #include "support/made_path.h"
 #include "surface/step_over.h"
 
-namespace clsurf {
+namespace clsurf::passes_test {
 namespace {
 
 TEST(StepOver, IsFoundOnAZigzagAndASpiral) {
@@ -48,4 +48,4 @@ TEST(Passes, AreNotCutWhereTheSpeedIsLow) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::passes_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf {
+namespace clsurf::selection_test {
 namespace {
 
 /// Two passes of five points beside each other, with a link of two between them.
@@ -63,4 +63,4 @@ TEST(Selection, CountsCutPassesFromOne) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::selection_test

@@ -17,7 +17,7 @@
 #include "numeric/derivative.h"
 #include "toolpath/motion_estimate.h"
 
-namespace clsurf {
+namespace clsurf::encoder_and_scale_test {
 namespace {
 
 constexpr double period = 0.001;
@@ -490,4 +490,4 @@ TEST(EncoderAndScale, AFaultyEncoderHardlyCounts) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::encoder_and_scale_test

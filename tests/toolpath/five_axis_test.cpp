@@ -16,7 +16,7 @@
 #include "support/made_five_axis.h"
 #include "toolpath/tip_motions.h"
 
-namespace clsurf {
+namespace clsurf::five_axis_test {
 namespace {
 
 const Vec3 zero(12, -7, 31);  ///< machine position of the programs' zero
@@ -266,4 +266,4 @@ TEST(FiveAxisPositions, NeedTheRotaryChannels) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::five_axis_test

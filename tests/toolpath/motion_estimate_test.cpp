@@ -12,7 +12,7 @@
 #include "core/error.h"
 #include "numeric/derivative.h"
 
-namespace clsurf {
+namespace clsurf::motion_estimate_test {
 namespace {
 
 constexpr double period = 0.001;
@@ -233,4 +233,4 @@ TEST(MotionEstimate, IsRefusedWhereItsErrorsCannotBeStated) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::motion_estimate_test

@@ -12,7 +12,7 @@
 #include "toolpath/motion_estimate.h"
 #include "toolpath/trajectory.h"
 
-namespace clsurf {
+namespace clsurf::recorded_speed_test {
 namespace {
 
 constexpr PointIndex lead = 2;  // [records]
@@ -123,4 +123,4 @@ TEST_P(RecordedSpeed, OfAKalmanSmootherHoldsItsUncertainty) {
 INSTANTIATE_TEST_SUITE_P(Recorded, RecordedSpeed, testing::ValuesIn(logs));
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::recorded_speed_test

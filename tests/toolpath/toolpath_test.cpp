@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf {
+namespace clsurf::toolpath_test {
 namespace {
 
 Motions quarter_circle() {
@@ -88,4 +88,4 @@ TEST(Toolpath, FindsTheFootOnACurve) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::toolpath_test

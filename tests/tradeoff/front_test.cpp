@@ -8,7 +8,7 @@
 
 #include "tradeoff/front.h"
 
-namespace clsurf {
+namespace clsurf::front_test {
 namespace {
 
 TradeoffRow row(double time, double mismatch, double jerk) {
@@ -129,4 +129,4 @@ TEST(Weight, TradesTimeForSurfaceOneWay) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::front_test

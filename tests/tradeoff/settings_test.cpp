@@ -8,7 +8,7 @@
 #include "repair/parts.h"
 #include "tradeoff/settings_search.h"
 
-namespace clsurf {
+namespace clsurf::settings_test {
 namespace {
 
 double crowded_pass(int pass, double x) { return pass == 3 && x > 3 && x < 5 ? 0.02 : 0.31; }
@@ -103,4 +103,4 @@ TEST(SettingsSearch, RefusesAPartWithoutAdjacentPasses) {
 }
 
 }  // namespace
-}  // namespace clsurf
+}  // namespace clsurf::settings_test

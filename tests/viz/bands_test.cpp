@@ -8,7 +8,7 @@
 
 #include "support/stitched_path.h"
 
-namespace clsurf::viz {
+namespace clsurf::viz::bands_test {
 namespace {
 
 constexpr int passes = 40;
@@ -48,4 +48,4 @@ TEST(Bands, FewVerticesFarApartLeaveNothingOpen) {
 }
 
 }  // namespace
-}  // namespace clsurf::viz
+}  // namespace clsurf::viz::bands_test

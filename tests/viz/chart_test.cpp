@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf::viz {
+namespace clsurf::viz::chart_test {
 namespace {
 
 TEST(ThinCurve, KeepsEveryExtremeOfEveryColumn) {
@@ -37,4 +37,4 @@ TEST(Chart, BreaksAFootnoteBeforeTheEdge) {
 }
 
 }  // namespace
-}  // namespace clsurf::viz
+}  // namespace clsurf::viz::chart_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf::viz {
+namespace clsurf::viz::colour_difference_test {
 namespace {
 
 struct Pair {
@@ -37,4 +37,4 @@ TEST(ColourDifference, WhiteAndBlackAreTheEndsOfTheScale) {
 }
 
 }  // namespace
-}  // namespace clsurf::viz
+}  // namespace clsurf::viz::colour_difference_test

@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "viz/colour_difference.h"
 
-namespace clsurf::viz {
+namespace clsurf::viz::colour_map_test {
 namespace {
 
 double lightness(Rgb c) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; }
@@ -148,4 +148,4 @@ TEST(Ticks, AreRound) {
 }
 
 }  // namespace
-}  // namespace clsurf::viz
+}  // namespace clsurf::viz::colour_map_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf::viz {
+namespace clsurf::viz::defect_map_test {
 namespace {
 
 /// Twice the signed area of a triangle.
@@ -53,4 +53,4 @@ TEST(TopOfNames, IsBesideTheAnchorsAndInTheRoom) {
 }
 
 }  // namespace
-}  // namespace clsurf::viz
+}  // namespace clsurf::viz::defect_map_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf::viz {
+namespace clsurf::viz::depth_buffer_test {
 namespace {
 
 /// A square of 10 mm by 10 mm at z = 5 mm, seen from above.
@@ -41,4 +41,4 @@ TEST_F(DepthBufferTest, NothingIsHiddenOutsideThePicture) {
 }
 
 }  // namespace
-}  // namespace clsurf::viz
+}  // namespace clsurf::viz::depth_buffer_test

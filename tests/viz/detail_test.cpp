@@ -8,7 +8,7 @@
 
 #include "support/stitched_path.h"
 
-namespace clsurf::viz {
+namespace clsurf::viz::detail_test {
 namespace {
 
 using test::surface_of;
@@ -119,4 +119,4 @@ TEST(Detail, LeavesAMissingPassOpen) {
 }
 
 }  // namespace
-}  // namespace clsurf::viz
+}  // namespace clsurf::viz::detail_test

@@ -10,7 +10,7 @@
 #include "viz/gl_context.h"
 #include "viz/vector_picture.h"
 
-namespace clsurf::viz {
+namespace clsurf::viz::drawing_test {
 namespace {
 
 Sheet red_square() {
@@ -165,4 +165,4 @@ TEST(Drawing, PutsLinesAboveThoseUnderThem) {
 TEST(Drawing, RefusesAnUnknownContext) { EXPECT_THROW((void)make_gl_context("glx", 8, 8), UsageError); }
 
 }  // namespace
-}  // namespace clsurf::viz
+}  // namespace clsurf::viz::drawing_test

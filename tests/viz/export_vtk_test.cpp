@@ -15,7 +15,7 @@
 #include "support/made_path.h"
 #include "support/temporary_folder.h"
 
-namespace clsurf::viz {
+namespace clsurf::viz::export_vtk_test {
 namespace {
 
 /// Passes of a zigzag, stitched: three where nothing else is given.
@@ -123,4 +123,4 @@ TEST(ExportVtk, NumbersOfLinesAndTimesAreNotRounded) {
 }
 
 }  // namespace
-}  // namespace clsurf::viz
+}  // namespace clsurf::viz::export_vtk_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf::viz {
+namespace clsurf::viz::field_classes_test {
 namespace {
 
 FieldInfo limits() {
@@ -129,4 +129,4 @@ TEST(DivideByClass, LeavesCellsOfOneClassWhole) {
 }
 
 }  // namespace
-}  // namespace clsurf::viz
+}  // namespace clsurf::viz::field_classes_test

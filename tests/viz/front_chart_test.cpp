@@ -9,7 +9,7 @@
 
 #include "viz/drawing.h"
 
-namespace clsurf::viz {
+namespace clsurf::viz::front_chart_test {
 namespace {
 
 struct Number {
@@ -85,4 +85,4 @@ TEST(FrontChart, OfOneRow) {
 }
 
 }  // namespace
-}  // namespace clsurf::viz
+}  // namespace clsurf::viz::front_chart_test

@@ -4,7 +4,7 @@
 
 #include "support/temporary_folder.h"
 
-namespace clsurf::viz {
+namespace clsurf::viz::image_compare_test {
 namespace {
 
 Image grey(std::uint8_t value) {
@@ -115,4 +115,4 @@ TEST(Image, ShrinksToTheMean) {
 }
 
 }  // namespace
-}  // namespace clsurf::viz
+}  // namespace clsurf::viz::image_compare_test

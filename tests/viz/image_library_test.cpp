@@ -3,7 +3,7 @@
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
-namespace clsurf::viz {
+namespace clsurf::viz::image_library_test {
 namespace {
 
 // exit() beside a library's constructors ended in an assertion of one of OpenImageIO's libraries.
@@ -15,4 +15,4 @@ TEST(ImageLibrary, IsLoadedWhenThePreloadEnds) {
 }
 
 }  // namespace
-}  // namespace clsurf::viz
+}  // namespace clsurf::viz::image_library_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clsurf::viz {
+namespace clsurf::viz::map_axes_test {
 namespace {
 
 MeshPanel panel_of(const Look& look, const Box3& part) {
@@ -124,4 +124,4 @@ TEST(MapAxes, APartOfAPictureHasNoBox) {
 }
 
 }  // namespace
-}  // namespace clsurf::viz
+}  // namespace clsurf::viz::map_axes_test

@@ -10,7 +10,7 @@
 #include "viz/field_colours.h"
 #include "viz/scene.h"
 
-namespace clsurf::viz {
+namespace clsurf::viz::map_layout_test {
 namespace {
 
 /// A flat part, 10 mm wide and `deep` mm deep, from above.
@@ -132,4 +132,4 @@ TEST(MapLayout, TheTableOfATallPictureHasEveryDefect) {
 }
 
 }  // namespace
-}  // namespace clsurf::viz
+}  // namespace clsurf::viz::map_layout_test

@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "viz/label_placer.h"
 
-namespace clsurf::viz {
+namespace clsurf::viz::view_test {
 namespace {
 
 const Box3 box(Vec3(-10, -5, 0), Vec3(10, 5, 2));
@@ -82,4 +82,4 @@ TEST(LabelPlacer, NoLabelLiesOnAnotherOneNorOutside) {
 }
 
 }  // namespace
-}  // namespace clsurf::viz
+}  // namespace clsurf::viz::view_test
