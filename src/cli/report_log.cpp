@@ -59,10 +59,13 @@ ReportLog load_report_log(const PartOptions& part_options, const ReportOptions& 
     shown.part = load_part(part_options, clock);
     clock.begin("stitch the surface");
     shown.surface = stitch(shown.part);
+    const FieldSet fields = fields_of(shown.part, shown.surface);
+    for (const std::string& name : options.fields) {
+        if (!fields.has(name)) unknown_field(name, fields.fields());  // before what takes long
+    }
     shown.quality = judge(shown.part, shown.surface, options.measured, {}, clock.stages());
     shown.part.diagnostics.append(shown.quality.diagnostics);
     clock.begin("compute the fields");
-    const FieldSet fields = fields_of(shown.part, shown.surface);
     const bool usual = options.fields.empty();
     for (Field& field : fields.get_all(usual ? fields.report_names(most_fields) : options.fields)) {
         // What was asked for by name must be there; of the usual ones a log has some.

@@ -16,12 +16,12 @@ double planned_speed(const SpeedInterval& interval, double feed, const SpeedLimi
     double speed = feed;
     if (interval.mean_curvature > 0)
         speed = std::min(speed, std::sqrt(limits.normal_acceleration / interval.mean_curvature));
-    const double bend = interval.greatest_curvature;
-    if (!(bend > 0)) return speed;
-    speed = std::min(speed, std::sqrt(limits.normal_acceleration / bend));
+    const double curvature = interval.greatest_curvature;
+    if (!(curvature > 0)) return speed;
+    speed = std::min(speed, std::sqrt(limits.normal_acceleration / curvature));
     if (limits.chord_tolerance > 0)
-        speed = std::min(speed, chord_speed(1 / bend, limits.chord_tolerance, limits.period));
-    if (limits.jerk > 0) speed = std::min(speed, std::cbrt(limits.jerk / (bend * bend)));
+        speed = std::min(speed, chord_speed(1 / curvature, limits.chord_tolerance, limits.period));
+    if (limits.jerk > 0) speed = std::min(speed, std::cbrt(limits.jerk / (curvature * curvature)));
     return speed;
 }
 

@@ -82,19 +82,20 @@ StepClock judge_steps(const Log& log, const ClockRules& rules, PointIndex begin,
     const auto step = [&](std::size_t i) { return Vec3(x[i] - x[i - 1], y[i] - y[i - 1], z[i] - z[i - 1]); };
     for (std::size_t i = 2; i < n; ++i) {
         // Most records are clean, and this is the cheapest proof of it.
-        const double bend_x = x[i] - 2 * x[i - 1] + x[i - 2], bend_y = y[i] - 2 * y[i - 1] + y[i - 2],
-                     bend_z = z[i] - 2 * z[i - 1] + z[i - 2];
-        const double bend = bend_x * bend_x + bend_y * bend_y + bend_z * bend_z;
-        if (!(bend > kept * kept)) continue;
+        const double second_x = x[i] - 2 * x[i - 1] + x[i - 2], second_y = y[i] - 2 * y[i - 1] + y[i - 2],
+                     second_z = z[i] - 2 * z[i - 1] + z[i - 2];
+        const double squared_difference = second_x * second_x + second_y * second_y + second_z * second_z;
+        if (!(squared_difference > kept * kept)) continue;
         if (i >= 3 && i + 2 < n &&
             fits_more_periods({step(i - 2), step(i - 1), step(i), step(i + 1), step(i + 2)}, kept))
             steps.broken[i] = 1;
         if (i >= 4 && i + 1 < n &&
             fits_more_periods({step(i - 3), step(i - 2), step(i - 1), step(i), step(i + 1)}, kept))
             steps.broken[i - 1] = 1;
-        if (!(bend > allowed * allowed)) continue;
+        if (!(squared_difference > allowed * allowed)) continue;
         const Vec3 before = step(i - 1), here = step(i);
-        if (bend > jump * jump || is_multiple(before, here, allowed)) steps.broken[i - 1] = steps.broken[i] = 1;
+        if (squared_difference > jump * jump || is_multiple(before, here, allowed))
+            steps.broken[i - 1] = steps.broken[i] = 1;
         if (i + 1 < n && looks_lost(before, here, step(i + 1), allowed)) steps.broken[i] = 1;
     }
     return steps;

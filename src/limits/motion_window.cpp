@@ -18,7 +18,7 @@ constexpr std::array<double, 4> roundings{1, 1, 2, 4};
 constexpr double last_places = 4 * std::numeric_limits<double>::epsilon();
 
 /// 1 − cos of the angle between two steps; 1 where one of them has no direction.
-double bend(const Vec3& a, const Vec3& b) {
+double one_minus_cosine(const Vec3& a, const Vec3& b) {
     const double lengths = a.norm() * b.norm();
     return lengths > 0 ? std::max(0.0, 1 - a.dot(b) / lengths) : 1;
 }
@@ -154,7 +154,8 @@ MotionWindow::Value MotionWindow::path_jerk(std::size_t i, std::size_t stride) c
     double shortening = 0, longest = 0;
     for (std::size_t c = 1; c < 4; ++c) {
         const double weight = c == 2 ? 2 : 1;
-        const double turned = 0.5 * (bend(chords[c - 1], chords[c]) + bend(chords[c], chords[c + 1]));
+        const double turned =
+            0.5 * (one_minus_cosine(chords[c - 1], chords[c]) + one_minus_cosine(chords[c], chords[c + 1]));
         shortening += weight * turned * chords[c].norm();
         longest = std::max(longest, chords[c].norm());
     }

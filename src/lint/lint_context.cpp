@@ -10,7 +10,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double least_curvature = 1e-4;  ///< [1/mm] below it a line does not bend
+constexpr double least_curvature = 1e-4;  ///< [1/mm] below it a line is straight
 constexpr std::size_t bridged_ends = 2;   ///< good points between bad ones that do not end a run
 
 /// Direction of the feed at a point of a pass; 0: the tool stands.
@@ -64,8 +64,8 @@ void LintContext::measure_chords() {
     for (const ProgrammedPass& pass : passes_) {
         std::vector<double> curvature(pass.ends.size(), 0);
         for (std::size_t k = 1; k + 1 < pass.ends.size(); ++k) {
-            const double bend = three_point_curvature(at(pass.ends[k - 1]), at(pass.ends[k]), at(pass.ends[k + 1]));
-            curvature[k] = is_corner(pass, k) ? 0 : bend;
+            const double measured = three_point_curvature(at(pass.ends[k - 1]), at(pass.ends[k]), at(pass.ends[k + 1]));
+            curvature[k] = is_corner(pass, k) ? 0 : measured;
         }
         for (std::size_t k = 2; k + 1 < pass.ends.size(); ++k) {
             if (!is_line(pass.ends[k])) continue;

@@ -79,13 +79,13 @@ PerMotion turning_angles(const Program& program) {
 }
 
 /// Curvature of a run of lines through its corners: that of three points where coordinates are exact, else over sections
-/// that rounding does not bend.
+/// that rounding does not distort.
 std::vector<double> curvatures_of_run(const std::vector<Vec3>& corners, double step) {
     if (step > 0) return resolved_curvatures(corners, step, least_curvature);
-    std::vector<double> bend(corners.size(), 0);
+    std::vector<double> curvature(corners.size(), 0);
     for (std::size_t k = 1; k + 1 < corners.size(); ++k)
-        bend[k] = three_point_curvature(corners[k - 1], corners[k], corners[k + 1]);
-    return bend;
+        curvature[k] = three_point_curvature(corners[k - 1], corners[k], corners[k + 1]);
+    return curvature;
 }
 
 PerMotion curvatures(const Program& program) {
@@ -96,9 +96,10 @@ PerMotion curvatures(const Program& program) {
     std::vector<std::int64_t> lines;  // lines[k] goes from corner k to corner k + 1
     const auto close = [&] {
         if (lines.size() > 1) {
-            const std::vector<double> bend = curvatures_of_run(corners, step);
+            const std::vector<double> curvature = curvatures_of_run(corners, step);
             for (std::size_t k = 0; k < lines.size(); ++k)
-                values[static_cast<std::size_t>(lines[k])] = static_cast<float>(std::max(bend[k], bend[k + 1]));
+                values[static_cast<std::size_t>(lines[k])] =
+                    static_cast<float>(std::max(curvature[k], curvature[k + 1]));
         }
         corners.clear();
         lines.clear();

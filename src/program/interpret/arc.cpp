@@ -118,8 +118,8 @@ double arc_length(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3&
 int chord_count(double radius, double sweep, double widening, double error) {
     // A chord over the part h of a curve p(0 … 1) stays within h²/8 · max |p''| of it, and a spiral's p'' is
     // a radial part, radius · sweep², and one across, 2 · widening · sweep.
-    const double bend = std::hypot(radius * sweep * sweep, 2 * widening * sweep);
-    return static_cast<int>(std::clamp(std::ceil(std::sqrt(bend / (8 * error))), 1.0, most_chords));
+    const double second_derivative = std::hypot(radius * sweep * sweep, 2 * widening * sweep);
+    return static_cast<int>(std::clamp(std::ceil(std::sqrt(second_derivative / (8 * error))), 1.0, most_chords));
 }
 
 std::vector<Vec3> arc_chords(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end, double error) {

@@ -68,10 +68,10 @@ private:
 
     /// An opening by the parabola that the jerk bends a speed along: the greatest speeds below these that turn down no sharper.
     [[nodiscard]] std::vector<float> opened(std::span<const float> speeds) const {
-        const float bend = 0.5F * jerk_ * period_ * period_;
-        std::vector<float> curve = lowered_by_parabolas({speeds.begin(), speeds.end()}, bend);
+        const float drop = 0.5F * jerk_ * period_ * period_;
+        std::vector<float> curve = lowered_by_parabolas({speeds.begin(), speeds.end()}, drop);
         for (float& v : curve) v = -v;
-        curve = lowered_by_parabolas(curve, bend);
+        curve = lowered_by_parabolas(curve, drop);
         for (float& v : curve) v = -v;
         return curve;
     }

@@ -89,7 +89,7 @@ export class CurvesPane {
             {
                 width: 300,
                 height: 80,
-                padding: [6, 12, 0, 0],
+                padding: [6, 12, last ? 0 : 6, 0], // half a tick text
                 legend: { show: false },
                 cursor: { drag: { x: true, y: false, setScale: false }, points: { show: false }, y: false },
                 scales: { x: { time: false } },
