@@ -16,12 +16,16 @@ void draw_speed_residual(const Identification& result, std::span<const Part> par
                          PictureOutput& output) {
     const bool tested = !result.tests.empty();
     const std::vector<RunFidelity>& runs = tested ? result.tests : result.fit;
+    const std::span<const Part> logged = tested ? tests : parts;
     if (runs.empty())
         throw InputError(Place::of_file(parts.front().log.name), "cannot be compared with a simulation: no picture");
     const auto worst = std::max_element(runs.begin(), runs.end(), [](const RunFidelity& a, const RunFidelity& b) {
         return a.speed_error_p95 < b.speed_error_p95;
     });
-    const RecordedRun run((tested ? tests : parts)[static_cast<std::size_t>(worst - runs.begin())]);
+    // Runs that cannot be simulated are missing in `runs`.
+    const auto part =
+        std::find_if(logged.begin(), logged.end(), [&](const Part& p) { return p.log.name == worst->log; });
+    const RecordedRun run(*part);
     const Part simulation = run.simulated(result.machine);
     RunDifferences differences = run.differences(simulation);
     DrawnDifference shown = drawn_difference(differences, RunQuantity::speed);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -33,15 +32,19 @@ void identify_period(std::span<const IdentifyRun> runs, Identification& result) 
     result.parameters.push_back({"period", "controller", period, "s", {}, {}, "of the records"});
 }
 
-/// Nothing, and the reason in `result`, where the machine cannot drive the program: limits that the runs never reached may be
-/// too low for it.
-std::optional<RunFidelity> fidelity_of(const RecordedRun& run, const Machine& machine, Identification& result) {
+/// Adds to `list` how a machine drives a run, or names the reason in `result` why that cannot be said: limits that the runs of
+/// the fit never reached may be too low for it.
+void add_fidelity(const RecordedRun& run, const Machine& machine, std::vector<RunFidelity>& list,
+                  Identification& result) {
+    const std::string& name = run.part().log.name;
     try {
-        return run.fidelity(machine);
+        const RunFidelity fidelity = run.fidelity(machine);
+        if (fidelity.compared > 0)
+            list.push_back(fidelity);
+        else
+            result.unidentified.push_back({"fidelity", "controller", name + " follows its program nowhere"});
     } catch (const InputError& error) {
-        result.unidentified.push_back(
-            {"fidelity", "controller", run.part().log.name + " cannot be simulated: " + error.what()});
-        return std::nullopt;
+        result.unidentified.push_back({"fidelity", "controller", name + " cannot be simulated: " + error.what()});
     }
 }
 
@@ -84,13 +87,7 @@ Identification identify_parts(std::span<const Part> parts, const Machine& known)
     std::vector<RecordedRun> recorded;
     for (const Part& part : parts) recorded.emplace_back(part);
     identify_rules(recorded, result);
-    for (const RecordedRun& run : recorded) {
-        const std::optional<RunFidelity> fidelity = fidelity_of(run, result.machine, result);
-        if (fidelity && fidelity->compared > 0)
-            result.fit.push_back(*fidelity);
-        else if (fidelity)
-            result.unidentified.push_back({"fidelity", "controller", fidelity->log + " follows its program nowhere"});
-    }
+    for (const RecordedRun& run : recorded) add_fidelity(run, result.machine, result.fit, result);
     result.machine.fidelity = summary_of(result.fit, FidelityBasis::fit);
     result.machine.uncertainty = uncertainty_of(result);
     return result;
@@ -113,22 +110,19 @@ void cross_validate(std::vector<Part>& parts, const Machine& known, Identificati
     for (std::size_t k = 0; k < parts.size(); ++k) {
         std::rotate(parts.begin(), parts.begin() + 1, parts.end());  // the last one is left out
         const Identification others = identify_parts(std::span(parts).first(parts.size() - 1), known);
-        if (const auto fidelity = fidelity_of(RecordedRun(parts.back()), others.machine, result))
-            result.cross_validation.push_back(*fidelity);
+        add_fidelity(RecordedRun(parts.back()), others.machine, result.cross_validation, result);
     }
     result.machine.fidelity = summary_of(result.cross_validation, FidelityBasis::cross_validation);
 }
 
 void test_runs(std::span<const Part> parts, Identification& result) {
-    if (parts.empty()) return;
-    if (const std::string reason = why_not_simulated(parts, result.machine); !reason.empty())
-        throw InputError(Place::of_file(parts.front().log.name), "cannot be a test: " + reason);
     for (const Part& part : parts) {
-        result.tests.push_back(RecordedRun(part).fidelity(result.machine));
-        if (!(result.tests.back().compared > 0))
-            throw InputError(Place::of_file(part.log.name), "cannot be a test: it follows its program nowhere");
+        if (const std::string reason = why_not_simulated({&part, 1}, result.machine); !reason.empty())
+            result.unidentified.push_back({"fidelity", "controller", "not tested: " + reason});
+        else
+            add_fidelity(RecordedRun(part), result.machine, result.tests, result);
     }
-    result.machine.fidelity = summary_of(result.tests, FidelityBasis::test);
+    if (!result.tests.empty()) result.machine.fidelity = summary_of(result.tests, FidelityBasis::test);
 }
 
 }  // namespace clsurf

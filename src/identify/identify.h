@@ -26,7 +26,8 @@ namespace clsurf {
 /// identify() throws where the others give nothing.
 void cross_validate(std::vector<Part>& parts, const Machine& known, Identification& result);
 
-/// Simulates runs that were not used with the machine found. Throws InputError where they have no commanded positions.
+/// Simulates runs that were not used with the machine found. A run that cannot be compared with its simulation is named in
+/// `result.unidentified`, with the reason.
 void test_runs(std::span<const Part> parts, Identification& result);
 
 }  // namespace clsurf

@@ -62,6 +62,10 @@ clsurf_cli_test(NAME identify_constant_speed_throughout
 clsurf_cli_test(NAME identify_too_short
   SETUP "printf 'G21 G90\\nG0 X0 Y0 Z0\\nG1 X50 F3000\\nM2\\n' > p.nc; $CLSURF simulate p.nc --machine @DATA@/machines/three_axis_mill.toml -o r.biip -q; $CLSURF export p.nc r.biip --columns time,cmd.x,cmd.y,cmd.z,fb.x,fb.y,fb.z -o r.csv -q; sed -n '1,40p' r.csv > c.csv"
   ARGS identify p.nc c.csv -o m.toml STDOUT "x: too few records .position_gain" "c.csv: time 0[.]0[0-9]+ s, simulated 0[.]0[0-9]+ s")
+clsurf_cli_test(NAME identify_keeps_the_fit_where_a_run_cannot_be_tested
+  SETUP "printf 'G21 G90\\nG0 X0 Y0 Z0\\nG1 X50 F3000\\nM2\\n' > p.nc; $CLSURF simulate p.nc --machine @DATA@/machines/three_axis_mill.toml -o r.biip -q"
+  ARGS identify p.nc r.biip -o m.toml --test @DATA@/programs/keychain.mpf @DATA@/logs/edge_300.json.xz FILE m.toml
+  STDOUT "not tested: .*edge_300.* moves rotary axes, and the kinematics are not known" "r.biip: time" NO_STDOUT "test runs")
 clsurf_cli_test(NAME identify_two_periods
   SETUP "printf '[controller]\\nperiod = 0.002\\n' > p.toml; $CLSURF simulate @DATA@/programs/dome_loops.nc --machine p.toml -o r.biip -q"
   ARGS identify ${bottle} @DATA@/programs/dome_loops.nc r.biip -o m.toml EXIT 3 NO_FILE m.toml STDERR "r.biip: error: has a period of 0.002 s, but .* has 0.001 s")
