@@ -1,6 +1,6 @@
 #pragma once
-// The CL surface with its columns for ParaView and VTK: .vtp (XML PolyData) and .vtkhdf
-// (UnstructuredGrid, VTKHDF 1.0). Passes are polylines, gaps between them triangles.
+// The CL surface with its columns for ParaView and VTK, as .vtp (XML PolyData); as .vtkhdf: vtkhdf.h. Passes are polylines, gaps
+// between them triangles.
 
 #include <cstdint>
 #include <string>
@@ -32,11 +32,12 @@ struct VtkPiece {
     Column<std::int64_t> line_offsets, line_points;  ///< polylines of the own passes
     Column<std::int64_t> triangles;                  ///< 3 points each
 };
+/// Every point of every pass, and the bands between adjacent passes as they are drawn, over all points. `points` and `own_points`
+/// stay empty.
+[[nodiscard]] VtkPiece whole_of(const ClSurface& surface);
 /// `own`: as part_with_neighbours() takes it.
 [[nodiscard]] VtkPiece piece_of(const SurfacePart& part, const PointRange& own);
 /// Points that are not its own are marked in `vtkGhostType`, as VTK does it.
 void write_vtp(const std::string& path, VtkPiece piece, const std::vector<PointData>& data);
-
-void write_vtkhdf(const std::string& path, const ClSurface& surface, const std::vector<PointData>& data);
 
 }  // namespace clsurf::viz

@@ -9,6 +9,7 @@
 #include "io/reports/export_table.h"
 #include "mapping/line_agreement.h"
 #include "viz/export_vtk.h"
+#include "viz/vtkhdf.h"
 
 namespace clsurf::cli {
 namespace {
@@ -34,7 +35,7 @@ ExitCode list_columns(const po::variables_map& values, const Part& part, StageCl
 }
 
 ExitCode run_export(const po::variables_map& values) {
-    if (values.count("merge") > 0) return name_pieces(values);
+    if (values.count("merge") > 0) return merge_pieces(values);
     if (values.count("list") > 0) {
         if (values.count("output") > 0) throw UsageError("--list writes no file: -o must not be given");
         StageClock clock(read_common(values), 4);
@@ -81,8 +82,9 @@ Subcommand export_subcommand() {
             "32-bit integers there, times and positions 64-bit numbers. Without a program, lines are those of\n"
             "the log.\n"
             "The surface of a log that is too large for memory is written in pieces (`clsurf survey`, docs/howto/shards.md):\n"
-            "--shard writes one of them, and --merge a .pvtp file that ParaView opens. Fields of a shard are those of positions,\n"
-            "and channels.\n\n"
+            "--shard writes one of them, and --merge a file of the whole that ParaView opens: of .vtp pieces a .pvtp file that names\n"
+            "them, of .vtkhdf pieces one .vtkhdf file with a partition for each. Fields of a shard are those of positions, and\n"
+            "channels.\n\n"
             "  clsurf export part.nc run.biip -o points.csv --columns line,x,y,z,speed,acceleration\n"
             "  clsurf export part.nc run.biip --list",
         .declare =

@@ -2,13 +2,16 @@
 
 #include <filesystem>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "cli/export_columns.h"
 #include "cli/output_format.h"
 #include "io/files/atomic_file.h"
+#include "io/files/mapped_file.h"
 #include "io/reports/vtk_pieces.h"
 #include "surface/surface_part.h"
+#include "viz/vtkhdf.h"
 
 namespace clsurf::cli {
 
@@ -19,17 +22,26 @@ viz::PointData point_data_of(const io::ExportColumn& column) {
 }
 
 void declare_export_shards(po::options_description& options) {
-    declare_shard(options, "write one of N parts of the surface, cut at passes, as .vtp");
-    options.add_options()("merge", po::value<std::vector<std::string>>()->multitoken()->value_name("FILE…"),
-                          "write a .pvtp file that names these pieces of --shard");
+    declare_shard(options, "write one of N parts of the surface, cut at passes, as .vtp or .vtkhdf");
+    options.add_options()(
+        "merge", po::value<std::vector<std::string>>()->multitoken()->value_name("FILE…"),
+        "write a .pvtp file that names these .vtp pieces of --shard, or a .vtkhdf file with a partition for each .vtkhdf piece");
 }
 
-ExitCode name_pieces(const po::variables_map& values) {
+ExitCode merge_pieces(const po::variables_map& values) {
     const std::string output = required(values, "output");
-    if (!output.ends_with(".pvtp")) throw UsageError("-o " + output + ": --merge writes a .pvtp file");
+    const bool hdf = output.ends_with(".vtkhdf") || output.ends_with(".hdf");
+    if (!hdf && !output.ends_with(".pvtp"))
+        throw UsageError("-o " + output + ": --merge writes a .pvtp file, or a .vtkhdf file");
+    const auto pieces = values["merge"].as<std::vector<std::string>>();
     io::AtomicFile file(output);
-    file.write(io::pvtp_text(values["merge"].as<std::vector<std::string>>(),
-                             std::filesystem::path(output).parent_path().string()));
+    if (hdf) {
+        for (const std::string& piece : pieces)
+            (void)io::map_file(piece);  // refuses the output, and what cannot be read
+        viz::merge_vtkhdf(file.temporary_path(), pieces);
+    } else {
+        file.write(io::pvtp_text(pieces, std::filesystem::path(output).parent_path().string()));
+    }
     file.commit();
     return ExitCode::done;
 }
@@ -38,7 +50,8 @@ ExitCode write_shard(const PartOptions& options, const ShardNumber& shard, const
                      const po::variables_map& values) {
     const std::string output = required(values, "output");
     if (options.program.empty()) throw UsageError("a shard needs the program: clsurf export part.nc run.biip …");
-    if (output_format(output, table_formats()).name != "vtp") throw UsageError("--shard writes a .vtp file");
+    const std::string_view format = output_format(output, table_formats()).name;
+    if (format != "vtp" && format != "vtkhdf") throw UsageError("--shard writes a .vtp or a .vtkhdf file");
     if (options.role) throw UsageError("--shard is of the positions that were surveyed, without --surface");
     StageClock clock(read_common(values), 5);
     const SurveyedLog log = read_surveyed_log(options, values);
@@ -54,7 +67,10 @@ ExitCode write_shard(const PartOptions& options, const ShardNumber& shard, const
     std::vector<viz::PointData> data;
     for (const io::ExportColumn& column : columns) data.push_back(point_data_of(column));
     io::AtomicFile file(output);
-    viz::write_vtp(file.temporary_path(), std::move(piece), data);
+    if (format == "vtkhdf")
+        viz::write_vtkhdf(file.temporary_path(), std::move(piece), own, log.survey.points, data);
+    else
+        viz::write_vtp(file.temporary_path(), std::move(piece), data);
     file.commit();
     return ExitCode::done;
 }

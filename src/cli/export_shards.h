@@ -16,8 +16,8 @@ namespace clsurf::cli {
 /// --survey, --shard, --merge.
 void declare_export_shards(po::options_description& options);
 
-/// --merge: writes a .pvtp file that names the pieces.
-ExitCode name_pieces(const po::variables_map& values);
+/// --merge: writes a .pvtp file that names the pieces, or a .vtkhdf file that has them as its partitions.
+ExitCode merge_pieces(const po::variables_map& values);
 
 /// --shard: writes a piece with these columns.
 ExitCode write_shard(const PartOptions& options, const ShardNumber& shard, const std::vector<std::string>& names,

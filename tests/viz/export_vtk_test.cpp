@@ -1,6 +1,8 @@
 // What is exported is read back by VTK's own readers.
 #include "viz/export_vtk.h"
 
+#include "viz/vtkhdf.h"
+
 #include <vtkHDFReader.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>

@@ -66,7 +66,7 @@ clsurf_pieces_test(petal_loops_g64.ngc petal_loops_g64 3 point,speed,following_e
 clsurf_pieces_test(planted_loops.nc planted_loops 4 point,line,speed)
 clsurf_pieces_test(transition_g61.nc transition_g61 3 point,speed)
 set(piece_args export @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip --survey run.survey --shard 1/2)
-clsurf_cli_test(NAME shards_piece_of_another_kind AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${piece_args} -o map.csv EXIT 2 STDERR "--shard writes a .vtp file")
+clsurf_cli_test(NAME shards_piece_of_another_kind AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${piece_args} -o map.csv EXIT 2 STDERR "--shard writes a .vtp or a .vtkhdf file")
 clsurf_cli_test(NAME shards_piece_with_a_field_of_the_whole AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${piece_args} --columns speed_mismatch -o map.vtp EXIT 2 STDERR "'speed_mismatch' is a field of the whole log, not of a shard")
 clsurf_cli_test(NAME shards_pieces_that_differ AFTER shards_say_what_they_read SETUP "${same_shards}; $CLSURF export ${shard_run} --survey run.survey --shard 1/2 -o a.vtp -q; $CLSURF export ${shard_run} --survey run.survey --shard 2/2 --columns point -o b.vtp -q" ARGS export --merge a.vtp b.vtp -o map.pvtp EXIT 3 STDERR "b.vtp: error: has other columns than a.vtp")
 clsurf_cli_test(NAME shards_pieces_that_are_none SETUP "echo '<VTKFile/>' > a.vtp" ARGS export --merge a.vtp -o map.pvtp EXIT 3 STDERR "a.vtp: error: is no piece that clsurf export --shard writes")
@@ -74,6 +74,24 @@ clsurf_cli_test(NAME shards_pieces_into_no_pvtp SETUP "echo > a.vtp" ARGS export
 clsurf_cli_test(NAME shards_pieces_with_marks_of_xml_in_their_names AFTER shards_say_what_they_read
   SETUP "${same_shards}; $CLSURF export ${shard_run} --columns point -o whole.vtp -q; $CLSURF export ${shard_run} --survey run.survey --shard 1/2 --columns point -o 'top & <side>.vtp' -q; $CLSURF export ${shard_run} --survey run.survey --shard 2/2 --columns point -o b.vtp -q; $CLSURF export --merge 'top & <side>.vtp' b.vtp -o map.pvtp; /usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/cli/read_pieces.py whole.vtp map.pvtp"
   ARGS --version)
+
+# ---- the same as partitions of one file, which VTK's reader reads ----
+set(partitions_made "for i in 1 2 3; do $CLSURF export ${shard_run} --survey run.survey --shard $i/3 --columns point,line,time,speed -o piece$i.vtkhdf -q; done")
+set(same_partitions "cp @AFTER@/piece1.vtkhdf @AFTER@/piece2.vtkhdf @AFTER@/piece3.vtkhdf .")
+clsurf_cli_test(NAME shards_partitions AFTER shards_say_what_they_read
+  SETUP "cp @AFTER@/run.survey .; $CLSURF export ${shard_run} --columns point,line,time,speed -o whole.vtkhdf; ${partitions_made}; $CLSURF export --merge piece3.vtkhdf piece1.vtkhdf piece2.vtkhdf -o map.vtkhdf; /usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/cli/read_pieces.py whole.vtkhdf map.vtkhdf 3"
+  ARGS export --merge piece1.vtkhdf piece2.vtkhdf piece3.vtkhdf -o again.hdf FILE again.hdf)
+function(clsurf_partitions_error_test name setup pieces exit words)
+  clsurf_cli_test(NAME shards_partitions_${name} AFTER shards_partitions SETUP "${same_partitions}; ${setup}" ARGS export --merge ${pieces} EXIT ${exit} STDERR "${words}")
+endfunction()
+clsurf_partitions_error_test(one_is_missing : "piece1.vtkhdf;piece3.vtkhdf;-o;map.vtkhdf" 2 "points [0-9]+ … [0-9]+ are in none of the pieces")
+clsurf_partitions_error_test(the_last_is_missing : "piece1.vtkhdf;piece2.vtkhdf;-o;map.vtkhdf" 2 "points [0-9]+ … 44929 are in none of the pieces")
+clsurf_partitions_error_test(one_is_there_twice : "piece1.vtkhdf;piece2.vtkhdf;piece3.vtkhdf;piece2.vtkhdf;-o;map.vtkhdf" 2 "points [0-9]+ … [0-9]+ are in two of the pieces")
+clsurf_partitions_error_test(one_is_the_output : "piece1.vtkhdf;piece2.vtkhdf;piece3.vtkhdf;-o;piece3.vtkhdf" 2 "'piece3.vtkhdf' is an input: it would be overwritten")
+clsurf_partitions_error_test(one_is_no_piece "cp @AFTER@/whole.vtkhdf ." "piece1.vtkhdf;whole.vtkhdf;-o;map.vtkhdf" 3 "whole.vtkhdf: error: is no .vtkhdf piece that clsurf export --shard writes")
+clsurf_partitions_error_test(one_is_cut "head -c 300000 piece2.vtkhdf > cut.vtkhdf" "piece1.vtkhdf;cut.vtkhdf;piece3.vtkhdf;-o;map.vtkhdf" 3 "cut.vtkhdf: error: is no .vtkhdf piece that clsurf export --shard writes, or damaged")
+clsurf_partitions_error_test(one_is_not_there : "piece1.vtkhdf;nowhere.vtkhdf;-o;map.vtkhdf" 3 "nowhere.vtkhdf.*No such file")
+clsurf_cli_test(NAME shards_partitions_that_differ AFTER shards_partitions SETUP "${same_partitions}; $CLSURF export ${shard_run} --survey @AFTER@/run.survey --shard 2/3 --columns point -o other.vtkhdf -q" ARGS export --merge piece1.vtkhdf other.vtkhdf piece3.vtkhdf -o map.vtkhdf EXIT 3 STDERR "other.vtkhdf: error: has other columns than piece1.vtkhdf")
 
 # ---- the map, shard by shard: the same picture, but for the rounding of few pixels ----
 function(clsurf_map_of_shards_test name program log count)
