@@ -219,6 +219,10 @@ void add_words(Sheet& sheet, const MapPanel& map, const ColourScale& scale, cons
         add_legend(sheet, scale, map.field->info, beyond, legend, look, layout, ink);
 }
 
+void note_labels_without_room(int count, MapTexts& texts) {
+    if (count > 0) texts.notes.push_back(fmt::format("{} labels have no room in this picture", count));
+}
+
 }  // namespace
 
 Sheet map_sheet(const std::vector<MapPanel>& panels, const PlacedMap& placed, const ColourScale& scale,
@@ -249,7 +253,7 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const PlacedMap& placed, co
         sheet.panels.push_back(std::move(panel));
     }
     MapTexts all = texts;
-    if (without_room > 0) all.notes.push_back(fmt::format("{} labels have no room in this picture", without_room));
+    note_labels_without_room(without_room, all);
     add_words(sheet, panels.back(), scale, all, beyond, legend, look, layout);
     return sheet;
 }
@@ -274,7 +278,8 @@ Image draw_map(const MapInParts& map, const PlacedMap& placed, const ColourScale
         return true;
     };
     sheet.finish = [&](Sheet& finished) {
-        const MapTexts texts = map.texts();
+        MapTexts texts = map.texts();
+        note_labels_without_room(add_marks(finished, map.whole, frame, look, placed.layout), texts);
         add_scales_of(finished, map.whole, frame, texts.frame, true, look, placed.layout, &depth);
         add_words(finished, map.whole, scale, texts, beyond, legend_rect(panels, frame.rect, look, placed), look,
                   placed.layout);

@@ -28,7 +28,8 @@ struct PanelPart {
 
 /// A map whose surface is in memory in parts, one at a time. All parts together have every cell once.
 struct MapInParts {
-    MapPanel whole;  ///< without marks and classes; of its surface step-over and origin are read, and `extent`
+    /// Without classes. Of its surface step-over and origin are read, and `extent`; the places of marked points and lines, too.
+    MapPanel whole;
     std::function<std::optional<PanelPart>()> next;  ///< nothing: there are no more
     std::function<MapTexts()> texts;                 ///< asked for after the last part
 };

@@ -1,20 +1,13 @@
 #include "cli/check_shards.h"
 
-#include <utility>
-
 #include <fmt/format.h>
 
+#include "cli/merged_shards.h"
 #include "cli/survey_options.h"
 #include "io/files/atomic_file.h"
 #include "io/formats/shard_file.h"
 
 namespace clsurf::cli {
-namespace {
-
-/// What the findings of a shard depend on besides its survey.
-std::string shard_settings(const Part& part) { return part.tool ? "--tool " + to_text(*part.tool) : "--tool none"; }
-
-}  // namespace
 
 void declare_shards(po::options_description& options) {
     declare_shard(options,
@@ -59,19 +52,7 @@ std::optional<MergedShards> read_merged(const PartOptions& options, const po::va
     for (const char* name : {"measured", "follow"}) {
         if (given(values, name)) throw UsageError(fmt::format("--{} goes with a log that is judged as a whole", name));
     }
-    SurveyedLog log = read_surveyed_log(options, values);
-    MergedShards merged;
-    merged.read = [origin = log.origin, paths = values["merge"].as<std::vector<std::string>>()](const Part& part,
-                                                                                                MotionSizes& motion) {
-        std::vector<ShardFindings> shards;
-        for (const std::string& path : paths) {
-            shards.push_back(io::read_shard(path, origin, shard_settings(part)));
-            motion.add(std::exchange(shards.back().motion, {}));
-        }
-        return shards;
-    };
-    merged.survey = std::make_shared<const Survey>(std::move(log.survey));
-    return merged;
+    return shards_of_files(read_surveyed_log(options, values), values["merge"].as<std::vector<std::string>>());
 }
 
 }  // namespace clsurf::cli

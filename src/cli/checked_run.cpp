@@ -7,36 +7,18 @@
 
 namespace clsurf::cli {
 
-namespace {
-
-void judge_whole(std::optional<Role> measured, bool with_motion, StageClock& clock, CheckedRun& run) {
-    clock.begin("stitch the surface");
-    run.surface = stitch(run.part);
-    run.quality = judge(run.part, run.surface, measured, {}, clock.stages(), with_motion);
-}
-
-void judge_merged(const MergedShards& merged, std::optional<Role> measured, bool with_motion, StageClock& clock,
-                  CheckedRun& run) {
-    run.survey = merged.survey;
-    MotionSizes motion;
-    QualityRules rules = rules_of_shards(merged.read(run.part, motion), *run.survey);
-    run.surface = surveyed_surface(run.part, *run.survey);
-    PartSignals read = surveyed_signals(run.part, run.surface, *run.survey, measured);
-    rules.found->forget = forget_when_many(run.surface.positions, read.signals);
-    run.quality = judge(run.part, run.surface, read, measured, rules, clock.stages());
-    if (with_motion) run.quality.motion = motion_quality(motion, run.surface, run.part.log.period);
-}
-
-}  // namespace
-
 CheckedRun check_run(const PartOptions& options, std::optional<Role> measured, const CheckBudget& budget,
                      StageClock& clock, bool with_motion, const std::optional<MergedShards>& merged) {
     CheckedRun run;
     run.part = load_part(options, clock);
-    if (merged)
-        judge_merged(*merged, measured, with_motion, clock, run);
-    else
-        judge_whole(measured, with_motion, clock, run);
+    if (merged) {
+        run.survey = merged->survey;
+        run.quality = judge_merged(*merged, run.part, measured, with_motion, clock, run.surface);
+    } else {
+        clock.begin("stitch the surface");
+        run.surface = stitch(run.part);
+        run.quality = judge(run.part, run.surface, measured, {}, clock.stages(), with_motion);
+    }
     run.part.diagnostics.append(run.quality.diagnostics);
     if (const std::vector<StatedLimit> stated = stated_limits(run.part.limits, budget); !stated.empty()) {
         clock.begin("compare with the limits");

@@ -1,27 +1,19 @@
 #pragma once
 // CheckedRun: a program and a log of it, judged as `check` does it: passes, limits of the machine, budget.
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "cli/merged_shards.h"
 #include "cli/part.h"
 #include "cli/quality_limits.h"
 #include "io/reports/acceptance.h"
 #include "io/reports/quality_report.h"
 #include "limits/limit_report.h"
 #include "pipeline/judge.h"
-#include "pipeline/shards.h"
 
 namespace clsurf::cli {
-
-/// What was found in the shards of a log (pipeline/shards.h), with its survey.
-struct MergedShards {
-    std::shared_ptr<const Survey> survey;
-    /// Of the shards of that part. Their motion is added to `motion`, which takes less memory.
-    std::function<std::vector<ShardFindings>(const Part&, MotionSizes& motion)> read;
-};
 
 struct CheckedRun {
     Part part;                             ///< with all diagnostics

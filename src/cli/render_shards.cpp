@@ -179,13 +179,6 @@ private:
     double lowest_ = std::numeric_limits<double>::infinity(), highest_ = -lowest_;
 };
 
-int read_shard_count(const po::variables_map& values) {
-    const int shards = values["shards"].as<int>();
-    constexpr int most = 1'000'000;
-    if (shards < 1 || shards > most) throw UsageError(fmt::format("--shards: {} is not 1 … {}", shards, most));
-    return shards;
-}
-
 }  // namespace
 
 void declare_render_with_shards(po::options_description& options) {

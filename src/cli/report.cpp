@@ -7,6 +7,7 @@
 #include "cli/report_content.h"
 #include "cli/report_log.h"
 #include "cli/report_options.h"
+#include "cli/report_shards.h"
 #include "compare/run_alignment.h"
 #include "io/files/atomic_file.h"
 #include "viz/image_library.h"
@@ -74,6 +75,7 @@ ExitCode write_page(const ReportOptions& options, const po::variables_map& value
 
 ExitCode run_report(const po::variables_map& values) {
     ReportOptions options = read_report_options(values);
+    read_report_shards(values, options);
     const std::optional<FollowOptions> follow = read_follow(values);
     if (!follow) return write_page(options, values, true);
     return make_while_it_grows(options.part, *follow, options.output,
@@ -91,10 +93,12 @@ Subcommand report_subcommand() {
             "Writes one file that any browser opens offline: the surface, which can be turned, each place\n"
             "linked with its line and its point on the curves, the defects with pictures, the health of the\n"
             "log. The file loads nothing from a server. Pictures, tables and the summary can be read without\n"
-            "JavaScript.\n\n"
+            "JavaScript.\n"
+            "The page of a log that is too large for memory is made shard by shard (`clsurf survey`, docs/howto/shards.md).\n\n"
             "  clsurf report part.nc run.biip -o report.html\n"
-            "  clsurf report part.nc run.biip -o report.html --tool ball:6 --before old.biip",
-        .declare = declare_report,
+            "  clsurf report part.nc run.biip -o report.html --tool ball:6 --before old.biip\n"
+            "  clsurf report part.nc run.biip --survey run.survey --shards 8 -o report.html",
+        .declare = declare_report_with_shards,
         .positional = {"PROGRAM", "LOG"},
         .run = run_report,
     };

@@ -80,8 +80,8 @@ ReportedForm form_for_report(const ReportLog& shown, const ReportOptions& option
 
 void add_report_pictures(io::ReportPage& page, const ReportLog& shown, const ReportOptions& options,
                          const std::optional<ReportedForm>& as_machined) {
-    PicturedPart pictured{&shown.part, &shown.surface, shown.fields, page.ranges, &shown.quality.report,
-                          {},          options.gl};
+    PicturedPart pictured{&shown.part, &shown.surface, shown.fields,  page.ranges, &shown.quality.report,
+                          {},          options.gl,     options.shards};
     std::optional<PartContacts> contacts;
     if (as_machined && shown.part.tool) contacts.emplace(shown.part, shown.surface, *shown.part.tool);
     for (std::size_t i = 0; i < shown.quality.report.defects.size(); ++i) {

@@ -42,6 +42,12 @@ io::PageSurface page_surface(const ReportLog& shown) {
     return page;
 }
 
+void refuse_unknown_fields(const std::vector<std::string>& names, const FieldSet& fields) {
+    for (const std::string& name : names) {
+        if (!fields.has(name)) unknown_field(name, fields.fields());
+    }
+}
+
 bool has_values(const Field& field, const Passes& passes) {
     for (const Pass& pass : passes) {
         if (pass.kind != PassKind::cut) continue;
@@ -57,15 +63,18 @@ bool has_values(const Field& field, const Passes& passes) {
 ReportLog load_report_log(const PartOptions& part_options, const ReportOptions& options, StageClock& clock) {
     ReportLog shown;
     shown.part = load_part(part_options, clock);
-    clock.begin("stitch the surface");
-    shown.surface = stitch(shown.part);
-    const FieldSet fields = fields_of(shown.part, shown.surface);
-    for (const std::string& name : options.fields) {
-        if (!fields.has(name)) unknown_field(name, fields.fields());  // before what takes long
+    if (options.merged) {
+        clock.begin("judge the shards");
+        shown.quality = judge_merged(*options.merged, shown.part, options.measured, false, clock, shown.surface);
+    } else {
+        clock.begin("stitch the surface");
+        shown.surface = stitch(shown.part);
+        refuse_unknown_fields(options.fields, fields_of(shown.part, shown.surface));  // before what takes long
+        shown.quality = judge(shown.part, shown.surface, options.measured, {}, clock.stages());
     }
-    shown.quality = judge(shown.part, shown.surface, options.measured, {}, clock.stages());
     shown.part.diagnostics.append(shown.quality.diagnostics);
     clock.begin("compute the fields");
+    const FieldSet fields = fields_of(shown.part, shown.surface);
     const bool usual = options.fields.empty();
     for (Field& field : fields.get_all(usual ? fields.report_names(most_fields) : options.fields)) {
         // What was asked for by name must be there; of the usual ones a log has some.

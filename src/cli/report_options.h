@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/merged_shards.h"
 #include "cli/part.h"
 #include "io/readers/accepted_file.h"
 
@@ -20,6 +21,8 @@ struct ReportOptions {
     std::string first_field;
     std::uint64_t most_bytes = 0;
     std::vector<std::string> reading_options;
+    std::optional<MergedShards> merged;  ///< of a log that is judged in shards
+    int shards = 0;                      ///< that the map is drawn in; 0: at once
 };
 
 void declare_report(po::options_description& options);

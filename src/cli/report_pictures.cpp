@@ -1,12 +1,16 @@
 #include "cli/report_pictures.h"
 
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "cli/defect_card.h"
 #include "core/file_name.h"
+#include "core/not_finite.h"
 #include "io/reports/quality_words.h"
+#include "pipeline/shards.h"
+#include "surface/surface_part.h"
 #include "viz/field_colours.h"
 
 namespace clsurf::cli {
@@ -23,6 +27,49 @@ std::string draw(const viz::MapPanel& panel, const ShownRange& range, const viz:
     const viz::ColourScale scale = viz::scale_of(panel.field->info, range.low, range.high);
     const viz::Image image = viz::draw_map({panel}, viz::placed_map({panel}, look), scale, texts, look);
     return viz::encode_image(image, texts.title, "png");
+}
+
+/// The shards of a panel, one at a time.
+class PartsOfPanel {
+public:
+    PartsOfPanel(const viz::MapPanel& whole, int shards) : whole_(whole), shards_(shards) {}
+
+    std::optional<viz::PanelPart> next() {
+        const ClSurface& surface = *whole_.surface;
+        PointRange own;
+        while (own.size() <= 0) {
+            if (number_ == shards_) return std::nullopt;
+            own = points_of_shard(surface.passes, surface.positions.size(), {++number_, shards_});
+        }
+        part_ = part_with_neighbours(surface, own);
+        field_.info = whole_.field->info;
+        field_.values = Column<float>(part_.points.size(), missing<float>);
+        for (std::size_t k = 0; k < part_.points.size(); ++k) {
+            const PointIndex point = part_.points[k];
+            if (point >= 0) field_.values[k] = whole_.field->values[static_cast<std::size_t>(point)];
+        }
+        viz::PanelPart part;
+        part.panel.surface = &part_.surface;
+        part.panel.field = &field_;
+        part.points = &part_.points;
+        part.own = own;
+        return part;
+    }
+
+private:
+    const viz::MapPanel& whole_;
+    int shards_;
+    int number_ = 0;  ///< of the last shard that was drawn
+    SurfacePart part_;
+    Field field_;
+};
+
+std::string draw_in_shards(const viz::MapPanel& panel, int shards, const ShownRange& range, const viz::MapTexts& texts,
+                           const viz::Look& look) {
+    PartsOfPanel parts(panel, shards);
+    const viz::MapInParts map{panel, [&] { return parts.next(); }, [&] { return texts; }};
+    const viz::ColourScale scale = viz::scale_of(panel.field->info, range.low, range.high);
+    return viz::encode_image(viz::draw_map(map, viz::placed_map({panel}, look), scale, look), texts.title, "png");
 }
 
 viz::MapTexts texts_of(const PicturedPart& shown, const FieldInfo& info, const ShownRange& range) {
@@ -45,8 +92,10 @@ io::PagePicture picture_of_part(const PicturedPart& shown, const std::string& na
     look.gl = shown.gl;
     const viz::MapPanel panel{shown.surface, &shown.fields[k], "", {}, {}, shown.outlines};
     const FieldInfo& info = shown.fields[k].info;
+    const viz::MapTexts texts = texts_of(shown, info, shown.ranges[k]);
     return {info.label, shown.outlines.empty() ? "" : "Defects are outlined; 1 stands out most.",
-            draw(panel, shown.ranges[k], texts_of(shown, info, shown.ranges[k]), look)};
+            shown.shards > 0 ? draw_in_shards(panel, shown.shards, shown.ranges[k], texts, look)
+                             : draw(panel, shown.ranges[k], texts, look)};
 }
 
 io::PagePicture picture_of_defect(const PicturedPart& shown, const Signals& signals, std::size_t defect) {

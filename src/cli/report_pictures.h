@@ -20,6 +20,7 @@ struct PicturedPart {
     const QualityReport* report = nullptr;
     std::vector<viz::OutlineMark> outlines;  ///< one per defect of the report
     std::string gl;
+    int shards = 0;  ///< that the map is drawn in, with the memory of one; 0: at once
 };
 
 /// The whole part in a field, with what was found outlined.

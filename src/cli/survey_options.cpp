@@ -2,11 +2,18 @@
 
 #include <charconv>
 
+#include <fmt/format.h>
+
 #include "io/files/compressed.h"
 #include "io/formats/program_identity.h"
 #include "io/readers/part_file.h"
 
 namespace clsurf::cli {
+namespace {
+
+constexpr int most_shards = 1'000'000;
+
+}  // namespace
 
 void declare_shard(po::options_description& options, const char* what) {
     // clang-format off
@@ -50,12 +57,18 @@ std::optional<ShardNumber> read_shard_number(const po::variables_map& values) {
     const auto number = std::from_chars(text.data(), end, shard.number);
     if (number.ec == std::errc() && number.ptr != end && *number.ptr == '/') {
         const auto count = std::from_chars(number.ptr + 1, end, shard.count);
-        constexpr int most = 1'000'000;
         if (count.ec == std::errc() && count.ptr == end && shard.number >= 1 && shard.number <= shard.count &&
-            shard.count <= most)
+            shard.count <= most_shards)
             return shard;
     }
     throw UsageError("--shard: '" + text + "' is not a shard such as 3/8, the third of eight");
+}
+
+int read_shard_count(const po::variables_map& values) {
+    const int shards = values["shards"].as<int>();
+    if (shards < 1 || shards > most_shards)
+        throw UsageError(fmt::format("--shards: {} is not 1 … {}", shards, most_shards));
+    return shards;
 }
 
 Part load_surveyed_part(const PartOptions& options, const Survey& survey, StageClock& clock) {

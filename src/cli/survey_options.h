@@ -30,6 +30,9 @@ struct SurveyedLog {
 /// --shard; nothing: it is not given. Throws UsageError: not I/N.
 [[nodiscard]] std::optional<ShardNumber> read_shard_number(const po::variables_map& values);
 
+/// --shards: how many there are. Throws UsageError: not 1 … 1,000,000.
+[[nodiscard]] int read_shard_count(const po::variables_map& values);
+
 /// The part of a log that was surveyed, with its tool. Throws as read_surveyed_part() does.
 [[nodiscard]] Part load_surveyed_part(const PartOptions& options, const Survey& survey, StageClock& clock);
 

@@ -114,6 +114,22 @@ clsurf_cli_test(NAME shards_map_with_marks SETUP "${shards_made}" ARGS ${map_arg
 clsurf_cli_test(NAME shards_map_without_a_survey ARGS ${map_args} --shards 3 EXIT 2 STDERR "--shards goes with --survey")
 clsurf_cli_test(NAME shards_map_of_no_shards SETUP "${shards_made}" ARGS ${map_args} --survey run.survey --shards 0 EXIT 2 STDERR "--shards: 0 is not 1")
 
+# ---- the page: the same byte for byte, but for the rounding of few pixels of its map ----
+set(split_page "/usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/cli/split_page.py")
+# Findings of `check --shard`, and the formed surface.
+clsurf_cli_test(NAME shards_page_of_findings AFTER shards_say_what_they_read
+  SETUP "cp @AFTER@/run.survey .; $CLSURF report ${shard_run} --tool ball:6 -o whole.html; for i in 1 2; do $CLSURF check ${shard_run} --survey run.survey --shard $i/2 --tool ball:6 -o shard$i.json -q; done; $CLSURF report ${shard_run} --tool ball:6 --survey run.survey --merge shard*.json --shards 4 -o shards.html; ${split_page} whole.html shards.html whole.png shards.png; grep -q 'id=.defect-list' shards.html"
+  ARGS compare whole.png shards.png STDOUT "^equal: 0 pixels differ")
+# Shards that are judged for the page, and points that are left out; with a single shard the page is the same byte for byte.
+set(page_of "$CLSURF report ${shard_run} --color jerk --max-size 2")
+clsurf_cli_test(NAME shards_page AFTER shards_say_what_they_read
+  SETUP "cp @AFTER@/run.survey .; mkdir files; ${page_of} -o whole.html; grep -q 'of 44[^0-9]*930 points are in this page' whole.html; ${page_of} --survey run.survey --shards 1 --scratch files -o one.html; cmp whole.html one.html; ${page_of} --survey run.survey -o shards.html; ${split_page} whole.html shards.html whole.png shards.png"
+  ARGS compare whole.png shards.png --threshold 0.008 STDOUT "^equal: ")
+set(page_args report @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip -o page.html)
+clsurf_cli_test(NAME shards_page_before AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${page_args} --survey run.survey --before @LOGS@/planted_loops.biip EXIT 2 STDERR "--before needs the whole log, without --survey")
+clsurf_cli_test(NAME shards_page_without_a_survey ARGS ${page_args} --shards 3 EXIT 2 STDERR "--shards goes with --survey")
+clsurf_cli_test(NAME shards_page_with_one_missing AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${page_args} --survey run.survey --merge shard2.json EXIT 2 STDERR "points 0 … [0-9]+ are in none of the shards")
+
 # ---- made logs, which may be as long as one likes ----
 set(make_sample $<TARGET_FILE:clsurf_make_sample>)
 # A flat part and one lag for all axes: its defects are the slow places, and no others.

@@ -1,0 +1,58 @@
+#include "cli/report_shards.h"
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/survey_options.h"
+#include "core/column_file.h"
+#include "core/error.h"
+
+namespace clsurf::cli {
+namespace {
+
+/// [bytes] A page has up to 32 fields, each with a column of that size or less in memory.
+constexpr std::size_t least_in_files = std::size_t{16} << 20U;
+
+std::string folder_of(const std::string& path) {
+    const std::string folder = std::filesystem::path(path).parent_path().string();
+    return folder.empty() ? "." : folder;
+}
+
+}  // namespace
+
+void declare_report_with_shards(po::options_description& options) {
+    declare_report(options);
+    // clang-format off
+    options.add_options()
+        ("survey", po::value<std::string>()->value_name("FILE"), "the survey of the log (`clsurf survey`): it is judged and drawn shard by shard, and columns of the whole log are kept in files")
+        ("shards", po::value<int>()->default_value(8)->value_name("N"), "with --survey: how many parts the log is cut into")
+        ("merge", po::value<std::vector<std::string>>()->multitoken()->value_name("FILE…"), "with --survey: what `clsurf check --shard` found in all shards (default: the shards are judged here)")
+        ("scratch", po::value<std::string>()->value_name("FOLDER"), "with --survey: the folder of these files (default: that of the page)");
+    // clang-format on
+}
+
+void read_report_shards(const po::variables_map& values, ReportOptions& options) {
+    if (values.count("survey") == 0) {
+        for (const char* name : {"shards", "merge", "scratch"}) {
+            if (given(values, name)) throw UsageError(fmt::format("--{} goes with --survey", name));
+        }
+        return;
+    }
+    for (const char* name : {"before", "follow"}) {
+        if (given(values, name)) throw UsageError(fmt::format("--{} needs the whole log, without --survey", name));
+    }
+    options.shards = read_shard_count(values);
+    SurveyedLog log = read_surveyed_log(options.part, values);
+    options.merged = given(values, "merge")
+                         ? shards_of_files(std::move(log), values["merge"].as<std::vector<std::string>>())
+                         : shards_judged_here(std::move(log), options.shards, options.measured);
+    options.merged->in_files = true;
+    keep_columns_in(given(values, "scratch") ? values["scratch"].as<std::string>() : folder_of(options.output),
+                    least_in_files);
+}
+
+}  // namespace clsurf::cli
