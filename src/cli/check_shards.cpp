@@ -4,6 +4,7 @@
 
 #include "cli/merged_shards.h"
 #include "cli/survey_options.h"
+#include "core/column_file.h"
 #include "io/files/atomic_file.h"
 #include "io/formats/shard_file.h"
 
@@ -14,11 +15,14 @@ void declare_shards(po::options_description& options) {
                   "judge one of N parts of the log, cut at passes, and write what is found to -o FILE for --merge");
     options.add_options()("merge", po::value<std::vector<std::string>>()->multitoken()->value_name("FILE…"),
                           "the verdict on the whole log from what was found in all of its shards");
+    options.add_options()(
+        "scratch", po::value<std::string>()->value_name("FOLDER"),
+        "with --merge: keep what the log takes in files in this folder, not in memory: 84 bytes a point");
 }
 
 ExitCode check_shard(PartOptions options, const ShardNumber& shard, const po::variables_map& values) {
-    for (const char* name : {"merge", "budget", "fail-on", "accepted", "max-depth", "baseline", "record", "measured",
-                             "follow", "format", "json"}) {
+    for (const char* name : {"merge", "scratch", "budget", "fail-on", "accepted", "max-depth", "baseline", "record",
+                             "measured", "follow", "format", "json"}) {
         if (given(values, name))
             throw UsageError(fmt::format("--{} is for the whole log, not for a --shard", name),
                              "give it where the shards are merged");
@@ -46,13 +50,20 @@ ExitCode check_shard(PartOptions options, const ShardNumber& shard, const po::va
 std::optional<MergedShards> read_merged(const PartOptions& options, const po::variables_map& values, std::size_t logs) {
     if (values.count("merge") == 0) {
         if (given(values, "survey")) throw UsageError("--survey goes with --shard or --merge");
+        if (given(values, "scratch")) throw UsageError("--scratch goes with --merge");
         return std::nullopt;
     }
     if (logs > 1) throw UsageError("--merge is of one log");
     for (const char* name : {"measured", "follow"}) {
         if (given(values, name)) throw UsageError(fmt::format("--{} goes with a log that is judged as a whole", name));
     }
-    return shards_of_files(read_surveyed_log(options, values), values["merge"].as<std::vector<std::string>>());
+    MergedShards merged =
+        shards_of_files(read_surveyed_log(options, values), values["merge"].as<std::vector<std::string>>());
+    if (given(values, "scratch")) {
+        merged.in_files = true;
+        keep_columns_in(values["scratch"].as<std::string>());
+    }
+    return merged;
 }
 
 }  // namespace clsurf::cli

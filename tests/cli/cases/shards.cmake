@@ -14,7 +14,7 @@ function(clsurf_shard_test program log count)
     list(APPEND files shard${i}.json)
   endforeach()
   clsurf_cli_test(NAME shards_of_${log}
-    SETUP "$CLSURF check ${run} ${judging} -o whole.json -q; $CLSURF survey ${run} ${part} -o run.survey -q; for i in $(seq ${count}); do $CLSURF check ${run} --survey run.survey --shard $i/${count} ${judging} -o shard$i.json -q; done; $CLSURF check ${run} --survey run.survey --merge shard*.json ${judging} -o merged.json -q; /usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/cli/read_merged.py whole.json merged.json; grep -q '\"severity\"' merged.json"
+    SETUP "$CLSURF check ${run} ${judging} -o whole.json -q; $CLSURF survey ${run} ${part} -o run.survey -q; for i in $(seq ${count}); do $CLSURF check ${run} --survey run.survey --shard $i/${count} ${judging} -o shard$i.json -q; done; $CLSURF check ${run} --survey run.survey --merge shard*.json ${judging} -o merged.json -q; /usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/cli/read_merged.py whole.json merged.json; grep -q '\"severity\"' merged.json; $CLSURF check ${run} --survey run.survey --merge shard*.json ${judging} --scratch . -o in_files.json -q; cmp merged.json in_files.json"
     ARGS check @DATA@/programs/${program} @LOGS@/${log}.biip --survey run.survey --merge ${files} ${judged} STDOUT "cutting points compared with both neighbours")
 endfunction()
 clsurf_shard_test(petal_zigzag_g64.ngc petal_zigzag_g64 5)
@@ -40,6 +40,8 @@ clsurf_cli_test(NAME shards_of_another_log AFTER shards_say_what_they_read SETUP
 clsurf_cli_test(NAME shards_with_other_options AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${merge_args} --shard 1/2 --ignore-lines -o shard.json EXIT 3 STDERR "was made with no options, not with --ignore-lines")
 clsurf_cli_test(NAME shards_without_a_survey ARGS check @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip --shard 1/2 -o shard.json EXIT 2 STDERR "shards need the survey of the log")
 clsurf_cli_test(NAME shards_survey_alone AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${merge_args} EXIT 2 STDERR "--survey goes with --shard or --merge")
+clsurf_cli_test(NAME shards_scratch_alone ARGS check @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip --scratch . EXIT 2 STDERR "--scratch goes with --merge")
+clsurf_cli_test(NAME shards_scratch_that_is_not_there AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${merge_args} --merge shard1.json shard2.json --scratch nowhere EXIT 4 STDERR "cannot keep columns in nowhere: No such file or directory")
 clsurf_cli_test(NAME shards_wrong_number AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${merge_args} --shard 3/2 -o shard.json EXIT 2 STDERR "--shard: '3/2' is not a shard such as 3/8")
 clsurf_cli_test(NAME shards_with_a_budget AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${merge_args} --shard 1/2 --max-depth 1um -o shard.json EXIT 2 STDERR "--max-depth is for the whole log")
 clsurf_cli_test(NAME shards_with_a_kalman_smoother AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${merge_args} --shard 1/2 --derivative kalman -o shard.json EXIT 2 STDERR "--derivative kalman looks at the log as a whole")
