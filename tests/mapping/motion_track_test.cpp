@@ -2,7 +2,9 @@
 #include "mapping/motion_track.h"
 
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <string>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -62,9 +64,14 @@ struct Drive {
 Program parse(const std::string& text, const std::string& sub = {}) {
     InterpreterOptions options;
     options.dialect = find_dialect("linuxcnc");
-    if (!sub.empty())
-        options.load = [sub](const std::string&) { return std::optional(SourceText("rib.ngc", sub, nullptr)); };
-    return parse_program(SourceText("part.ngc", text, nullptr), options);
+    const auto kept = [](const std::string& bytes) { return std::make_shared<const std::string>(bytes); };
+    if (!sub.empty()) {
+        options.load = [called = kept(sub)](const std::string&) {
+            return std::optional(SourceText("rib.ngc", *called, called));
+        };
+    }
+    const auto main = kept(text);
+    return parse_program(SourceText("part.ngc", *main, main), options);
 }
 
 struct Mapped {

@@ -58,11 +58,11 @@ MeasuredData touched(const Cut& cut, const Pose& pose, double scatter) {
     MeasuredData data;
     data.kind = MeasuredKind::points;
     std::mt19937 random(4);
-    std::normal_distribution<double> noise(0, scatter);
+    std::normal_distribution<double> noise;  // a deviation of 0 is not allowed
     for (double x = 2; x < length - 2; x += 0.37) {
         const std::vector<double> z = cut.heights({x, 1.2}, Vec2::UnitY(), 0.11, 55);
         for (std::size_t k = 0; k < z.size(); ++k) {
-            const Vec3 place(x, 1.2 + 0.11 * static_cast<double>(k), z[k] + noise(random));
+            const Vec3 place(x, 1.2 + 0.11 * static_cast<double>(k), z[k] + scatter * noise(random));
             data.points.emplace_back(pose.turn.transpose() * (place - pose.shift));
         }
     }
@@ -74,11 +74,11 @@ MeasuredData traced(const Cut& cut, const Vec2& from, double scatter) {
     MeasuredData data;
     data.kind = MeasuredKind::profile;
     std::mt19937 random(5);
-    std::normal_distribution<double> noise(0, scatter);
+    std::normal_distribution<double> noise;  // a deviation of 0 is not allowed
     constexpr double step = 0.002;
     const std::vector<double> z = cut.heights(from, Vec2::UnitY(), step, 2001);
     for (std::size_t k = 0; k < z.size(); ++k)
-        data.points.emplace_back(step * static_cast<double>(k), 0, z[k] - z.front() + noise(random));
+        data.points.emplace_back(step * static_cast<double>(k), 0, z[k] - z.front() + scatter * noise(random));
     return data;
 }
 
