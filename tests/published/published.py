@@ -8,6 +8,7 @@ Needs scipy (Debian: python3-scipy). The points of the polylines are in a reposi
     git clone https://github.com/Theigrams/cnc_interpolation CLONE
 
 Without --clone their tables stay as they are. Optima are those of optima.json, which optima.py writes.
+With --period, in s, the page stays as it is: the tables of runs at this period are printed.
 """
 import argparse
 import json
@@ -94,12 +95,15 @@ def main():
     parser.add_argument("clsurf")
     parser.add_argument("--clone")
     parser.add_argument("--only")
+    parser.add_argument("--period", type=float)
     options = parser.parse_args()
     with open(os.path.join(HERE, "optima.json"), encoding="ascii") as file:
         optima = json.load(file)
     for name, curve in read_curves(options.clone).items():
         if options.only not in (None, name):
             continue
+        if options.period:
+            curve.values["period"] = options.period
         rows = []
         with tempfile.TemporaryDirectory() as folder:
             for reading in curve.readings:
@@ -107,6 +111,9 @@ def main():
                 best = optima.get(name, {}).get(reading, {}).get("time")
                 rows.append((reading, run, best))
                 print(f"{name}, {reading}: {run.time:.4f} s, optimum {best}", file=sys.stderr, flush=True)
+        if options.period:
+            print(table_of(curve, rows))
+            continue
         with open(PAGE, encoding="utf-8") as file:
             page = file.read()
         block = re.compile(f"(<!-- {name} -->\n).*?(<!-- end -->\n)", re.S)

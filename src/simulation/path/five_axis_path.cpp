@@ -169,8 +169,9 @@ FiveAxisPath::Jet FiveAxisPath::jet(double u, std::size_t chord) const {
     Jet jet{begins_[chord] + (u - begin_of(chord)) * slopes_[chord], slopes_[chord], FiveAxes::Zero(),
             FiveAxes::Zero()};
     const auto add = [&](std::size_t j, int first, int count, double w) {
-        const double d = u - ends_[j], x = std::abs(d) / w;
-        if (!(x < 1)) return;
+        const double d = u - ends_[j];
+        if (!(std::abs(d) < w)) return;  // most of them
+        const double x = std::abs(d) / w;
         const auto turn = joints_[j].turn.segment(first, count);
         const double rest = 1 - x * x, side = d < 0 ? -1 : 1;
         const double sum = 15.0 / 16.0 * (8.0 / 15 - x * (1 - x * x * (2.0 / 3 - x * x / 5)));
@@ -224,10 +225,12 @@ std::vector<double> FiveAxisPath::places() const {
         for (int k = 0; k < 8; ++k) places.push_back(begin + way * k / 8);
         if (i == joints_.size()) continue;
         for (const double w : {joints_[i].tip_width, joints_[i].angle_width}) {
-            if (!(w > 0) || w > way) continue;
+            if (!(w > 0)) continue;
+            // In a chord shorter than the rounding its own places are close enough.
+            const bool before = w <= way, after = w <= ends_[i + 1] - ends_[i];
             for (const double x : {0.2, 0.58, 1.0}) {
-                places.push_back(ends_[i] - x * w);
-                places.push_back(ends_[i] + x * w);
+                if (before) places.push_back(ends_[i] - x * w);
+                if (after) places.push_back(ends_[i] + x * w);
             }
         }
     }

@@ -13,13 +13,16 @@
 namespace clsurf {
 namespace {
 
-constexpr double first_share = 0.5;      ///< of the limits, for the first speeds
-constexpr double steady_share = 0.8;     ///< of the limits, that bends alone may take of them
-constexpr double rest_part = 0.25;       ///< of the jerk phase next to a rest: the jerk is constant there
-constexpr double rest_jerk = 0.95;       ///< of what the axes allow at the rest
-constexpr double cells_in_ramp = 10;     ///< over the time in which the jerk reaches the acceleration
-constexpr double cell_growth = 0.15;     ///< of the time from or to a rest or a rounding: longest cell
-constexpr double most_cell_turn = 0.05;  ///< [rad] of the angles in a cell that is longer
+constexpr double first_share = 0.5;        ///< of the limits, for the first speeds
+constexpr double steady_share = 0.8;       ///< of the limits, that bends alone may take of them
+constexpr double rest_part = 0.25;         ///< of the jerk phase next to a rest: the jerk is constant there
+constexpr double rest_jerk = 0.95;         ///< of what the axes allow at the rest
+constexpr double rest_held = 0.9;          ///< of that jerk: less makes the piece shorter
+constexpr double least_rest_piece = 0.01;  ///< of its time without joints
+constexpr double cells_in_ramp = 10;       ///< over the time in which the jerk reaches the acceleration
+constexpr double cell_growth = 0.15;       ///< of the time from or to a rest or a rounding: longest cell
+constexpr double most_cell_turn = 0.05;    ///< [rad] of the angles in a cell that is longer
+constexpr double slow_approach = 0.5;      ///< of the way to a slow place: longest cell before it
 constexpr std::size_t window_cells = 1500, samples_of_cell = 4;
 constexpr double kept_share = 0.6;                                             ///< of a window
 constexpr std::array<double, 6> slower_tries{1, 0.5, 0.25, 0.1, 0.03, 0.003};  ///< first v², tried in turn
@@ -60,8 +63,14 @@ public:
 
 private:
     [[nodiscard]] LimitPlace place_at(double u) const {
+        AxisSample<5> sample;
+        return place_at(u, sample);
+    }
+
+    /// `d`: the derivatives there.
+    LimitPlace place_at(double u, AxisSample<5>& d) const {
         PathDerivatives tip;
-        const AxisSample<5> d = path_->derivatives(u, tip);
+        d = path_->derivatives(u, tip);
         LimitPlace place;
         place.u = u;
         const FiveAxisChord& chord = path_->chord(path_->chord_at(u));
@@ -178,8 +187,6 @@ private:
         }
     }
 
-    [[nodiscard]] double least_jerk(double u) const { return rest_jerk * place_at(u).jerk; }
-
     bool solve(double end) {
         for (const double scale : slower_tries) {
             scan(end, scale);
@@ -188,36 +195,114 @@ private:
         return false;
     }
 
-    /// The piece next to a rest: its time.
-    [[nodiscard]] double rest_time(double jerk, double length) const {
-        return rest_part * std::min(ramp_, std::cbrt(length / (2 * jerk)));
+    /// The piece next to a rest at constant jerk.
+    struct RestPiece {
+        double jerk = 0, time = 0;
+        [[nodiscard]] double length() const { return jerk * time * time * time / 6; }
+    };
+
+    /// `side`: 1 for the piece behind a rest, -1 for that before one; `length`: of the way to the next rest. Where joints near the
+    /// rest want less jerk, the piece ends before them.
+    [[nodiscard]] RestPiece rest_piece(double rest, int side, double length) const {
+        const double jerk = rest_jerk * place_at(rest).jerk;
+        RestPiece best;
+        for (double share = 1; share > least_rest_piece; share *= 0.5) {
+            RestPiece piece{jerk, share * rest_part * std::min(ramp_, std::cbrt(length / (2 * jerk)))};
+            piece.jerk = std::min(jerk, jerk_along(rest, side, piece.length()));
+            if (piece.jerk > best.jerk) best = piece;
+            if (best.jerk > rest_held * jerk) break;
+        }
+        return best;
+    }
+
+    /// The constant jerk that all places within a length from a rest allow. Then v = j t²/2, v' = j t and 6 u = j t³, so that
+    /// the jerk of an axis is j (x′ + 9 u x″ + 9/2 u² x‴), and its acceleration j t (x′ + 3/2 u x″).
+    [[nodiscard]] double jerk_along(double rest, int side, double length) const {
+        double most = infinite;
+        const double from = std::min(rest, rest + side * length), to = std::max(rest, rest + side * length);
+        auto place = std::lower_bound(places_.begin(), places_.end(), from,
+                                      [](const LimitPlace& p, double u) { return p.u < u; });
+        for (; place != places_.end() && place->u < to; ++place) most = std::min(most, jerk_at(place->u, rest, side));
+        for (std::size_t k = 1; k <= samples_of_cell; ++k)
+            most = std::min(most, jerk_at(rest + side * length * static_cast<double>(k) / samples_of_cell, rest, side));
+        return most;
+    }
+
+    [[nodiscard]] double jerk_at(double at, double rest, int side) const {
+        const double u = std::abs(at - rest), root = std::cbrt(6 * u);  // t = root / cbrt(j)
+        if (!(u > 0)) return infinite;
+        AxisSample<5> d;
+        const LimitPlace place = place_at(at, d);
+        double most = 8 * place.free_cap * place.free_cap * place.free_cap / (root * root * root * root);
+        const auto hold = [&](double jerk, double jerk_limit, double acceleration, double acceleration_limit) {
+            if (jerk_limit > 0) most = std::min(most, rest_jerk * jerk_limit / std::abs(jerk));
+            most = std::min(most, std::pow(acceleration_limit / (root * std::abs(acceleration)), 1.5));
+        };
+        for (int k = 0; k < 5; ++k) {
+            const double bend = side * d.bend[k];
+            hold(d.slope[k] + u * (9 * bend + 4.5 * u * d.twist[k]), limits_.jerk[k], d.slope[k] + 1.5 * u * bend,
+                 limits_.acceleration[k]);
+        }
+        const double bend = side * d.pace.slope;
+        hold(d.pace.value + u * (9 * bend + 4.5 * u * d.pace.curve), limits_.path_jerk, d.pace.value + 1.5 * u * bend,
+             limits_.path_acceleration);
+        return most;
     }
 
     bool solve_scanned(double end) {
         problem_.clear();
         cells_.clear();
-        const double end_jerk = least_jerk(end), length = end - at_;
-        const double end_time = rest_time(end_jerk, length);
-        const double last_u = end - end_jerk * end_time * end_time * end_time / 6;
-        const KnotState stop{0.5 * end_jerk * end_time * end_time, -end_jerk * end_time};
+        const double length = end - at_;
+        const RestPiece last = rest_piece(end, -1, length);
+        const double last_u = end - last.length();
+        const KnotState stop{0.5 * last.jerk * last.time * last.time, -last.jerk * last.time};
         KnotState start = state_;
         double u = at_, start_time = 0;
         first_piece_ = {};
         if (start.speed == 0) {
-            const double jerk = least_jerk(at_);
-            start_time = rest_time(jerk, length);
-            start = {0.5 * jerk * start_time * start_time, jerk * start_time};
-            first_piece_ = {at_, start_time, {}, jerk, LimitingFactor::jerk};
-            u += jerk * start_time * start_time * start_time / 6;
+            const RestPiece first = rest_piece(at_, 1, length);
+            start_time = first.time;
+            start = {0.5 * first.jerk * start_time * start_time, first.jerk * start_time};
+            first_piece_ = {at_, start_time, {}, first.jerk, LimitingFactor::jerk};
+            u += first.length();
         }
-        last_piece_ = {last_u, end_time, {}, -end_jerk, LimitingFactor::lookahead_end};
+        last_piece_ = {last_u, last.time, {}, -last.jerk, LimitingFactor::lookahead_end};
         if (!(last_u > u)) return false;
         // In the middle of a way cells grow as from a rest that is far enough away for the first.
         if (start_time == 0) start_time = ramp_ / cells_in_ramp / cell_growth;
-        divide(u, last_u, start, stop, start_time, end_time);
+        divide(u, last_u, start, stop, start_time, last.time);
         start_ = start;
         stop_ = stop;
-        return problem_.solve(start, stop);
+        return problem_.solve(start, stop, [this] { return broken_between(); });
+    }
+
+    /// Places within the cells at which the solution breaks a limit.
+    [[nodiscard]] std::vector<AxisSpeedProblem<5>::Between> broken_between() const {
+        std::vector<AxisSpeedProblem<5>::Between> broken;
+        std::size_t place = first_;
+        for (std::size_t i = 0; i < cells_.size(); ++i) {
+            const double begin = cells_[i].begin, length = cells_[i].length;
+            const auto look = [&](double u) {
+                AxisSample<5> sample;
+                sample.cap = place_at(u, sample).free_cap;
+                sample.at = u - begin;
+                if (problem_.breaks(i, sample)) broken.push_back({i, sample});
+            };
+            double before = begin;
+            for (std::size_t k = 1; k <= samples_of_cell; ++k) {
+                const double next = begin + length * static_cast<double>(k) / samples_of_cell;
+                for (; place < last_ && places_[place].u < next; ++place) {
+                    const double u = places_[place].u;
+                    if (u <= before) continue;
+                    look(0.5 * (before + u));
+                    look(u);
+                    before = u;
+                }
+                look(0.5 * (before + next));
+                before = next;
+            }
+        }
+        return broken;
     }
 
     /// v² to begin with at u; `cursor`: the first place behind it.
@@ -249,6 +334,11 @@ private:
             double step = std::min(longest_step(u, speed), cell_growth * since);
             step = std::min(step, cell_growth * (until + 1.5 * way_left / std::max(speed, stop.speed)));
             double next = u + step * speed;
+            // A corner that nearly reverses wants far less speed than the place a cell before it: cells shorten towards it.
+            for (std::size_t k = cursor; k < last_ && places_[k].u < next; ++k) {
+                const double slow = step * std::sqrt(std::max(1e-18, places_[k].square));
+                next = std::min(next, u + std::max(slow, slow_approach * (places_[k].u - u)) + slow);
+            }
             if (to - next < 0.5 * step * speed) next = to;
             steps.push_back(next - u);
             since += step;
@@ -257,9 +347,14 @@ private:
         u = from;
         cursor = first_;
         for (const double step : steps) {
-            const double middle = u + 0.5 * step;
-            while (cursor < last_ && places_[cursor].u <= middle) ++cursor;
-            add_cell(u, step, square_near(middle, cursor, from, from_square, to, to_square));
+            // What a cell begins with, it can reach at its slowest place.
+            double square = infinite;
+            for (; cursor < last_ && places_[cursor].u <= u + 0.5 * step; ++cursor)
+                square = std::min(square, places_[cursor].square);
+            square = std::min(square, square_near(u + 0.5 * step, cursor, from, from_square, to, to_square));
+            for (; cursor < last_ && places_[cursor].u < u + step; ++cursor)
+                square = std::min(square, places_[cursor].square);
+            add_cell(u, step, square);
             u += step;
         }
     }
@@ -270,10 +365,8 @@ private:
         std::array<AxisSample<5>, samples_of_cell + 1> samples;
         for (std::size_t k = 0; k <= samples_of_cell; ++k) {
             const double at = length * static_cast<double>(k) / samples_of_cell;
-            PathDerivatives tip;
-            samples[k] = path_->derivatives(begin + at, tip);
+            const LimitPlace place = place_at(begin + at, samples[k]);
             samples[k].at = at;
-            const LimitPlace place = place_at(begin + at);
             if (place.free_cap < limits.cap) limits.cap = place.free_cap, why = place.why;
             // Beside bends an axis allows more than on a straight path: its rows say how much.
             limits.acceleration = std::min(limits.acceleration, 2 * place.acceleration);
@@ -321,7 +414,8 @@ private:
 
     static LimitingFactor limiting(Row row, LimitingFactor at_cap) {
         switch (row) {
-            case Row::cap: return at_cap;
+            case Row::cap:
+            case Row::bend: return at_cap;
             case Row::tangential_acceleration:
             case Row::axis_acceleration: return LimitingFactor::axis_acceleration;
             case Row::corner_jerk: return LimitingFactor::corner_tolerance;

@@ -3,8 +3,9 @@
 // the tip allow, from rest to rest.
 //
 // A scan with part of the accelerations gives first speeds, and they the cells. AxisSpeedProblem optimises them, in
-// windows that end at rest; most of a window is run, and the next one begins in its state. Next to a rest, where v² is
-// no quadratic of u, the jerk is constant. Nothing here knows the interpolation period but the chord error.
+// windows that end at rest; most of a window is run, and the next one begins in its state. Derivatives vary within a cell,
+// with every rounded joint: where a solution breaks a limit between the samples of its cells, it is mended. Next to a
+// rest, where v² is no quadratic of u, the jerk is constant. Nothing here knows the interpolation period but the chord error.
 
 #include <functional>
 #include <vector>

@@ -118,6 +118,40 @@ void AxisSpeedProblem<Axes>::need_likely_rows() {
     }
 }
 
+template <int Axes>
+typename AxisSpeedProblem<Axes>::AtBegin AxisSpeedProblem<Axes>::at_begin(std::size_t cell) const {
+    const double* c = &value_[cell];
+    const Weights& begin = begins_[cell];
+    return {dot(begin.b, c), dot(begin.slope, c), dot(begin.curve, c)};
+}
+
+/// What is above a part of its limit at a sample of a cell, as bits of HeldSample::needed.
+template <int Axes>
+std::uint16_t AxisSpeedProblem<Axes>::broken_at(const Sample& sample, const AtBegin& at, double part) const {
+    const double curve = at.curve;
+    const double b_here = at.b + sample.at * (at.slope + 0.5 * sample.at * curve);
+    const double slope_here = at.slope + sample.at * curve;
+    const double root = std::sqrt(b_here);
+    std::uint16_t broken = 0;
+    if (std::abs(0.5 * sample.pace.value * slope_here + sample.pace.slope * b_here) > part * limits_.path_acceleration)
+        broken |= path_bit<Axes>;
+    if (std::abs(0.5 * sample.pace.value * curve + 1.5 * sample.pace.slope * slope_here + sample.pace.curve * b_here) *
+            root >
+        part * limits_.path_jerk)
+        broken |= path_jerk_bit<Axes>;
+    if (b_here > part * sample.cap * sample.cap) broken |= speed_bit<Axes>;
+    for (int x = 0; x < Axes; ++x) {
+        const double acceleration = std::abs(0.5 * sample.slope[x] * slope_here + sample.bend[x] * b_here);
+        if (acceleration > part * limits_.acceleration[x]) broken |= acceleration_bit(x);
+        if (limits_.jerk[x] <= 0) continue;
+        const double jerk =
+            std::abs(0.5 * sample.slope[x] * curve + 1.5 * sample.bend[x] * slope_here + sample.twist[x] * b_here) *
+            root;
+        if (jerk > part * limits_.jerk[x]) broken |= jerk_bit<Axes>(x);
+    }
+    return broken;
+}
+
 /// Rows for what is above a part of its limit and has none; false: nothing is.
 template <int Axes>
 bool AxisSpeedProblem<Axes>::need_broken_rows(double part) {
@@ -148,29 +182,7 @@ bool AxisSpeedProblem<Axes>::need_broken_rows(double part) {
             continue;
         for (std::uint32_t s = cell.first_sample; s < cell.end_sample; ++s) {
             HeldSample& held_sample = samples_[s];
-            const Sample& sample = held_sample.sample;
-            const double b_here = b + sample.at * (slope + 0.5 * sample.at * curve);
-            const double slope_here = slope + sample.at * curve;
-            const double root = std::sqrt(b_here);
-            std::uint16_t broken = 0;
-            if (std::abs(0.5 * sample.pace.value * slope_here + sample.pace.slope * b_here) >
-                part * limits_.path_acceleration)
-                broken |= path_bit<Axes>;
-            if (std::abs(0.5 * sample.pace.value * curve + 1.5 * sample.pace.slope * slope_here +
-                         sample.pace.curve * b_here) *
-                    root >
-                part * limits_.path_jerk)
-                broken |= path_jerk_bit<Axes>;
-            if (b_here > part * sample.cap * sample.cap) broken |= speed_bit<Axes>;
-            for (int x = 0; x < Axes; ++x) {
-                const double acceleration = std::abs(0.5 * sample.slope[x] * slope_here + sample.bend[x] * b_here);
-                if (acceleration > part * limits_.acceleration[x]) broken |= acceleration_bit(x);
-                if (limits_.jerk[x] <= 0) continue;
-                const double jerk = std::abs(0.5 * sample.slope[x] * curve + 1.5 * sample.bend[x] * slope_here +
-                                             sample.twist[x] * b_here) *
-                                    root;
-                if (jerk > part * limits_.jerk[x]) broken |= jerk_bit<Axes>(x);
-            }
+            const std::uint16_t broken = broken_at(held_sample.sample, {b, slope, curve}, part);
             cell.changed = cell.changed || (broken & ~held_sample.needed) != 0;
             held_sample.needed |= broken;
         }
@@ -274,6 +286,10 @@ template bool AxisSpeedProblem<5>::may_break(const Cell& cell, double part, doub
                                              double jerk, double path_jerk) const;
 template double AxisSpeedProblem<3>::acceleration_at_end(std::size_t cell) const;
 template double AxisSpeedProblem<5>::acceleration_at_end(std::size_t cell) const;
+template AxisSpeedProblem<3>::AtBegin AxisSpeedProblem<3>::at_begin(std::size_t cell) const;
+template std::uint16_t AxisSpeedProblem<3>::broken_at(const Sample& sample, const AtBegin& at, double part) const;
+template AxisSpeedProblem<5>::AtBegin AxisSpeedProblem<5>::at_begin(std::size_t cell) const;
+template std::uint16_t AxisSpeedProblem<5>::broken_at(const Sample& sample, const AtBegin& at, double part) const;
 template void AxisSpeedProblem<3>::need_likely_rows();
 template void AxisSpeedProblem<5>::need_likely_rows();
 template bool AxisSpeedProblem<3>::need_broken_rows(double part);

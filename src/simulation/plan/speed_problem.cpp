@@ -17,6 +17,7 @@ constexpr double diverged = 1e3;     ///< of the time: a gap of a problem withou
 constexpr double mended = 1e-4;      ///< of a bound
 constexpr double held = 1 + 3e-4;    ///< part of a limit that counts as held
 constexpr int most_rounds = 6;       ///< with rows for what the last solution broke
+constexpr int most_looks = 8;        ///< for places between samples at which a solution breaks a limit
 // On the way to a solution rows are looked for, too: first at a gap, then whenever it has shrunk to a part of itself, until it is small.
 constexpr double early_gap = 0.3, look_step = 0.7, last_look = 0.005;  ///< of the time; of the gap; of the time
 constexpr double nearly_held = 0.8;                                    ///< part of a limit that gets a row there
@@ -79,12 +80,41 @@ void AxisSpeedProblem<Axes>::add_sample(const Sample& sample) {
     samples_.push_back({sample});
     Cell& cell = cells_.back();
     cell.end_sample = static_cast<std::uint32_t>(samples_.size());
+    widen(cell, sample);
+}
+
+template <int Axes>
+void AxisSpeedProblem<Axes>::widen(Cell& cell, const Sample& sample) {
     cell.slope = cell.slope.cwiseMax(sample.slope.cwiseAbs());
     cell.bend = cell.bend.cwiseMax(sample.bend.cwiseAbs());
     cell.twist = cell.twist.cwiseMax(sample.twist.cwiseAbs());
     cell.pace = {std::max(cell.pace.value, sample.pace.value), std::max(cell.pace.slope, std::abs(sample.pace.slope)),
                  std::max(cell.pace.curve, std::abs(sample.pace.curve))};
     cell.least_cap = std::min(cell.least_cap, sample.cap);
+}
+
+/// Places become the last samples of their cells, so that the rows of the others keep their numbers; false: there are none.
+template <int Axes>
+bool AxisSpeedProblem<Axes>::join(const std::vector<Between>& places) {
+    if (places.empty()) return false;
+    std::vector<HeldSample> joined;
+    joined.reserve(samples_.size() + places.size());
+    auto place = places.begin();
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        Cell& cell = cells_[i];
+        const auto first = samples_.begin() + static_cast<std::ptrdiff_t>(cell.first_sample),
+                   end = samples_.begin() + static_cast<std::ptrdiff_t>(cell.end_sample);
+        cell.first_sample = static_cast<std::uint32_t>(joined.size());
+        joined.insert(joined.end(), first, end);
+        for (; place != places.end() && place->cell == i; ++place) {
+            joined.push_back({place->sample, broken_at(place->sample, at_begin(i), 1)});
+            widen(cell, place->sample);
+            cell.changed = true;
+        }
+        cell.end_sample = static_cast<std::uint32_t>(joined.size());
+    }
+    samples_ = std::move(joined);
+    return true;
 }
 
 template <int Axes>
@@ -217,15 +247,15 @@ void AxisSpeedProblem<Axes>::substitute() {
 }
 
 template <int Axes>
-bool AxisSpeedProblem<Axes>::solve(const KnotState& start, const KnotState& end) {
+bool AxisSpeedProblem<Axes>::solve(const KnotState& start, const KnotState& end, const LookBetween& look) {
     const std::vector<double> before = value_;
-    if (optimise(start, end)) return true;
+    if (optimise(start, end, look)) return true;
     value_ = before;
     return false;
 }
 
 template <int Axes>
-bool AxisSpeedProblem<Axes>::optimise(const KnotState& start, const KnotState& end) {
+bool AxisSpeedProblem<Axes>::optimise(const KnotState& start, const KnotState& end, const LookBetween& look) {
     constexpr std::size_t fewest = 4;
     if (cells_.size() < fewest) return false;
     fix_ends(start, end);
@@ -240,7 +270,8 @@ bool AxisSpeedProblem<Axes>::optimise(const KnotState& start, const KnotState& e
     if (first_ == FirstSpeeds::hold && planned < (1 + end_gap) * time_at_caps()) return false;
     weigh();
     need_likely_rows();
-    for (int round = 0; round < most_rounds; ++round) {
+    int looks = 0;
+    for (int round = 0; round < most_rounds + looks; ++round) {
         if (round == 0) {
             make_rows();
             rows_.begin(value_.data(), first_gap * time() / rows_.sides(), first_slack);
@@ -248,11 +279,13 @@ bool AxisSpeedProblem<Axes>::optimise(const KnotState& start, const KnotState& e
             add_needed_rows();
         }
         if (!iterate() || (first_ == FirstSpeeds::hold && time() > planned)) return false;
-        if (!need_broken_rows(held)) {
+        if (need_broken_rows(held)) continue;
+        if (look == nullptr || looks == most_looks || !join(look())) {
             limiting_.assign(cells_.size(), Row::cap);
             rows_.judge(value_.data(), limiting_);
             return true;
         }
+        ++looks;
     }
     return false;
 }

@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -70,7 +71,22 @@ public:
 
     /// The fastest speeds from one state to another. False: none was found that holds every limit, or none much
     /// faster; the values are then what they were. At least four cells.
-    [[nodiscard]] bool solve(const KnotState& start, const KnotState& end);
+    [[nodiscard]] bool solve(const KnotState& start, const KnotState& end) { return solve(start, end, {}); }
+
+    /// A place between the samples of a cell.
+    struct Between {
+        std::size_t cell = 0;
+        Sample sample;
+    };
+    /// Places, in the order of cells, at which the values break a limit; none: they hold everywhere.
+    using LookBetween = std::function<std::vector<Between>()>;
+    /// The same where derivatives vary between samples: what `look` finds in a solution become samples, until it finds no more
+    /// (an exchange method, Hettich and Kortanek 1993). After `most_looks` (speed_problem.cpp) the rest stays.
+    [[nodiscard]] bool solve(const KnotState& start, const KnotState& end, const LookBetween& look);
+    /// Whether the values break a limit of an axis, of the path, or of the speed at a place of a cell.
+    [[nodiscard]] bool breaks(std::size_t cell, const Sample& sample) const {
+        return broken_at(sample, at_begin(cell), 1) != 0;
+    }
 
     /// Forgets all cells but the first ones.
     void drop_back(std::size_t left);
@@ -109,8 +125,14 @@ private:
     struct Weights {
         std::array<double, 3> b{}, slope{}, curve{};
     };
+    /// b and its derivatives at the begin of a cell.
+    struct AtBegin {
+        double b = 0, slope = 0, curve = 0;
+    };
     // speed_problem.cpp: the solution
-    [[nodiscard]] bool optimise(const KnotState& start, const KnotState& end);
+    [[nodiscard]] bool optimise(const KnotState& start, const KnotState& end, const LookBetween& look);
+    static void widen(Cell& cell, const Sample& sample);
+    [[nodiscard]] bool join(const std::vector<Between>& places);
     void fix_ends(const KnotState& start, const KnotState& end);
     void lower_to_caps();
     void weigh();
@@ -127,6 +149,8 @@ private:
     [[nodiscard]] double acceleration_at_end(std::size_t cell) const;
     void need_likely_rows();
     [[nodiscard]] bool need_broken_rows(double part);
+    [[nodiscard]] AtBegin at_begin(std::size_t cell) const;
+    [[nodiscard]] std::uint16_t broken_at(const Sample& sample, const AtBegin& at, double part) const;
     [[nodiscard]] bool may_break(const Cell& cell, double part, double acceleration, double square, double jerk,
                                  double path_jerk) const;
     void make_rows(const LimitRows* before = nullptr);
