@@ -15,6 +15,7 @@
 #include "python/loaded_part.h"
 #include "python/optimize.h"
 #include "python/picture.h"
+#include "python/tradeoff.h"
 
 namespace py = pybind11;
 
@@ -191,7 +192,20 @@ PYBIND11_MODULE(_clsurf, module) {
         .def_readwrite("more_time_percent", &RepairOptions::more_time_percent)
         .def_readwrite("machines", &RepairOptions::machines)
         .def_readwrite("decimals", &RepairOptions::decimals)
-        .def_readwrite("feeds", &RepairOptions::feeds);
+        .def_readwrite("feeds", &RepairOptions::feeds)
+        .def_readwrite("tradeoff", &RepairOptions::tradeoff)
+        .def_readwrite("weight", &RepairOptions::weight);
+    py::class_<RepairedProgram>(module, "RepairedProgram")
+        .def_readonly("report", &RepairedProgram::report)
+        .def_readonly("text", &RepairedProgram::text)
+        .def_readonly("front", &RepairedProgram::front);
     module.def("optimize", &optimize_program, Unlocked());
+    py::class_<TradeoffOptions>(module, "TradeoffOptions")
+        .def(py::init<>())
+        .def_readwrite("start", &TradeoffOptions::start)
+        .def_readwrite("more_time_percent", &TradeoffOptions::more_time_percent)
+        .def_readwrite("runs", &TradeoffOptions::runs)
+        .def_readwrite("weight", &TradeoffOptions::weight);
+    module.def("tradeoff", &trade_off_settings, Unlocked());
     module.def("diff", &diff_parts, Unlocked());
 }

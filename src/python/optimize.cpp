@@ -11,8 +11,10 @@
 #include "io/readers/fitted_machine.h"
 #include "io/readers/machine_file.h"
 #include "io/reports/optimize_report.h"
+#include "io/reports/tradeoff_report.h"
 #include "pipeline/placement.h"
 #include "pipeline/simulated_log.h"
+#include "python/tradeoff.h"
 #include "repair/optimizer.h"
 
 namespace clsurf::python {
@@ -32,6 +34,9 @@ OptimizeRules rules_of(const RepairOptions& repair) {
     if (repair.feeds != "searched" && repair.feeds != "intervals")
         throw UsageError("feeds: '" + repair.feeds + "' is not searched or intervals");
     rules.feeds = repair.feeds == "intervals" ? FeedChoice::intervals : FeedChoice::searched;
+    require_weight(repair.weight);
+    rules.keeps_front = repair.tradeoff || repair.weight;
+    rules.weight = repair.weight;
     rules.header = fmt::format("clsurf {} optimize, tolerance {} mm", version, rules.tolerance);
     return rules;
 }
@@ -48,7 +53,7 @@ std::optional<CuttingTool> tool_of(const PartOptions& options, const std::option
 
 }  // namespace
 
-std::pair<std::string, std::string> optimize_program(const PartOptions& options, const RepairOptions& repair) {
+RepairedProgram optimize_program(const PartOptions& options, const RepairOptions& repair) {
     OptimizeRules rules = rules_of(repair);
     Machine machine = options.machine.empty() ? Machine{} : io::read_machine(options.machine);
     std::string origin = options.machine.empty() ? "that of clsurf machine --defaults" : options.machine;
@@ -82,7 +87,8 @@ std::pair<std::string, std::string> optimize_program(const PartOptions& options,
     const ReadProgram read = [&](const std::string& text) { return reader.level(text); };
     Optimized result = optimize(program, read, machine, rules, std::move(log), {}, diagnostics);
     result.machine = origin;
-    return {io::optimize_json(result, diagnostics), result.evaluation.accepted ? result.text : std::string()};
+    return {io::optimize_json(result, diagnostics), result.evaluation.accepted ? result.text : std::string(),
+            rules.keeps_front ? io::tradeoff_json(result.front, {}, diagnostics) : std::string()};
 }
 
 }  // namespace clsurf::python

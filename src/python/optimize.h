@@ -1,8 +1,8 @@
 #pragma once
 // The repair of a program.
 
+#include <optional>
 #include <string>
-#include <utility>
 
 #include "python/calls.h"
 
@@ -14,12 +14,20 @@ struct RepairOptions {
     int machines = 4;              ///< others that it must be better on
     int decimals = 0;              ///< least, of new coordinates; 0: as in the program
     std::string feeds = "searched";
+    bool tradeoff = false;           ///< the front of the candidates is reported
+    std::optional<double> weight{};  ///< of the surface, 0 … 1: chooses from the front; nothing: the objective does
 };
 
-/// The report of `clsurf optimize`, as JSON, and the text of the new program; empty: none was accepted. With a log but no
+/// What a repair gives.
+struct RepairedProgram {
+    std::string report;  ///< of `clsurf optimize`, JSON
+    std::string text;    ///< of the new program; empty: none was accepted
+    std::string front;   ///< the JSON of `clsurf optimize --tradeoff`; empty: neither it nor a weight was asked for
+};
+
+/// With a log but no
 /// machine file, the machine is fitted to the log. Throws UsageError; InputError: the program cannot be run, or has no
 /// adjacent passes.
-[[nodiscard]] std::pair<std::string, std::string> optimize_program(const PartOptions& options,
-                                                                   const RepairOptions& repair);
+[[nodiscard]] RepairedProgram optimize_program(const PartOptions& options, const RepairOptions& repair);
 
 }  // namespace clsurf::python

@@ -11,7 +11,7 @@ Lengths are in mm, times in s, speeds in mm/min, accelerations in mm/s², angles
 """
 
 from ._clsurf import version as __version__
-from .calls import IdentifiedMachine, OptimizedProgram, diff, identify, optimize, simulate
+from .calls import IdentifiedMachine, OptimizedProgram, Tradeoff, diff, identify, optimize, simulate, tradeoff
 from .errors import Error, InputError, SystemError, UsageError
 from .part import Part, Picture
 from .surface import Surface
@@ -25,9 +25,11 @@ __all__ = [
     "Picture",
     "Surface",
     "SystemError",
+    "Tradeoff",
     "UsageError",
     "diff",
     "identify",
     "optimize",
     "simulate",
+    "tradeoff",
 ]

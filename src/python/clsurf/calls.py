@@ -44,6 +44,60 @@ def simulate(
     return Part._of(_clsurf.simulate(options, (x, y, z)))
 
 
+class Tradeoff(NamedTuple):
+    """What `tradeoff` finds."""
+
+    report: Dict[str, Any]
+    """The keys of `clsurf simulate --tradeoff front.json`: `rows`, `weight`, `chosen`."""
+    machine: Optional[str]
+    """The machine file (TOML) of the chosen settings; None without a weight."""
+
+
+def tradeoff(
+    program: Path,
+    machine: Optional[Path] = None,
+    *,
+    weight: Optional[float] = None,
+    more_time_percent: float = 50.0,
+    runs: int = 48,
+    start: Sequence[float] = (0.0, 0.0, 0.0),
+    dialect: Optional[str] = None,
+    tools: Optional[Path] = None,
+    block_delete: bool = True,
+    work_offset: Optional[Sequence[float]] = None,
+) -> Tradeoff:
+    """Simulates a program at many settings of its machine: the Pareto front of time, mismatch between adjacent passes, and jerk.
+
+    Args:
+        program: the NC program.
+        machine: machine file. Default: the machine of `clsurf machine --defaults`.
+        weight: chooses from the front: 0 time alone, 1 surface alone.
+        more_time_percent: settings that take longer than this are left out.
+        runs: largest number of settings that are simulated.
+        start, dialect, tools, block_delete, work_offset: as those of `simulate`.
+
+    Raises:
+        InputError: the program cannot be run, or has no adjacent passes.
+    """
+    options = options_of(
+        program,
+        None,
+        machine=machine,
+        dialect=dialect,
+        tools=tools,
+        block_delete=block_delete,
+        work_offset=work_offset,
+    )
+    wanted = _clsurf.TradeoffOptions()
+    x, y, z = (float(value) for value in start)
+    wanted.start = (x, y, z)
+    wanted.more_time_percent = more_time_percent
+    wanted.runs = runs
+    wanted.weight = weight
+    report, text = _clsurf.tradeoff(options, wanted)
+    return Tradeoff(json.loads(report), text or None)
+
+
 class IdentifiedMachine(NamedTuple):
     """What `identify` finds."""
 
@@ -76,7 +130,7 @@ class OptimizedProgram(NamedTuple):
     """What `optimize` makes."""
 
     report: Dict[str, Any]
-    """The keys of `clsurf optimize --json`: `accepted`, `reason`, `time_before_s`, `time_after_s` …."""
+    """The keys of `clsurf optimize --json`: `accepted`, `reason`, `time_before_s`, `time_after_s` …; and `tradeoff`, if asked for."""
     text: Optional[str]
     """The new program; None if none was accepted."""
 
@@ -92,6 +146,8 @@ def optimize(
     machines: int = 4,
     decimals: int = 0,
     feeds: str = "searched",
+    tradeoff: bool = False,
+    weight: Optional[float] = None,
     dialect: Optional[str] = None,
     tools: Optional[Path] = None,
     block_delete: bool = True,
@@ -112,6 +168,8 @@ def optimize(
         machines: other machines that the new program must be better on.
         decimals: smallest number of decimals of new coordinates; 0: as in the program.
         feeds: `"searched"` or `"intervals"`, the speeds of constant-speed intervals.
+        tradeoff: the report gets the front of all acceptable candidates, with the keys of `clsurf optimize --tradeoff front.json`.
+        weight: chooses from this front instead of the objective: 0 time alone, 1 surface alone. Implies `tradeoff`.
         dialect, tools, block_delete, layout, mapping, period, work_offset: as those of `Part`.
 
     Raises:
@@ -136,8 +194,13 @@ def optimize(
     repair.machines = machines
     repair.decimals = decimals
     repair.feeds = feeds
-    report, text = _clsurf.optimize(options, repair)
-    return OptimizedProgram(json.loads(report), text or None)
+    repair.tradeoff = tradeoff
+    repair.weight = weight
+    made = _clsurf.optimize(options, repair)
+    report = json.loads(made.report)
+    if made.front:
+        report["tradeoff"] = json.loads(made.front)
+    return OptimizedProgram(report, made.text or None)
 
 
 def diff(reference: Part, *others: Part) -> Dict[str, Any]:
