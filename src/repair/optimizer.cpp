@@ -94,7 +94,6 @@ private:
         const std::vector<TriedProposal> finalists = evaluator_.finalists();
         if (finalists.empty()) return evaluator_.best();
         Ensemble ensemble(program_, machines_drawn_from(machine_, rules_.machines), rules_, evaluator_.kinematics());
-        const std::size_t found_before = defects_by_check(evaluator_.before(), program_);
         TriedProposal chosen;
         std::string refusal;
         EnsembleResult refused;
@@ -108,9 +107,10 @@ private:
             if (rules_.machines > 0) evaluator_.say("the best candidates on other machines");
             const EnsembleResult runs = ensemble.run(changed);
             std::string reason = why_not_better(runs, rules_.more_time);
-            const std::size_t found = defects_by_check(each->run, changed);
-            if (reason.empty() && found > found_before)
-                reason = fmt::format("check would find {} defects instead of {}", found, found_before);
+            const std::size_t found =
+                each->found_by_check ? *each->found_by_check : defects_by_check(each->run, changed);
+            if (reason.empty() && found > evaluator_.found_before())
+                reason = fmt::format("check would find {} defects instead of {}", found, evaluator_.found_before());
             if (!reason.empty()) {
                 if (refusal.empty()) refused = runs;
                 if (refusal.empty()) refusal = reason;

@@ -53,6 +53,7 @@ Evaluator::Evaluator(const Program& program, const ReadProgram& read, const Mach
     summary_before_ = std::move(simulated.summary);
     before_ = judge_run(std::move(simulated.log), program_, rules_.quality, diagnostics_, kinematics_,
                         ProgramIdentity::same, rules_.derivative, rules_.keeps_front);
+    found_before_ = defects_by_check(before_, program_);
 }
 
 bool Evaluator::has_time(double share) const {
@@ -177,11 +178,21 @@ double Evaluator::score(const Proposal& p) const {
 void Evaluator::keep_finalist(const TriedProposal& proposal, std::vector<TriedProposal>& finalists) const {
     const std::size_t most =
         static_cast<double>(before_.log.records) >= large_run ? most_finalists_of_large : most_finalists;
-    const auto place =
-        std::upper_bound(finalists.begin(), finalists.end(), proposal,
-                         [&](const TriedProposal& a, const TriedProposal& b) { return score(*a) < score(*b); });
+    // A more even run is judged by lower thresholds. What check would refuse only fills the places that nothing else takes.
+    const bool full = finalists.size() == most;
+    if (full && passes_check(*finalists.back()) && !(score(*proposal) < score(*finalists.back()))) return;
+    proposal->found_by_check = defects_by_check(proposal->run, read_(proposal->text));
+    const auto place = std::upper_bound(finalists.begin(), finalists.end(), proposal,
+                                        [&](const TriedProposal& a, const TriedProposal& b) {
+                                            const bool passes = passes_check(*a);
+                                            return passes != passes_check(*b) ? passes : score(*a) < score(*b);
+                                        });
     finalists.insert(place, proposal);
     if (finalists.size() > most) finalists.pop_back();
+}
+
+bool Evaluator::passes_check(const Proposal& finalist) const {
+    return !finalist.found_by_check || *finalist.found_by_check <= found_before_;
 }
 
 RunMeasures Proposal::measures() const {
@@ -206,8 +217,10 @@ std::vector<TriedProposal> Evaluator::finalists() const {
     if (!preferred_.empty()) return preferred_;
     std::vector<TriedProposal> all = with_feeds_;
     all.insert(all.end(), without_feeds_.begin(), without_feeds_.end());
-    std::stable_sort(all.begin(), all.end(),
-                     [&](const TriedProposal& a, const TriedProposal& b) { return better(*a, *b); });
+    std::stable_sort(all.begin(), all.end(), [&](const TriedProposal& a, const TriedProposal& b) {
+        const bool passes = passes_check(*a);
+        return passes != passes_check(*b) ? passes : better(*a, *b);
+    });
     return all;
 }
 

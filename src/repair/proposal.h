@@ -36,8 +36,9 @@ struct Proposal {
     std::string text;
     JudgedRun run;
     SimulationSummary summary;
-    std::optional<PartRoughness> roughness{};  ///< of a finalist, where the tool is known
-    int number = 0;                            ///< in the order in which they were tried, from 1
+    std::optional<PartRoughness> roughness{};     ///< of a finalist, where the tool is known
+    int number = 0;                               ///< in the order in which they were tried, from 1
+    std::optional<std::size_t> found_by_check{};  ///< defects_by_check(), of a finalist
 
     [[nodiscard]] RunMeasures measures() const;
 };
@@ -62,6 +63,8 @@ public:
     /// nullptr: the program is not run on five axes.
     [[nodiscard]] const Orientation* orientation() const { return orientation_.get(); }
     [[nodiscard]] const std::shared_ptr<const Kinematics>& kinematics() const { return kinematics_; }
+    /// defects_by_check() of the run of the program.
+    [[nodiscard]] std::size_t found_before() const { return found_before_; }
     /// Whether one more proposal may be tried (always for the first one). The total number of simulated points is
     /// limited, of which a share may be used, and so is the number of consecutive proposals without improvement.
     [[nodiscard]] bool has_time(double share = 1) const;
@@ -69,7 +72,8 @@ public:
     /// `targets`: as those of a Proposal, or none at all.
     TriedProposal propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
     [[nodiscard]] const TriedProposal& best() const { return best_; }
-    /// The accepted proposals with the lowest scores, the lowest first, and last those that measure_roughness() refused; few where runs are long. Some of them have no feeds,
+    /// The accepted proposals with the lowest scores: first those in which `check` finds no more defects than in the program, the
+    /// lowest score first, and last those that measure_roughness() refused; few where runs are long. Some of them have no feeds,
     /// where there are such.
     [[nodiscard]] std::vector<TriedProposal> finalists() const;
 
@@ -121,6 +125,7 @@ private:
     [[nodiscard]] std::string objection(const Evaluation& evaluation, const RunMeasures& before,
                                         const RunMeasures& after, bool limits_ok) const;
     void keep_finalist(const TriedProposal& proposal, std::vector<TriedProposal>& finalists) const;
+    [[nodiscard]] bool passes_check(const Proposal& finalist) const;
     const Program& program_;
     const ReadProgram& read_;
     const Machine& machine_;
@@ -131,6 +136,7 @@ private:
     std::unique_ptr<const Orientation> orientation_;
     JudgedRun before_;
     SimulationSummary summary_before_;
+    std::size_t found_before_ = 0;  ///< by check
     std::optional<PartRoughness> roughness_before_;
     TriedProposal best_;
     std::vector<TriedProposal> with_feeds_, without_feeds_;  ///< finalists
