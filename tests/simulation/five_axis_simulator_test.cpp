@@ -210,8 +210,8 @@ double share_along(const FiveAxisPath& path, const Machine& machine, int places)
             for (int k = 0; k < 5; ++k) {
                 const MachineAxis& axis =
                     k < 3 ? machine.axes[static_cast<std::size_t>(k)] : machine.rotary[static_cast<std::size_t>(k - 3)];
-                const double a = d.slope[k] * slope / 2 + d.bend[k] * b;
-                const double j = (d.slope[k] * curve / 2 + 1.5 * d.bend[k] * slope + d.twist[k] * b) * std::sqrt(b);
+                const double a = d.first[k] * slope / 2 + d.second[k] * b;
+                const double j = (d.first[k] * curve / 2 + 1.5 * d.second[k] * slope + d.third[k] * b) * std::sqrt(b);
                 worst = std::max({worst, std::abs(a) / axis.max_acceleration, std::abs(j) / axis.max_jerk});
             }
         }

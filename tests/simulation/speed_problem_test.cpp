@@ -78,9 +78,9 @@ Outcome measure(const Case& of, const std::vector<double>& c) {
             use(0.5 * slope, of.path_acceleration);
             use(0.5 * std::sqrt(b) * curve, of.path_jerk);
             for (int x = 0; x < 2; ++x) {
-                use(0.5 * at.slope[x] * slope + at.bend[x] * b, of.axis_acceleration);
+                use(0.5 * at.first[x] * slope + at.second[x] * b, of.axis_acceleration);
                 if (of.axis_jerk <= 0) continue;
-                use(std::sqrt(b) * (0.5 * at.slope[x] * curve + 1.5 * at.bend[x] * slope + at.twist[x] * b),
+                use(std::sqrt(b) * (0.5 * at.first[x] * curve + 1.5 * at.second[x] * slope + at.third[x] * b),
                     of.axis_jerk);
             }
         }

@@ -20,7 +20,7 @@ template <int Axes>
 struct AxisSample {
     using Vector = AxisVector<Axes>;
     double at = 0;  ///< arc length after the begin of the cell [mm]
-    Vector slope = Vector::Zero(), bend = Vector::Zero(), twist = Vector::Zero();  ///< x′, x″ [1/mm], x‴ [1/mm²]
+    Vector first = Vector::Zero(), second = Vector::Zero(), third = Vector::Zero();  ///< x′, x″ [1/mm], x‴ [1/mm²]
     Pace pace{0, 0, 0};           ///< 0: the cell's own limits along the path are enough
     double cap = infinite_speed;  ///< of the speed, by how much the path bends here [mm/s]
 };

@@ -210,9 +210,9 @@ AxisSample<5> FiveAxisPath::derivatives(double u, PathDerivatives& tip) const {
     tips[0] += zero_;
     const VectorJet axes = to_axes(*kinematics_, tips, tilt, rotation);
     AxisSample<5> sample;
-    sample.slope << axes[1], tilt[1], rotation[1];
-    sample.bend << axes[2], tilt[2], rotation[2];
-    sample.twist << axes[3], tilt[3], rotation[3];
+    sample.first << axes[1], tilt[1], rotation[1];
+    sample.second << axes[2], tilt[2], rotation[2];
+    sample.third << axes[3], tilt[3], rotation[3];
     const double pace = tip.first.norm();
     if (pace > least_turn) sample.pace = pace_of(tip);
     return sample;

@@ -72,8 +72,8 @@ struct Span {
     bool rounded = false;
 
     // Greatest values on the span: of the first to third derivative of the position by the arc length, an axis each.
-    Vec3 slope = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();
-    double greatest_slope = 0, greatest_bend = 0;  ///< of the vectors
+    Vec3 first = Vec3::Zero(), second = Vec3::Zero(), third = Vec3::Zero();
+    double greatest_first = 0, greatest_second = 0;  ///< of the vectors
     double pace_slope = 0, pace_curve = 0;  ///< of |p′|′ and |p′|″ [1/mm, 1/mm²]; 0 where nothing is rounded
     double swing = 0;                       ///< of |p′|³ times the square of the curvature [1/mm²]
     double fourth = 0;                      ///< of the length of the fourth derivative [1/mm³]

@@ -62,8 +62,8 @@ void bound_pace(Span& span, const std::array<Vec3, 4>& first, const std::array<V
         for (const Vec3& other : second) slope = std::max(slope, std::abs(point.dot(other)));
         for (const Vec3& other : third) twist = std::max(twist, std::abs(point.dot(other)));
     }
-    span.pace_slope = std::min(slope / least, span.greatest_bend);
-    span.swing = span.greatest_bend * span.greatest_bend / least;
+    span.pace_slope = std::min(slope / least, span.greatest_second);
+    span.swing = span.greatest_second * span.greatest_second / least;
     span.pace_curve = span.swing + twist / least;
 }
 
@@ -73,17 +73,17 @@ void bound_line(Span& span) {
     const std::array<Vec3, 5>& c = span.rounding;
     const Vec3 slope = span.base.direction + c[1];
     const Vec3 linear = 2 * l * c[2], square = 3 * l * l * c[3], cube = 4 * l * l * l * c[4];
-    take(slope, span.slope, span.greatest_slope);
-    take(slope + linear / 3, span.slope, span.greatest_slope);
-    take(slope + linear * (2.0 / 3) + square / 3, span.slope, span.greatest_slope);
-    take(slope + linear + square + cube, span.slope, span.greatest_slope);
+    take(slope, span.first, span.greatest_first);
+    take(slope + linear / 3, span.first, span.greatest_first);
+    take(slope + linear * (2.0 / 3) + square / 3, span.first, span.greatest_first);
+    take(slope + linear + square + cube, span.first, span.greatest_first);
     const Vec3 bend = 2 * c[2], bend_linear = 6 * l * c[3], bend_square = 12 * l * l * c[4];
-    take(bend, span.bend, span.greatest_bend);
-    take(bend + 0.5 * bend_linear, span.bend, span.greatest_bend);
-    take(bend + bend_linear + bend_square, span.bend, span.greatest_bend);
-    span.greatest_slope = std::sqrt(span.greatest_slope);
-    span.greatest_bend = std::sqrt(span.greatest_bend);
-    span.twist = (6 * c[3]).cwiseAbs().cwiseMax((6 * c[3] + 24 * l * c[4]).cwiseAbs());
+    take(bend, span.second, span.greatest_second);
+    take(bend + 0.5 * bend_linear, span.second, span.greatest_second);
+    take(bend + bend_linear + bend_square, span.second, span.greatest_second);
+    span.greatest_first = std::sqrt(span.greatest_first);
+    span.greatest_second = std::sqrt(span.greatest_second);
+    span.third = (6 * c[3]).cwiseAbs().cwiseMax((6 * c[3] + 24 * l * c[4]).cwiseAbs());
     span.fourth = 24 * c[4].norm();
     bound_pace(
         span, {slope, slope + linear / 3, slope + linear * (2.0 / 3) + square / 3, slope + linear + square + cube},
@@ -118,19 +118,19 @@ void bound_curve(Span& span) {
         const PathDerivatives d = span.derivatives(k * step);
         thirds[static_cast<std::size_t>(k)] = d.third;
         paces[static_cast<std::size_t>(k)] = pace_of(d);
-        take(d.first, span.slope, span.greatest_slope);
-        take(d.second, span.bend, span.greatest_bend);
-        span.twist = span.twist.cwiseMax(d.third.cwiseAbs());
+        take(d.first, span.first, span.greatest_first);
+        take(d.second, span.second, span.greatest_second);
+        span.third = span.third.cwiseMax(d.third.cwiseAbs());
     }
-    span.greatest_slope = std::sqrt(span.greatest_slope);
-    span.greatest_bend = std::sqrt(span.greatest_bend);
+    span.greatest_first = std::sqrt(span.greatest_first);
+    span.greatest_second = std::sqrt(span.greatest_second);
     if (span.base.arc) {
         const double turn = span.base.rate * step;  // between checked points
         const double rate = span.base.rate;
         const double margin = 0.125 * turn * turn *
                               (span.base.radius + std::abs(span.base.growth * span.base.length * rate)) * rate * rate *
                               rate;
-        span.twist.array() += (span.base.first.cwiseAbs() + span.base.second.cwiseAbs()).array().min(1.0) * margin;
+        span.third.array() += (span.base.first.cwiseAbs() + span.base.second.cwiseAbs()).array().min(1.0) * margin;
     }
     span.fourth = 24 * span.rounding[4].norm() + (span.base.arc ? span.base.radius * std::pow(span.base.rate, 4) : 0.0);
     if (span.base.cubic || span.base.spline) {
@@ -141,17 +141,17 @@ void bound_curve(Span& span) {
             if (k + 1 < thirds.size())
                 margin = margin.cwiseMax((thirds[k - 1] - 2 * thirds[k] + thirds[k + 1]).cwiseAbs());
         }
-        span.twist += 0.25 * margin;
+        span.third += 0.25 * margin;
     }
     // Between checked points a function is at most its values there plus step²/8 of its second derivative.
     const double curve = step * step / 8;
-    span.slope += curve * span.twist;
-    span.greatest_slope += curve * span.twist.norm();
-    span.bend.array() += curve * span.fourth;
-    span.greatest_bend += curve * span.fourth;
+    span.first += curve * span.third;
+    span.greatest_first += curve * span.third.norm();
+    span.second.array() += curve * span.fourth;
+    span.greatest_second += curve * span.fourth;
     double least = paces.front().value;
     for (const Pace& pace : paces) least = std::min(least, pace.value);
-    span.swing = span.greatest_bend * span.greatest_bend / least;
+    span.swing = span.greatest_second * span.greatest_second / least;
     if (!span.rounded) return;
     // The pace's derivatives are as good as quadratic: their second differences stand for what lies between.
     double slope_play = 0, curve_play = 0;
@@ -270,8 +270,8 @@ void PathStream::add_roundings(Span& span, double begin) const {
         }
     }
     if (span.straight()) {
-        span.slope = span.base.direction.cwiseAbs();
-        span.greatest_slope = 1;
+        span.first = span.base.direction.cwiseAbs();
+        span.greatest_first = 1;
     } else if (span.base.straight()) {
         bound_line(span);
     } else {
@@ -285,8 +285,8 @@ void PathStream::hold_back(Span& span) const {
     span.free_limiting = span.limiting;
     for (int i = 0; i < 3; ++i) {
         const double jerk = ArcSteps::twist_share * machine_->axes[static_cast<std::size_t>(i)].max_jerk;
-        if (jerk > 0 && span.bend[i] > 0)
-            span.acceleration = std::min(span.acceleration, jerk / (3 * span.bend[i] * span.cap));
+        if (jerk > 0 && span.second[i] > 0)
+            span.acceleration = std::min(span.acceleration, jerk / (3 * span.second[i] * span.cap));
     }
 }
 
@@ -294,7 +294,7 @@ void PathStream::set_limits(Span& span) const {
     const PathLimits& path = machine_->path;
     const double override_factor = machine_->controller.feed_override;
     const bool rapid = !std::isfinite(span.base.feed);
-    span.cap = path.max_speed / span.greatest_slope;
+    span.cap = path.max_speed / span.greatest_first;
     span.limiting = LimitingFactor::axis_speed;
     const auto limit = [&](double speed, LimitingFactor why) {
         if (speed < span.cap) span.cap = speed, span.limiting = why;
@@ -310,8 +310,8 @@ void PathStream::set_limits(Span& span) const {
         limit(span.base.block_length / (std::max(1.0, periods) * period), LimitingFactor::block_time);
     }
     for (int i = 0; i < 3; ++i) {
-        if (span.slope[i] > 0)
-            limit(machine_->axes[static_cast<std::size_t>(i)].max_speed / span.slope[i], LimitingFactor::axis_speed);
+        if (span.first[i] > 0)
+            limit(machine_->axes[static_cast<std::size_t>(i)].max_speed / span.first[i], LimitingFactor::axis_speed);
     }
     limit(span.base.greatest_speed, LimitingFactor::corner_tolerance);
     span.free_cap = span.cap;
@@ -322,17 +322,17 @@ void PathStream::set_limits(Span& span) const {
     const double twist_share = span.base.jerk_share < 1 && !span.base.corner_arc ? ArcSteps::twist_share : 1;
     for (int i = 0; i < 3; ++i) {
         const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(i)];
-        if (span.slope[i] > 0) {
-            span.acceleration = std::min(span.acceleration, axis.max_acceleration / span.slope[i]);
+        if (span.first[i] > 0) {
+            span.acceleration = std::min(span.acceleration, axis.max_acceleration / span.first[i]);
             if (axis.max_jerk > 0)
-                span.jerk = std::min(span.jerk, span.base.jerk_share * axis.max_jerk / span.slope[i]);
+                span.jerk = std::min(span.jerk, span.base.jerk_share * axis.max_jerk / span.first[i]);
         }
         // Roots only of what may be broken.
-        if (span.bend[i] * span.cap * span.cap > nearly * axis.max_acceleration)
-            limit(std::sqrt(axis.max_acceleration / span.bend[i]), LimitingFactor::axis_acceleration);
+        if (span.second[i] * span.cap * span.cap > nearly * axis.max_acceleration)
+            limit(std::sqrt(axis.max_acceleration / span.second[i]), LimitingFactor::axis_acceleration);
         const double jerk = twist_share * axis.max_jerk;
-        if (jerk > 0 && span.twist[i] * span.cap * span.cap * span.cap > nearly * jerk)
-            limit(std::cbrt(jerk / span.twist[i]), corner ? LimitingFactor::corner_tolerance : LimitingFactor::jerk);
+        if (jerk > 0 && span.third[i] * span.cap * span.cap * span.cap > nearly * jerk)
+            limit(std::cbrt(jerk / span.third[i]), corner ? LimitingFactor::corner_tolerance : LimitingFactor::jerk);
     }
     if (span.pace_slope * span.cap * span.cap > nearly * path.max_acceleration)
         limit(std::sqrt(path.max_acceleration / span.pace_slope), LimitingFactor::axis_acceleration);
@@ -341,8 +341,8 @@ void PathStream::set_limits(Span& span) const {
               corner ? LimitingFactor::corner_tolerance : LimitingFactor::jerk);
     if (limits_jerk_in_bends(*machine_) && span.swing * span.cap * span.cap * span.cap > nearly * path.max_jerk)
         limit(std::cbrt(path.max_jerk / span.swing), corner ? LimitingFactor::corner_tolerance : LimitingFactor::jerk);
-    if (span.greatest_bend > 0) {
-        const double radius = 1 / span.greatest_bend;
+    if (span.greatest_second > 0) {
+        const double radius = 1 / span.greatest_second;
         limit(arc_speed(radius, path.max_normal_acceleration), LimitingFactor::axis_acceleration);
         limit(chord_speed(radius, machine_->controller.chord_tolerance, machine_->controller.period),
               LimitingFactor::chord_error);

@@ -19,28 +19,28 @@ Derating left_at(double speed, const Span& span, const Machine& machine) {
     Derating left{speed, span.acceleration, span.jerk};
     for (int i = 0; i < 3; ++i) {
         const MachineAxis& axis = machine.axes[static_cast<std::size_t>(i)];
-        if (span.slope[i] > 0)
+        if (span.first[i] > 0)
             left.acceleration =
-                std::min(left.acceleration, (axis.max_acceleration - span.bend[i] * speed * speed) / span.slope[i]);
-        if (axis.max_jerk <= 0 || span.bend[i] <= 0) continue;
-        const double room = axis.max_jerk - span.twist[i] * speed * speed * speed;
-        left.acceleration = std::min(left.acceleration, share_of_bend * room / (3 * span.bend[i] * speed));
+                std::min(left.acceleration, (axis.max_acceleration - span.second[i] * speed * speed) / span.first[i]);
+        if (axis.max_jerk <= 0 || span.second[i] <= 0) continue;
+        const double room = axis.max_jerk - span.third[i] * speed * speed * speed;
+        left.acceleration = std::min(left.acceleration, share_of_bend * room / (3 * span.second[i] * speed));
     }
     const double path_room = machine.path.max_jerk - span.pace_curve * speed * speed * speed;
     if (span.rounded)
         left.acceleration = std::min(
-            left.acceleration, (machine.path.max_acceleration - span.pace_slope * speed * speed) / span.greatest_slope);
+            left.acceleration, (machine.path.max_acceleration - span.pace_slope * speed * speed) / span.greatest_first);
     if (span.pace_slope > 0)
         left.acceleration = std::min(left.acceleration, share_of_bend * path_room / (3 * span.pace_slope * speed));
     left.acceleration = std::max(left.acceleration, 0.0);
     if (span.rounded)
         left.jerk =
-            std::min(left.jerk, (path_room - 3 * span.pace_slope * speed * left.acceleration) / span.greatest_slope);
+            std::min(left.jerk, (path_room - 3 * span.pace_slope * speed * left.acceleration) / span.greatest_first);
     for (int i = 0; i < 3; ++i) {
         const MachineAxis& axis = machine.axes[static_cast<std::size_t>(i)];
-        if (axis.max_jerk <= 0 || span.slope[i] <= 0) continue;
-        const double room = axis.max_jerk - span.twist[i] * speed * speed * speed;
-        left.jerk = std::min(left.jerk, (room - 3 * span.bend[i] * speed * left.acceleration) / span.slope[i]);
+        if (axis.max_jerk <= 0 || span.first[i] <= 0) continue;
+        const double room = axis.max_jerk - span.third[i] * speed * speed * speed;
+        left.jerk = std::min(left.jerk, (room - 3 * span.second[i] * speed * left.acceleration) / span.first[i]);
     }
     return left;
 }

@@ -80,9 +80,9 @@ private:
         if (d.pace.value > 0) {
             cap(chord.feed / d.pace.value, LimitingFactor::feed);
             cap(machine_->path.max_speed / d.pace.value, LimitingFactor::axis_speed);
-            const double bend = tip.first.cross(tip.second).norm();
-            if (bend > 0) {
-                const double radius = d.pace.value * d.pace.value * d.pace.value / bend;
+            const double cross_product = tip.first.cross(tip.second).norm();
+            if (cross_product > 0) {
+                const double radius = d.pace.value * d.pace.value * d.pace.value / cross_product;
                 cap(arc_speed(radius, machine_->path.max_normal_acceleration) / d.pace.value,
                     LimitingFactor::axis_acceleration);
                 cap(chord_speed(radius, machine_->controller.chord_tolerance, machine_->controller.period) /
@@ -97,13 +97,13 @@ private:
         }
         place.cap = infinite;
         for (int k = 0; k < 5; ++k) {
-            const double slope = std::abs(d.slope[k]), bend = std::abs(d.bend[k]), twist = std::abs(d.twist[k]);
-            cap(speeds_[k] / slope, LimitingFactor::axis_speed);
-            place.acceleration = std::min(place.acceleration, limits_.acceleration[k] / slope);
-            place.cap = std::min(place.cap, std::sqrt(steady_share * limits_.acceleration[k] / bend));
+            const double first = std::abs(d.first[k]), second = std::abs(d.second[k]), third = std::abs(d.third[k]);
+            cap(speeds_[k] / first, LimitingFactor::axis_speed);
+            place.acceleration = std::min(place.acceleration, limits_.acceleration[k] / first);
+            place.cap = std::min(place.cap, std::sqrt(steady_share * limits_.acceleration[k] / second));
             if (!(limits_.jerk[k] > 0)) continue;
-            place.jerk = std::min(place.jerk, limits_.jerk[k] / slope);
-            place.cap = std::min(place.cap, std::cbrt(steady_share * limits_.jerk[k] / twist));
+            place.jerk = std::min(place.jerk, limits_.jerk[k] / first);
+            place.cap = std::min(place.cap, std::cbrt(steady_share * limits_.jerk[k] / third));
         }
         place.cap = std::min(place.cap, place.free_cap);
         return place;
@@ -239,13 +239,13 @@ private:
             most = std::min(most, std::pow(acceleration_limit / (root * std::abs(acceleration)), 1.5));
         };
         for (int k = 0; k < 5; ++k) {
-            const double bend = side * d.bend[k];
-            hold(d.slope[k] + u * (9 * bend + 4.5 * u * d.twist[k]), limits_.jerk[k], d.slope[k] + 1.5 * u * bend,
+            const double second = side * d.second[k];
+            hold(d.first[k] + u * (9 * second + 4.5 * u * d.third[k]), limits_.jerk[k], d.first[k] + 1.5 * u * second,
                  limits_.acceleration[k]);
         }
-        const double bend = side * d.pace.slope;
-        hold(d.pace.value + u * (9 * bend + 4.5 * u * d.pace.curve), limits_.path_jerk, d.pace.value + 1.5 * u * bend,
-             limits_.path_acceleration);
+        const double pace_slope = side * d.pace.slope;
+        hold(d.pace.value + u * (9 * pace_slope + 4.5 * u * d.pace.curve), limits_.path_jerk,
+             d.pace.value + 1.5 * u * pace_slope, limits_.path_acceleration);
         return most;
     }
 

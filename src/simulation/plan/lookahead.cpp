@@ -75,17 +75,18 @@ double WindowPlanner::part_of_limits(const Span& span, double speed, double acce
     double worst = 0;
     if (span.rounded) {
         const PathLimits& path = machine_->path;
-        worst = std::max((span.greatest_slope * acceleration + span.pace_slope * speed * speed) / path.max_acceleration,
-                         (span.greatest_slope * jerk + 3 * span.pace_slope * speed * acceleration +
+        worst = std::max((span.greatest_first * acceleration + span.pace_slope * speed * speed) / path.max_acceleration,
+                         (span.greatest_first * jerk + 3 * span.pace_slope * speed * acceleration +
                           span.pace_curve * speed * speed * speed) /
                              path.max_jerk);
     }
     for (int k = 0; k < 3; ++k) {
         const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(k)];
-        worst = std::max(worst, (span.slope[k] * acceleration + span.bend[k] * speed * speed) / axis.max_acceleration);
+        worst =
+            std::max(worst, (span.first[k] * acceleration + span.second[k] * speed * speed) / axis.max_acceleration);
         if (axis.max_jerk <= 0) continue;
-        worst = std::max(worst, (span.slope[k] * jerk + 3 * span.bend[k] * speed * acceleration +
-                                 span.twist[k] * speed * speed * speed) /
+        worst = std::max(worst, (span.first[k] * jerk + 3 * span.second[k] * speed * acceleration +
+                                 span.third[k] * speed * speed * speed) /
                                     axis.max_jerk);
     }
     return worst;

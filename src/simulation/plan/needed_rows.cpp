@@ -57,9 +57,9 @@ bool AxisSpeedProblem<Axes>::may_break(const Cell& cell, double part, double acc
         part * limits_.path_jerk)
         return true;
     for (int x = 0; x < Axes; ++x) {
-        if (cell.slope[x] * acceleration + cell.bend[x] * square > part * limits_.acceleration[x]) return true;
+        if (cell.first[x] * acceleration + cell.second[x] * square > part * limits_.acceleration[x]) return true;
         if (limits_.jerk[x] > 0 &&
-            cell.slope[x] * jerk + speed * (3 * cell.bend[x] * acceleration + cell.twist[x] * square) >
+            cell.first[x] * jerk + speed * (3 * cell.second[x] * acceleration + cell.third[x] * square) >
                 part * limits_.jerk[x])
             return true;
     }
@@ -106,12 +106,12 @@ void AxisSpeedProblem<Axes>::need_likely_rows() {
                 held_sample.needed |= path_jerk_bit<Axes>;
             if (speed > sample.cap) held_sample.needed |= speed_bit<Axes>;
             for (int x = 0; x < Axes; ++x) {
-                const double slope = std::abs(sample.slope[x]), bend = std::abs(sample.bend[x]),
-                             twist = std::abs(sample.twist[x]);
-                if (slope * steep + bend * speed * speed > limits_.acceleration[x])
+                const double first = std::abs(sample.first[x]), second = std::abs(sample.second[x]),
+                             third = std::abs(sample.third[x]);
+                if (first * steep + second * speed * speed > limits_.acceleration[x])
                     held_sample.needed |= acceleration_bit(x);
                 if (limits_.jerk[x] <= 0) continue;
-                if (slope * jerk + speed * (3 * bend * steep + twist * speed * speed) > limits_.jerk[x])
+                if (first * jerk + speed * (3 * second * steep + third * speed * speed) > limits_.jerk[x])
                     held_sample.needed |= jerk_bit<Axes>(x);
             }
         }
@@ -141,11 +141,11 @@ std::uint16_t AxisSpeedProblem<Axes>::broken_at(const Sample& sample, const AtBe
         broken |= path_jerk_bit<Axes>;
     if (b_here > part * sample.cap * sample.cap) broken |= speed_bit<Axes>;
     for (int x = 0; x < Axes; ++x) {
-        const double acceleration = std::abs(0.5 * sample.slope[x] * slope_here + sample.bend[x] * b_here);
+        const double acceleration = std::abs(0.5 * sample.first[x] * slope_here + sample.second[x] * b_here);
         if (acceleration > part * limits_.acceleration[x]) broken |= acceleration_bit(x);
         if (limits_.jerk[x] <= 0) continue;
         const double jerk =
-            std::abs(0.5 * sample.slope[x] * curve + 1.5 * sample.bend[x] * slope_here + sample.twist[x] * b_here) *
+            std::abs(0.5 * sample.first[x] * curve + 1.5 * sample.second[x] * slope_here + sample.third[x] * b_here) *
             root;
         if (jerk > part * limits_.jerk[x]) broken |= jerk_bit<Axes>(x);
     }
@@ -254,15 +254,15 @@ void AxisSpeedProblem<Axes>::make_rows_of(std::size_t i) {
         for (int x = 0; x < Axes; ++x) {
             const std::uint32_t number = first + 2 * static_cast<std::uint32_t>(x);
             if ((samples_[s].needed & acceleration_bit(x)) != 0) {
-                add_row(number, Row::axis_acceleration, i, sum(0.5 * sample.slope[x], w.slope, sample.bend[x], w.b),
+                add_row(number, Row::axis_acceleration, i, sum(0.5 * sample.first[x], w.slope, sample.second[x], w.b),
                         acceleration_share * limits_.acceleration[x]);
             }
             if ((samples_[s].needed & jerk_bit<Axes>(x)) != 0) {
                 const double limit = jerk_share * limits_.jerk[x];
-                const double steady = std::abs(sample.twist[x]) * cell.limits.cap * cell.limits.cap * cell.limits.cap;
-                const Three moving = sum(1.5 * sample.bend[x], w.slope, sample.twist[x], w.b);
+                const double steady = std::abs(sample.third[x]) * cell.limits.cap * cell.limits.cap * cell.limits.cap;
+                const Three moving = sum(1.5 * sample.second[x], w.slope, sample.third[x], w.b);
                 add_jerk(number + 1, steady > 0.5 * limit ? Row::corner_jerk : Row::axis_jerk, i,
-                         sum(0.5 * sample.slope[x], w.curve, 1, moving), w.b, limit);
+                         sum(0.5 * sample.first[x], w.curve, 1, moving), w.b, limit);
             }
         }
         if ((samples_[s].needed & path_bit<Axes>) != 0)

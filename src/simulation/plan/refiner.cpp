@@ -279,9 +279,9 @@ void Refiner::add_part(const CellPart& part, double begin, CellLimits& limits) {
         const double arc_length = part.length * k / pieces;
         const PathDerivatives d = span.derivatives(part.from + arc_length);
         sample.at = begin + arc_length;
-        sample.slope = d.first;
-        sample.bend = d.second;
-        sample.twist = d.third;
+        sample.first = d.first;
+        sample.second = d.second;
+        sample.third = d.third;
         const Pace pace = pace_of(d);
         sample.pace = span.rounded ? pace : Pace{0, 0, 0};  // otherwise the cell's limits say all
         const BendSpeed bend = bend_speed(d, pace, *machine_);

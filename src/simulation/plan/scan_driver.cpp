@@ -31,8 +31,8 @@ bool ScanDriver::take_span() {
 /// How much an axis' acceleration may bend over the way, x‴ and x⁗ at their greatest [1/s²].
 Vec3 ScanDriver::curving(const Span& span) const {
     const double fastest =
-        std::min(span.free_cap, arc_speed(1 / span.greatest_bend, machine_->path.max_normal_acceleration));
-    return (5 * machine_->path.max_acceleration * span.twist).array() + fastest * fastest * span.fourth;
+        std::min(span.free_cap, arc_speed(1 / span.greatest_second, machine_->path.max_normal_acceleration));
+    return (5 * machine_->path.max_acceleration * span.third).array() + fastest * fastest * span.fourth;
 }
 
 /// Neither an axis nor the path comes to its limit on a span, as long as the acceleration along the path keeps to that of a straight one.
@@ -40,11 +40,11 @@ bool ScanDriver::gentle(const Span& span) const {
     if (span.straight()) return true;
     if (span.cap < span.free_cap) return false;
     for (int x = 0; x < 3; ++x) {
-        const double bending = span.bend[x] * span.cap * span.cap;
-        if (span.slope[x] * span.acceleration + bending > machine_->axes[static_cast<std::size_t>(x)].max_acceleration)
+        const double bending = span.second[x] * span.cap * span.cap;
+        if (span.first[x] * span.acceleration + bending > machine_->axes[static_cast<std::size_t>(x)].max_acceleration)
             return false;
     }
-    return span.greatest_slope * span.acceleration + span.pace_slope * span.cap * span.cap <=
+    return span.greatest_first * span.acceleration + span.pace_slope * span.cap * span.cap <=
            machine_->path.max_acceleration;
 }
 

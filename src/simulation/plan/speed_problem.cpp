@@ -85,9 +85,9 @@ void AxisSpeedProblem<Axes>::add_sample(const Sample& sample) {
 
 template <int Axes>
 void AxisSpeedProblem<Axes>::widen(Cell& cell, const Sample& sample) {
-    cell.slope = cell.slope.cwiseMax(sample.slope.cwiseAbs());
-    cell.bend = cell.bend.cwiseMax(sample.bend.cwiseAbs());
-    cell.twist = cell.twist.cwiseMax(sample.twist.cwiseAbs());
+    cell.first = cell.first.cwiseMax(sample.first.cwiseAbs());
+    cell.second = cell.second.cwiseMax(sample.second.cwiseAbs());
+    cell.third = cell.third.cwiseMax(sample.third.cwiseAbs());
     cell.pace = {std::max(cell.pace.value, sample.pace.value), std::max(cell.pace.slope, std::abs(sample.pace.slope)),
                  std::max(cell.pace.curve, std::abs(sample.pace.curve))};
     cell.least_cap = std::min(cell.least_cap, sample.cap);

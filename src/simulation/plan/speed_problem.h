@@ -106,7 +106,7 @@ private:
         CellLimits limits;
         std::uint32_t first_sample = 0, end_sample = 0;
         // Greatest of its samples.
-        Vector slope = Vector::Zero(), bend = Vector::Zero(), twist = Vector::Zero();
+        Vector first = Vector::Zero(), second = Vector::Zero(), third = Vector::Zero();
         Pace pace{0, 0, 0};
         double least_cap = infinite_speed;  ///< of its samples
         // Rows found to be needed: of the acceleration at the end; of the jerk at begin, middle and end.
