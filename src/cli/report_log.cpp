@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -63,20 +64,22 @@ bool has_values(const Field& field, const Passes& passes) {
 ReportLog load_report_log(const PartOptions& part_options, const ReportOptions& options, StageClock& clock) {
     ReportLog shown;
     shown.part = load_part(part_options, clock);
+    std::optional<FieldSet> fields;  // made once: it estimates the motion of the log
     if (options.merged) {
         clock.begin("judge the shards");
         shown.quality = judge_merged(*options.merged, shown.part, options.measured, false, clock, shown.surface);
+        fields = fields_of(shown.part, shown.surface);
     } else {
         clock.begin("stitch the surface");
         shown.surface = stitch(shown.part);
-        refuse_unknown_fields(options.fields, fields_of(shown.part, shown.surface));  // before what takes long
+        fields = fields_of(shown.part, shown.surface);
+        refuse_unknown_fields(options.fields, *fields);  // before what takes long
         shown.quality = judge(shown.part, shown.surface, options.measured, {}, clock.stages());
     }
     shown.part.diagnostics.append(shown.quality.diagnostics);
     clock.begin("compute the fields");
-    const FieldSet fields = fields_of(shown.part, shown.surface);
     const bool usual = options.fields.empty();
-    for (Field& field : fields.get_all(usual ? fields.report_names(most_fields) : options.fields)) {
+    for (Field& field : fields->get_all(usual ? fields->report_names(most_fields) : options.fields)) {
         // What was asked for by name must be there; of the usual ones a log has some.
         if (!usual || has_values(field, shown.surface.passes)) shown.fields.push_back(std::move(field));
     }
