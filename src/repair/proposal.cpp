@@ -182,17 +182,20 @@ void Evaluator::keep_finalist(const TriedProposal& proposal, std::vector<TriedPr
     const bool full = finalists.size() == most;
     if (full && passes_check(*finalists.back()) && !(score(*proposal) < score(*finalists.back()))) return;
     proposal->found_by_check = defects_by_check(proposal->run, read_(proposal->text));
-    const auto place = std::upper_bound(finalists.begin(), finalists.end(), proposal,
-                                        [&](const TriedProposal& a, const TriedProposal& b) {
-                                            const bool passes = passes_check(*a);
-                                            return passes != passes_check(*b) ? passes : score(*a) < score(*b);
-                                        });
+    const auto place =
+        std::upper_bound(finalists.begin(), finalists.end(), proposal,
+                         [&](const TriedProposal& a, const TriedProposal& b) { return comes_before(*a, *b); });
     finalists.insert(place, proposal);
     if (finalists.size() > most) finalists.pop_back();
 }
 
 bool Evaluator::passes_check(const Proposal& finalist) const {
     return !finalist.found_by_check || *finalist.found_by_check <= found_before_;
+}
+
+bool Evaluator::comes_before(const Proposal& a, const Proposal& b) const {
+    const bool passes = passes_check(a);
+    return passes != passes_check(b) ? passes : better(a, b);
 }
 
 RunMeasures Proposal::measures() const {
@@ -217,10 +220,8 @@ std::vector<TriedProposal> Evaluator::finalists() const {
     if (!preferred_.empty()) return preferred_;
     std::vector<TriedProposal> all = with_feeds_;
     all.insert(all.end(), without_feeds_.begin(), without_feeds_.end());
-    std::stable_sort(all.begin(), all.end(), [&](const TriedProposal& a, const TriedProposal& b) {
-        const bool passes = passes_check(*a);
-        return passes != passes_check(*b) ? passes : better(*a, *b);
-    });
+    std::stable_sort(all.begin(), all.end(),
+                     [&](const TriedProposal& a, const TriedProposal& b) { return comes_before(*a, *b); });
     return all;
 }
 

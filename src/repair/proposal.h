@@ -72,9 +72,9 @@ public:
     /// `targets`: as those of a Proposal, or none at all.
     TriedProposal propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
     [[nodiscard]] const TriedProposal& best() const { return best_; }
-    /// The accepted proposals with the lowest scores: first those in which `check` finds no more defects than in the program, the
-    /// lowest score first, and last those that measure_roughness() refused; few where runs are long. Some of them have no feeds,
-    /// where there are such.
+    /// The accepted proposals with the lowest scores: first those in which `check` finds no more defects than in the program; of
+    /// these and of the others the lowest score first, and last those that measure_roughness() refused. Few where runs are long.
+    /// Some of them have no feeds, where there are such.
     [[nodiscard]] std::vector<TriedProposal> finalists() const;
 
     /// Makes those candidates of the front the finalists that a weight prefers, the best one first, and runs them again. Domain:
@@ -126,6 +126,7 @@ private:
                                         const RunMeasures& after, bool limits_ok) const;
     void keep_finalist(const TriedProposal& proposal, std::vector<TriedProposal>& finalists) const;
     [[nodiscard]] bool passes_check(const Proposal& finalist) const;
+    [[nodiscard]] bool comes_before(const Proposal& a, const Proposal& b) const;  ///< of finalists
     const Program& program_;
     const ReadProgram& read_;
     const Machine& machine_;
