@@ -13,10 +13,10 @@
 #include "cli/written_run.h"
 #include "core/error.h"
 #include "core/file_name.h"
-#include "core/version.h"
 #include "io/files/compressed.h"
 #include "io/readers/machine_file.h"
 #include "io/readers/program_file.h"
+#include "io/reports/settings_text.h"
 #include "io/reports/tradeoff_report.h"
 #include "pipeline/simulated_log.h"
 #include "tradeoff/settings_search.h"
@@ -32,10 +32,6 @@ SettingsRules read_settings_rules(const po::variables_map& values) {
     if (rules.runs < 2 || rules.runs > 10000) throw UsageError("--runs must be 2 to 10000");
     rules.start = read_start(values);
     return rules;
-}
-
-std::string settings_text(const Machine& machine, const PlanSettings& settings) {
-    return io::machine_text(with_settings(machine, settings));
 }
 
 /// The files that a choice is written to.
@@ -104,10 +100,7 @@ ExitCode trade_off_settings(const po::variables_map& values) {
         judging.poses = read_work_offset(values);
     }
     const std::string name = file_name(program.main().name());
-    const MachineOfSettings machine_of = [&](const PlanSettings& settings) {
-        // As its file is read: numbers have twelve digits there.
-        return settings == PlanSettings{} ? machine : io::machine_of_text(settings_text(machine, settings), "settings");
-    };
+    const MachineOfSettings machine_of = io::machines_as_read(machine);
     ProgressBar bar(read_common(values));
     SettingsTradeoff found = search_settings(program, machine, machine_of, judging, rules, bar.callback());
     bar.clear();
@@ -117,9 +110,7 @@ ExitCode trade_off_settings(const po::variables_map& values) {
         found.front.chosen = front_by_weight(found.front.rows, *weight).front();
         const PlanSettings& chosen = found.settings[*found.front.chosen];
         if (outputs.settings) {
-            outputs.settings->write(
-                fmt::format("# clsurf {} simulate --weight {:g}: {}\n", version, *weight, text_of(chosen)) +
-                settings_text(machine, chosen));
+            outputs.settings->write(io::chosen_settings_text(machine, chosen, *weight));
             outputs.settings->commit();
         }
         if (!outputs.log.empty()) diagnostics = write_run(machine_of(chosen), outputs.log, values).diagnostics;

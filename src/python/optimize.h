@@ -25,9 +25,8 @@ struct RepairedProgram {
     std::string front;   ///< the JSON of `clsurf optimize --tradeoff`; empty: neither it nor a weight was asked for
 };
 
-/// With a log but no
-/// machine file, the machine is fitted to the log. Throws UsageError; InputError: the program cannot be run, or has no
-/// adjacent passes.
+/// With a log but no machine file, the machine is fitted to the log. Throws UsageError; InputError: the program cannot be
+/// run, or has no adjacent passes.
 [[nodiscard]] RepairedProgram optimize_program(const PartOptions& options, const RepairOptions& repair);
 
 }  // namespace clsurf::python

@@ -2,13 +2,11 @@
 
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "core/error.h"
-#include "core/version.h"
 #include "io/files/compressed.h"
 #include "io/readers/machine_file.h"
 #include "io/readers/program_file.h"
+#include "io/reports/settings_text.h"
 #include "io/reports/tradeoff_report.h"
 #include "pipeline/simulated_log.h"
 #include "tradeoff/settings_search.h"
@@ -25,10 +23,6 @@ SettingsRules rules_of(const TradeoffOptions& tradeoff) {
     require_weight(tradeoff.weight);
     const auto& [x, y, z] = tradeoff.start;
     return {tradeoff.more_time_percent / 100, tradeoff.runs, Vec3(x, y, z)};
-}
-
-std::string settings_text(const Machine& machine, const PlanSettings& settings) {
-    return io::machine_text(with_settings(machine, settings));
 }
 
 }  // namespace
@@ -52,19 +46,13 @@ std::pair<std::string, std::string> trade_off_settings(const PartOptions& option
         judging.kinematics = std::make_shared<const Kinematics>(machine.kinematics);
         judging.poses = poses_of(options);
     }
-    // As the file of its settings is read: numbers have twelve digits there.
-    const MachineOfSettings machine_of = [&](const PlanSettings& settings) {
-        return settings == PlanSettings{} ? machine : io::machine_of_text(settings_text(machine, settings), "settings");
-    };
-    SettingsTradeoff found = search_settings(program, machine, machine_of, judging, rules, {});
+    SettingsTradeoff found = search_settings(program, machine, io::machines_as_read(machine), judging, rules, {});
     std::string chosen;
     if (tradeoff.weight) {
         TradeoffFront& front = found.front;
         front.weight = tradeoff.weight;
         front.chosen = front_by_weight(front.rows, *front.weight).front();
-        const PlanSettings& settings = found.settings[*front.chosen];
-        chosen = fmt::format("# clsurf {} simulate --weight {:g}: {}\n", version, *front.weight, text_of(settings)) +
-                 settings_text(machine, settings);
+        chosen = io::chosen_settings_text(machine, found.settings[*front.chosen], *front.weight);
     }
     return {io::tradeoff_json(found.front, found.settings, program.diagnostics), std::move(chosen)};
 }
