@@ -33,6 +33,7 @@ constexpr double most_behind = 0.2;       ///< the best, by score, after the fir
 constexpr double small_share = 0.3;       ///< of the time, for a feed reduction that begins with the cheap defects …
 constexpr double large_share = 0.65;      ///< … and for one that takes all it can
 constexpr int first_rounds = 2, more_rounds = 8;
+constexpr std::size_t most_listed = 8;                    ///< accepted finalists, where all are listed
 constexpr std::array<double, 2> other_steps{0.85, 0.55};  ///< that feed reductions are tried with as well …
 constexpr std::size_t most_cured_otherwise = 2;           ///< … for so many drafts
 
@@ -121,7 +122,7 @@ private:
             result.finalists.push_back({each->text, each->run.measures(), each->evaluation, runs});
             if (chosen == nullptr) result.ensemble = runs;
             if (chosen == nullptr) chosen = each;
-            if (!rules_.all_finalists) break;
+            if (!rules_.all_finalists || result.finalists.size() == most_listed) break;
         }
         // Where a controller decides, it decides on these, too.
         std::move(doubtful.begin(), doubtful.end(), std::back_inserter(result.finalists));

@@ -16,12 +16,13 @@ namespace {
 
 constexpr double interval_width =
     0.005;  ///< of the speeds in a constant-speed interval: wider, passes side by side differ by as much
-constexpr double most_run_points = 16e6;   ///< of all runs together; then what there is has to do …
-constexpr double large_run = 1e6;          ///< … or less, down to a share of it where a run has so many points …
-constexpr double share_of_large = 0.25;    ///< … this
-constexpr int most_in_vain = 96;           ///< proposals in a row, none of them better than the best
-constexpr std::size_t most_finalists = 4;  ///< of each kind …
-constexpr std::size_t most_finalists_of_large = 1;  ///< … where runs are large
+constexpr double most_run_points = 16e6;      ///< of all runs together; then what there is has to do …
+constexpr double large_run = 1e6;             ///< … or less, down to a share of it where a run has so many points …
+constexpr double share_of_large = 0.25;       ///< … this
+constexpr int most_in_vain = 96;              ///< proposals in a row, none of them better than the best
+constexpr std::size_t most_finalists = 16;    ///< of each kind …
+constexpr double most_finalist_points = 4e6;  ///< … or as many as have so many points together …
+constexpr std::size_t most_finalists_of_large = 1;  ///< … and where runs are large, no more than this
 /// Share of the time that feeds leave for the other machines. Of candidates that use all of it, the mean of the machines
 /// takes up to 0.03 % longer than before.
 constexpr double time_reserve = 0.001;
@@ -38,6 +39,12 @@ std::string no_splines(SplineForm form) {
     return form == SplineForm::cubic_plane
                ? "no section can be written as a spline: G5 moves only X and Y, in the plane of G17, and needs fewer blocks than the lines"
                : "no section can be written as a spline with fewer blocks than its lines";
+}
+
+/// Whether two proposals are one program in two ways: other machines would run them alike, too.
+bool runs_alike(const Proposal& a, const Proposal& b) {
+    return a.evaluation.lines_after == b.evaluation.lines_after && a.run.duration == b.run.duration &&
+           a.run.mismatch == b.run.mismatch && a.evaluation.defects_after == b.evaluation.defects_after;
 }
 
 }  // namespace
@@ -176,11 +183,15 @@ double Evaluator::score(const Proposal& p) const {
 }
 
 void Evaluator::keep_finalist(const TriedProposal& proposal, std::vector<TriedProposal>& finalists) const {
-    const std::size_t most =
-        static_cast<double>(before_.log.records) >= large_run ? most_finalists_of_large : most_finalists;
+    const auto points = static_cast<double>(before_.log.records);
+    const std::size_t most = points >= large_run
+                                 ? most_finalists_of_large
+                                 : std::min(most_finalists, static_cast<std::size_t>(most_finalist_points / points));
     // A more even run is judged by lower thresholds. What check would refuse only fills the places that nothing else takes.
     const bool full = finalists.size() == most;
     if (full && passes_check(*finalists.back()) && !(score(*proposal) < score(*finalists.back()))) return;
+    const auto same_run = [&](const TriedProposal& other) { return runs_alike(*proposal, *other); };
+    if (std::any_of(finalists.begin(), finalists.end(), same_run)) return;
     proposal->found_by_check = defects_by_check(proposal->run, read_(proposal->text));
     const auto place =
         std::upper_bound(finalists.begin(), finalists.end(), proposal,
