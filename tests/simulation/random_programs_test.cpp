@@ -7,10 +7,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <random>
 
 #include <fmt/format.h>
 
+#include "io/readers/machine_file.h"
 #include "support/made_motion.h"
 
 namespace clsurf::random_programs_test {
@@ -149,17 +151,38 @@ int rounds_of_a_mode() {
     return (wanted != nullptr ? std::atoi(wanted) : usual) / modes;
 }
 
+/// The number of the only program that is wanted of a mode, else -1: the others are made, but not run.
+int only_round() {
+    const char* wanted = std::getenv("CLSURF_RANDOM_PROGRAM");
+    return wanted != nullptr ? std::atoi(wanted) : -1;
+}
+
+/// What the random numbers begin with.
+std::uint64_t seed_of_programs() {
+    constexpr std::uint64_t usual = 20260721;
+    const char* wanted = std::getenv("CLSURF_RANDOM_SEED");
+    return wanted != nullptr ? std::strtoull(wanted, nullptr, 10) : usual;
+}
+
+/// A program and its machine as random.ngc and random.toml, for the command line.
+void write_files(const std::string& text, const Machine& machine) {
+    std::ofstream("random.ngc") << text;
+    std::ofstream("random.toml") << io::machine_text(machine);
+}
+
 /// Points of a program whose distance from the path is looked at: more programs show more than more points.
 constexpr std::size_t places_of_a_program = 200;
 
 TEST_P(RandomPrograms, HoldLimitsToleranceAndEnd) {
-    Maker maker(20260721);
-    const int rounds = rounds_of_a_mode();
+    Maker maker(seed_of_programs());
+    const int only = only_round(), rounds = only >= 0 ? only + 1 : rounds_of_a_mode();
     std::int64_t blocks = 0;
     for (int round = 0; round < rounds; ++round) {
         const Machine machine = maker.machine(GetParam().corner, GetParam().curve, GetParam().jerk, GetParam().steps);
         const std::string text = maker.program();
+        if (only >= 0 && round != only) continue;
         const Program program = program_of(text);
+        if (only >= 0) write_files(text, machine);
         const Recorded r = run_program(program, machine);
         blocks += static_cast<std::int64_t>(program.motions.size());
         EXPECT_TRUE(r.summary.limits_ok) << "round " << round << ": " << parts_of_limits(r.summary, machine);
