@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/not_finite.h"
+#include "numeric/root_between.h"
 #include "simulation/path/arc_steps.h"
 #include "simulation/path/junction.h"
 #include "simulation/path/path_stream.h"
@@ -18,8 +19,12 @@ constexpr double gentle_turn = 0.1;         ///< [rad] a span of a spline that t
 constexpr double most_bend_ratio = 1.5;   ///< … nor one whose greatest curvature is less than so many times the least
 constexpr int most_spline_halvings = 10;  ///< of a span of a spline
 constexpr int checked_points = 5;         ///< of a span whose bounds are not at its ends
-constexpr double least_pace = 0.1;        ///< of the shortest p′ seen, where no bound is known
-constexpr double nearly = 1 - 1e-9;       ///< of a limit, for rounding
+constexpr double most_turn_of_step = 0.75;  ///< [rad] of the path between checked points, where it nearly reverses
+constexpr double reversal_share = 1e-12;  ///< of the way to a place where a path nearly reverses: how well it is known
+// Cuts to both sides of it: of the way in which the path turns by 1 rad there, then each of the last one.
+constexpr double first_way = 2, way_growth = 4;
+constexpr double least_pace = 0.1;   ///< of the shortest p′ seen, where no bound is known
+constexpr double nearly = 1 - 1e-9;  ///< of a limit, for rounding
 
 /// Adds factor · (a + b τ)(c + e τ)³ to a polynomial in τ.
 void add_product(std::array<Vec3, 5>& sum, const Vec3& factor, double a, double b, double c, double e) {
@@ -166,6 +171,33 @@ void bound_curve(Span& span) {
     span.pace_curve += 0.25 * curve_play;
 }
 
+/// Cuts around the places where a rounded curve nearly reverses. There |p′| falls and rises by |p″| times the way, as by a
+/// kink: |p′|″ is |p″|²/|p′| at the place, and falls with the third power of the way from it. Checked points that are
+/// farther apart than this way do not see it.
+void cut_at_reversals(const Span& span, std::vector<double>& cuts) {
+    const auto fall = [&](double tau) {
+        const PathDerivatives d = span.derivatives(tau);
+        return d.first.dot(d.second);
+    };
+    const double step = span.length / (checked_points - 1);
+    double before = fall(0);
+    for (int k = 1; k < checked_points; ++k) {
+        const double here = fall(k * step);
+        if (before < 0 && here > 0) {
+            const double at = root_between((k - 1) * step, before, k * step, here, reversal_share, 0, fall);
+            const PathDerivatives d = span.derivatives(at);
+            const double pace = d.first.norm(), bend = d.second.norm();
+            if (bend * step > most_turn_of_step * pace) {
+                for (double way = std::max(first_way * pace / bend, least_span); way < step; way *= way_growth) {
+                    if (way < at) cuts.push_back(span.from + at - way);
+                    if (way < span.length - at) cuts.push_back(span.from + at + way);
+                }
+            }
+        }
+        before = here;
+    }
+}
+
 }  // namespace
 
 Pace pace_of(const PathDerivatives& derivatives) {
@@ -228,6 +260,19 @@ void PathStream::make_spans(std::int64_t element) {
         for (int k = 1; k < parts; ++k) cuts_.push_back(base.length * k / parts);
     }
     std::sort(cuts_.begin(), cuts_.end());
+    if (!base.straight() && (covered_ || !reaching_.empty())) {
+        const std::vector<double> ends = cuts_;
+        for (std::size_t k = 1; k < ends.size(); ++k) {
+            Span span;
+            span.base = base;
+            span.from = ends[k - 1];
+            span.length = ends[k] - span.from;
+            if (span.length < least_span) continue;
+            add_roundings(span, begin + span.from);
+            if (span.rounded) cut_at_reversals(span, cuts_);
+        }
+        if (cuts_.size() > ends.size()) std::sort(cuts_.begin(), cuts_.end());
+    }
     double from = 0;
     for (std::size_t k = 1; k < cuts_.size(); ++k) {
         const bool last = k + 1 == cuts_.size();
