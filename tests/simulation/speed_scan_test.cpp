@@ -83,6 +83,28 @@ TEST(SpeedScan, ForgetsCellsAndGoesOnAsPlanned) {
     for (std::size_t i = 0; i <= scan.size(); ++i) EXPECT_NEAR(scan.speed(i), speeds[15 + i], 1e-9) << i;
 }
 
+// A limit that joins a cell in the middle counts there, and not in another one: the speeds are those of a scan that had it from the beginning.
+TEST(SpeedScan, ALimitJoinsAnyCell) {
+    SpeedScan whole, joined;
+    for (int i = 0; i < 40; ++i) {
+        for (SpeedScan* scan : {&whole, &joined}) {
+            scan->add_cell(0.5, 200, 2000);
+            scan->add_limit(0.25, std::cos(0.3 * i), 0.2 * std::sin(0.5 * i), 1500);
+        }
+        if (i == 17) whole.add_limit(0.4, 0.5, 1.5, 1500);
+    }
+    joined.plan(0);
+    const double before = joined.speed(18);
+    joined.add_limit(17, 0.4, 0.5, 1.5, 1500);
+    joined.plan(0);
+    whole.plan(0);
+    EXPECT_LT(joined.speed(18), 0.95 * before);
+    for (std::size_t i = 0; i <= whole.size(); ++i) EXPECT_EQ(joined.speed(i), whole.speed(i)) << i;
+    const double here =
+        0.5 * joined.acceleration(17) + 1.5 * (joined.speed(17) * joined.speed(17) + 2 * joined.acceleration(17) * 0.4);
+    EXPECT_LE(std::abs(here), 1500 * (1 + 1e-9));
+}
+
 // Random bends: all limits hold along the cells, no knot can be faster with its neighbours as they are, and the way
 // back is driven as the way forth.
 TEST(SpeedScan, HoldsItsLimitsIsTightAndTheSameBackwards) {

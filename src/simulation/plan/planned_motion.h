@@ -31,6 +31,7 @@ struct CellMotion {
 struct CellPart {
     const Span* span = nullptr;
     double from = 0, length = 0;  ///< on the span [mm]
+    int pieces = 0;               ///< equal ones, at whose ends its planner holds the limits; 0: it is straight
 };
 
 /// Receives a plan, part by part.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "simulation/path/junction.h"
+#include "simulation/plan/held_place.h"
 
 namespace clsurf {
 namespace {
@@ -39,28 +39,6 @@ LimitingFactor limiting_of(Row row, LimitingFactor at_cap, LimitingFactor in_ben
         case Row::corner_jerk: return LimitingFactor::corner_tolerance;
         default: return LimitingFactor::jerk;
     }
-}
-
-/// The speed along the programmed arc length that the bend at a place allows, and why.
-struct BendSpeed {
-    double speed = infinite_speed;
-    LimitingFactor why = LimitingFactor::axis_acceleration;
-};
-
-BendSpeed bend_speed(const PathDerivatives& d, const Pace& pace, const Machine& machine) {
-    const double across = std::sqrt(std::max(0.0, d.second.squaredNorm() - pace.slope * pace.slope));
-    if (!(across > 0)) return {};
-    const double by_acceleration = std::sqrt(machine.path.max_normal_acceleration / across);
-    if (!(pace.value > 0)) return {by_acceleration};
-    const double radius = pace.value * pace.value / across;
-    BendSpeed bend{by_acceleration};
-    const auto limit = [&](double path_speed, LimitingFactor why) {
-        if (path_speed < bend.speed * pace.value) bend = {path_speed / pace.value, why};
-    };
-    limit(chord_speed(radius, machine.controller.chord_tolerance, machine.controller.period),
-          LimitingFactor::chord_error);
-    if (limits_jerk_in_bends(machine)) limit(jerk_speed(radius, machine.path.max_jerk), LimitingFactor::jerk);
-    return bend;
 }
 
 /// How fast the direction turns over the programmed arc length [rad/mm].
@@ -207,7 +185,7 @@ void Refiner::add_cells(const Section& section) {
                 open_.run = section.run;
                 open_.block = span.base.block;
             }
-            parts_.push_back({&span, arc_length - begin, next_arc_length - arc_length});
+            parts_.push_back({&span, arc_length - begin, next_arc_length - arc_length, 0});
             ++open_.parts;
             if (!span.straight()) {
                 const double middle = 0.5 * (arc_length + next_arc_length) - begin;
@@ -241,7 +219,7 @@ void Refiner::close_cell() {
     least_bend_speed_ = infinite_speed;
     double begin = 0;
     for (std::size_t k = parts_.size() - open_.parts; k < parts_.size(); ++k) {
-        const CellPart& part = parts_[k];
+        CellPart& part = parts_[k];
         add_part(part, begin, limits);
         begin += part.length;
     }
@@ -253,7 +231,7 @@ void Refiner::close_cell() {
 }
 
 /// What a part of the open cell, `begin` after its begin, leaves of the limits; where it is bent, its samples.
-void Refiner::add_part(const CellPart& part, double begin, CellLimits& limits) {
+void Refiner::add_part(CellPart& part, double begin, CellLimits& limits) {
     const Span& span = *part.span;
     const auto cap = [&](double speed, LimitingFactor why) {
         if (speed < limits.cap) limits.cap = speed, open_.at_cap = why;
@@ -269,26 +247,35 @@ void Refiner::add_part(const CellPart& part, double begin, CellLimits& limits) {
     if (span.straight()) return;
     const double periods = part.length / (machine_->controller.period * std::max(end_.speed, open_.end.speed));
     const double turn = part.length * turn_rate(span.derivatives(part.from + 0.5 * part.length));
-    const int pieces = turn >= 2 * slight                    ? 8
-                       : periods < briefest && turn < slight ? 1
-                       : periods < brief                     ? 2
-                       : periods < middling                  ? 4
-                                                             : 8;
-    PathSample sample;
-    for (int k = 0; k <= pieces; ++k) {
-        const double arc_length = part.length * k / pieces;
-        const PathDerivatives d = span.derivatives(part.from + arc_length);
-        sample.at = begin + arc_length;
-        sample.first = d.first;
-        sample.second = d.second;
-        sample.third = d.third;
-        const Pace pace = pace_of(d);
-        sample.pace = span.rounded ? pace : Pace{0, 0, 0};  // otherwise the cell's limits say all
-        const BendSpeed bend = bend_speed(d, pace, *machine_);
-        sample.cap = bend.speed;
+    part.pieces = turn >= 2 * slight                    ? 8
+                  : periods < briefest && turn < slight ? 1
+                  : periods < brief                     ? 2
+                  : periods < middling                  ? 4
+                                                        : 8;
+    for (int k = 0; k <= part.pieces; ++k) {
+        auto [sample, bend] = held_place(part, part.length * k / part.pieces, *machine_);
+        sample.at += begin;
         if (bend.speed < least_bend_speed_) least_bend_speed_ = bend.speed, open_.in_bend = bend.why;
         samples_.push_back(sample);
     }
+}
+
+/// Places halfway between the samples of the cells at which the solution breaks a limit.
+std::vector<SpeedProblem::Between> Refiner::broken_between() const {
+    std::vector<SpeedProblem::Between> broken;
+    auto part = parts_.begin();
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        double begin = 0;
+        for (const auto end = part + static_cast<std::ptrdiff_t>(cells_[i].parts); part != end; ++part) {
+            for (int k = 0; k < part->pieces; ++k) {
+                PathSample sample = held_place(*part, part->length * (k + 0.5) / part->pieces, *machine_).sample;
+                sample.at += begin;
+                if (problem_.breaks(i, sample)) broken.push_back({i, sample});
+            }
+            begin += part->length;
+        }
+    }
+    return broken;
 }
 
 /// Makes the window fast and runs most of it, or all.
@@ -362,7 +349,7 @@ bool Refiner::solve_from_rests(bool to_rest) {
             if (steep_start && !leads) continue;
             start_ = steep_start ? KnotState{steepest_lead_.speed, steepest_lead_.acceleration} : start;
             end_ = steep_end ? KnotState{steepest_tail_.speed, -steepest_tail_.acceleration} : end;
-            if (!problem_.solve(start_, end_)) continue;
+            if (!problem_.solve(start_, end_, [this] { return broken_between(); })) continue;
             if (!steep_start) steepest_lead_ = {};
             if (to_rest && !steep_end) steepest_tail_ = {};
             return true;

@@ -3,7 +3,7 @@
 // time-optimal speeds that carry acceleration through the nodes.
 //
 // A window of runs is divided into cells. SpeedProblem finds the fastest speeds between the states at its
-// ends. Most of a window is then run; the rest begins the next window. The runs are the fallback: they keep
+// ends; places between its samples at which they break a limit become samples. Most of a window is then run; the rest begins the next window. The runs are the fallback: they keep
 // every limit, and each window ends in one of their states. Runs that cannot become faster pass unchanged: a
 // run on straight spans between rests, and a long cruise at the permitted speed.
 
@@ -60,7 +60,8 @@ private:
     void add_cells(const Section& section);
     void end_cell_before(const Span& span);
     void close_cell();
-    void add_part(const CellPart& part, double begin, CellLimits& limits);
+    void add_part(CellPart& part, double begin, CellLimits& limits);
+    [[nodiscard]] std::vector<SpeedProblem::Between> broken_between() const;
     void solve(bool to_the_end);
     [[nodiscard]] bool solve_in_part();
     [[nodiscard]] bool solve_from_rests(bool to_rest);

@@ -17,6 +17,8 @@ constexpr double left_over = 0.005;         ///< of an acceleration
 constexpr double least_acceleration = 0.5;  ///< of an acceleration, whatever is left of it
 constexpr double most_turn = 0.1;           ///< [rad] of the path between two places
 constexpr int most_parts = 8;               ///< of a cell, between its places
+constexpr double share_held = 1 + 1e-9;     ///< of an acceleration, that counts as held halfway between two places
+constexpr int most_scan_looks = 8;          ///< for those that are not
 
 }  // namespace
 
@@ -55,7 +57,7 @@ void ScanDriver::divide(const Span& span) {
     if (gentle(span)) {
         scan_.add_cell(span.length, span.free_cap, span.acceleration);
         limit_begin();
-        cells_.push_back({&span, 0, span.free_limiting});
+        cells_.push_back({&span, 0, span.free_limiting, span.length, 0});
         return;
     }
     // From rest to rest there is no way in a single cell.
@@ -83,13 +85,13 @@ void ScanDriver::divide(const Span& span) {
         places_[0] = places_[parts];
         for (std::size_t p = 1; p <= parts; ++p)
             places_[p] = span.derivatives(length * k + part * static_cast<double>(p));
-        add_cell({&span, length * k, span.free_limiting}, length, limits);
+        add_cell({&span, length * k, span.free_limiting, length, parts}, limits);
         if (k == 0) limit_begin();
     }
 }
 
 /// A cell with places_ along it, where the axes keep to these accelerations.
-void ScanDriver::add_cell(Cell cell, double length, const Vec3& accelerations) {
+void ScanDriver::add_cell(Cell cell, const Vec3& accelerations) {
     const PathLimits& path = machine_->path;
     double cap = cell.span->free_cap;
     const auto limit = [&](double speed, LimitingFactor why) {
@@ -104,8 +106,8 @@ void ScanDriver::add_cell(Cell cell, double length, const Vec3& accelerations) {
               LimitingFactor::chord_error);
     }
     cells_.push_back(cell);
-    scan_.add_cell(length, cap, path.max_acceleration);
-    const double part = length / static_cast<double>(places_.size() - 1);
+    scan_.add_cell(cell.length, cap, path.max_acceleration);
+    const double part = cell.length / static_cast<double>(cell.parts);
     for (std::size_t p = 0; p < places_.size(); ++p) {
         for (int x = 0; x < 3; ++x)
             scan_.add_limit(part * static_cast<double>(p), places_[p].first[x], places_[p].second[x], accelerations[x]);
@@ -117,17 +119,64 @@ void ScanDriver::add_cell(Cell cell, double length, const Vec3& accelerations) {
 void ScanDriver::limit_path(const Span& span, double part) {
     const double greatest = machine_->path.max_acceleration;
     const double held = std::max(greatest - part * part / 8 * curving(span).norm(), least_acceleration * greatest);
-    for (std::size_t p = 0; p < places_.size(); ++p) {
-        const double at = part * static_cast<double>(p);
-        const Pace pace = pace_of(places_[p]);
-        const double bend = places_[p].second.norm();
-        if (bend * part <= most_turn * pace.value) {
-            scan_.add_limit(at, pace.value, pace.slope, held);
-            continue;
+    for (std::size_t p = 0; p < places_.size(); ++p)
+        limit_path_at(cells_.size() - 1, part * static_cast<double>(p), places_[p], part, held);
+}
+
+/// At a place of a cell; the next one is `part` away.
+void ScanDriver::limit_path_at(std::size_t cell, double at, const PathDerivatives& place, double part,
+                               double acceleration) {
+    const Pace pace = pace_of(place);
+    const double bend = place.second.norm();
+    if (bend * part <= most_turn * pace.value) {
+        scan_.add_limit(cell, at, pace.value, pace.slope, acceleration);
+        return;
+    }
+    // Where the path nearly reverses, |p′|′ changes its sign between two places: its bound counts.
+    scan_.add_limit(cell, at, pace.value, bend, acceleration);
+    scan_.add_limit(cell, at, pace.value, -bend, acceleration);
+}
+
+/// Whether the plan holds the limits of acceleration at a place of a cell.
+bool ScanDriver::holds(std::size_t cell, double at, const PathDerivatives& place) const {
+    const double acceleration = scan_.acceleration(cell), before = scan_.speed(cell);
+    const double square = before * before + 2 * acceleration * at;
+    for (int x = 0; x < 3; ++x) {
+        if (std::abs(place.first[x] * acceleration + place.second[x] * square) >
+            share_held * machine_->axes[static_cast<std::size_t>(x)].max_acceleration)
+            return false;
+    }
+    if (!cells_[cell].span->rounded) return true;
+    const Pace pace = pace_of(place);
+    return std::abs(pace.value * acceleration + pace.slope * square) <= share_held * machine_->path.max_acceleration;
+}
+
+/// Limits at the places halfway between those of the cells at which the plan breaks one; false: it breaks none.
+bool ScanDriver::limit_between() {
+    bool broken = false;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        const Cell& cell = cells_[i];
+        if (cell.parts == 0 || !scan_.has_limits(i)) continue;
+        const double part = cell.length / static_cast<double>(cell.parts);
+        for (std::size_t p = 0; p < cell.parts; ++p) {
+            const double at = part * (static_cast<double>(p) + 0.5);
+            const PathDerivatives place = cell.span->derivatives(cell.from + at);
+            if (holds(i, at, place)) continue;
+            broken = true;
+            for (int x = 0; x < 3; ++x)
+                scan_.add_limit(i, at, place.first[x], place.second[x],
+                                machine_->axes[static_cast<std::size_t>(x)].max_acceleration);
+            if (cell.span->rounded) limit_path_at(i, at, place, 0.5 * part, machine_->path.max_acceleration);
         }
-        // Where the path nearly reverses, |p′|′ changes its sign between two places: its bound counts.
-        scan_.add_limit(at, pace.value, bend, held);
-        scan_.add_limit(at, pace.value, -bend, held);
+    }
+    return broken;
+}
+
+/// An exchange method (Hettich and Kortanek 1993): limits join until the plan breaks none of them.
+void ScanDriver::plan(double speed) {
+    for (int look = 0; look <= most_scan_looks; ++look) {
+        scan_.plan(speed);
+        if (!limit_between()) return;
     }
 }
 
@@ -151,7 +200,7 @@ void ScanDriver::run_section(const std::function<void()>& report) {
             count = 1;
             while (count + 1 < cells_.size() && cells_[count].span->base.block < kept) ++count;
         }
-        scan_.plan(speed);
+        plan(speed);
         speed = scan_.speed(count);
         run(count);
         report();

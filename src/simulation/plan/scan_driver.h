@@ -2,7 +2,8 @@
 // ScanDriver: runs sections of a path on a machine without a jerk limit, with SpeedScan.
 //
 // The spans of a window of blocks are divided into cells. Half of the window is run, then it is planned again.
-// The cells do not change and each plan ends at rest, so a plan that continues the last one always exists.
+// Where a plan breaks a limit between the places of a cell, the limit joins, and the plan is made again. The cells do not
+// change otherwise, each plan holds at the same places and ends at rest, so a plan that continues the last one always exists.
 
 #include <deque>
 #include <functional>
@@ -29,14 +30,20 @@ private:
         const Span* span = nullptr;
         double from = 0;  ///< on the span [mm]
         LimitingFactor at_cap = LimitingFactor::none;
+        double length = 0;      ///< [mm]
+        std::size_t parts = 0;  ///< equal ones, at whose ends its limits are held; 0: they hold anyway
     };
 
     [[nodiscard]] bool take_span();
     [[nodiscard]] bool gentle(const Span& span) const;
     [[nodiscard]] Vec3 curving(const Span& span) const;
     void divide(const Span& span);
-    void add_cell(Cell cell, double length, const Vec3& accelerations);
+    void add_cell(Cell cell, const Vec3& accelerations);
     void limit_path(const Span& span, double part);
+    void limit_path_at(std::size_t cell, double at, const PathDerivatives& place, double part, double acceleration);
+    void plan(double speed);
+    [[nodiscard]] bool limit_between();
+    [[nodiscard]] bool holds(std::size_t cell, double at, const PathDerivatives& place) const;
     void run(std::size_t count);
 
     const Machine* machine_;

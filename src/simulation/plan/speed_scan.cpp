@@ -23,8 +23,8 @@ void SpeedScan::add_cell(double length, double cap, double acceleration) {
 
 void SpeedScan::limit_begin(double speed) { cells_.back().begin_cap = speed * speed; }
 
-void SpeedScan::add_limit(double at, double slope, double bend, double acceleration) {
-    Cell& cell = cells_.back();
+void SpeedScan::add_limit(std::size_t number, double at, double slope, double bend, double acceleration) {
+    Cell& cell = cells_[number];
     // At its place b is what it is at the begin, and 2 a at.
     const double of_a = slope + 2 * bend * at;
     const double steep = std::abs(of_a);
@@ -34,8 +34,8 @@ void SpeedScan::add_limit(double at, double slope, double bend, double accelerat
         cell.cap = std::min(cell.cap, acceleration / std::abs(bend));
         return;
     }
-    rows_.push_back({acceleration / steep, bend / of_a});
-    cell.end_row = rows_.size();
+    rows_.insert(rows_.begin() + static_cast<std::ptrdiff_t>(cell.end_row), {acceleration / steep, bend / of_a});
+    for (std::size_t i = number; i < cells_.size(); ++i) ++cells_[i].end_row;
 }
 
 SpeedScan::Bounds SpeedScan::bounds(std::size_t cell, double b, double next) const {
@@ -84,8 +84,8 @@ void SpeedScan::motions(std::size_t cell, std::vector<CellMotion>& into) const {
     const Cell& c = cells_[cell];
     const double before = squares_[cell], after = squares_[cell + 1];
     into.clear();
-    if (first_row(cell) != c.end_row) {
-        into.push_back({c.length, std::sqrt(before), 0.5 * (after - before) / c.length, 0});
+    if (has_limits(cell)) {
+        into.push_back({c.length, std::sqrt(before), acceleration(cell), 0});
         return;
     }
     const double peak = std::max({before, after, std::min(c.cap, 0.5 * (before + after) + c.acceleration * c.length)});

@@ -23,7 +23,11 @@ public:
     void limit_begin(double speed);
     /// At a place of the last cell, `at` after its begin [mm]: |slope a + bend v²| ≤ acceleration, of one axis;
     /// slope none, bend 1/mm.
-    void add_limit(double at, double slope, double bend, double acceleration);
+    void add_limit(double at, double slope, double bend, double acceleration) {
+        add_limit(cells_.size() - 1, at, slope, bend, acceleration);
+    }
+    /// The same of any cell. O(limits behind it).
+    void add_limit(std::size_t cell, double at, double slope, double bend, double acceleration);
 
     /// The fastest speeds from `speed` at the first knot [mm/s] to rest at the last one. A speed from which the
     /// limits lead to no rest is lowered.
@@ -34,6 +38,12 @@ public:
     [[nodiscard]] double speed(std::size_t knot) const;
     /// How a cell is driven. One that only the acceleration along the path limits goes up to its cap and down again.
     void motions(std::size_t cell, std::vector<CellMotion>& into) const;
+    /// Whether limits at its places, not only its own, say how it is driven: at a constant acceleration.
+    [[nodiscard]] bool has_limits(std::size_t cell) const { return first_row(cell) != cells_[cell].end_row; }
+    /// The acceleration of such a cell [mm/s²].
+    [[nodiscard]] double acceleration(std::size_t cell) const {
+        return 0.5 * (squares_[cell + 1] - squares_[cell]) / cells_[cell].length;
+    }
     /// It keeps to the cell's greatest speed.
     [[nodiscard]] bool at_cap(std::size_t cell, const CellMotion& motion) const;
 
