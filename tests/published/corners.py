@@ -44,8 +44,9 @@ def machine_text(name, lines):
     corner, *keys = lines
     text = re.sub(r"^(arc_step_time|junction_\w+) = .*\n", "", text, flags=re.M)
     text = re.sub(r"^corner = .*\n", "".join(f"{line}\n" for line in [f'corner = "{corner}"', *keys]), text, count=1, flags=re.M)
-    if corner == "junction":
-        text = re.sub(r"^(curve|tolerance) = .*\n", "", text, flags=re.M)
+    not_rounded = {"junction": "curve|tolerance|merging_tolerance", "stop": "merging_tolerance"}
+    if corner in not_rounded:
+        text = re.sub(rf"^({not_rounded[corner]}) = .*\n", "", text, flags=re.M)
     return text
 
 

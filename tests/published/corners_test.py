@@ -6,6 +6,7 @@ points.
 """
 import math
 import os
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -14,7 +15,7 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 import set_points
-from corners import Run, machine_text
+from corners import WAYS, Run, machine_text
 
 # data/machines/three_axis_mill.toml, F3000, in mm and s.
 TOLERANCE, FEED, ACCELERATION, PATH_JERK, AXIS_JERK, PERIOD = 0.01, 50, 2000, 50000, 80000, 0.001
@@ -129,6 +130,18 @@ class Arcs(unittest.TestCase):
 
 
 class Tools(unittest.TestCase):
+    def test_machines_can_be_used(self):
+        """A key that a way does not use is an error."""
+        with tempfile.TemporaryDirectory() as folder:
+            for machine, ways in WAYS.items():
+                for name, way in ways.items():
+                    with self.subTest(machine=machine, way=name):
+                        path = os.path.join(folder, "machine.toml")
+                        with open(path, "w", encoding="utf-8") as file:
+                            file.write(machine_text(machine, way))
+                        answer = subprocess.run([CLSURF, "machine", path], capture_output=True, text=True)
+                        self.assertEqual(answer.returncode, 0, answer.stderr)
+
     def test_distance_to_nearest(self):
         points = np.array([[0, 0, 0], [1, 0, 0], [1, 0, 0], [2, 1, 0]], float)
         places = np.array([[0.5, 0.25, 0], [2, 0, 0], [3, 1, 0]], float)
