@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <limits>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -108,16 +110,49 @@ void read_junction(const TomlFile& file, const toml::table& table, JunctionSetti
                   "corners have no rule: give junction_deviation or junction_speed_step");
 }
 
+/// Keys that are known, but not beside another setting: `with`.
+void refuse(const TomlFile& file, const toml::table& table, std::initializer_list<std::string_view> keys,
+            std::string_view with) {
+    for (const std::string_view key : keys) {
+        if (const toml::node* node = table.get(key))
+            file.fail(*node, fmt::format("'{}' has no effect with {}", key, with), "remove the line");
+    }
+}
+
+constexpr std::string_view with_trapezoidal = "planner = \"trapezoidal\"";
+
+/// Keys of another planner, or of other corners, which would be without effect.
+void refuse_without_effect(const TomlFile& file, const toml::table& table, const ControllerSettings& c) {
+    if (c.planner == PlannerKind::trapezoidal) {
+        refuse(file, table,
+               {"corner", "curve", "chord_tolerance", "block_time", "whole_periods", "lookahead_distance",
+                "replan_blocks", "arc_step_time", "junction_deviation", "junction_speed_step"},
+               with_trapezoidal);
+        return;
+    }
+    refuse(file, table,
+           {"arc_blends", "gap_periods", "ramp_frequency", "kink_ratio", "max_feed_override", "blocks_per_period",
+            "cubic_interpolation"},
+           "planner = \"time-optimal\"");
+    const std::string with_corner = fmt::format("corner = \"{}\"", name_of(c.corner));
+    if (c.corner == CornerMode::junction)
+        refuse(file, table, {"curve", "tolerance"}, with_corner);
+    else
+        refuse(file, table, {"junction_deviation", "junction_speed_step"}, with_corner);
+    if (c.corner != CornerMode::arc) refuse(file, table, {"arc_step_time"}, with_corner);
+    if (!rounds_corners(c)) refuse(file, table, {"merging_tolerance"}, with_corner);
+}
+
 void read_controller(const TomlFile& file, const toml::table& table, ControllerSettings& c) {
     take_mode<2>(file, table, "planner", c.planner);
-    // A key of the other planner would be without effect.
+    if (c.planner != PlannerKind::trapezoidal) take_mode<4>(file, table, "corner", c.corner);
+    refuse_without_effect(file, table, c);
     if (c.planner == PlannerKind::trapezoidal) {
         file.allow(table, {"planner", "feed", "period", "lookahead_blocks", "tolerance", "feed_override", "arc_blends",
                            "gap_periods", "ramp_frequency", "kink_ratio", "max_feed_override", "blocks_per_period",
                            "cubic_interpolation", "merging_tolerance"});
         read_trapezoid(file, table, c.trapezoid);
     } else {
-        take_mode<4>(file, table, "corner", c.corner);
         std::vector<std::string_view> keys{
             "planner", "feed",       "period",        "lookahead_blocks", "lookahead_distance", "replan_blocks",
             "corner",  "block_time", "whole_periods", "feed_override",    "chord_tolerance"};
@@ -150,6 +185,7 @@ void read_controller(const TomlFile& file, const toml::table& table, ControllerS
 }
 
 void read_path(const TomlFile& file, const toml::table& table, PlannerKind planner, PathLimits& path) {
+    if (planner == PlannerKind::trapezoidal) refuse(file, table, {"max_jerk"}, with_trapezoidal);
     if (planner == PlannerKind::trapezoidal)
         file.allow(table, {"max_speed", "max_acceleration", "max_normal_acceleration"});
     else
@@ -196,6 +232,7 @@ void read_servo(const TomlFile& file, const toml::table& table, double period, d
 }
 
 void read_axis(const TomlFile& file, const toml::table& table, std::vector<std::string_view>& seen, Machine& machine) {
+    if (machine.controller.planner == PlannerKind::trapezoidal) refuse(file, table, {"max_jerk"}, with_trapezoidal);
     if (machine.controller.planner == PlannerKind::trapezoidal)
         file.allow(table, {"name", "travel", "max_speed", "max_acceleration", "servo"});
     else
