@@ -2,6 +2,7 @@
 // Feed modes: whether F counts lengths per minute (G94), or the inverse of a time (G93) or lengths per revolution (G95).
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "program/event_cursor.h"
@@ -10,7 +11,7 @@
 namespace clsurf {
 
 /// The event of a feed mode that another one takes the place of, and its value for G94.
-inline constexpr std::string_view feed_mode_event = "feed-mode", feed_per_minute = "G94";
+inline constexpr std::string_view feed_mode_event = "feed-mode", feed_per_minute = "G94", feed_inverse_time = "G93";
 
 /// Goes along the events of a program. Programs begin with feeds per minute.
 class FeedPerMinute {
@@ -18,17 +19,22 @@ public:
     explicit FeedPerMinute(const Program& program) : program_(&program) {}
 
     /// Whether F counts lengths per minute at a motion; motions must not go back.
-    [[nodiscard]] bool on(std::int64_t motion) {
-        cursor_.pass(program_->events, motion, [&](const ProgramEvent& event) {
-            if (event.name == feed_mode_event) on_ = event.value == feed_per_minute;
-        });
-        return on_;
-    }
+    [[nodiscard]] bool on(std::int64_t motion) { return mode_at(motion) == feed_per_minute; }
+
+    /// Whether F is the inverse of the time that a motion takes; motions must not go back.
+    [[nodiscard]] bool inverse_time(std::int64_t motion) { return mode_at(motion) == feed_inverse_time; }
 
 private:
+    const std::string& mode_at(std::int64_t motion) {
+        cursor_.pass(program_->events, motion, [&](const ProgramEvent& event) {
+            if (event.name == feed_mode_event) mode_ = event.value;
+        });
+        return mode_;
+    }
+
     const Program* program_;
     EventCursor cursor_;
-    bool on_ = true;
+    std::string mode_{feed_per_minute};
 };
 
 }  // namespace clsurf

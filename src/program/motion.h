@@ -53,8 +53,9 @@ struct Call {
 
 struct Motions {
     Column<MotionKind> kind;
-    Column<Xyz> end;          ///< [mm]; NaN: this axis has not been programmed yet
-    Column<float> feed;       ///< [mm/s] along the path; rapid: NaN; dwell: its time [s]
+    Column<Xyz> end;  ///< [mm]; NaN: this axis has not been programmed yet
+    /// [mm/s] along the path, [deg/s] where only rotary axes are programmed to move; rapid: NaN; dwell: its time [s].
+    Column<float> feed;
     Column<LineNumber> line;  ///< line in the file that the motion stands in
     /// A, B, C [rad]; empty when the program has no rotary axis; NaN: where the tool axis, a vector, needs
     /// it, or where such a motion left it.

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "program/feed_per_minute.h"
 #include "program/interpret/arc.h"
 #include "program/tool_centre_point.h"
 #include "toolpath/toolpath.h"
@@ -18,6 +19,7 @@ namespace clsurf {
 namespace {
 
 constexpr double chord_turn = 0.5 * rad_per_deg;  ///< of a rotary axis, a chord
+constexpr double least_length = 1e-9;             ///< [mm] of a motion that goes somewhere
 constexpr int most_chords = 2000;                 ///< of a motion
 
 class TipMaker {
@@ -30,6 +32,7 @@ public:
           back_(pose.inverse()),
           zero_(kinematics.zero_position()),
           control_(program),
+          feed_mode_(program),
           path_(program.motions, Vec3::Constant(std::numeric_limits<double>::quiet_NaN())) {}
 
     Motions make() {
@@ -138,6 +141,8 @@ private:
         }
         const Vec3 turned_from = motion > 0 ? from_->rotary[at - 1].vec() : Vec3::Zero();
         const Vec3 turned_to = from_->rotary[at].vec();
+        const std::size_t first = to_.kind.size();
+        const Vec3 tip_from = tip_;
         for (int k = 1; k <= chords; ++k) {
             const double part = static_cast<double>(k) / chords;
             const Vec3 position = arc != nullptr ? path_.at(motion, part)
@@ -147,6 +152,23 @@ private:
             put(motion, arc != nullptr ? MotionKind::spline : kind, tip_of(k == chords ? end : position, angles),
                 Xyz(turned_from + part * (turned_to - turned_from)));
         }
+        const Vec3 way = begin.array().isNaN().select(0.0, end - begin);
+        const double length = arc != nullptr ? path_.length(motion) : way.norm();
+        if (kind != MotionKind::rapid && (!(length > least_length) || feed_mode_.inverse_time(motion)))
+            take_time(first, tip_from, length > least_length ? length : (turned_to - turned_from).norm() / rad_per_deg);
+    }
+
+    /// The motions from `first` on take the time of one whose feed counts along `programmed`, mm or degrees, in equal parts:
+    /// F of a turn says nothing of the way of the tip, and nor does the inverse of a time.
+    void take_time(std::size_t first, Vec3 at, double programmed) {
+        const double parts = static_cast<double>(to_.kind.size() - first);
+        for (std::size_t i = first; i < to_.kind.size(); ++i) {
+            const Vec3 end = to_.end[i].vec();
+            const double tip = (end - at).norm();
+            // Where the tip stands F counts degrees as before.
+            if (tip > least_length && programmed > 0) to_.feed[i] *= static_cast<float>(tip * parts / programmed);
+            at = end;
+        }
     }
 
     Program* program_;
@@ -155,6 +177,7 @@ private:
     Eigen::Isometry3d pose_, back_;
     Vec3 zero_;
     ToolCentrePoint control_;
+    FeedPerMinute feed_mode_;
     Toolpath path_;
     Motions to_;
     Vec3 tip_;

@@ -22,6 +22,18 @@ TEST(Interpreter, ConvertsInchesAndFeeds) {
     EXPECT_NEAR(p.motions.feed[0], 254.0 / 60, 1e-4);
 }
 
+// A line that only turns counts degrees, in inches, too. Under G93 it takes 1/F minutes: 3 and 4 degrees are 5, and at F2
+// 10 deg/min. A line that moves nothing has a feed all the same, or it could not be simulated.
+TEST(Interpreter, CountsDegreesWhereOnlyRotaryAxesMove) {
+    const Program p = parse("G20 G0 X1 Y0 Z0 A0 C0\nG1 A30 F120\nG93 A33 C4 F2\nX1 F2\nG95 M3 S60 C5 F2\n", "linuxcnc");
+    ASSERT_EQ(p.motions.size(), 5);
+    EXPECT_NEAR(p.motions.feed[1], 120.0 / 60, 1e-6);
+    EXPECT_NEAR(p.motions.feed[2], 10.0 / 60, 1e-6);
+    EXPECT_GT(p.motions.feed[3], 0);
+    EXPECT_NEAR(p.motions.feed[4], 120.0 / 60, 1e-6);
+    EXPECT_EQ(p.diagnostics.count("program.no-feed"), 0U);
+}
+
 TEST(Interpreter, AddsIncrementsUnderG91) {
     EXPECT_EQ(motions(parse("G0 X1 Y1 Z0\nG91 G1 F60 X1\nX1 Y-3\nG90 X0\n", "fanuc")),
               (Rows{"rapid 1 1 0", "feed 2 1 0", "feed 3 -2 0", "feed 0 -2 0"}));

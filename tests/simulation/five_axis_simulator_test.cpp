@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <string>
@@ -130,6 +131,55 @@ TEST(FiveAxisSimulator, TurningOnTheSpotKeepsTheTip) {
     EXPECT_GT(turned, 100);
     EXPECT_NEAR(r.points.back().commanded[3], -40 * rad_per_deg, 1e-12);
     EXPECT_NEAR(r.points.back().commanded[4], 90 * rad_per_deg, 1e-12);
+}
+
+/// How long line 4 takes, which turns by 90° from (10, 5, 3) on [s].
+double turning_time(const std::string& line, double feed_override, bool planned_by_tip = false) {
+    Machine machine = trunnion();
+    machine.controller.feed_override = feed_override;
+    if (planned_by_tip)
+        for (MachineAxis& axis : machine.rotary) axis.max_jerk = 1e8;
+    const Recorded r = run("G21 G90\nG43.4 H1\nG1 X10 Y5 Z3 F2000\n" + line + "\nX20\nM30\n", machine);
+    const auto points = std::count_if(r.points.begin(), r.points.end(), [](const auto& p) { return p.line == 4; });
+    return static_cast<double>(points) * machine.controller.period;
+}
+
+// 90° at 1800 deg/min are 3 s, and ramps of C some hundredths; half of the feed takes twice as long. Without a feed C
+// turns at 18000 deg/min.
+TEST(FiveAxisSimulator, ATurnKeepsItsFeedInDegrees) {
+    EXPECT_NEAR(turning_time("G1 C90 F1800", 1), 3.05, 0.05);
+    EXPECT_NEAR(turning_time("G1 C90 F1800", 0.5), 6.05, 0.05);
+    EXPECT_NEAR(turning_time("G93 G1 C90 F20\nG94 F2000", 1), 3.05, 0.05);
+    EXPECT_NEAR(turning_time("G1 C90 F1800", 1, true), 3.02, 0.03);
+    EXPECT_LT(turning_time("G0 C90\nG1", 0.5), 0.6);
+}
+
+// 100 mm at 3000 mm/min are 2 s, at half of it 4 s; ramps take their time in both.
+TEST(FiveAxisSimulator, FeedOverrideHolds) {
+    Machine machine = trunnion();
+    const std::string text = "G21 G90\nG43.4 H1\nG1 X100 A-20 F3000\nM30\n";
+    const double whole = run(text, machine).summary.run.duration;
+    machine.controller.feed_override = 0.5;
+    const Recorded half = run(text, machine);
+    EXPECT_NEAR(half.summary.run.duration - whole, 2, 0.05);
+    EXPECT_EQ(half.points[half.points.size() / 2].limit, LimitingFactor::feed_override);
+    EXPECT_TRUE(half.summary.run.diagnostics.empty());
+    machine.controller.block_time = 0.003;
+    const Recorded with = run(text, machine);
+    ASSERT_EQ(with.summary.run.diagnostics.kept().size(), 1U);
+    EXPECT_EQ(with.summary.run.diagnostics.kept()[0].text.find("block_time: without effect"), 0U);
+}
+
+// Without control of the tip C turns by chords, here about the tip: one turn at the feed, not 180 from rest to rest.
+TEST(FiveAxisSimulator, ATurnAboutTheTipIsOne) {
+    Machine machine = trunnion();
+    machine.kinematics = {};
+    machine.kinematics.type = KinematicsType::table_table;
+    Program program = test::parse_text("G21 G90\nG1 Z5 F3000\nC90 F3600\nM30\n");
+    make_tip_motions(program, machine.kinematics, Vec3::Zero());
+    const FiveAxisSummary summary =
+        simulate_five_axis(program, machine, Vec3::Zero(), Vec3::Zero(), [](std::span<const FiveAxisPoint>) {}, {});
+    EXPECT_NEAR(summary.run.duration, 1.7, 0.15);
 }
 
 // 20 mm at 1000 mm/min are 1.2 s, and ramps some hundredths: A turns within its limits at that feed. It took hours.

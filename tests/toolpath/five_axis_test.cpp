@@ -15,6 +15,7 @@
 #include "mapping/map_lines.h"
 #include "support/made_five_axis.h"
 #include "toolpath/tip_motions.h"
+#include "toolpath/toolpath.h"
 
 namespace clsurf::five_axis_test {
 namespace {
@@ -79,6 +80,34 @@ TEST(FiveAxisLines, PositionsOfTheAxesBecomeTips) {
     // A quarter of a turn is made of chords; the last line is one.
     EXPECT_EQ(program.motions.size(), 180 + 1);
     EXPECT_EQ(program.motions.line[180], 3u);
+}
+
+/// How long the tip paths of a line take at their feeds [s].
+double time_of_line(const Program& program, LineNumber line) {
+    const Toolpath path(program.motions, Vec3::Zero());
+    double time = 0;
+    for (std::int64_t m = 0; m < path.size(); ++m) {
+        const auto at = static_cast<std::size_t>(m);
+        if (program.motions.line[at] == line) time += path.length(m) / program.motions.feed[at];
+    }
+    return time;
+}
+
+// C turns about the workpiece's zero, the tip 10 mm off it. Under G93 a line takes 1/F minutes, wherever the tip goes. A line
+// that only turns counts degrees: 90° at 360 deg/min are 15 s, though the tip goes 15.7 mm. With X in it, F is the tip's.
+TEST(FiveAxisLines, ATurnTakesTheTimeOfItsFeed) {
+    Kinematics k;
+    k.type = KinematicsType::table_table;
+    for (const char* units : {"G21 X10", "G20 X0.393700787402"}) {
+        Program program =
+            test::parse_text(std::string("G90 ") + units +
+                             " G0 Y0 Z0 A0 C0\nG1 C90 F360\nG93 G1 C0 F2\nG1 X0.4 C90 F4\nG94 X0.5 F60\nM30\n");
+        make_tip_motions(program, k, Vec3::Zero());
+        EXPECT_NEAR(time_of_line(program, 2), 15, 1e-3) << units;
+        EXPECT_NEAR(time_of_line(program, 3), 30, 1e-3) << units;
+        EXPECT_NEAR(time_of_line(program, 4), 15, 1e-3) << units;
+        EXPECT_TRUE(program.diagnostics.empty()) << units;
+    }
 }
 
 // A ball of 3 mm whose axis is (0, 1, 0), tip at (1, 2, 3): its centre is (1, 5, 3), its lowest point (1, 5, 0). Upright

@@ -161,6 +161,9 @@ public:
     // tool_axis.cpp: five axes
     void control_tool_centre_point(bool on, const std::string& text);
     bool take_tool_axis(const Block& block);
+    [[nodiscard]] bool tool_axis_is_vector() const {
+        return (five_axis_.tool_centre_point || five_axis_.tilted) && !std::isnan(state_.tool_axis.x());
+    }
 
     // tilted_plane.cpp: CYCLE800, G68.2
     void begin_tilted_plane(const std::string& text);
@@ -217,6 +220,8 @@ public:
     void push(MotionKind kind, const Vec3& end, const Vec3& rotary, float feed);
     void settle_work_frame();
     [[nodiscard]] float feed_for(double length);
+    [[nodiscard]] float feed_for_turn(double degrees);
+    [[nodiscard]] double turn_to(const Vec3& rotary) const;
     void cycle(const Block& block);
     void read_cycle_words(const Block& block, const Stroke& stroke);
     [[nodiscard]] std::vector<double> peck_depths(double r, double bottom) const;

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/geometry.h"
+#include "core/units.h"
 #include "program/feed_per_minute.h"
 #include "program/interpret/interpreter_state.h"
 
@@ -189,24 +191,45 @@ void Interpreter::select_feed_mode(FeedMode mode) {
     state_.feed_mode = mode;
     const bool per_minute = mode == FeedMode::per_minute;
     event(std::string(feed_mode_event), per_minute                       ? std::string(feed_per_minute)
-                                        : mode == FeedMode::inverse_time ? "G93"
+                                        : mode == FeedMode::inverse_time ? std::string(feed_inverse_time)
                                                                          : "G95");
 }
 
 float Interpreter::feed_for(double length) {
     switch (state_.feed_mode) {
+        case FeedMode::inverse_time:
+            // What moves nothing takes no time: any feed will do, but none.
+            if (length > 0) return static_cast<float>(length * state_.feed / seconds_per_minute);
+            [[fallthrough]];
         case FeedMode::per_minute: return static_cast<float>(state_.feed * state_.feed_unit_mm / seconds_per_minute);
         case FeedMode::per_revolution:
             return static_cast<float>(state_.feed * state_.feed_unit_mm * state_.spindle / seconds_per_minute);
-        case FeedMode::inverse_time: return static_cast<float>(length * state_.feed / seconds_per_minute);
     }
     return 0;
 }
 
+/// Of a motion that leaves X, Y and Z where they are: F counts degrees there, in inches, too.
+float Interpreter::feed_for_turn(double degrees) {
+    const double factor = state_.feed_mode == FeedMode::inverse_time     ? degrees
+                          : state_.feed_mode == FeedMode::per_revolution ? state_.spindle
+                                                                         : 1;
+    return static_cast<float>(factor * state_.feed / seconds_per_minute);
+}
+
+/// How far the rotary axes turn together, or the tool axis where it is a vector [deg].
+double Interpreter::turn_to(const Vec3& rotary) const {
+    const auto known = [](const Vec3& turn) { return Vec3(turn.array().isNaN().select(0.0, turn)); };
+    if (!tool_axis_is_vector()) return known(rotary - state_.rotary).norm();
+    const Column<Xyz>& axes = program_.motions.tool_axis;
+    return axes.empty() ? 0 : angle_between(known(axes.back().vec()), state_.tool_axis) / rad_per_deg;
+}
+
 void Interpreter::straight(MotionKind kind, const Vec3& end, const Vec3& rotary) {
     const Vec3 from = state_.position.array().isNaN().select(end, state_.position);
-    const float feed =
-        kind == MotionKind::rapid ? std::numeric_limits<float>::quiet_NaN() : feed_for((end - from).norm());
+    const double length = (end - from).norm(), turn = length > 0 ? 0 : turn_to(rotary);
+    const float feed = kind == MotionKind::rapid ? std::numeric_limits<float>::quiet_NaN()
+                       : turn > 0                ? feed_for_turn(turn)
+                                                 : feed_for(length);
     push(kind, end, rotary, feed);
 }
 
@@ -350,7 +373,7 @@ void Interpreter::push(MotionKind kind, const Vec3& end, const Vec3& rotary, flo
         if (m.frame.empty()) m.frame = Column<std::uint32_t>(m.kind.size() - 1, 0);
         m.frame.push_back(work_frames_.current);
     }
-    const bool vector = (five_axis_.tool_centre_point || five_axis_.tilted) && !std::isnan(state_.tool_axis.x());
+    const bool vector = tool_axis_is_vector();
     const Vec3 angles = vector ? Vec3(Vec3::Constant(std::numeric_limits<double>::quiet_NaN())) : rotary;
     if (!m.rotary.empty() || angles.squaredNorm() != 0) {
         if (m.rotary.empty()) m.rotary = Column<Xyz>(m.kind.size() - 1, Xyz(0, 0, 0));

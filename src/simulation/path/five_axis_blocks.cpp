@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/not_finite.h"
+#include "core/units.h"
 
 namespace clsurf {
 namespace {
@@ -40,6 +41,7 @@ FiveAxisBlocks::FiveAxisBlocks(const Program& program, const Machine& machine, c
     elements_.resize(n);
     axis_paths_.resize(n);
     caps_.assign(n, infinite);
+    turn_speeds_.assign(n, infinite);
     Vec3 at = start;
     for (int k = 0; k < 3; ++k) {
         const double known = motions.start.vec()[k];
@@ -69,6 +71,7 @@ FiveAxisBlocks::FiveAxisBlocks(const Program& program, const Machine& machine, c
         angles = axis_paths_[i].at(1);
         // A block that only turns is a wait for the tip.
         if (kind != MotionKind::dwell && !(elements_[i].length > 0) && turn_of(i) > least_turn_angle) {
+            if (cuts) turn_speeds_[i] = motions.feed[i] * rad_per_deg;
             kind = MotionKind::dwell;
             motions.feed[i] = static_cast<float>(turning_time(i));
         } else if (kind != MotionKind::dwell && elements_[i].length > 0) {
@@ -140,12 +143,12 @@ ToolAxisPath FiveAxisBlocks::make_axis_path(std::size_t i, const RotaryAngles& f
     return {k, from, to, {limits_[3].low, limits_[3].high}, ratio, k.axis_tolerance};
 }
 
-/// The time of a turn from rest to rest that both axes can run together.
+/// The time of a turn from rest to rest that both axes can run together, at its feed or slower.
 double FiveAxisBlocks::turning_time(std::size_t i) const {
     const RotaryAngles a = axis_paths_[i].at(0);
     const RotaryAngles b = axis_paths_[i].at(1);
     const std::array<double, 2> turns{std::abs(b.tilt - a.tilt), std::abs(b.rotation - a.rotation)};
-    double time = 0;
+    double time = std::hypot(turns[0], turns[1]) / (turn_speeds_[i] * machine_->controller.feed_override);
     for (std::size_t k = 0; k < 2; ++k) {
         if (!(turns[k] > least_turn_angle)) continue;
         const AxisLimits& l = limits_[3 + k];

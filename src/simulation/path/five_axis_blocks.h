@@ -45,6 +45,8 @@ public:
     [[nodiscard]] bool waits(std::size_t block) const { return kinds_[block] == MotionKind::dwell; }
     [[nodiscard]] bool cuts(std::size_t block) const { return !waits(block) && kinds_[block] != MotionKind::rapid; }
     [[nodiscard]] double waiting(std::size_t block) const { return feeds_[block]; }  ///< [s]
+    /// Programmed for both angles together, of a block that only turns [rad/s]; infinite: of other blocks and rapids.
+    [[nodiscard]] double turn_speed(std::size_t block) const { return turn_speeds_[block]; }
     [[nodiscard]] bool stands(std::size_t block) const { return waits(block) || !(elements_[block].length > 0); }
     /// Slower than it was programmed to be.
     [[nodiscard]] bool capped(std::size_t block) const {
@@ -68,8 +70,9 @@ private:
     Program planned_;
     std::vector<PathElement> elements_;  ///< length 0: the tip stands
     std::vector<ToolAxisPath> axis_paths_;
-    std::vector<double> caps_;  ///< [mm/s]
-    Column<float> feeds_;       ///< as programmed; of turns their time [s]
+    std::vector<double> caps_;         ///< [mm/s]
+    std::vector<double> turn_speeds_;  ///< [rad/s]
+    Column<float> feeds_;              ///< as programmed; of turns their time [s]
     Column<MotionKind> kinds_;
     Column<LineNumber> lines_;
 };

@@ -22,9 +22,11 @@ using FiveAxes = AxisVector<5>;
 /// A chord of the way.
 struct FiveAxisChord {
     FiveAxes end = FiveAxes::Zero();  ///< tip [mm], tilt, rotation [rad]
-    double feed = 0;                  ///< of the tip [mm/s]; infinite for a rapid
-    double tolerance = 0;             ///< of the tip at its begin [mm]
-    bool inside = false;              ///< its begin lies inside a curved block
+    double feed = 0;                  ///< of the tip, with the override [mm/s]; infinite for a rapid
+    /// Of both angles together where they alone turn [rad/s]; infinite where the feed is that of the tip.
+    double turn_speed = infinite_speed;
+    double tolerance = 0;  ///< of the tip at its begin [mm]
+    bool inside = false;   ///< its begin lies inside a curved block
     std::uint32_t block = 0;
     double part_from = 0, part_to = 1;  ///< of the block
 };

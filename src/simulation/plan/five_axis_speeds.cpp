@@ -77,8 +77,11 @@ private:
         const auto cap = [&](double speed, LimitingFactor why) {
             if (speed < place.free_cap) place.free_cap = speed, place.why = why;
         };
+        const LimitingFactor feed =
+            machine_->controller.feed_override == 1 ? LimitingFactor::feed : LimitingFactor::feed_override;
+        cap(chord.turn_speed / d.first.tail<2>().norm(), feed);
         if (d.pace.value > 0) {
-            cap(chord.feed / d.pace.value, LimitingFactor::feed);
+            cap(chord.feed / d.pace.value, feed);
             cap(machine_->path.max_speed / d.pace.value, LimitingFactor::axis_speed);
             const double cross_product = tip.first.cross(tip.second).norm();
             if (cross_product > 0) {

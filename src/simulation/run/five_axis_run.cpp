@@ -62,7 +62,8 @@ public:
             turn.feed = infinite_feed;
             turn.line = static_cast<LineNumber>(block + 1);
             add(turn, 0);
-            run_chords();
+            // A line that turns about the tip is one turn, however many blocks were made of it.
+            if (!goes_on(block, line)) run_chords();
         }
     }
 
@@ -75,6 +76,14 @@ public:
 
 private:
     static constexpr double infinite_feed = std::numeric_limits<double>::infinity();
+
+    /// Whether the block after a turn, before `end`, is a turn of the same line.
+    [[nodiscard]] bool goes_on(std::size_t block, LineNumber end) const {
+        if (block + 1 >= end || !blocks_->waits(block + 1)) return false;
+        const RotaryAngles to = blocks_->axis_path(block + 1).at(1);
+        const bool turns = to.tilt != angles_.tilt || to.rotation != angles_.rotation;
+        return turns && blocks_->line(block + 1) == blocks_->line(block);
+    }
 
     void add(const PathElement& element, double tolerance) {
         const std::size_t block = element.line - 1;
@@ -90,7 +99,9 @@ private:
             tip_ = k == count ? element.end : element.at(part * element.length);
             angles_ = axis_path.at(part);
             chord.end = joined(tip_, angles_);
-            chord.feed = element.feed;
+            // A rapid, whose feed is infinite, is not overridden.
+            chord.feed = element.feed * machine_->controller.feed_override;
+            chord.turn_speed = blocks_->turn_speed(block) * machine_->controller.feed_override;
             chord.inside = k > 1;
             chord.tolerance = chord.inside ? allowed : std::max(tolerance, 0.0) > 0 ? tolerance : least;
             chord.block = static_cast<std::uint32_t>(block);
@@ -200,6 +211,21 @@ private:
     double time_ = 0;
 };
 
+/// Settings of the controller that only a planner of three axes knows, where they are not their defaults.
+void note_settings_without_effect(const ControllerSettings& c, const std::string& program, Diagnostics& diagnostics) {
+    std::string names;
+    const auto add = [&](bool set, const char* name) {
+        if (set) names += (names.empty() ? "" : ", ") + std::string(name);
+    };
+    add(c.lookahead_distance > 0, "lookahead_distance");
+    add(c.replan_blocks > 0, "replan_blocks");
+    add(c.block_time > 0, "block_time");
+    add(c.whole_periods, "whole_periods");
+    if (!names.empty())
+        diagnostics.add({Severity::warning, "motion.no-effect", Place::of_file(program),
+                         names + ": without effect, because five axes are planned along the whole path at once", ""});
+}
+
 }  // namespace
 
 FiveAxisSummary run_five_axes(const Program& program, const Machine& machine, FiveAxisBlocks blocks, const Vec3& start,
@@ -220,6 +246,7 @@ FiveAxisSummary run_five_axes(const Program& program, const Machine& machine, Fi
         if (progress) progress("plan and interpolate", stream.done());
     }
     FiveAxisSummary summary = run.finish();
+    note_settings_without_effect(machine.controller, program.main().name(), summary.run.diagnostics);
     if (!summary.run.limits_ok) {
         summary.run.diagnostics.add({Severity::warning, "motion.limits", Place::of_file(program.main().name()),
                                      "an axis exceeds a limit by more than 0.1 %", "a lower feed helps"});
