@@ -62,6 +62,9 @@ std::string motion_text(const Defect& d) {
 
 std::string height_text(const Defect& d) {
     const std::string_view where = d.pit ? "below" : "above";
+    if (d.quantity == Quantity::relief && d.cause == Cause::path_tolerance)
+        return fmt::format("the control leaves the programmed path: {} {} {} {} the neighbours", passes_text(d),
+                           one_pass(d) ? "runs" : "run", with_um(d.depth), where);
     if (d.quantity == Quantity::relief)
         return fmt::format("the program has {} {} {} the neighbours", passes_text(d), with_um(d.depth), where);
     const std::string_view when = d.cause == Cause::corner     ? " in a corner"
@@ -110,7 +113,9 @@ std::array<std::string_view, 2> kind_of(const Defect& d) {
                                         : std::array<std::string_view, 2>{"faster section", "faster sections"};
         case Quantity::acceleration: return {"place of different acceleration", "places of different acceleration"};
         case Quantity::lag: return {"place of different axis lag", "places of different axis lag"};
-        case Quantity::relief: return {"offset pass in the program", "offset passes in the program"};
+        case Quantity::relief:
+            if (d.cause == Cause::path_tolerance) return {"pass off its program", "passes off their program"};
+            return {"offset pass in the program", "offset passes in the program"};
     }
     return {"defect", "defects"};
 }
@@ -229,6 +234,10 @@ const RuleText& rule_of(const Defect& defect) {
                  "Check the axis for backlash and its friction compensation."},
         RuleText{"pass_end", "A pass begins or ends next to a pass that continues.",
                  "Expected at the border of a part."},
+        RuleText{
+            "path_tolerance", "The control leaves the programmed path otherwise than on the adjacent passes.",
+            "Narrow the tolerance of the control (G64 P and Q, CYCLE832, cycle 32), or post points that lie closer "
+            "together."},
     };
     return defect.systematic ? systematic_rule : rules.at(static_cast<std::size_t>(defect.cause));
 }

@@ -17,7 +17,7 @@ float value_of(Cause cause) { return static_cast<float>(cause) + 1; }
 FieldInfo cause_info() {
     FieldInfo info{"cause", "Cause of the defect", unit::none, FieldScale::sequential, {}};
     info.classes.push_back({no_defect, "no defect", true});
-    for (int k = 0; k <= static_cast<int>(Cause::pass_end); ++k) {
+    for (int k = 0; k < cause_count; ++k) {
         const auto cause = static_cast<Cause>(k);
         std::string name(name_of(cause));
         std::replace(name.begin(), name.end(), '_', ' ');

@@ -18,6 +18,9 @@ constexpr double reversal_arc_length = 0.3;  ///< [mm] before the run begins
 constexpr float axis_moves = 0.01F;          ///< of the feed; less is noise
 constexpr float lobe = 0.4F;                 ///< of the peak: a swing counts
 constexpr int lobes_of_oscillation = 3;
+constexpr double share_of_control = 0.5;  ///< of the depth, that the way off the program makes
+constexpr PointIndex looked_at = 16;      ///< points of a run, whose way off the program is measured
+constexpr std::int64_t merged = 110;      ///< motions round that of a point: a control may make one of so many
 
 /// How often the speed goes to the other side of that of the neighbours, within one run.
 int count_lobes(std::span<const DefectCandidate* const> sites) {
@@ -57,6 +60,7 @@ std::string_view name_of(Cause cause) {
         case Cause::corner: return "corner";
         case Cause::reversal: return "reversal";
         case Cause::pass_end: return "pass_end";
+        case Cause::path_tolerance: return "path_tolerance";
     }
     return "";
 }
@@ -70,6 +74,8 @@ std::string_view description_of(Cause cause) {
         case Cause::corner: return "the programmed path turns here";
         case Cause::reversal: return "an axis reverses here";
         case Cause::pass_end: return "the pass begins or ends here";
+        case Cause::path_tolerance:
+            return "the control leaves the programmed path otherwise than on the adjacent passes";
     }
     return "";
 }
@@ -91,6 +97,38 @@ bool CauseFinder::spaced_otherwise(const Defect& defect) const {
     const double own = spacing(defect.runs);
     const double beside = spacing(defect.neighbours);
     return own > 0 && beside > 0 && (own > uneven_spacing * beside || beside > uneven_spacing * own);
+}
+
+/// How far the path lies above the programmed one, along the normal [mm]: the median of some points; NaN: no motion is known.
+double CauseFinder::off_program(std::span<const DefectRun> runs) const {
+    std::vector<double> heights;
+    for (const DefectRun& run : runs) {
+        const PointIndex step = 1 + (run.points.last - run.points.first) / looked_at;
+        for (PointIndex i = run.points.first; i <= run.points.last; i += step) {
+            const std::int64_t motion = lines_.motion_at(i);
+            if (motion < 0) continue;
+            const Vec3 at = surface_.positions.absolute(i);
+            Vec3 nearest = at;
+            double least = std::numeric_limits<double>::infinity();
+            const std::int64_t end = std::min(toolpath_.size(), motion + merged + 1);
+            for (std::int64_t k = std::max<std::int64_t>(0, motion - merged); k < end; ++k) {
+                const Projection found = toolpath_.projection(k, at);
+                if (found.distance < least) {
+                    least = found.distance;
+                    nearest = toolpath_.at(k, found.fraction);
+                }
+            }
+            const double height = signals_.normal(i).cast<double>().dot(at - nearest);
+            if (std::isfinite(height)) heights.push_back(height);
+        }
+    }
+    return heights.empty() ? std::numeric_limits<double>::quiet_NaN() : median(heights);
+}
+
+/// Whether most of a step in height is not in the program.
+bool CauseFinder::leaves_program(const Defect& defect) const {
+    const double step = off_program(defect.runs) - off_program(defect.neighbours);
+    return (defect.pit ? -step : step) > share_of_control * defect.depth;
 }
 
 bool CauseFinder::turns(const DefectRun& run) const {
@@ -118,6 +156,7 @@ bool CauseFinder::begins_with_reversal(const DefectRun& run) const {
 }
 
 Cause CauseFinder::cause_of(const Defect& defect, std::span<const DefectCandidate* const> sites) const {
+    if (defect.quantity == Quantity::relief && leaves_program(defect)) return Cause::path_tolerance;
     if (defect.quantity == Quantity::relief || (defect.quantity != Quantity::lag && spaced_otherwise(defect)))
         return Cause::point_spacing;
     const auto most_runs = [&](auto&& test) {

@@ -15,14 +15,16 @@
 namespace clsurf {
 
 enum class Cause : std::uint8_t {
-    feed_drop,      ///< slower (or faster) than its neighbours over a section
-    oscillation,    ///< the speed swings about that of the neighbours
-    lag_step,       ///< the axes deviate from the commanded path differently from adjacent passes
-    point_spacing,  ///< the program's own points differ from those of adjacent passes
-    corner,         ///< the programmed path turns there
-    reversal,       ///< an axis turns back there
-    pass_end,       ///< the pass begins or ends there
+    feed_drop,       ///< slower (or faster) than its neighbours over a section
+    oscillation,     ///< the speed swings about that of the neighbours
+    lag_step,        ///< the axes deviate from the commanded path differently from adjacent passes
+    point_spacing,   ///< the program's own points differ from those of adjacent passes
+    corner,          ///< the programmed path turns there
+    reversal,        ///< an axis turns back there
+    pass_end,        ///< the pass begins or ends there
+    path_tolerance,  ///< the control leaves the programmed path there otherwise than on adjacent passes
 };
+inline constexpr int cause_count = 8;
 [[nodiscard]] std::string_view name_of(Cause cause);         ///< "feed_drop"
 [[nodiscard]] std::string_view description_of(Cause cause);  ///< "slower than its neighbours"
 

@@ -256,6 +256,39 @@ void lift(planted::PlantedLog& log, double height, double from, double to, Taken
     }
 }
 
+/// A zigzag whose tool runs 8 µm above the plane on pass 12 from x = 10 to 14, as its program says or not.
+planted::PlantedLog raised_pass(bool programmed) {
+    constexpr std::uint32_t pass = 12, line_of_pass = 2 * pass + 2, added = 4;
+    planted::PlantedLog log = plane_zigzag([](int, double, double) { return 50.0; });
+    lift(log, 0.008, 10, 14, [](int k) { return k == pass; });
+    log.commanded[2] = log.measured[2];
+    if (!programmed) return log;
+    std::size_t at = 0;
+    for (std::uint32_t line = 1; line < line_of_pass; ++line) at = log.program.find('\n', at) + 1;
+    log.program.replace(at, log.program.find('\n', at) + 1 - at, "X10\nX10.5 Z0.008\nX13.5\nX14 Z0\nX24\n");
+    for (std::size_t i = 0; i < log.line.size(); ++i) {
+        if (log.line[i] == line_of_pass)
+            for (const double end : {10.0, 10.5, 13.5, 14.0}) log.line[i] += log.commanded[0][i] > end ? 1 : 0;
+        else if (log.line[i] > line_of_pass)
+            log.line[i] += added;
+    }
+    return log;
+}
+
+// A control may leave the programmed path inside its tolerance, where it merges lines or rounds corners. Points that are
+// spaced differently would be looked for in vain.
+TEST(Defects, OffTheirProgramAreTheControls) {
+    for (const bool programmed : {false, true}) {
+        const QualityReport report = planted::judge(raised_pass(programmed));
+        ASSERT_EQ(report.defects.size(), 1U) << programmed;
+        const Defect& defect = report.defects.front();
+        EXPECT_EQ(defect.quantity, Quantity::relief);
+        EXPECT_EQ(defect.cause, programmed ? Cause::point_spacing : Cause::path_tolerance);
+        EXPECT_NEAR(defect.depth, 0.008, 0.001);
+        EXPECT_FALSE(defect.pit);
+    }
+}
+
 /// A zigzag whose axes run 10 µm above the path on the way forward and as much below it on the way back, for x = 4 to 20.
 planted::PlantedLog alternating_zigzag() {
     planted::PlantedLog log = plane_zigzag([](int, double, double) { return 50.0; });
