@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <string>
 
 #include <fmt/format.h>
@@ -274,6 +275,17 @@ double share_along(const FiveAxisPath& path, const Machine& machine, int places)
 TEST(FiveAxisSimulator, LimitsHoldBetweenTheSamplesOfACell) {
     const Machine machine = trunnion();
     for (const double length : {100.0, 2000.0}) EXPECT_LE(share_along(zigzag(machine, length), machine, 64), 1.0005);
+}
+
+// A window of the plan would end at rest in a sharp bend, where no speeds hold the limits; a little before it they do.
+TEST(FiveAxisSimulator, AWindowDoesNotEndInABendThatAllowsNoRest) {
+    std::ifstream file(SAMPLE_DATA "/programs/butterfly_nurbs.nc");
+    const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    const Program program = test::parse_text(text);
+    const FiveAxisSummary summary =
+        simulate_five_axis(program, trunnion(), Vec3::Zero(), Vec3::Zero(), [](std::span<const FiveAxisPoint>) {}, {});
+    EXPECT_TRUE(summary.run.limits_ok);
+    EXPECT_NEAR(summary.run.duration, 6.5, 0.3);
 }
 
 TEST(FiveAxisSimulator, FeedOfZeroNamesTheLine) {

@@ -24,6 +24,7 @@ constexpr double cell_growth = 0.15;       ///< of the time from or to a rest or
 constexpr double most_cell_turn = 0.05;    ///< [rad] of the angles in a cell that is longer
 constexpr double slow_approach = 0.5;      ///< of the way to a slow place: longest cell before it
 constexpr std::size_t window_cells = 1500, samples_of_cell = 4;
+constexpr std::size_t least_cells = 100;                                       ///< of a window whose end is moved
 constexpr double kept_share = 0.6;                                             ///< of a window
 constexpr std::array<double, 6> slower_tries{1, 0.5, 0.25, 0.1, 0.03, 0.003};  ///< first v², tried in turn
 
@@ -123,9 +124,17 @@ private:
         state_ = {};
         at_ = from;
         while (true) {
-            const double end = horizon();
+            double end = horizon(window_cells);
+            bool solved = solve(end);
+            // A window ends at rest, wherever that is: in a bend that may be impossible, and possible a little before it.
+            for (std::size_t cells = window_cells / 2; !solved && cells >= least_cells; cells /= 2) {
+                const double earlier = horizon(cells);
+                if (earlier >= end) continue;
+                end = earlier;
+                solved = solve(end);
+            }
             const bool last = end >= path_->length();
-            if (!solve(end)) {
+            if (!solved) {
                 // What was planned before comes to rest.
                 if (tail_.empty()) {
                     throw InputError((*place_of_)(path_->chord(path_->chord_at(at_)).block),
@@ -143,8 +152,8 @@ private:
         }
     }
 
-    /// Where a window of cells ends.
-    [[nodiscard]] double horizon() {
+    /// Where a window of about so many cells ends.
+    [[nodiscard]] double horizon(std::size_t most) {
         double cells = 0;
         auto place = std::lower_bound(places_.begin(), places_.end(), at_,
                                       [](const LimitPlace& p, double u) { return p.u < u; });
@@ -154,7 +163,7 @@ private:
                                  path_->turning(0.5 * (u + place->u)) * (place->u - u) / most_cell_turn;
             cells += std::min(in_step, grown);
             u = place->u;
-            if (cells > static_cast<double>(window_cells) && u > at_) break;
+            if (cells > static_cast<double>(most) && u > at_) break;
         }
         return place == places_.end() ? path_->length() : place->u;
     }
