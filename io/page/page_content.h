@@ -52,6 +52,7 @@ struct PageDefect {
     std::optional<PagePicture> picture;
     Vec3 normal = Vec3::Zero();                            ///< of the surface, there; zero: not known
     std::vector<std::vector<Vec3>> contact_outlines = {};  ///< the same on the part; empty: no tool is known
+    std::string slow = {};                                 ///< why the tool is slow there, in words; empty: it is not
 };
 
 struct PageColourMap {

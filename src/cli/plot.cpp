@@ -11,6 +11,7 @@
 #include "cli/plot_profile.h"
 #include "core/file_name.h"
 #include "pipeline/part_fields.h"
+#include "pipeline/speed_reasons.h"
 #include "viz/field_classes.h"
 
 namespace clsurf::cli {
@@ -64,6 +65,17 @@ std::vector<viz::CurveClass> classes_of(const Field& field, const ClSurface& sur
     return all;
 }
 
+/// Why the tool is slow at the marked points, in words.
+std::string reasons_at(const std::vector<PointIndex>& points, const Part& part, const FieldSet& fields) {
+    std::string text;
+    for (const PointIndex point : points) {
+        const double speed = fields.get_all({"speed"}, {point, point}).front().values[0];
+        const std::string words = words_of(speed_reasons(part, point, speed), speed);
+        if (!words.empty()) text += fmt::format("{}point {}: {}", text.empty() ? "slow at " : "; ", point, words);
+    }
+    return text;
+}
+
 ExitCode run_plot(const po::variables_map& values) {
     PlotOptions options = read_plot_options(values);
     if (asks_for_profile(values)) return plot_profile(values, options.part, options.look, options.output);
@@ -89,8 +101,9 @@ ExitCode run_plot(const po::variables_map& values) {
                            fmt::format("point {}, line {}", point, part.lines->line_at(point)),
                            {}});
     }
-    std::string note;
-    const std::vector<Field> fields = fields_of(part, surface).get_all(options.fields);
+    const FieldSet set = fields_of(part, surface);
+    std::string note = options.part.program.empty() ? std::string() : reasons_at(options.points, part, set);
+    const std::vector<Field> fields = set.get_all(options.fields);
     for (std::size_t f = 0; f < fields.size(); ++f) {
         const Field& field = fields[f];
         viz::Curve curve;

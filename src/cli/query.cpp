@@ -44,9 +44,7 @@ void print_matches(const std::vector<QueryMatch>& matches) {
                        text(m.fused->position), sigma.x(), sigma.y(), sigma.z());
         }
         if (!m.estimated_from.empty()) fmt::print("  {}\n", m.estimated_from);
-        if (!m.why.reasons.empty())
-            fmt::print("  slow: {:.0f} of F{:.0f} mm/min: {}\n", m.speed * seconds_per_minute,
-                       m.why.programmed_feed * seconds_per_minute, fmt::join(m.why.reasons, "; "));
+        if (!m.why.reasons.empty()) fmt::print("  slow: {}\n", words_of(m.why, m.speed));
     }
 }
 

@@ -13,8 +13,10 @@
 #include "io/readers/program_file.h"
 #include "log/health.h"
 #include "pipeline/contacts.h"
+#include "pipeline/part_fields.h"
 #include "pipeline/programmed_part.h"
 #include "pipeline/signals_of.h"
+#include "pipeline/speed_reasons.h"
 #include "predictor/outline.h"
 #include "viz/field_colours.h"
 
@@ -60,6 +62,14 @@ std::string first_field(const std::vector<Field>& fields, const std::string& wan
     unknown_field(wanted, infos);
 }
 
+/// [mm/s]; of the fields that are shown, which were computed once, else computed at the point.
+double speed_at(const ReportLog& shown, PointIndex point) {
+    for (const Field& field : shown.fields) {
+        if (field.info.name == "speed") return field.values[static_cast<std::size_t>(point)];
+    }
+    return path_fields_of(shown.part, shown.surface).get_all({"speed"}, {point, point}).front().values[0];
+}
+
 }  // namespace
 
 ReportedForm form_for_report(const ReportLog& shown, const ReportOptions& options, StageClock& clock) {
@@ -102,8 +112,13 @@ void add_report_pictures(io::ReportPage& page, const ReportLog& shown, const Rep
         const Eigen::Vector3f normal = read.signals.normal(shown.quality.report.defects[i].point);
         if (normal.allFinite()) page.defects[i].normal = normal.cast<double>();
     }
-    for (std::size_t i = 0; i < std::min(pictured_defects, page.defects.size()); ++i)
+    for (std::size_t i = 0; i < std::min(pictured_defects, page.defects.size()); ++i) {
         page.defects[i].picture = picture_of_defect(pictured, read.signals, i);
+        const Defect& defect = shown.quality.report.defects[i];
+        const double speed = speed_at(shown, defect.point);
+        if (defect.speed_mismatch < 0)
+            page.defects[i].slow = words_of(speed_reasons(shown.part, defect.point, speed), speed);
+    }
 }
 
 io::PageRelief page_relief_of(const ReportedForm& as_machined) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/units.h"
 #include "pipeline/channel_classes.h"
@@ -138,6 +139,12 @@ SpeedReasons speed_reasons(const Part& part, PointIndex point, double speed) {
     add(blocks.corner());
     add(nearest_limit(part, point));
     return result;
+}
+
+std::string words_of(const SpeedReasons& why, double speed) {
+    if (why.reasons.empty()) return {};
+    return fmt::format("{:.0f} of F{:.0f} mm/min: {}", speed * seconds_per_minute,
+                       why.programmed_feed * seconds_per_minute, fmt::join(why.reasons, "; "));
 }
 
 }  // namespace clsurf

@@ -17,5 +17,7 @@ struct SpeedReasons {
 /// "blocks of 0.02 mm", "a corner of 35° in line 12", "feed override 50 %". `speed` at the point [mm/s]; none is given for
 /// 95 % of the programmed feed or more. O(blocks nearby).
 [[nodiscard]] SpeedReasons speed_reasons(const Part& part, PointIndex point, double speed);
+/// "634 of F3000 mm/min: blocks of 0.02 mm; …"; empty without reasons. `speed` at the point [mm/s].
+[[nodiscard]] std::string words_of(const SpeedReasons& why, double speed);
 
 }  // namespace clsurf

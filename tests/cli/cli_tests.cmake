@@ -478,7 +478,8 @@ clsurf_cli_test(NAME optimize_without_output ARGS optimize ${uneven} EXIT 2 STDE
 clsurf_cli_test(NAME optimize_wrong_tolerance ARGS optimize ${uneven} -o better.nc --tolerance -1 EXIT 2 STDERR "--tolerance must be above 0 mm" NO_FILE better.nc)
 
 # ---- the linked page (what it does in a browser: tests/page) ----
-clsurf_cli_test(NAME report_writes_one_file ARGS report ${part} ${run} --tool none -o r.html FILE r.html)
+clsurf_cli_test(NAME report_writes_one_file SETUP "$CLSURF report ${part} ${run} --tool none -o r.html -q && grep -q '<p>Slow: [0-9]* of F3000 mm/min: blocks of 0.02' r.html"
+  ARGS --version)
 clsurf_cli_test(NAME report_of_chosen_fields ARGS report ${part} ${run} -o r.html --fields speed,jerk --color jerk --tool ball:6 --max-size 4 FILE r.html)
 clsurf_cli_test(NAME report_without_output ARGS report ${part} ${run} EXIT 2 STDERR "output")
 clsurf_cli_test(NAME report_unknown_field ARGS report ${part} ${run} -o r.html --tool none --fields sped EXIT 2 STDERR "did you mean 'speed'")

@@ -74,6 +74,8 @@ find_program(PDFTOPPM pdftoppm)
 set(read_svg "python3 ${CMAKE_CURRENT_LIST_DIR}/read_svg.py")
 clsurf_cli_test(NAME svg_map SETUP "$CLSURF render ${part} ${run} --defects --size 800x600 -o map.svg && ${read_svg} map.svg images 1 'bottle_uneven.nc' 'Five passes|slower'" ARGS --version)
 clsurf_cli_test(NAME svg_plot SETUP "$CLSURF plot ${part} ${run} --fields speed,acceleration -o curve.svg && ${read_svg} curve.svg images 0 'Path speed .mm/min.' 'time .s.'" ARGS --version)
+# The words of `query` for a slow point; none where the tool is as fast as programmed.
+clsurf_cli_test(NAME svg_plot_says_why_it_is_slow SETUP "$CLSURF plot ${part} ${run} --line 600 -o slow.svg && ${read_svg} slow.svg images 0 'slow at point 4911: 622 of F3000 mm/min: blocks of 0.024 mm' && $CLSURF plot ${part} ${run} --mark-point 4500 -o fast.svg && ! grep -q 'slow at' fast.svg" ARGS --version)
 clsurf_cli_test(NAME svg_card SETUP "$CLSURF plot ${part} ${run} --defect 1 -o card.svg && ${read_svg} card.svg images 1 'Defect 1' 'Speed .mm/min.' 'line 1178'" ARGS --version)
 clsurf_cli_test(NAME svg_diff SETUP "$CLSURF diff ${run} ${run} -o map.svg && ${read_svg} map.svg images 1 'minus'" ARGS --version)
 clsurf_cli_test(NAME svg_profile SETUP "$CLSURF plot ${part} ${run} --profile 0,-2,0,2 --tool ball:6 -o cut.svg && ${read_svg} cut.svg images 0 'Roughness'" ARGS --version)
