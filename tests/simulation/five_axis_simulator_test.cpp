@@ -285,7 +285,8 @@ TEST(FiveAxisSimulator, AWindowDoesNotEndInABendThatAllowsNoRest) {
     const FiveAxisSummary summary =
         simulate_five_axis(program, trunnion(), Vec3::Zero(), Vec3::Zero(), [](std::span<const FiveAxisPoint>) {}, {});
     EXPECT_TRUE(summary.run.limits_ok);
-    EXPECT_NEAR(summary.run.duration, 6.5, 0.3);
+    // Rotary axes stand still: the planner of three axes takes 5.778 s within the limits of the same linear axes.
+    EXPECT_NEAR(summary.run.duration, 5.778, 0.05 * 5.778);
 }
 
 TEST(FiveAxisSimulator, FeedOfZeroNamesTheLine) {
