@@ -65,17 +65,6 @@ std::vector<viz::CurveClass> classes_of(const Field& field, const ClSurface& sur
     return all;
 }
 
-/// Why the tool is slow at the marked points, in words.
-std::string reasons_at(const std::vector<PointIndex>& points, const Part& part, const FieldSet& fields) {
-    std::string text;
-    for (const PointIndex point : points) {
-        const double speed = fields.get_all({"speed"}, {point, point}).front().values[0];
-        const std::string words = words_of(speed_reasons(part, point, speed), speed);
-        if (!words.empty()) text += fmt::format("{}point {}: {}", text.empty() ? "slow at " : "; ", point, words);
-    }
-    return text;
-}
-
 ExitCode run_plot(const po::variables_map& values) {
     PlotOptions options = read_plot_options(values);
     if (asks_for_profile(values)) return plot_profile(values, options.part, options.look, options.output);
@@ -102,7 +91,7 @@ ExitCode run_plot(const po::variables_map& values) {
                            {}});
     }
     const FieldSet set = fields_of(part, surface);
-    std::string note = options.part.program.empty() ? std::string() : reasons_at(options.points, part, set);
+    std::string note = options.part.program.empty() ? std::string() : slow_points(options.points, part, set);
     const std::vector<Field> fields = set.get_all(options.fields);
     for (std::size_t f = 0; f < fields.size(); ++f) {
         const Field& field = fields[f];

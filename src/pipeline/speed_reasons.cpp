@@ -147,4 +147,14 @@ std::string words_of(const SpeedReasons& why, double speed) {
                        why.programmed_feed * seconds_per_minute, fmt::join(why.reasons, "; "));
 }
 
+std::string slow_points(const std::vector<PointIndex>& points, const Part& part, const FieldSet& fields) {
+    std::string text;
+    for (const PointIndex point : points) {
+        const double speed = fields.get_all({"speed"}, {point, point}).front().values[0];
+        const std::string words = words_of(speed_reasons(part, point, speed), speed);
+        if (!words.empty()) text += fmt::format("{}point {}: {}", text.empty() ? "slow at " : "; ", point, words);
+    }
+    return text;
+}
+
 }  // namespace clsurf

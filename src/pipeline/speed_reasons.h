@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "field/field_set.h"
 #include "pipeline/part.h"
 
 namespace clsurf {
@@ -19,5 +20,7 @@ struct SpeedReasons {
 [[nodiscard]] SpeedReasons speed_reasons(const Part& part, PointIndex point, double speed);
 /// "634 of F3000 mm/min: blocks of 0.02 mm; …"; empty without reasons. `speed` at the point [mm/s].
 [[nodiscard]] std::string words_of(const SpeedReasons& why, double speed);
+/// "slow at point 4848: 634 of F3000 mm/min: …; point …", for those points at which the tool is slow; empty: at none.
+[[nodiscard]] std::string slow_points(const std::vector<PointIndex>& points, const Part& part, const FieldSet& fields);
 
 }  // namespace clsurf
