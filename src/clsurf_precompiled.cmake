@@ -1,6 +1,6 @@
 # Parsing the same large headers in every file was most of a build's time. Rooms share one set of
-# them, the command line and the tests have their own. Files still include what they use: the test
-# headers_alone and the presets for checkers build without.
+# them, the command line and the tests have their own. Files still include what they use:
+# tests/separate reads each without any.
 #
 # clsurf_precompiled(TARGET [FROM target] [headers…])
 function(clsurf_precompiled target)

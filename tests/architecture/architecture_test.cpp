@@ -142,8 +142,8 @@ Complaints check_form(const SourceFile& file) {
     return complaints;
 }
 
-// A source begins with its own header: where each source is compiled by itself (tests/sanitize), that compiles alone.
-// headers_alone.cmake relies on it. src/ is the folder that includes count from.
+// A source begins with its own header, so that reading each source by itself (tests/separate) reads the header by itself, too.
+// src/ is the folder that includes count from.
 Complaints check_own_header_first(const SourceFile& source, bool has_header) {
     if (!has_header || !source.path.ends_with(".cpp")) return {};
     const std::string from_root = fs::path(source.path).replace_extension(".h").generic_string();
