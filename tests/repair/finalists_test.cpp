@@ -12,15 +12,6 @@
 namespace clsurf::finalists_test {
 namespace {
 
-/// Blocks take at least 2 ms: a crowd of points is slow.
-Machine slow_at_short_blocks() {
-    Machine machine;
-    machine.path.max_jerk = 1e6;
-    for (MachineAxis& axis : machine.axes) axis.max_jerk = 2e6;
-    machine.controller.block_time = 0.002;
-    return machine;
-}
-
 double crowded(int pass, double x) { return pass == 2 && x > 3 && x < 5 ? 0.02 : 0.31; }
 
 // An ensemble may refuse the best ones for one machine of it: others must be left. What runs alike would be refused alike.

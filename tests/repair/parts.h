@@ -1,5 +1,5 @@
 #pragma once
-// Programs of small parts, made for the tests.
+// Programs of small parts, made for the tests, and a machine on which their faults show.
 
 #include <cmath>
 #include <string>
@@ -8,6 +8,7 @@
 
 #include "core/diagnostic.h"
 #include "core/units.h"
+#include "machine/machine.h"
 #include "program/interpreter.h"
 
 namespace clsurf {
@@ -15,6 +16,15 @@ namespace clsurf {
 inline Program read_text(const std::string& text) {
     auto bytes = std::make_shared<std::string>(text);
     return parse_program(SourceText("part.nc", *bytes, bytes), {});
+}
+
+/// Blocks of 0.02 mm take 2 ms: they are passed at 10 mm/s instead of 50.
+inline Machine slow_at_short_blocks() {
+    Machine machine;
+    machine.path.max_jerk = 1e6;
+    for (MachineAxis& axis : machine.axes) axis.max_jerk = 2e6;
+    machine.controller.block_time = 0.002;
+    return machine;
 }
 
 /// A zigzag over z = sin-shaped waves of a height [mm]: passes along x, 0.4 mm apart. `spacing(pass, x)` is the way in x to the next point.

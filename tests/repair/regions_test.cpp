@@ -14,15 +14,6 @@
 namespace clsurf::regions_test {
 namespace {
 
-/// Blocks of 0.02 mm take 2 ms: they are passed at 10 mm/s instead of 50.
-Machine slow_at_short_blocks() {
-    Machine machine;
-    machine.path.max_jerk = 1e6;
-    for (MachineAxis& axis : machine.axes) axis.max_jerk = 2e6;
-    machine.controller.block_time = 0.002;
-    return machine;
-}
-
 /// Flat passes, the fifth of which (it runs forth) has 100 points between `from` and `from` + 2 mm.
 Program crowded_at(double from) {
     return read_text(wavy_zigzag(

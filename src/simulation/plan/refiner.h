@@ -3,9 +3,10 @@
 // time-optimal speeds that carry acceleration through the nodes.
 //
 // A window of runs is divided into cells. SpeedProblem finds the fastest speeds between the states at its
-// ends; places between its samples at which they break a limit become samples. Most of a window is then run; the rest begins the next window. The runs are the fallback: they keep
-// every limit, and each window ends in one of their states. Runs that cannot become faster pass unchanged: a
-// run on straight spans between rests, and a long cruise at the permitted speed.
+// ends; places between its samples at which they break a limit become samples. Most of a window is then run; the
+// rest begins the next window. The runs are the fallback: they keep every limit, and each window ends in one of
+// their states. Runs that cannot become faster pass unchanged: a run on straight spans between rests, and a long
+// cruise at the permitted speed.
 
 #include <deque>
 #include <vector>
