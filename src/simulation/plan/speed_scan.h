@@ -26,8 +26,8 @@ public:
     void add_limit(double at, double slope, double bend, double acceleration) {
         add_limit(cells_.size() - 1, at, slope, bend, acceleration);
     }
-    /// The same of any cell. O(limits behind it).
-    void add_limit(std::size_t cell, double at, double slope, double bend, double acceleration);
+    /// The same of any cell, by its number from 0. O(limits behind it).
+    void add_limit(std::size_t number, double at, double slope, double bend, double acceleration);
 
     /// The fastest speeds from `speed` at the first knot [mm/s] to rest at the last one. A speed from which the
     /// limits lead to no rest is lowered.
