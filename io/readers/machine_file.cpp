@@ -186,10 +186,7 @@ void read_controller(const TomlFile& file, const toml::table& table, ControllerS
 
 void read_path(const TomlFile& file, const toml::table& table, PlannerKind planner, PathLimits& path) {
     if (planner == PlannerKind::trapezoidal) refuse(file, table, {"max_jerk"}, with_trapezoidal);
-    if (planner == PlannerKind::trapezoidal)
-        file.allow(table, {"max_speed", "max_acceleration", "max_normal_acceleration"});
-    else
-        file.allow(table, {"max_speed", "max_acceleration", "max_normal_acceleration", "max_jerk"});
+    file.allow(table, {"max_speed", "max_acceleration", "max_normal_acceleration", "max_jerk"});
     take(file, table, "max_speed", path.max_speed, Low::above_zero, 1 / seconds_per_minute);
     take(file, table, "max_acceleration", path.max_acceleration, Low::above_zero);
     take(file, table, "max_normal_acceleration", path.max_normal_acceleration, Low::above_zero);
@@ -233,10 +230,7 @@ void read_servo(const TomlFile& file, const toml::table& table, double period, d
 
 void read_axis(const TomlFile& file, const toml::table& table, std::vector<std::string_view>& seen, Machine& machine) {
     if (machine.controller.planner == PlannerKind::trapezoidal) refuse(file, table, {"max_jerk"}, with_trapezoidal);
-    if (machine.controller.planner == PlannerKind::trapezoidal)
-        file.allow(table, {"name", "travel", "max_speed", "max_acceleration", "servo"});
-    else
-        file.allow(table, {"name", "travel", "max_speed", "max_acceleration", "max_jerk", "servo"});
+    file.allow(table, {"name", "travel", "max_speed", "max_acceleration", "max_jerk", "servo"});
     std::vector<std::string_view> names(axis_names.begin(), axis_names.end());
     const Kinematics& kinematics = machine.kinematics;
     if (kinematics.has_rotary())

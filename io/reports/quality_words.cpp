@@ -63,7 +63,7 @@ std::string motion_text(const Defect& d) {
 std::string height_text(const Defect& d) {
     const std::string_view where = d.pit ? "below" : "above";
     if (d.quantity == Quantity::relief && d.cause == Cause::path_tolerance)
-        return fmt::format("the control leaves the programmed path: {} {} {} {} the neighbours", passes_text(d),
+        return fmt::format("the controller leaves the programmed path: {} {} {} {} the neighbours", passes_text(d),
                            one_pass(d) ? "runs" : "run", with_um(d.depth), where);
     if (d.quantity == Quantity::relief)
         return fmt::format("the program has {} {} {} the neighbours", passes_text(d), with_um(d.depth), where);
@@ -235,8 +235,8 @@ const RuleText& rule_of(const Defect& defect) {
         RuleText{"pass_end", "A pass begins or ends next to a pass that continues.",
                  "Expected at the border of a part."},
         RuleText{
-            "path_tolerance", "The control leaves the programmed path otherwise than on the adjacent passes.",
-            "Narrow the tolerance of the control (G64 P and Q, CYCLE832, cycle 32), or post points that lie closer "
+            "path_tolerance", "The controller deviates from the programmed path differently from the adjacent passes.",
+            "Narrow the tolerance of the controller (G64 P and Q, CYCLE832, cycle 32), or program points that are closer "
             "together."},
     };
     return defect.systematic ? systematic_rule : rules.at(static_cast<std::size_t>(defect.cause));

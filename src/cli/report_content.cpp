@@ -115,9 +115,9 @@ void add_report_pictures(io::ReportPage& page, const ReportLog& shown, const Rep
     for (std::size_t i = 0; i < std::min(pictured_defects, page.defects.size()); ++i) {
         page.defects[i].picture = picture_of_defect(pictured, read.signals, i);
         const Defect& defect = shown.quality.report.defects[i];
+        if (!(defect.speed_mismatch < 0)) continue;
         const double speed = speed_at(shown, defect.point);
-        if (defect.speed_mismatch < 0)
-            page.defects[i].slow = words_of(speed_reasons(shown.part, defect.point, speed), speed);
+        page.defects[i].slow = words_of(speed_reasons(shown.part, defect.point, speed), speed);
     }
 }
 

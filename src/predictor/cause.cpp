@@ -18,9 +18,10 @@ constexpr double reversal_arc_length = 0.3;  ///< [mm] before the run begins
 constexpr float axis_moves = 0.01F;          ///< of the feed; less is noise
 constexpr float lobe = 0.4F;                 ///< of the peak: a swing counts
 constexpr int lobes_of_oscillation = 3;
-constexpr double share_of_control = 0.5;  ///< of the depth, that the way off the program makes
-constexpr PointIndex looked_at = 16;      ///< points of a run, whose way off the program is measured
-constexpr std::int64_t merged = 110;      ///< motions round that of a point: a control may make one of so many
+constexpr double share_of_control = 0.5;  ///< of the depth: deviations from the program make so much of it
+constexpr PointIndex looked_at = 16;      ///< points of a run at which the deviation is measured
+constexpr std::int64_t merged =
+    110;  ///< motions before and after that of a point: a controller may make one of so many
 
 /// How often the speed goes to the other side of that of the neighbours, within one run.
 int count_lobes(std::span<const DefectCandidate* const> sites) {
@@ -75,7 +76,7 @@ std::string_view description_of(Cause cause) {
         case Cause::reversal: return "an axis reverses here";
         case Cause::pass_end: return "the pass begins or ends here";
         case Cause::path_tolerance:
-            return "the control leaves the programmed path otherwise than on the adjacent passes";
+            return "the controller deviates from the programmed path differently from adjacent passes";
     }
     return "";
 }

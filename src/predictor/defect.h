@@ -22,9 +22,9 @@ enum class Cause : std::uint8_t {
     corner,          ///< the programmed path turns there
     reversal,        ///< an axis turns back there
     pass_end,        ///< the pass begins or ends there
-    path_tolerance,  ///< the control leaves the programmed path there otherwise than on adjacent passes
+    path_tolerance,  ///< the controller deviates from the programmed path differently from adjacent passes
 };
-inline constexpr int cause_count = 8;
+inline constexpr int cause_count = static_cast<int>(Cause::path_tolerance) + 1;
 [[nodiscard]] std::string_view name_of(Cause cause);         ///< "feed_drop"
 [[nodiscard]] std::string_view description_of(Cause cause);  ///< "slower than its neighbours"
 

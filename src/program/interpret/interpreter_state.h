@@ -219,8 +219,8 @@ public:
     void probe(const Vec3& end, const Vec3& rotary);
     void push(MotionKind kind, const Vec3& end, const Vec3& rotary, float feed);
     void settle_work_frame();
-    [[nodiscard]] float feed_for(double length);
-    [[nodiscard]] float feed_for_turn(double degrees);
+    [[nodiscard]] float feed_for(double way, double unit);
+    [[nodiscard]] float feed_for(double length) { return feed_for(length, state_.feed_unit_mm); }
     [[nodiscard]] double turn_to(const Vec3& rotary) const;
     void cycle(const Block& block);
     void read_cycle_words(const Block& block, const Stroke& stroke);

@@ -195,25 +195,18 @@ void Interpreter::select_feed_mode(FeedMode mode) {
                                                                          : "G95");
 }
 
-float Interpreter::feed_for(double length) {
+/// `unit`: what F counts in, mm of a length, or 1 of a turn in degrees, where inches do not count.
+float Interpreter::feed_for(double way, double unit) {
     switch (state_.feed_mode) {
         case FeedMode::inverse_time:
             // What moves nothing takes no time: any feed will do, but none.
-            if (length > 0) return static_cast<float>(length * state_.feed / seconds_per_minute);
+            if (way > 0) return static_cast<float>(way * state_.feed / seconds_per_minute);
             [[fallthrough]];
-        case FeedMode::per_minute: return static_cast<float>(state_.feed * state_.feed_unit_mm / seconds_per_minute);
+        case FeedMode::per_minute: return static_cast<float>(state_.feed * unit / seconds_per_minute);
         case FeedMode::per_revolution:
-            return static_cast<float>(state_.feed * state_.feed_unit_mm * state_.spindle / seconds_per_minute);
+            return static_cast<float>(state_.feed * unit * state_.spindle / seconds_per_minute);
     }
     return 0;
-}
-
-/// Of a motion that leaves X, Y and Z where they are: F counts degrees there, in inches, too.
-float Interpreter::feed_for_turn(double degrees) {
-    const double factor = state_.feed_mode == FeedMode::inverse_time     ? degrees
-                          : state_.feed_mode == FeedMode::per_revolution ? state_.spindle
-                                                                         : 1;
-    return static_cast<float>(factor * state_.feed / seconds_per_minute);
 }
 
 /// How far the rotary axes turn together, or the tool axis where it is a vector [deg].
@@ -228,7 +221,7 @@ void Interpreter::straight(MotionKind kind, const Vec3& end, const Vec3& rotary)
     const Vec3 from = state_.position.array().isNaN().select(end, state_.position);
     const double length = (end - from).norm(), turn = length > 0 ? 0 : turn_to(rotary);
     const float feed = kind == MotionKind::rapid ? std::numeric_limits<float>::quiet_NaN()
-                       : turn > 0                ? feed_for_turn(turn)
+                       : turn > 0                ? feed_for(turn, 1)
                                                  : feed_for(length);
     push(kind, end, rotary, feed);
 }

@@ -174,10 +174,11 @@ bool ScanDriver::limit_between() {
 
 /// An exchange method (Hettich and Kortanek 1993): limits join until the plan breaks none of them.
 void ScanDriver::plan(double speed) {
-    for (int look = 0; look <= most_scan_looks; ++look) {
+    for (int look = 0; look < most_scan_looks; ++look) {
         scan_.plan(speed);
         if (!limit_between()) return;
     }
+    scan_.plan(speed);  // with all limits that have joined
 }
 
 void ScanDriver::run_section(const std::function<void()>& report) {
