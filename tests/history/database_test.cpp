@@ -279,9 +279,9 @@ TEST(History, MergesWhatIsNewAndWhatIsBetter) {
     failed.failure = "killed";
     failed.found.clear();
     failed.defects = 0;
-    into.add(numbered_run(1));
-    into.add(failed);
     for (int k = 1; k <= 4; ++k) from.add(numbered_run(k));
+    into.add(numbered_run(1));  // after that of `from`: the later one counts
+    into.add(failed);
     EXPECT_EQ(into.merge(from), 3U) << "2, which had failed, 3 and 4";
     EXPECT_EQ(into.merge(from), 0U);
     expect_every_row_whole(a.path());
