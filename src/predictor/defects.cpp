@@ -11,6 +11,7 @@
 #include "predictor/candidates.h"
 #include "predictor/cause.h"
 #include "predictor/coverage.h"
+#include "predictor/defect_core.h"
 #include "predictor/explanations.h"
 #include "predictor/opposites.h"
 #include "predictor/subprogram_lines.h"
@@ -20,8 +21,6 @@
 namespace clsurf {
 namespace {
 
-constexpr float half_of_peak = 0.5F;
-constexpr float weak_run = 0.25F;          ///< of the strongest run of its group
 constexpr double shown_share = 0.9;        ///< of a plateau: its height without the noise's own peak
 constexpr double smallest_area = 1.0;      ///< squared step-overs
 constexpr float least_speed_share = 0.6F;  ///< of its threshold, for what only the acceleration shows …
@@ -48,9 +47,6 @@ double plateau(const std::vector<double>& values, double sign) {
     }
     return same.empty() ? 0 : std::copysign(nearest_quantile(same, shown_share), sign);
 }
-
-/// Candidates in the order of their points.
-using CandidateSpan = std::span<const DefectCandidate* const>;
 
 /// Quantities that are grouped together.
 using Family = std::span<const Quantity>;
@@ -111,6 +107,9 @@ public:
     [[nodiscard]] std::vector<DefectCandidates> regroup(const DefectCandidates& sites) const {
         return group_candidates(sites, surface_, arc_length_, joined_, forget_);
     }
+    [[nodiscard]] CoreSites core_of(CandidateSpan group, Quantity quantity) const {
+        return clsurf::core_of(group, quantity, arc_length_, joined_);
+    }
     /// Nobody else may be reading.
     void forget() const {
         if (forget_) forget_();
@@ -118,41 +117,6 @@ public:
 
     [[nodiscard]] std::int64_t cut_passes() const {
         return numbers_.empty() ? 0 : *std::max_element(numbers_.begin(), numbers_.end());
-    }
-
-    /// The sites of a group that are its defect: on each pass, where the main quantity reaches half of
-    /// its peak there; short dips between are its own (an oscillation crosses zero).
-    /// Runs that are much weaker than the strongest go to `rest`: something else, that hangs together
-    /// with it by chance.
-    [[nodiscard]] DefectCandidates core_of(CandidateSpan group, Quantity quantity, DefectCandidates& rest) const {
-        const std::size_t q = index_of(quantity);
-        const auto share = [q](const DefectCandidate* s) { return s->share[q]; };
-        float peak = 0;
-        for (const DefectCandidate* s : group) peak = std::max(peak, share(s));
-        const float enough = std::max(std::min(1.0F, half_of_peak * peak),
-                                      weak_run * peak);  // a pass that is hardly candidate is not at fault
-        DefectCandidates core;
-        for_each_run(group, [&](CandidateSpan run) {
-            float run_peak = 0;
-            for (const DefectCandidate* s : run) run_peak = std::max(run_peak, share(s));
-            if (run_peak < enough) {
-                rest.insert(rest.end(), run.begin(), run.end());
-                return;
-            }
-            const auto strong = [&](const DefectCandidate* s) { return share(s) >= half_of_peak * run_peak; };
-            for (std::size_t k = 0; k < run.size(); ++k) {
-                if (!strong(run[k])) continue;
-                std::size_t last = k;
-                for (std::size_t j = k + 1;
-                     j < run.size() && !arc_length_.at_least(run[last]->point, run[j]->point, joined_); ++j) {
-                    if (strong(run[j])) last = j;
-                }
-                core.insert(core.end(), run.begin() + static_cast<std::ptrdiff_t>(k),
-                            run.begin() + static_cast<std::ptrdiff_t>(last) + 1);
-                k = last;
-            }
-        });
-        return core;
     }
 
     /// The defect that the sites of a core make, in the order of their points.
@@ -168,7 +132,7 @@ public:
         defect.speed_beside = defect.speed - strongest.comparison.speed_jump;
         defect.place.tip = surface_.positions.absolute(defect.point);
         for (const DefectCandidate* s : core) defect.score = std::max(defect.score, largest(s->score, family));
-        for_each_run(core, [&](CandidateSpan run) {
+        for_each_run(core, arc_length_, joined_, [&](CandidateSpan run) {
             defect.runs.push_back(run_of(run.front()->pass, {run.front()->point, run.back()->point}));
         });
         measure(core, defect);
@@ -223,19 +187,6 @@ private:
             run.last_line = std::max(run.last_line, line);
         }
         return run;
-    }
-
-    /// f(run) for the sections of sites of one pass that hang together.
-    template <typename F>
-    void for_each_run(CandidateSpan sites, F&& f) const {
-        for (std::size_t k = 0; k < sites.size();) {
-            std::size_t end = k + 1;
-            while (end < sites.size() && sites[end]->pass == sites[k]->pass &&
-                   !arc_length_.at_least(sites[end - 1]->point, sites[end]->point, joined_))
-                ++end;
-            f(sites.subspan(k, end - k));
-            k = end;
-        }
     }
 
     void measure(CandidateSpan core, Defect& defect) const {
@@ -372,12 +323,11 @@ public:
             if (!starts_defect(group, family_)) continue;
             const Quantity quantity = main_quantity(group, family_);
             // Cut back, a group may fall apart: weak candidates had joined several defects.
-            DefectCandidates rest;
-            const DefectCandidates strong_sites = builder_.core_of(group, quantity, rest);
-            if (rest.size() < group.size()) {
-                for (DefectCandidates& left : builder_.regroup(rest)) groups.push_back(std::move(left));
+            const CoreSites sites = builder_.core_of(group, quantity);
+            if (sites.rest.size() < group.size()) {
+                for (DefectCandidates& left : builder_.regroup(sites.rest)) groups.push_back(std::move(left));
             }
-            for (DefectCandidates& core : builder_.parts_of(strong_sites, quantity)) add(std::move(core), quantity);
+            for (DefectCandidates& core : builder_.parts_of(sites.core, quantity)) add(std::move(core), quantity);
             builder_.forget();
         }
         return std::move(built_);

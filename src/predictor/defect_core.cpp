@@ -1,0 +1,104 @@
+#include "predictor/defect_core.h"
+
+#include <algorithm>
+
+namespace clsurf {
+namespace {
+
+constexpr float weak_peak = 0.25F;      ///< of the strongest of its group
+constexpr float half_of_dip = 0.5F;     ///< a dip is at most this share of the lower of the peaks beside it
+constexpr float peak_of_its_own = 1.0;  ///< share of the threshold that a second peak reaches
+
+class CoreFinder {
+public:
+    CoreFinder(CandidateSpan group, Quantity quantity, const ArcLength& arc_length, double joined)
+        : group_(group), quantity_(index_of(quantity)), arc_length_(arc_length), joined_(joined) {}
+
+    CoreSites find() {
+        const float peak = peak_of(group_);
+        // What is hardly a candidate is not at fault.
+        const float enough = std::max(std::min(1.0F, half_of_peak * peak), weak_peak * peak);
+        CoreSites sites;
+        for_each_run(group_, arc_length_, joined_, [&](CandidateSpan run) {
+            for (const CandidateSpan bump : bumps_of(run)) {
+                if (peak_of(bump) < enough)
+                    sites.rest.insert(sites.rest.end(), bump.begin(), bump.end());
+                else
+                    append_strong(bump, sites.core);
+            }
+        });
+        return sites;
+    }
+
+private:
+    [[nodiscard]] float share(const DefectCandidate* s) const { return s->share[quantity_]; }
+    [[nodiscard]] bool near(const DefectCandidate* a, const DefectCandidate* b) const {
+        return !arc_length_.at_least(a->point, b->point, joined_);
+    }
+    [[nodiscard]] float peak_of(CandidateSpan sites) const {
+        float peak = 0;
+        for (const DefectCandidate* s : sites) peak = std::max(peak, share(s));
+        return peak;
+    }
+
+    /// The shares of a run with dips shorter than joined_ filled: a morphological closing.
+    [[nodiscard]] std::vector<float> filled(CandidateSpan run) const {
+        std::vector<float> shares;
+        shares.reserve(run.size());
+        for (const DefectCandidate* s : run) shares.push_back(share(s));
+        for (std::size_t i = 0; i < run.size(); ++i) {
+            for (std::size_t j = i + 2; j < run.size() && near(run[i], run[j]); ++j) {
+                const float level = std::min(share(run[i]), share(run[j]));
+                for (std::size_t k = i + 1; k < j; ++k) shares[k] = std::max(shares[k], level);
+            }
+        }
+        return shares;
+    }
+
+    /// A run, cut at the bottom of each dip between two peaks.
+    [[nodiscard]] std::vector<CandidateSpan> bumps_of(CandidateSpan run) const {
+        const std::vector<float> shares = filled(run);
+        std::vector<CandidateSpan> bumps;
+        std::size_t first = 0, bottom = 0;
+        float peak = 0;
+        for (std::size_t k = 0; k < run.size(); ++k) {
+            const float level = half_of_dip * std::min(peak, shares[k]);
+            if (shares[k] >= peak_of_its_own && shares[bottom] <= level) {
+                bumps.push_back(run.subspan(first, bottom - first));
+                first = bottom;
+                peak = 0;
+            }
+            if (shares[k] >= peak || shares[k] < shares[bottom]) bottom = k;  // the lowest since the peak
+            peak = std::max(peak, shares[k]);
+        }
+        bumps.push_back(run.subspan(first));
+        return bumps;
+    }
+
+    void append_strong(CandidateSpan bump, DefectCandidates& core) const {
+        const float least = half_of_peak * peak_of(bump);
+        for (std::size_t k = 0; k < bump.size(); ++k) {
+            if (share(bump[k]) < least) continue;
+            std::size_t last = k;
+            for (std::size_t j = k + 1; j < bump.size() && near(bump[last], bump[j]); ++j) {
+                if (share(bump[j]) >= least) last = j;
+            }
+            core.insert(core.end(), bump.begin() + static_cast<std::ptrdiff_t>(k),
+                        bump.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+            k = last;
+        }
+    }
+
+    CandidateSpan group_;
+    std::size_t quantity_;
+    const ArcLength& arc_length_;
+    double joined_;  ///< [mm]
+};
+
+}  // namespace
+
+CoreSites core_of(CandidateSpan group, Quantity quantity, const ArcLength& arc_length, double joined) {
+    return CoreFinder(group, quantity, arc_length, joined).find();
+}
+
+}  // namespace clsurf
