@@ -71,9 +71,11 @@ std::string ensemble_text(const EnsembleResult& ensemble) {
     if (ensemble.runs.empty()) return {};
     const auto words = [](const char* name, const EnsembleRun& run) {
         return fmt::format(
-            "  {}: time {:.3f} to {:.3f} s, speed mismatch {:.1f} to {:.1f} mm/min, defects {:.3g} to {:.3g}, gain {:.1f} %\n",
-            name, run.before.duration, run.after.duration, run.before.mismatch * seconds_per_minute,
-            run.after.mismatch * seconds_per_minute, run.before.defects, run.after.defects, 100 * run.gain);
+            "  {}: time {:.3f} to {:.3f} s, speed mismatch{} {:.1f} to {:.1f} mm/min, defects {:.3g} to {:.3g}, gain {:.1f} %\n",
+            name, run.before.duration, run.after.duration, greatest_counts(run.before) ? " p99.9" : "",
+            mismatch_that_counts(run.before, run.before) * seconds_per_minute,
+            mismatch_that_counts(run.before, run.after) * seconds_per_minute, run.before.defects, run.after.defects,
+            100 * run.gain);
     };
     return fmt::format("on {} other machines that the machine file allows\n", ensemble.runs.size()) +
            words("mean", ensemble.mean()) + words("worst", ensemble.worst());

@@ -13,6 +13,7 @@ namespace {
 
 void add(const RunMeasures& each, double weight, RunMeasures& sum) {
     sum.mismatch += weight * each.mismatch;
+    sum.greatest_mismatch += weight * each.greatest_mismatch;
     sum.defects += weight * each.defects;
     sum.duration += weight * each.duration;
     sum.speed += weight * each.speed;
@@ -58,8 +59,9 @@ std::string why_not_better(const EnsembleResult& result, double more_time) {
             return fmt::format(
                 "on one of {} machines that the machine file allows it would be worse: {:.0f} defects instead of {:.0f}, "
                 "speed differences of {:.0f} instead of {:.0f} mm/min",
-                result.runs.size(), run.after.defects, run.before.defects, run.after.mismatch * seconds_per_minute,
-                run.before.mismatch * seconds_per_minute);
+                result.runs.size(), run.after.defects, run.before.defects,
+                mismatch_that_counts(run.before, run.after) * seconds_per_minute,
+                mismatch_that_counts(run.before, run.before) * seconds_per_minute);
     }
     return {};
 }

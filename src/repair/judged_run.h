@@ -30,8 +30,11 @@ struct JudgedRun {
     std::optional<MotionQuality> motion{};  ///< where it is asked for
 
     [[nodiscard]] RunMeasures measures() const {
-        return {mismatch, static_cast<double>(report.defects.size()), duration,
-                static_cast<double>(report.thresholds.usual_speed)};
+        return {.mismatch = mismatch,
+                .defects = static_cast<double>(report.defects.size()),
+                .duration = duration,
+                .speed = static_cast<double>(report.thresholds.usual_speed),
+                .greatest_mismatch = greatest_mismatch};
     }
 };
 

@@ -16,7 +16,7 @@ constexpr double beyond_goal = 0.1;       ///< … less mismatch counts less
 
 /// What a mismatch counts as.
 double counted(const RunMeasures& run, const RunMeasures& before) {
-    return std::max(run.mismatch, least_mismatch * before.speed);
+    return std::max(mismatch_that_counts(before, run), least_mismatch * before.speed);
 }
 
 }  // namespace
@@ -43,10 +43,10 @@ std::string too_little_gain(std::string_view what, double gain) {
 }
 
 std::string why_not_better(const RunMeasures& before, const RunMeasures& after, double more_time) {
-    const bool is_less = after.mismatch < before.mismatch, is_none = after.mismatch <= least_mismatch * before.speed;
-    if (!is_less && !is_none)
+    const double was = mismatch_that_counts(before, before), is = mismatch_that_counts(before, after);
+    if (!(is < was) && is > least_mismatch * before.speed)
         return fmt::format("the speeds of adjacent passes would differ by {:.0f} instead of {:.0f} mm/min",
-                           after.mismatch * seconds_per_minute, before.mismatch * seconds_per_minute);
+                           is * seconds_per_minute, was * seconds_per_minute);
     if (after.defects > before.defects)
         return fmt::format("there would be {:.3g} defects instead of {:.3g}", after.defects, before.defects);
     const double longest = before.duration * (1 + more_time);

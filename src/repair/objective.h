@@ -16,6 +16,7 @@ struct RunMeasures {
     double duration = 0;                 ///< [s]
     double speed = 0;                    ///< [mm/s] usual speed of the cuts
     double roughness = missing<double>;  ///< [mm] Ra of the as-machined surface; NaN: not known
+    double greatest_mismatch = 0;        ///< [mm/s] 99.9th percentile of the speed differences
 };
 
 /// A rise of the roughness by this share is none: it is measured at some places only.
@@ -24,11 +25,21 @@ inline constexpr double roughness_agrees = 0.01;
 /// A smaller mismatch, as a share of the speed, is none.
 inline constexpr double least_mismatch = 0.002;
 
+/// RunMeasures::mismatch is none in the run before. A few sections may still differ: greatest_mismatch counts then.
+[[nodiscard]] inline bool greatest_counts(const RunMeasures& before) {
+    return before.mismatch <= least_mismatch * before.speed;
+}
+
+/// The mismatch of `run` that counts [mm/s].
+[[nodiscard]] inline double mismatch_that_counts(const RunMeasures& before, const RunMeasures& run) {
+    return greatest_counts(before) ? run.greatest_mismatch : run.mismatch;
+}
+
 /// Gains below this are not worth a new program.
 inline constexpr double least_gain = 0.02;
 
-/// The objective, relative to the run before: m + d + t + r + 0.03 g. m is the share of the mismatch that remains, both at
-/// least least_mismatch; what is below one half counts a tenth, because defects matter more from there on. d is the share of the defects that
+/// The objective, relative to the run before: m + d + t + r + 0.03 g. m is the share of mismatch_that_counts() that remains,
+/// both at least least_mismatch; what is below one half counts a tenth, because defects matter more from there on. d is the share of the defects that
 /// remain. t is the share of additional time, at most `more_time`. r is
 /// the share of the roughness that remains, where both are known. g = lines after / lines before.
 [[nodiscard]] double objective(const RunMeasures& before, const RunMeasures& after, double line_ratio,
