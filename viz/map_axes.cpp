@@ -33,6 +33,7 @@ public:
         : sheet_(sheet),
           panel_(panel),
           size_(layout.small_text),
+          margin_(layout.margin),
           background_(look.background),
           ink_(faint(ink_for(look.background), look.background)),
           corner_(panel.rect.x, panel.rect.y) {}
@@ -58,10 +59,6 @@ public:
 
     void box(const Box3& part, const std::string& of, const DepthBuffer& depth) {
         const Camera& camera = panel_.camera;
-        // The corner nearest to the eye: its three edges would lie in front of the part.
-        Vec3 nearest;
-        for (int axis = 0; axis < 3; ++axis)
-            nearest[axis] = camera.towards[axis] > 0 ? part.max()[axis] : part.min()[axis];
         for (int axis = 0; axis < 3; ++axis) {
             std::vector<std::pair<Vec3, Vec3>> outer;  // edges that no other edge crosses in the picture
             for (int k = 0; k < 4; ++k) {
@@ -72,9 +69,9 @@ public:
                 if ((k & 2) != 0) from[c] = part.max()[c];
                 Vec3 to = from;
                 to[axis] = part.max()[axis];
-                const bool near_b = from[b] == nearest[b];
-                const bool near_c = from[c] == nearest[c];
-                if (near_b && near_c) continue;
+                const bool near_b = ((k & 1) != 0) == (camera.towards[b] > 0);
+                const bool near_c = ((k & 2) != 0) == (camera.towards[c] > 0);
+                if (near_b && near_c) continue;  // it would lie in front of the part
                 edge(from, to, depth);
                 if (near_b || near_c) outer.emplace_back(from, to);
             }
@@ -128,10 +125,10 @@ private:
         const double length = (b - a).norm();
         const double low = std::min(from[axis], to[axis]);
         const double high = std::max(from[axis], to[axis]);
-        if (!(high > low)) return;
+        if (!(high >= low)) return;
         const int wanted = std::max(2, static_cast<int>(length / (between_ticks * size_)));
-        std::vector<double> ticks = nice_ticks(low, high, wanted);
-        if (ticks.size() < 2) ticks = nice_ticks(low, high, 2 * wanted);
+        std::vector<double> ticks = high > low ? nice_ticks(low, high, wanted) : std::vector<double>();
+        if (ticks.size() < 2 && high > low) ticks = nice_ticks(low, high, 2 * wanted);
         if (!(length > shortest_scale * size_) || ticks.size() < 2) {
             const bool steep = std::abs(outwards.x()) > std::abs(outwards.y());
             const Vec2 end = steep ? Vec2(a.y() > b.y() ? a : b) : Vec2(0.5 * (a + b));
@@ -171,15 +168,30 @@ private:
         return true;
     }
 
-    /// "Z −0.4 to 0.1 mm", at a scale that is too short for numbers.
+    /// "Z −0.4 to 0.1 mm", at a scale that is too short for numbers, or "Z 0.000 mm" of a flat part. Where an edge of the box
+    /// runs through it, in the lower left corner of the map.
     void tell_range(const Vec2& middle, int axis, double low, double high) {
         const double step = 0.1 * (high - low);
         FlatText text{0, middle.y(), "", size_, Align::left, false, ink_};
-        text.text = fmt::format("{} {} to {} mm", "XYZ"[axis], tick_text(low, step), tick_text(high, step));
+        text.text = high > low ? fmt::format("{} {} to {} mm", "XYZ"[axis], tick_text(low, step), tick_text(high, step))
+                               : fmt::format("{} {:.3f} mm", "XYZ"[axis], low);
         const double width = text_width(text);
-        text.x =
-            std::clamp(middle.x() - 0.5 * width, corner_.x(), corner_.x() + std::max(0.0, panel_.rect.width - width));
+        const double left = std::max(corner_.x(), margin_);
+        text.x = std::clamp(middle.x() - 0.5 * width, left, std::max(left, corner_.x() + panel_.rect.width - width));
+        if (is_crossed(text_rect(text))) {
+            text.x = left;
+            text.y = corner_.y() + size_;
+        }
         add_words(std::move(text));
+    }
+
+    /// Whether an edge runs through a rectangle. Edges have a point every two pixels.
+    [[nodiscard]] bool is_crossed(const Rect& rect) const {
+        return std::any_of(sheet_.lines.begin(), sheet_.lines.end(), [&](const FlatLine& edge) {
+            return std::any_of(edge.points.begin(), edge.points.end(), [&](const Vec2& p) {
+                return p.x() > rect.x && p.x() < rect.x + rect.width && p.y() > rect.y && p.y() < rect.y + rect.height;
+            });
+        });
     }
 
     /// "X [mm, G54]", where no number is: beyond the numbers, in the middle between two ticks.
@@ -210,7 +222,7 @@ private:
 
     Sheet& sheet_;
     const MeshPanel& panel_;
-    double size_;
+    double size_, margin_;  ///< [px]
     Rgb background_;
     Rgb ink_;
     Vec2 corner_;

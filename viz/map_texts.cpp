@@ -12,7 +12,7 @@ namespace clsurf::viz {
 std::string counts_of(const ClSurface& surface) {
     PointIndex passes = 0;
     for (const Pass& pass : surface.passes) passes += pass.kind == PassKind::cut ? 1 : 0;
-    return fmt::format("{} points, {} passes{}", surface.positions.size(), passes,
+    return fmt::format("{} points, {} {}{}", surface.positions.size(), passes, passes == 1 ? "pass" : "passes",
                        surface.step_over > 0 ? fmt::format(", {:.3g} mm apart", surface.step_over) : "");
 }
 

@@ -18,6 +18,8 @@ namespace {
 
 constexpr double shade_dark = 0.80;   ///< of a surface that the light only grazes
 constexpr double relief_dark = 0.62;  ///< of a grey relief, whose shade is all that it shows
+constexpr double path_width = 3;      ///< [px] of passes with none beside them
+constexpr double path_room = 8;       ///< [px] between such a path and its box
 constexpr double relief_grey = 232;   ///< of a grey relief that faces the light
 const Vec3 light(-0.45, 0.55, 0.70);  ///< from the upper left, in the camera's frame
 
@@ -116,10 +118,18 @@ void paint_relief(Detail& detail, MeshPanel& panel) {
     g.normals = {};
 }
 
-/// What is shown of a part [mm].
-Box3 shown_box(const MapPanel& map, const Look& look) {
-    const Box3 all = extent_of_panel(map, ViewAxes::Identity());
-    return look.box.isEmpty() ? all : all.intersection(look.box);
+/// No pass has another one beside it: only lines are seen.
+bool is_path(const MapPanel& map) { return map.relief == nullptr && map.surface->step_over <= 0; }
+
+/// What is shown of a part, with room [mm] about a path: lines of the box would cover those that lie along its edges.
+Box3 shown_box(const MapPanel& map, const Look& look, double room) {
+    Box3 all = extent_of_panel(map, ViewAxes::Identity());
+    if (!look.box.isEmpty()) return all.intersection(look.box);
+    if (is_path(map) && !all.isEmpty()) {
+        const Vec3 beside(room, room, 0);
+        all = Box3(all.min() - beside, all.max() + beside);
+    }
+    return all;
 }
 
 Beyond paint_panel(Detail& detail, const MapPanel& map, const ColourScale& scale, const Look& look, MeshPanel& panel) {
@@ -171,6 +181,7 @@ Beyond fill_panel(const MapPanel& map, const ColourScale& scale, const Look& loo
     const Beyond here = paint_panel(detail, map, scale, look, panel);
     if (!map.pale.empty()) panel.pale = paleness_of(detail.points, map.pale);
     panel.geometry = std::move(detail.geometry);
+    if (is_path(map)) panel.line_width = path_width;
     if (here.missing) {
         panel.bare_triangles = take_bare(panel.geometry.triangles, 3, detail.values);
         panel.bare_segments = take_bare(panel.geometry.segments, 2, detail.values);
@@ -199,7 +210,8 @@ void add_scales_of(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, co
                    const Look& look, const MapLayout& layout, const DepthBuffer* depth = nullptr) {
     if (!look.legend) return;
     const Rgb ink = ink_for(look.background);
-    add_scales(sheet, panel, shown_box(map, look), frame, look, layout, depth);
+    const double room = has_box(look) ? path_room * panel.camera.mm_per_pixel : 0;
+    add_scales(sheet, panel, shown_box(map, look, room), frame, look, layout, depth);
     if (!last || has_frame(look)) return;
     add_axes(sheet, panel, look, layout, ink);
     if (!has_box(look)) add_scale_bar(sheet, panel, layout, ink);

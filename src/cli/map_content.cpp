@@ -60,8 +60,9 @@ viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, c
     texts.frame = common_work_system(shown.part.program.motions);
     const std::string_view positions =
         shown.origin == PointOrigin::program ? "programmed" : name_of(shown.part.path.role);
-    texts.title = fmt::format("{}, {} {}", shown.field.info.label, positions,
-                              options.shown.look.style == viz::Style::surface ? "surface" : "path");
+    texts.title = fmt::format(
+        "{}, {} {}", shown.field.info.label, positions,
+        options.shown.look.style == viz::Style::surface && shown.surface.step_over > 0 ? "surface" : "path");
     if (shown.relief) texts.title = fmt::format("{}, {}", shown.field.info.label, to_text(*shown.part.tool));
     const std::string program = file_name(options.part.program);
     // The captions of two panels name the logs.

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "pipeline/part_fields.h"
+#include "surface/stitch.h"
 #include "viz/colour_map.h"
 
 namespace clsurf::cli {
@@ -75,6 +76,7 @@ ReportLog load_report_log(const PartOptions& part_options, const ReportOptions& 
         fields = fields_of(shown.part, shown.surface);
         refuse_unknown_fields(options.fields, *fields);  // before what takes long
         shown.quality = judge(shown.part, shown.surface, options.measured, {}, clock.stages());
+        show_all_cutting(shown.surface);
     }
     shown.part.diagnostics.append(shown.quality.diagnostics);
     clock.begin("compute the fields");

@@ -69,6 +69,7 @@ Shown programmed(const PartOptions& options, const std::string& field, StageCloc
     shown.surface = std::move(made.surface);
     if (shown.surface.positions.size() == 0)
         throw InputError(Place::of_file(options.program), "has no motions to show");
+    show_all_cutting(shown.surface);
     clock.begin("compute the field");
     FieldSet fields(shown.part.log.records);
     fields.add(std::make_shared<const ProgramFields>(shown.part.program, shown.part.lines));
@@ -100,17 +101,18 @@ Shown load_shown(const PartOptions& options, const std::string& field, bool defe
     shown.part = load_run_of(options, clock);
     clock.begin("stitch the surface");
     shown.surface = stitch(shown.part);
+    if (defects)
+        shown.defects = find_shown_defects(shown.part, shown.surface,
+                                           options.as_machined ? shown.part.tool : std::optional<CuttingTool>(), clock);
     clock.begin("compute the field");
     if (!options.as_machined) {
+        show_all_cutting(shown.surface);
         const FieldSet fields = fields_of(shown.part, shown.surface);
         const std::string usual = fields.can_compute("feed_share") ? "feed_share" : "speed";
         shown.field = fields.get(field.empty() ? usual : field);
         if (has_classes(shown.field.info))
             shown.classes = viz::FieldClasses(shown.field.info, shown.field.values, shown.surface.passes);
     }
-    if (defects)
-        shown.defects = find_shown_defects(shown.part, shown.surface,
-                                           options.as_machined ? shown.part.tool : std::optional<CuttingTool>(), clock);
     clock.end();
     return shown;
 }

@@ -152,4 +152,18 @@ ClSurface stitch(Positions positions, const LineMap& lines, double step_over) {
     return surface;
 }
 
+void show_all_cutting(ClSurface& surface) {
+    constexpr double few = 0.1;
+    PointIndex finishing = 0;
+    for (const Pass& pass : surface.passes) finishing += pass.kind == PassKind::cut ? pass.size() : 0;
+    if (static_cast<double>(finishing) >= few * static_cast<double>(finishing + surface.not_finishing)) return;
+    for (Pass& pass : surface.passes) {
+        if (pass.kind == PassKind::other) pass.kind = PassKind::cut;
+    }
+    surface.not_finishing = 0;
+    surface.step_over = 0;
+    surface.step_over_moves.clear();
+    surface.neighbours = find_neighbours(surface.positions, surface.passes, ArcLength(surface.positions), 0);
+}
+
 }  // namespace clsurf

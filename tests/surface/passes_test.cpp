@@ -4,6 +4,7 @@
 
 #include "support/made_path.h"
 #include "surface/step_over.h"
+#include "surface/stitch.h"
 
 namespace clsurf::passes_test {
 namespace {
@@ -45,6 +46,30 @@ TEST(Passes, AreNotCutWhereTheSpeedIsLow) {
     test::add_line(p, {10.2, 0, 0}, {10.2, 10, 0}, 0.05);
     const Passes passes = find_passes(p, ArcLength(p), test::one_run(p), 0.4);
     EXPECT_EQ(passes.size(), 1u);
+}
+
+// 100 points of a contour and a few of finishing: a picture shows the contour, too.
+TEST(ShowAllCutting, WhereFinishingIsLessThanATenth) {
+    ClSurface surface;
+    test::add_line(surface.positions, {0, 0, 0}, {11, 0, 0}, 0.1);
+    for (const Pass& pass :
+         {Pass{0, 99, PassKind::other}, Pass{100, 101, PassKind::rapid}, Pass{102, 109, PassKind::cut}})
+        surface.passes.push_back(pass);
+    surface.not_finishing = 100;
+    surface.step_over = 0.005;
+    ClSurface finishing = surface;
+    show_all_cutting(surface);
+    EXPECT_EQ(surface.passes[0].kind, PassKind::cut);
+    EXPECT_EQ(surface.passes[1].kind, PassKind::rapid);
+    EXPECT_EQ(surface.step_over, 0);
+    EXPECT_EQ(surface.not_finishing, 0);
+    finishing.passes[0].last = 89;
+    finishing.passes[1] = {90, 91, PassKind::rapid};
+    finishing.passes[2].first = 92;
+    finishing.not_finishing = 90;  // of 108
+    show_all_cutting(finishing);
+    EXPECT_EQ(finishing.passes[0].kind, PassKind::other);
+    EXPECT_EQ(finishing.step_over, 0.005);
 }
 
 }  // namespace

@@ -77,6 +77,30 @@ TEST(MapAxes, ABoxHasThreeScales) {
     EXPECT_EQ(names, "X [mm];Y [mm];Z [mm];");
 }
 
+TEST(MapAxes, AFlatBoxHasTheScalesOfAnyBoxAndTellsItsHeight) {
+    const Box3 flat(Vec3(-10, -4, 2), Vec3(30, 16, 2));
+    Look look;
+    look.view = parse_view("iso");
+    Sheet sheet;
+    add_scales(sheet, panel_of(look, flat), flat, "", look, MapLayout(look));
+    std::string names;
+    for (const FlatText& text : sheet.texts) {
+        const bool height = text.text == "Z 2.000 mm";
+        if (text.bold || height) names += text.text + ";";
+        // No edge runs through it: it stands in the lower left corner.
+        if (height) {
+            EXPECT_LT(text.y, 60 + 0.1 * 400);
+        }
+    }
+    EXPECT_EQ(names, "X [mm];Y [mm];Z 2.000 mm;");
+    Sheet thin;
+    const Box3 low(Vec3(-10, -4, 2), Vec3(30, 16, 2.1));
+    add_scales(thin, panel_of(look, low), low, "", look, MapLayout(look));
+    EXPECT_EQ(thin.texts.back().text, "Z 2.00 to 2.10 mm");
+    EXPECT_LT(thin.texts.back().y, 60 + 0.1 * 400);
+    EXPECT_EQ(thin.lines.size(), sheet.lines.size());
+}
+
 TEST(MapAxes, AScaleTooShortForNumbersTellsItsRange) {
     Look look;
     look.view = parse_view("iso");
