@@ -85,7 +85,45 @@ TEST(TrapezoidalPlanner, OverlappingBlocksLeaveTheCornerByTheTolerance) {
     double nearest = 1;
     for (const SimulatedPoint& p : r.points) nearest = std::min(nearest, (p.commanded - Vec3(20, 0, 0)).norm());
     EXPECT_NEAR(nearest, 0.01, 0.003);  // a period at 7.5 mm/s is 7.5 µm
+    double off = 0;                     // the nearer one of y = 0 and x = 20
+    for (const SimulatedPoint& p : r.points) off = std::max(off, std::min(p.commanded.y(), 20 - p.commanded.x()));
+    EXPECT_GT(off, 0.006);
+    EXPECT_NEAR(r.summary.path_deviation, off, 1e-12);
     EXPECT_LT(r.summary.max_acceleration.x(), 2000 * limit_tolerance);
+}
+
+TEST(TrapezoidalPlanner, AnOverlapOfArcsIsMeasuredFromTheArcs) {
+    // A line, a quarter of a circle about (20, 5), and 36.9° to the left of it a circle about (29, 8), all with radius 5.
+    Machine without_arcs = plain();
+    without_arcs.controller.trapezoid.arc_blends = false;
+    const Recorded r = run("G64 P0.05 Q0 F3000 G1 X20\nG3 X25 Y5 J5\nG2 X29 Y13 I4 J3\nM2\n", without_arcs);
+    double off = 0;
+    for (const SimulatedPoint& p : r.points) {
+        const double x = p.commanded.x(), y = p.commanded.y();
+        const double of_line = x <= 20 ? std::abs(y) : std::hypot(x - 20, y);
+        const double of_first = std::abs(std::hypot(x - 20, y - 5) - 5);
+        const double of_second = std::abs(std::hypot(x - 29, y - 8) - 5);
+        off = std::max(off, std::min({of_line, of_first, of_second}));
+    }
+    EXPECT_GT(off, 0.005);
+    EXPECT_NEAR(r.summary.path_deviation, off, 1e-9);
+}
+
+// The kernel leaves the corner of mixed.ngc between its lines 47 and 48 by 0.7099 mm, too (data/logs/mixed.csv).
+TEST(TrapezoidalPlanner, SaysWhereThePathHasNoTolerance) {
+    const std::string corner = "G0 X0 Y0 Z0\nG1 X20 F3000\nG1 Y20\nM2\n";
+    const Recorded free = run("G64\n" + corner, of_kernel()), held = run("G64 P0.05\n" + corner, of_kernel());
+    EXPECT_GT(free.summary.path_deviation, 0.1);
+    ASSERT_EQ(free.summary.diagnostics.kept().size(), 1U);
+    EXPECT_EQ(free.summary.diagnostics.kept()[0].code, "motion.no-tolerance");
+    EXPECT_EQ(free.summary.diagnostics.kept()[0].where.number, 4U);
+    EXPECT_TRUE(held.summary.diagnostics.kept().empty());
+    EXPECT_TRUE(run("G61\n" + corner, of_kernel()).summary.diagnostics.kept().empty());
+}
+
+TEST(TrapezoidalPlanner, TheEndHasTheLineOfTheLastMotion) {
+    const Recorded r = run("G64 P0.01 G1 X1 F600\nG4 P0.01\nG1 X0\nM2\n", of_kernel());
+    EXPECT_EQ(r.points.back().line, 3);
 }
 
 TEST(TrapezoidalPlanner, AnArcIsAsLargeAsToleranceOrSpeedNeed) {

@@ -132,7 +132,7 @@ bool BlockStream::read(PathElement& element) {
 
 void BlockStream::take_dwell() {
     dwell_ = pending_dwell_;
-    dwell_line_ = pending_dwell_line_;
+    dwell_line_ = std::exchange(pending_dwell_line_, 0);
     pending_dwell_ = 0;
     closed_ = true;
 }

@@ -10,6 +10,18 @@ constexpr double no_speed = 1e-8;      ///< [mm/s]
 constexpr double no_distance = 1e-12;  ///< [mm]
 constexpr double no_time = 1e-12;      ///< [s]
 
+/// From a point to a segment that is beside it [mm]. Lines need one step, arcs in a few periods' reach less than four.
+double distance_to(const BlendSegment& segment, const Vec3& point) {
+    constexpr int most_steps = 4;
+    double at = segment.progress;
+    for (int i = 0; i < most_steps; ++i) {
+        const Vec3 tangent =
+            at < segment.lead ? segment.lead_tangent : segment.path.tangent(at - segment.lead).normalized();
+        at = std::clamp(at + tangent.dot(point - segment.at(at)), 0.0, segment.length);
+    }
+    return (point - segment.at(at)).norm();
+}
+
 }  // namespace
 
 SegmentRunner::SegmentRunner(SegmentQueue& queue, const Machine& machine, const Vec3& position)
@@ -163,6 +175,16 @@ double SegmentRunner::deviation_of(const BlendSegment& segment) const {
     return segment.path.deviation + segment.path.radius * (1 - std::cos(nearer));
 }
 
+/// How far the point is from the programmed path: where two blocks overlap, from the nearer one.
+void SegmentRunner::measure(const BlendSegment& segment, const BlendSegment* next, const BlendSegment& shown,
+                            PlannedPoint& point) const {
+    const bool overlap =
+        next != nullptr && segment.end == SegmentEnd::parabolic && segment.to_go() > 0 && next->progress > 0;
+    point.tolerated = (overlap ? segment : shown).tolerance > 0 || shown.end == SegmentEnd::exact;
+    point.deviation = deviation_of(shown);
+    if (overlap) point.deviation += std::min(distance_to(segment, position_), distance_to(*next, position_));
+}
+
 /// The faster one of two that overlap; the next one where it takes the rest of a period, unless it ends even sooner.
 const BlendSegment& SegmentRunner::reported(const BlendSegment& segment, const BlendSegment* next, bool ended) const {
     if (next == nullptr) return segment;
@@ -191,7 +213,7 @@ bool SegmentRunner::run(PlannedPoint& point) {
     const BlendSegment& shown = reported(segment, next, ends);
     point.line = shown.path.line;
     point.limiting = limiting_of(shown);
-    point.deviation = deviation_of(shown);
+    measure(segment, next, shown, point);
     if (segment.done) queue_->pop_front();
     return true;
 }

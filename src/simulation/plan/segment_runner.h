@@ -12,6 +12,7 @@ struct PlannedPoint {
     Vec3 position = Vec3::Zero();  ///< [mm]
     double speed = 0;              ///< [mm/s]
     double deviation = 0;          ///< from the programmed path [mm]
+    bool tolerated = true;         ///< the program or the machine has a tolerance there
     LineNumber line = 0;
     LimitingFactor limiting = LimitingFactor::none;
 };
@@ -43,6 +44,8 @@ private:
     [[nodiscard]] const BlendSegment& reported(const BlendSegment& segment, const BlendSegment* next, bool ended) const;
     [[nodiscard]] LimitingFactor limiting_of(const BlendSegment& segment) const;
     [[nodiscard]] double deviation_of(const BlendSegment& segment) const;
+    void measure(const BlendSegment& segment, const BlendSegment* next, const BlendSegment& shown,
+                 PlannedPoint& point) const;
 
     SegmentQueue* queue_;
     const Machine* machine_;

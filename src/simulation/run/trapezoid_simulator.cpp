@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "simulation/path/block_merging.h"
 #include "simulation/path/spline_sections.h"
 #include "simulation/plan/segment_queue.h"
@@ -36,6 +38,8 @@ public:
         if (smooth_ && begun_) write_between(last_);
         begun_ = false;
     }
+    /// Where the path has no tolerance: the point that is farthest from it.
+    [[nodiscard]] const PlannedPoint& untolerated() const { return untolerated_; }
 
 private:
     void write_between(const PlannedPoint& next) {
@@ -44,13 +48,21 @@ private:
         write(point, (before_.position + 4 * last_.position + next.position) / 6);
     }
     void write(const PlannedPoint& point, const Vec3& position) {
+        if (!point.tolerated && point.deviation > untolerated_.deviation) untolerated_ = point;
         recorder_->add(position, point.speed, point.line, point.limiting, point.deviation);
     }
 
     Recorder* recorder_;
     bool smooth_, begun_ = false;
-    PlannedPoint before_, last_;
+    PlannedPoint before_, last_, untolerated_;
 };
+
+/// `G64` without P: LinuxCNC rounds corners by up to a quarter of the shorter block.
+Diagnostic no_tolerance(const Program& program, const PlannedPoint& point) {
+    return {Severity::warning, "motion.no-tolerance", Place::of_line(program.main().name(), point.line),
+            fmt::format("no tolerance is set here: corners leave the path by up to {:.4f} mm", point.deviation),
+            "G64 without P rounds as much as the speed needs; G64 P sets a tolerance"};
+}
 
 }  // namespace
 
@@ -93,7 +105,10 @@ SimulationSummary simulate_trapezoids(MotionSource& source, const Machine& machi
     }
     points.add(point);
     points.finish();
-    return recorder.finish();
+    SimulationSummary summary = recorder.finish();
+    if (points.untolerated().deviation > machine.controller.tolerance)
+        summary.diagnostics.add(no_tolerance(source.program(), points.untolerated()));
+    return summary;
 }
 
 }  // namespace clsurf
