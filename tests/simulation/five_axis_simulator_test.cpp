@@ -289,6 +289,23 @@ TEST(FiveAxisSimulator, AWindowDoesNotEndInABendThatAllowsNoRest) {
     EXPECT_NEAR(summary.run.duration, 5.778, 0.05 * 5.778);
 }
 
+// A rest in the middle of a bend that is smaller than what the jerk of a straight way to the rest would take: full circles of
+// 0.002 to 0.02 mm at the end, and a line of 3 µm that nearly reverses in front of a dwell.
+TEST(FiveAxisSimulator, ARestBesideATinyBendIsReached) {
+    const Machine machine = trunnion();
+    std::vector<std::string> programs{
+        "G21 G90 G17 G64 P0.0007 F632.8\nG1 X-1.45737 Y1.7574\nG1 X-1.4948 Y1.7593 A-0.4655 C-0.0177\n"
+        "G1 X-1.4937 Y1.7567 F5120.8\nG1 X-1.4706 Y1.7636\nG4 P0.037\nM2\n",
+        "G21 G90 G17 G64 P0.0262 F610.8\nG1 X-0.0027 Y0.0012\nG1 X-0.02 Y0.001\nG1 X-0.003\nM2\n"};
+    for (const char* radius : {"0.001", "0.002", "0.01", "0.02"})
+        programs.push_back(fmt::format("G21 G17 G64 P0.005\nG1 X5 F2500\nG3 X5 Y0 J{}\nM2\n", radius));
+    for (const std::string& program : programs) {
+        const Recorded r = run(program, machine);
+        EXPECT_TRUE(r.summary.run.limits_ok) << program;
+        EXPECT_LE(worst_share(r, machine), 1.0011) << program;
+    }
+}
+
 TEST(FiveAxisSimulator, FeedOfZeroNamesTheLine) {
     try {
         (void)run("G43.4 H1\nG1 X10 A-5 F0\n", trunnion());

@@ -8,54 +8,36 @@
 #include "core/error.h"
 #include "core/not_finite.h"
 #include "simulation/path/junction.h"
+#include "simulation/plan/five_axis_limits.h"
+#include "simulation/plan/rest_pieces.h"
 #include "simulation/plan/speed_problem.h"
 
 namespace clsurf {
 namespace {
 
-constexpr double first_share = 0.5;        ///< of the limits, for the first speeds
-constexpr double steady_share = 0.8;       ///< of the limits, that bends alone may take of them
-constexpr double rest_part = 0.25;         ///< of the jerk phase next to a rest: the jerk is constant there
-constexpr double rest_jerk = 0.95;         ///< of what the axes allow at the rest
-constexpr double rest_held = 0.9;          ///< of that jerk: less makes the piece shorter
-constexpr double least_rest_piece = 0.01;  ///< of its time without joints
-constexpr double cells_in_ramp = 10;       ///< over the time in which the jerk reaches the acceleration
-constexpr double cell_growth = 0.15;       ///< of the time from or to a rest or a rounding: longest cell
-constexpr double most_cell_turn = 0.05;    ///< [rad] of the angles in a cell that is longer
-constexpr double slow_approach = 0.5;      ///< of the way to a slow place: longest cell before it
+constexpr double first_share = 0.5;      ///< of the limits, for the first speeds
+constexpr double cells_in_ramp = 10;     ///< over the time in which the jerk reaches the acceleration
+constexpr double cell_growth = 0.15;     ///< of the time from or to a rest or a rounding: longest cell
+constexpr double most_cell_turn = 0.05;  ///< [rad] of the angles in a cell that is longer
+constexpr double slow_approach = 0.5;    ///< of the way to a slow place: longest cell before it
 constexpr std::size_t window_cells = 1500, samples_of_cell = 4;
 constexpr std::size_t least_cells = 100;                                       ///< of a window whose end is moved
 constexpr double kept_share = 0.6;                                             ///< of a window
 constexpr std::array<double, 6> slower_tries{1, 0.5, 0.25, 0.1, 0.03, 0.003};  ///< first v², tried in turn
-
-/// What the limits say at a place.
-struct LimitPlace {
-    double u = 0;
-    double free_cap = infinite, cap = infinite;  ///< of u's speed: without bends, and with them at no acceleration
-    double acceleration = 0, jerk = 0;           ///< of u, on a straight path with these slopes
-    double square = 0;                           ///< v² to begin with
-    LimitingFactor why = LimitingFactor::none;
-};
 
 class FiveAxisPlanner {
 public:
     FiveAxisPlanner(const FiveAxisPath& path, const Machine& machine,
                     const std::function<Place(std::size_t block)>& place_of)
         : path_(&path),
-          machine_(&machine),
           place_of_(&place_of),
-          limits_(five_axis_limits(machine)),
-          problem_(limits_, FirstSpeeds::guess) {
-        for (int k = 0; k < 5; ++k) {
-            const auto axis = static_cast<std::size_t>(k);
-            speeds_[k] = k < 3 ? machine.axes[axis].max_speed : machine.rotary[axis - 3].max_speed;
-            if (limits_.jerk[k] > 0) ramp_ = std::min(ramp_, limits_.acceleration[k] / limits_.jerk[k]);
-        }
-        ramp_ = std::min(ramp_, machine.path.max_acceleration / machine.path.max_jerk);
-    }
+          limits_(path, machine),
+          places_(limits_.at_places()),
+          rests_(limits_, places_),
+          problem_(limits_.of_axes(), FirstSpeeds::guess),
+          ramp_(limits_.ramp()) {}
 
     std::vector<FiveAxisMotion> plan() {
-        for (const double u : path_->places()) places_.push_back(place_at(u));
         const double length = path_->length();
         double from = 0;
         while (from < length) from = window(from);
@@ -63,56 +45,6 @@ public:
     }
 
 private:
-    [[nodiscard]] LimitPlace place_at(double u) const {
-        AxisSample<5> sample;
-        return place_at(u, sample);
-    }
-
-    /// `d`: the derivatives there.
-    LimitPlace place_at(double u, AxisSample<5>& d) const {
-        PathDerivatives tip;
-        d = path_->derivatives(u, tip);
-        LimitPlace place;
-        place.u = u;
-        const FiveAxisChord& chord = path_->chord(path_->chord_at(u));
-        const auto cap = [&](double speed, LimitingFactor why) {
-            if (speed < place.free_cap) place.free_cap = speed, place.why = why;
-        };
-        const LimitingFactor feed =
-            machine_->controller.feed_override == 1 ? LimitingFactor::feed : LimitingFactor::feed_override;
-        cap(chord.turn_speed / d.first.tail<2>().norm(), feed);
-        if (d.pace.value > 0) {
-            cap(chord.feed / d.pace.value, feed);
-            cap(machine_->path.max_speed / d.pace.value, LimitingFactor::axis_speed);
-            const double cross_product = tip.first.cross(tip.second).norm();
-            if (cross_product > 0) {
-                const double radius = d.pace.value * d.pace.value * d.pace.value / cross_product;
-                cap(arc_speed(radius, machine_->path.max_normal_acceleration) / d.pace.value,
-                    LimitingFactor::axis_acceleration);
-                cap(chord_speed(radius, machine_->controller.chord_tolerance, machine_->controller.period) /
-                        d.pace.value,
-                    LimitingFactor::chord_error);
-            }
-        }
-        place.acceleration = place.jerk = infinite;
-        if (d.pace.value > 0) {
-            place.acceleration = machine_->path.max_acceleration / d.pace.value;
-            place.jerk = machine_->path.max_jerk / d.pace.value;
-        }
-        place.cap = infinite;
-        for (int k = 0; k < 5; ++k) {
-            const double first = std::abs(d.first[k]), second = std::abs(d.second[k]), third = std::abs(d.third[k]);
-            cap(speeds_[k] / first, LimitingFactor::axis_speed);
-            place.acceleration = std::min(place.acceleration, limits_.acceleration[k] / first);
-            place.cap = std::min(place.cap, std::sqrt(steady_share * limits_.acceleration[k] / second));
-            if (!(limits_.jerk[k] > 0)) continue;
-            place.jerk = std::min(place.jerk, limits_.jerk[k] / first);
-            place.cap = std::min(place.cap, std::cbrt(steady_share * limits_.jerk[k] / third));
-        }
-        place.cap = std::min(place.cap, place.free_cap);
-        return place;
-    }
-
     /// v² of a rest `way` away, at constant jerk.
     [[nodiscard]] static double square_at(double way, double jerk) {
         const double time = std::cbrt(6 * way / jerk);
@@ -207,72 +139,18 @@ private:
         return false;
     }
 
-    /// The piece next to a rest at constant jerk.
-    struct RestPiece {
-        double jerk = 0, time = 0;
-        [[nodiscard]] double length() const { return jerk * time * time * time / 6; }
-    };
-
-    /// `side`: 1 for the piece behind a rest, -1 for that before one; `length`: of the way to the next rest. Where joints near the
-    /// rest want less jerk, the piece ends before them.
-    [[nodiscard]] RestPiece rest_piece(double rest, int side, double length) const {
-        const double jerk = rest_jerk * place_at(rest).jerk;
-        RestPiece best;
-        for (double share = 1; share > least_rest_piece; share *= 0.5) {
-            RestPiece piece{jerk, share * rest_part * std::min(ramp_, std::cbrt(length / (2 * jerk)))};
-            piece.jerk = std::min(jerk, jerk_along(rest, side, piece.length()));
-            if (piece.jerk > best.jerk) best = piece;
-            if (best.jerk > rest_held * jerk) break;
-        }
-        return best;
-    }
-
-    /// The constant jerk that all places within a length from a rest allow. Then v = j t²/2, v' = j t and 6 u = j t³, so that
-    /// the jerk of an axis is j (x′ + 9 u x″ + 9/2 u² x‴), and its acceleration j t (x′ + 3/2 u x″).
-    [[nodiscard]] double jerk_along(double rest, int side, double length) const {
-        double most = infinite;
-        const double from = std::min(rest, rest + side * length), to = std::max(rest, rest + side * length);
-        auto place = std::lower_bound(places_.begin(), places_.end(), from,
-                                      [](const LimitPlace& p, double u) { return p.u < u; });
-        for (; place != places_.end() && place->u < to; ++place) most = std::min(most, jerk_at(place->u, rest, side));
-        for (std::size_t k = 1; k <= samples_of_cell; ++k)
-            most = std::min(most, jerk_at(rest + side * length * static_cast<double>(k) / samples_of_cell, rest, side));
-        return most;
-    }
-
-    [[nodiscard]] double jerk_at(double at, double rest, int side) const {
-        const double u = std::abs(at - rest), root = std::cbrt(6 * u);  // t = root / cbrt(j)
-        if (!(u > 0)) return infinite;
-        AxisSample<5> d;
-        const LimitPlace place = place_at(at, d);
-        double most = 8 * place.free_cap * place.free_cap * place.free_cap / (root * root * root * root);
-        const auto hold = [&](double jerk, double jerk_limit, double acceleration, double acceleration_limit) {
-            if (jerk_limit > 0) most = std::min(most, rest_jerk * jerk_limit / std::abs(jerk));
-            most = std::min(most, std::pow(acceleration_limit / (root * std::abs(acceleration)), 1.5));
-        };
-        for (int k = 0; k < 5; ++k) {
-            const double second = side * d.second[k];
-            hold(d.first[k] + u * (9 * second + 4.5 * u * d.third[k]), limits_.jerk[k], d.first[k] + 1.5 * u * second,
-                 limits_.acceleration[k]);
-        }
-        const double pace_slope = side * d.pace.slope;
-        hold(d.pace.value + u * (9 * pace_slope + 4.5 * u * d.pace.curve), limits_.path_jerk,
-             d.pace.value + 1.5 * u * pace_slope, limits_.path_acceleration);
-        return most;
-    }
-
     bool solve_scanned(double end) {
         problem_.clear();
         cells_.clear();
         const double length = end - at_;
-        const RestPiece last = rest_piece(end, -1, length);
+        const RestPiece last = rests_.at(end, -1, length);
         const double last_u = end - last.length();
         const KnotState stop{0.5 * last.jerk * last.time * last.time, -last.jerk * last.time};
         KnotState start = state_;
         double u = at_, start_time = 0;
         first_piece_ = {};
         if (start.speed == 0) {
-            const RestPiece first = rest_piece(at_, 1, length);
+            const RestPiece first = rests_.at(at_, 1, length);
             start_time = first.time;
             start = {0.5 * first.jerk * start_time * start_time, first.jerk * start_time};
             first_piece_ = {at_, start_time, {}, first.jerk, LimitingFactor::jerk};
@@ -296,7 +174,7 @@ private:
             const double begin = cells_[i].begin, length = cells_[i].length;
             const auto look = [&](double u) {
                 AxisSample<5> sample;
-                sample.cap = place_at(u, sample).free_cap;
+                sample.cap = limits_.at(u, sample).free_cap;
                 sample.at = u - begin;
                 if (problem_.breaks(i, sample)) broken.push_back({i, sample});
             };
@@ -377,7 +255,7 @@ private:
         std::array<AxisSample<5>, samples_of_cell + 1> samples;
         for (std::size_t k = 0; k <= samples_of_cell; ++k) {
             const double at = length * static_cast<double>(k) / samples_of_cell;
-            const LimitPlace place = place_at(begin + at, samples[k]);
+            const LimitPlace place = limits_.at(begin + at, samples[k]);
             samples[k].at = at;
             if (place.free_cap < limits.cap) limits.cap = place.free_cap, why = place.why;
             // Beside bends an axis allows more than on a straight path: its rows say how much.
@@ -441,15 +319,14 @@ private:
     };
 
     const FiveAxisPath* path_;
-    const Machine* machine_;
     const std::function<Place(std::size_t block)>* place_of_;
-    ProblemLimits<5> limits_;
-    FiveAxes speeds_;
-    double ramp_ = infinite;  ///< least time in which a jerk reaches an acceleration [s]
+    FiveAxisLimits limits_;
     std::vector<LimitPlace> places_;
+    RestPieces rests_;
     std::size_t first_ = 0, last_ = 0;  ///< places of the window
     std::vector<Cell> cells_;
     AxisSpeedProblem<5> problem_;
+    double ramp_;    ///< of the limits [s]
     double at_ = 0;  ///< where the window begins
     KnotState state_, start_, stop_;
     FiveAxisMotion first_piece_, last_piece_;
