@@ -67,6 +67,24 @@ Vec3 derivative_of(const Helix& h, double fraction) {
     return d;
 }
 
+/// On a helix the nearest place has another angle than p: the steeper, the more. From the better one of two first guesses,
+/// the steps of Gauss and Newton.
+void look_along_rise(const Helix& h, const Vec3& p, double from, Projection& best) {
+    constexpr int most_steps = 6;
+    const auto consider = [&](double fraction) {
+        fraction = std::clamp(fraction, from, 1.0);
+        const double distance = (point_of(h, fraction) - p).norm();
+        const bool better = distance < best.distance;
+        if (better) best = {distance, fraction};
+        return better;
+    };
+    (void)consider((p[h.w] - h.begin[h.w]) / h.rise);
+    for (int k = 0; k < most_steps; ++k) {
+        const Vec3 slope = derivative_of(h, best.fraction);
+        if (!consider(best.fraction + slope.dot(p - point_of(h, best.fraction)) / slope.squaredNorm())) return;
+    }
+}
+
 Projection projection_on_helix(const Helix& h, const Vec3& p, double from) {
     const double angle = h.sign * (std::atan2(p[h.v] - h.centre[h.v], p[h.u] - h.centre[h.u]) - h.start_angle);
     // Candidates: the ends, and the same angle in every turn (the turn nearest in rise wins).
@@ -80,6 +98,7 @@ Projection projection_on_helix(const Helix& h, const Vec3& p, double from) {
     double a = std::fmod(angle, two_pi);
     if (a < 0) a += two_pi;
     for (; a <= h.sweep; a += two_pi) consider(a / h.sweep);
+    if (h.rise != 0) look_along_rise(h, p, from, best);
     return best;
 }
 

@@ -54,6 +54,21 @@ TEST(Toolpath, FindsTheTurnOfAHelix) {
     EXPECT_NEAR(projection.fraction, 0.5, 1e-9);
 }
 
+TEST(Toolpath, FindsTheFootOnASteepHelix) {
+    // (cos t, sin t, 10 t), and a point 1.2 from its axis at the angle 0.5 and the height 7. The square of the distance,
+    // 1 + 1.2² − 2.4 cos(t − 0.5) + (10 t − 7)², is least where t = 0.7 − 0.012 sin(t − 0.5); at t = 0.5 it is 4.04.
+    Motions m = quarter_circle();
+    m.end[0] = Xyz(0, 1, 5 * std::numbers::pi);
+    double t = 0.7;
+    for (int k = 0; k < 20; ++k) t = 0.7 - 0.012 * std::sin(t - 0.5);
+    const double distance = std::sqrt(2.44 - 2.4 * std::cos(t - 0.5) + (10 * t - 7) * (10 * t - 7));
+    EXPECT_NEAR(distance, 0.295, 0.001);
+    const Projection found = Toolpath(m, Vec3::Zero()).projection(0, Vec3(1.2 * std::cos(0.5), 1.2 * std::sin(0.5), 7));
+    EXPECT_NEAR(found.distance, distance, 1e-9);
+    EXPECT_NEAR(found.fraction, t / (std::numbers::pi / 2), 1e-7);
+    EXPECT_NEAR(Toolpath(m, Vec3::Zero()).projection(0, Vec3(1, 0, -2)).fraction, 0, 1e-12);
+}
+
 TEST(Toolpath, BeginsUnknownAxesWhereTheToolRests) {
     Motions m;
     m.kind.push_back(MotionKind::rapid);
