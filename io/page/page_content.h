@@ -15,6 +15,7 @@
 #include "io/reports/quality_report.h"
 #include "log/log.h"
 #include "mapping/line_map.h"
+#include "pipeline/roughness_gauge.h"
 #include "surface/cl_surface.h"
 #include "surface/path_location.h"
 #include "toolpath/trajectory.h"
@@ -40,6 +41,7 @@ struct PageSurface {
 struct PageChange {
     const QualityReport* before = nullptr;
     DefectMatch match;
+    std::optional<RoughnessChange> roughness;  ///< nothing: not known
 };
 
 struct PagePicture {

@@ -12,6 +12,7 @@
 #include "io/page/defect_cards.h"
 #include "io/page/html_text.h"
 #include "io/reports/quality_words.h"
+#include "io/reports/roughness_words.h"
 
 namespace clsurf::io {
 namespace {
@@ -154,7 +155,21 @@ std::string accepted_note(const ReportPage& page, std::size_t defect) {
                        entry.accepted && !entry.comment.empty() ? ": " : "", html(entry.comment));
 }
 
-/// What became of the defects of the log before.
+/// The roughness that both logs leave, as a table.
+std::string roughness_change_html(const PageChange& change) {
+    if (!change.roughness) return {};
+    std::string rows;
+    write_roughness_change(*change.roughness, [&](std::string_view name, double before, double after) {
+        const std::string by = before > 0 ? fmt::format("{:+.1f} %", 100 * (after / before - 1)) : "–";
+        rows += fmt::format("<tr><td>{}</td><td>{:.2f}</td><td>{:.2f}</td><td>{}</td></tr>\n", html(name), before,
+                            after, by);
+    });
+    if (rows.empty()) return {};
+    return "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"roughness before and after\"><table><thead><tr><th>Formed surface</th><th>before</th><th>after</th><th>change</th></tr></thead><tbody>\n" +
+           rows + "</tbody></table></div>\n<p>Both at the same places, over the form of the log before.</p>\n";
+}
+
+/// What became of the defects of the log before, and of the surface.
 std::string change_section(const ReportPage& page) {
     if (!page.change) return {};
     const DefectMatch& match = page.change->match;
@@ -180,7 +195,7 @@ std::string change_section(const ReportPage& page) {
         text +=
             "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"gone and new defects\"><table><thead><tr><th>Defect</th><th>Rank</th><th>Severity</th><th>Finding</th><th>Lines</th></tr></thead><tbody>\n" +
             rows + "</tbody></table></div>\n";
-    return text + "</section>\n";
+    return text + roughness_change_html(*page.change) + "</section>\n";
 }
 
 /// At the end, because it can fill many sheets.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <string_view>
 
@@ -13,6 +12,8 @@
 #include "io/files/json_value.h"
 #include "io/reports/defect_json.h"
 #include "io/reports/fidelity_report.h"
+#include "io/reports/roughness_json.h"
+#include "io/reports/roughness_words.h"
 
 namespace clsurf::io {
 namespace {
@@ -96,31 +97,9 @@ Json ensemble_json(const EnsembleResult& ensemble) {
         {"machines", ensemble.runs.size()}, {"worst", object(ensemble.worst())}, {"mean", object(ensemble.mean())}};
 }
 
-/// The name of a row, before, after, and the digits behind the point.
-using WriteRow = std::function<void(std::string_view, double, double, int)>;
-
-void write_roughness(const Optimized& r, const WriteRow& row) {
-    if (!r.roughness_before || !r.roughness_after) return;
-    const PartRoughness &before = *r.roughness_before, &after = *r.roughness_after;
-    if (!before.patches.empty() && !after.patches.empty()) {
-        row("roughness Ra [µm]", before.ra * um_per_mm, after.ra * um_per_mm, 2);
-        row("roughness Rz [µm]", before.rz * um_per_mm, after.rz * um_per_mm, 2);
-    }
-    if (before.machine.cells > 0 && after.machine.cells > 0)
-        row("  added by the machine, Sq [µm]", before.machine.sq * um_per_mm, after.machine.sq * um_per_mm, 2);
-}
-
-Json roughness_json(const std::optional<PartRoughness>& roughness) {
-    if (!roughness) return nullptr;
-    const auto known = [](bool is, double mm) { return is ? number(mm * um_per_mm, 3) : Json(nullptr); };
-    const bool form = !roughness->patches.empty(), machine = roughness->machine.cells > 0;
-    return Json{{"ra_um", known(form, roughness->ra)},
-                {"rz_um", known(form, roughness->rz)},
-                {"sa_um", known(form, roughness->sa)},
-                {"sq_um", known(form, roughness->sq)},
-                {"machine_sa_um", known(machine, roughness->machine.sa)},
-                {"machine_sq_um", known(machine, roughness->machine.sq)},
-                {"form_unknown_percent", number(100 * roughness->unknown, 1)}};
+std::optional<RoughnessChange> roughness_change_of(const Optimized& r) {
+    if (!r.roughness_before || !r.roughness_after) return std::nullopt;
+    return RoughnessChange{*r.roughness_before, *r.roughness_after};
 }
 
 }  // namespace
@@ -158,7 +137,9 @@ std::string optimize_text(const Optimized& r) {
             row(fmt::format("  of {}", name_of(static_cast<Quantity>(k))), static_cast<double>(before[k]),
                 static_cast<double>(after[k]), 0);
     }
-    write_roughness(r, row);
+    if (const std::optional<RoughnessChange> roughness = roughness_change_of(r))
+        write_roughness_change(*roughness,
+                               [&](std::string_view name, double was, double is) { row(name, was, is, 2); });
     row("lines", r.evaluation.lines_before, r.evaluation.lines_after, 0);
     const std::string splines =
         r.evaluation.splines > 0 ? fmt::format(" ({} as splines)", r.evaluation.splines) : std::string();

@@ -8,6 +8,8 @@
 
 #include "io/files/json_value.h"
 #include "io/reports/quality_words.h"
+#include "io/reports/roughness_json.h"
+#include "io/reports/roughness_words.h"
 
 namespace clsurf::io {
 namespace {
@@ -77,12 +79,17 @@ Json run_json(const ReportedRun& run) {
                           {"measured", number(line.measured, 4)},
                           {"held", line.held}});
     }
+    const auto roughness = [&](PartRoughness RoughnessChange::*side) {
+        return roughness_json(run.roughness ? std::optional((*run.roughness).*side) : std::nullopt);
+    };
     return Json{{"name", run.name},
                 {"aligned_mm", number(r.aligned, 3)},
                 {"aligned_percent", number(percent(r.aligned, r.arc_length), 2)},
                 {"time_s", number(r.time_of_b, 6)},
                 {"reference_time_s", number(r.time, 6)},
                 {"time_difference_s", number(r.time_of_b - r.time, 6)},
+                {"roughness", roughness(&RoughnessChange::after)},
+                {"reference_roughness", roughness(&RoughnessChange::before)},
                 {"quantities", std::move(quantities)},
                 {"differences", std::move(differences)},
                 {"budget", std::move(budget)},
@@ -93,6 +100,18 @@ std::string lines_of(const RunDifferenceSection& d) {
     if (d.first_line == 0 && d.last_line == 0) return "-";
     return d.first_line == d.last_line ? fmt::format("{}", d.first_line)
                                        : fmt::format("{}-{}", d.first_line, d.last_line);
+}
+
+/// A table of the roughness of both; empty: not known.
+std::string roughness_text(const ReportedRun& run) {
+    if (!run.roughness) return {};
+    std::string rows;
+    write_roughness_change(*run.roughness, [&](std::string_view name, double reference, double other) {
+        const std::string change = reference > 0 ? fmt::format("{:+.1f} %", 100 * (other / reference - 1)) : "";
+        rows += fmt::format("{:<31} {:>10.2f} {:>10.2f} {:>10}\n", name, reference, other, change);
+    });
+    if (rows.empty()) return {};
+    return fmt::format("\n{:<31} {:>10} {:>10} {:>10}\n", "machined surface", "reference", "run", "change") + rows;
 }
 
 std::string run_text(const ReportedRun& run, const std::string& reference) {
@@ -109,6 +128,7 @@ std::string run_text(const ReportedRun& run, const std::string& reference) {
                             fmt::format("{} [{}]", info.name, info.unit.name), s.mean * u, s.p95 * u, s.lowest * u,
                             s.highest * u, s.begin * u, s.end * u, 100 * s.over, s.sections);
     }
+    text += roughness_text(run);
     if (!r.sections.empty())
         text += fmt::format("\n{:>3} {:<13} {:>16} {:>10} {:>8} {:>8} {:<28} {}\n", "no", "quantity", "peak", "mean",
                             "mm", "s", fmt::format("{} X Y Z [mm]", place_word(r.sections.front().place)), "lines");

@@ -8,6 +8,7 @@
 #include "compare/drifted_run.h"
 #include "compare/run_budget.h"
 #include "core/diagnostic.h"
+#include "pipeline/roughness_gauge.h"
 
 namespace clsurf::io {
 
@@ -15,6 +16,7 @@ struct ReportedRun {
     std::string name;
     RunReport report;
     std::vector<BudgetLine> budget;
+    std::optional<RoughnessChange> roughness;  ///< from the reference to the run; nothing: no tool is known
 };
 
 struct ReportedRuns {

@@ -9,6 +9,8 @@
 #include "compare/defect_match.h"
 #include "compare/field_difference.h"
 #include "field/range.h"
+#include "io/reports/roughness_words.h"
+#include "pipeline/roughness_gauge.h"
 #include "viz/field_colours.h"
 #include "viz/scene.h"
 
@@ -41,6 +43,12 @@ std::vector<viz::OutlineMark> outlines_of_change(const Shown& before, const Show
 std::string changed_defects_text(const Shown& before, const Shown& after) {
     const DefectMatch match = match_of(before, after);
     return fmt::format("{} gone, {} new, {} remaining", match.gone.size(), match.fresh(), match.remaining());
+}
+
+std::string changed_roughness_text(const Shown& before, const Shown& after) {
+    const std::optional<RoughnessChange> change =
+        roughness_change(before.part, before.surface, after.part, after.surface);
+    return change ? io::roughness_change_text(*change) : std::string();
 }
 
 std::optional<viz::Image> draw_change(const Shown& before, const Shown& after, double range,

@@ -14,6 +14,9 @@ namespace clsurf::cli {
 /// "2 gone, 1 new, 5 remaining", of the defects of both. Domain: they were looked for.
 [[nodiscard]] std::string changed_defects_text(const Shown& before, const Shown& after);
 
+/// "roughness Ra 1.80 to 1.85 µm, …", of the surfaces that both leave. Empty: the tool is not known, or is not the same.
+[[nodiscard]] std::string changed_roughness_text(const Shown& before, const Shown& after);
+
 /// The field of the later run minus that of the earlier one, place by place, as large as `options` say. `range`: of the maps of
 /// both, which tells how large a difference is. Nothing where there is none to draw: classes, machined surfaces, runs
 /// that nowhere follow the same path.

@@ -5,6 +5,7 @@
 
 #include "cli/diff_options.h"
 #include "cli/difference_map.h"
+#include "cli/run_roughness.h"
 #include "cli/runs.h"
 #include "cli/stage_clock.h"
 #include "io/reports/run_report.h"
@@ -52,7 +53,7 @@ ExitCode run_diff(const po::variables_map& values) {
     DiffOptions options = read_diff_options(values);
     std::optional<PictureOutput> output;
     open_map(options, output);
-    StageClock clock(read_common(values), 3 + 2 * static_cast<int>(options.files.size()));
+    StageClock clock(read_common(values), 2 + 3 * static_cast<int>(options.files.size()));
     Diagnostics diagnostics;
     clock.begin("read the reference");
     LoadedRun reference = load_run(options.files.front(), options.runs);
@@ -67,7 +68,7 @@ ExitCode run_diff(const po::variables_map& values) {
     std::optional<DrawnDifference> shown;
     for (std::size_t k = 1; k < options.files.size(); ++k) {
         clock.begin("read a run");
-        const LoadedRun loaded = load_run(options.files[k], options.runs);
+        LoadedRun loaded = load_run(options.files[k], options.runs);
         diagnostics.append(loaded.log.diagnostics);
         ComparedRun of_reference = run_of(reference, loaded, options.runs);
         const ComparedRun b = run_of(loaded, reference, options.runs);
@@ -89,7 +90,12 @@ ExitCode run_diff(const po::variables_map& values) {
             report_run(a, surface, lines_known(reference, options.runs) ? lines.get() : nullptr, b, differences);
         if (tool) PartContacts(reference.log, a.path, *lines, surface, *tool).locate(report);
         std::vector<BudgetLine> budget = hold(report, options.budget);
-        reported.runs.push_back({loaded.name, std::move(report), std::move(budget)});
+        std::optional<RoughnessChange> roughness;
+        if (tool) {
+            clock.begin("measure the roughness");
+            roughness = roughness_change_of({reference.log, a.path, *lines, surface}, loaded, b, *tool, options.runs);
+        }
+        reported.runs.push_back({loaded.name, std::move(report), std::move(budget), std::move(roughness)});
         drift->add(differences);
         if (output && !shown) {
             shown = drawn_difference(differences, options.shown);
@@ -118,9 +124,10 @@ Subcommand diff_subcommand() {
         .description =
             "Aligns runs with the first one by path, not by time. Feed override, pauses, other sampling\n"
             "periods and logs that begin in the middle therefore do no harm. Lists where speed, acceleration,\n"
-            "lag along the feed and height differ: B minus A. Each argument is a log, or a program, which is\n"
-            "simulated. With a budget, exit code 1 means that a limit is exceeded. With three or more runs,\n"
-            "the one that deviates from the others is named. The map shows the first B.\n\n"
+            "lag along the feed and height differ: B minus A, and with a known tool how rough a surface each\n"
+            "leaves. Each argument is a log, or a program, which is simulated. With a budget, exit code 1 means\n"
+            "that a limit is exceeded. With three or more runs, the one that deviates from the others is named.\n"
+            "The map shows the first B.\n\n"
             "  clsurf diff monday.biip friday.biip --program part.nc\n"
             "  clsurf diff monday.biip friday.biip --budget runs.toml -o difference.png --color height\n"
             "  clsurf diff part.nc part_smoothed.nc --machine mill.toml",

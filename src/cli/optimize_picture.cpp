@@ -51,12 +51,14 @@ viz::Image draw_before_and_after(const Optimized& result, const std::string& pro
     speed.title = fmt::format("Path speed before and after, {}", ran ? "on the controller" : "simulated");
     speed.subtitle = file_name(program);
     difference.title = "Speed difference to the adjacent pass that differs most";
-    const auto summary = [](const JudgedRun& run, std::size_t defects) {
-        return fmt::format("{:.1f} s, {:.0f} mm/min between adjacent passes (95th percentile), {} defect{}",
-                           run.duration, run.mismatch * seconds_per_minute, defects, defects == 1 ? "" : "s");
+    const auto summary = [](const JudgedRun& run, std::size_t defects, const std::optional<PartRoughness>& roughness) {
+        const bool rough = roughness && !roughness->patches.empty();
+        return fmt::format("{:.1f} s, {:.0f} mm/min between adjacent passes (95th percentile), {} defect{}{}",
+                           run.duration, run.mismatch * seconds_per_minute, defects, defects == 1 ? "" : "s",
+                           rough ? fmt::format(", Ra {:.2f} µm", roughness->ra * um_per_mm) : std::string());
     };
-    difference.notes = {"before: " + summary(result.before, result.evaluation.defects_before),
-                        "after: " + summary(result.after, result.evaluation.defects_after)};
+    difference.notes = {"before: " + summary(result.before, result.evaluation.defects_before, result.roughness_before),
+                        "after: " + summary(result.after, result.evaluation.defects_after, result.roughness_after)};
     return viz::stacked(
         draw_pair(result, speed_of(result.before), speed_of(result.after), speed, keep_drawing),
         draw_pair(result, difference_of(result.before), difference_of(result.after), difference, keep_drawing));

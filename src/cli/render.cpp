@@ -49,7 +49,10 @@ MapScale scale_of_map(const Shown& after, const std::optional<Shown>& before, co
 /// One map, or before and after side by side, with what changed.
 viz::Image draw_maps(const std::vector<viz::MapPanel>& panels, const Shown& after, const std::optional<Shown>& before,
                      const MapScale& scale, const RenderOptions& options) {
-    const viz::MapTexts texts = texts_of(after, before, options, scale.notes);
+    viz::MapTexts texts = texts_of(after, before, options, scale.notes);
+    if (const std::string roughness = before ? changed_roughness_text(*before, after) : std::string();
+        !roughness.empty())
+        texts.notes.insert(texts.notes.begin(), roughness);
     const auto draw = [&](const viz::Look& look) {
         return viz::draw_map(panels, viz::placed_map(panels, look), scale.colours, texts, look);
     };

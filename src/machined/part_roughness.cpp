@@ -120,10 +120,38 @@ std::vector<float> take_off(const AsMachinedSurface& commanded, double measured_
     return heights;
 }
 
+/// Whether a run has contact points on all sides of a place.
+bool surrounds(const AsMachinedSurface& as_machined, const Vec2& at) {
+    const Vec2 margin = Vec2::Constant(as_machined.surface().step_over);
+    return Form(as_machined, Box2(at - margin, at + margin), Form::Of::contacts).is_among_contacts(at);
+}
+
+/// Whether the measured run cut about a place wherever that run did whose places these are: a log may hold a part of the program,
+/// and beyond its outermost pass stands the tool's flank. Looks at places along the profile, and at the corners of the
+/// square.
+bool covers(const RoughnessSurfaces& surfaces, const RoughnessPlace& place, double cutoff) {
+    constexpr int along = 6;  ///< parts of the profile
+    std::vector<Vec2> places;
+    for (int k = 0; k <= along; ++k)
+        places.push_back(place.across.at +
+                         (static_cast<double>(k) / along - 0.5) * profile_cutoffs * cutoff * place.across.direction);
+    const double half = 0.5 * patch_cutoffs * cutoff;
+    for (const Vec2& corner : {Vec2(-half, -half), Vec2(half, -half), Vec2(-half, half), Vec2(half, half)})
+        places.push_back(place.across.at + corner);
+    return std::all_of(places.begin(), places.end(), [&](const Vec2& at) {
+        return surrounds(surfaces.measured, at) || !surrounds(surfaces.form_of, at);
+    });
+}
+
 RoughPatch measure_patch(const RoughnessSurfaces& surfaces, const RoughnessPlace& place, double cutoff) {
     RoughPatch patch;
     patch.point = place.point;
     patch.contact = place.contact;
+    const bool own_places = &surfaces.measured == &surfaces.form_of;
+    if (!own_places && !covers(surfaces, place, cutoff)) {
+        patch.unknown = 1;
+        return patch;
+    }
     const AcrossFeed& across = place.across;
     const Vec2 half = 0.5 * profile_cutoffs * cutoff * across.direction;
     patch.profile = measure_profile(surfaces.measured, surfaces.form_of, across.at - half, across.at + half).roughness;
@@ -201,6 +229,26 @@ PartRoughness measure_roughness(const RoughnessSurfaces& surfaces, std::span<con
                      [&](std::size_t k) { patches[k] = measure_patch(surfaces, places[k], result.cutoff); });
     sum_up(result, patches);
     return result;
+}
+
+void keep_common_patches(PartRoughness& a, PartRoughness& b) {
+    const auto among = [](const std::vector<RoughPatch>& patches, PointIndex point) {
+        return std::any_of(patches.begin(), patches.end(), [&](const RoughPatch& p) { return p.point == point; });
+    };
+    const auto kept = [&](const PartRoughness& of, const PartRoughness& other) {
+        PartRoughness result;
+        result.cutoff = of.cutoff;
+        std::vector<RoughPatch> patches;
+        for (const RoughPatch& patch : of.patches)
+            if (among(other.patches, patch.point)) patches.push_back(patch);
+        sum_up(result, patches);
+        return result;
+    };
+    const auto same = [](const RoughPatch& p, const RoughPatch& q) { return p.point == q.point; };
+    if (std::equal(a.patches.begin(), a.patches.end(), b.patches.begin(), b.patches.end(), same)) return;
+    PartRoughness of_a = kept(a, b);
+    b = kept(b, a);
+    a = std::move(of_a);
 }
 
 }  // namespace clsurf

@@ -45,6 +45,10 @@ struct PartRoughness {
     AreaHeights machine;
 };
 
+/// Leaves of two runs, measured at the same places, what is known of both. Nothing changes where they are known at the same
+/// places.
+void keep_common_patches(PartRoughness& a, PartRoughness& b);
+
 /// What is measured, and against what.
 struct RoughnessSurfaces {
     const AsMachinedSurface& measured;

@@ -13,8 +13,9 @@ AsMachinedSurface ToolRun::as_commanded(const CuttingTool& tool) const {
     return {surface, read.signals, path.role, path, read.pieces, tool};
 }
 
-std::unique_ptr<const UprightPart> upright_part(const Part& part, std::optional<Role> wanted, const CuttingTool& tool) {
-    if (!tilts(part.log, part.path)) return nullptr;
+std::unique_ptr<const UprightPart> upright_part(const Log& log, const Trajectory& path, const LineMap& lines,
+                                                std::optional<Role> wanted, const CuttingTool& tool) {
+    if (!tilts(log, path)) return nullptr;
     if (tool.kind != ToolKind::ball) {
         throw UsageError(
             to_text(tool) +
@@ -22,15 +23,15 @@ std::unique_ptr<const UprightPart> upright_part(const Part& part, std::optional<
             "a ball-end tool may be tilted: --tool ball:D");
     }
     auto upright = std::make_unique<UprightPart>();
-    upright->path = upright_ball(part.log, part.path, tool.radius);
-    upright->surface = stitch(gather(upright->path), *part.lines);
-    upright->read = signals_along(part.log, upright->path, upright->surface, wanted);
+    upright->path = upright_ball(log, path, tool.radius);
+    upright->surface = stitch(gather(upright->path), lines);
+    upright->read = signals_along(log, upright->path, upright->surface, wanted);
     return upright;
 }
 
 AsMachinedPart::AsMachinedPart(const Part& part, const ClSurface& surface, std::optional<Role> role,
                                const CuttingTool& tool)
-    : upright_(upright_part(part, role, tool)) {
+    : upright_(upright_part(part.log, part.path, *part.lines, role, tool)) {
     if (!upright_) read_ = signals_of(part, surface, role);
     const ToolRun run = upright_ ? upright_->run() : ToolRun{part.path, surface, read_};
     as_machined_.emplace(run.as_machined(tool));

@@ -35,7 +35,8 @@ struct UprightPart {
 
 /// nullptr: the tool stands along z all the time. Else it must be a ball, whose centre is what counts; throws
 /// UsageError for other tools.
-[[nodiscard]] std::unique_ptr<const UprightPart> upright_part(const Part& part, std::optional<Role> wanted,
+[[nodiscard]] std::unique_ptr<const UprightPart> upright_part(const Log& log, const Trajectory& path,
+                                                              const LineMap& lines, std::optional<Role> wanted,
                                                               const CuttingTool& tool);
 
 /// A formed surface with what it refers to; does not move once it is made.

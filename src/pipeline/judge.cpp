@@ -17,7 +17,7 @@ void measure_as_machined_surface(const Part& part, const ClSurface& surface, std
                                  const PartSignals& read, const PartContacts& contacts,
                                  const std::optional<FoundInShards>& found, Quality& quality) {
     const CuttingTool tool = *part.tool;
-    const std::unique_ptr<const UprightPart> upright = upright_part(part, measured, tool);
+    const std::unique_ptr<const UprightPart> upright = upright_part(part.log, part.path, *part.lines, measured, tool);
     const ToolRun run = upright ? upright->run() : ToolRun{part.path, surface, read};
     const AsMachinedSurface measured_surface = run.as_machined(tool);
     std::optional<AsMachinedSurface> commanded;

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "repair/roughness_gauge.h"
+#include "pipeline/roughness_gauge.h"
 
 namespace clsurf {
 namespace {
@@ -52,7 +52,7 @@ public:
         if (before_.surface.step_over <= 0)
             throw InputError(Place::of_file(measured->name),
                              "has no adjacent passes: it does not show which passes differ");
-        if (rules_.tool) gauge_.emplace(before_, *rules_.tool);
+        if (rules_.tool) gauge_.emplace(before_.gauged(), *rules_.tool);
         most_runs_ = judge_.runs;
         if (runs_.empty() && !rounds.empty()) {
             runs_.push_back({.candidate = 0});
@@ -82,7 +82,7 @@ private:
     }
 
     [[nodiscard]] RunMeasures measures_of(const JudgedRun& run) const {
-        return gauge_ ? with_roughness(run.measures(), gauge_->after(run)) : run.measures();
+        return gauge_ ? with_roughness(run.measures(), gauge_->after(run.gauged())) : run.measures();
     }
 
     /// `reason`: why a run is not better than that of the program; empty: it is.
@@ -211,7 +211,7 @@ private:
     std::string take(const Finalist& finalist, const Optimized& found, JudgedRun after, ControllerRun& run,
                      Optimized& result) {
         std::optional<PartRoughness> roughness;
-        if (gauge_) roughness = gauge_->after(after);
+        if (gauge_) roughness = gauge_->after(after.gauged());
         const RunMeasures measured = roughness ? with_roughness(after.measures(), *roughness) : after.measures();
         std::string reason;
         const double gain = gain_over_program(measured, finalist.evaluation.lines_after, reason);

@@ -9,6 +9,7 @@
 #include "machine/machine.h"
 #include "mapping/line_map.h"
 #include "pipeline/motion_quality.h"
+#include "pipeline/roughness_gauge.h"
 #include "pipeline/simulated_log.h"
 #include "predictor/defects.h"
 #include "repair/objective.h"
@@ -29,6 +30,7 @@ struct JudgedRun {
     double greatest_mismatch = 0;  ///< [mm/s] 99.9th percentile of it
     std::optional<MotionQuality> motion{};  ///< where it is asked for
 
+    [[nodiscard]] GaugedRun gauged() const { return {log, path, *lines, surface}; }
     [[nodiscard]] RunMeasures measures() const {
         return {.mismatch = mismatch,
                 .defects = static_cast<double>(report.defects.size()),

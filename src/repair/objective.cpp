@@ -58,4 +58,9 @@ std::string why_not_better(const RunMeasures& before, const RunMeasures& after, 
     return {};
 }
 
+RunMeasures with_roughness(RunMeasures measures, const PartRoughness& roughness) {
+    if (!roughness.patches.empty()) measures.roughness = roughness.ra;
+    return measures;
+}
+
 }  // namespace clsurf

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/not_finite.h"
+#include "machined/part_roughness.h"
 
 namespace clsurf {
 
@@ -18,6 +19,9 @@ struct RunMeasures {
     double roughness = missing<double>;  ///< [mm] Ra of the as-machined surface; NaN: not known
     double greatest_mismatch = 0;        ///< [mm/s] 99.9th percentile of the speed differences
 };
+
+/// The measures of a run with its roughness, where that is known.
+[[nodiscard]] RunMeasures with_roughness(RunMeasures measures, const PartRoughness& roughness);
 
 /// A rise of the roughness by this share is none: it is measured at some places only.
 inline constexpr double roughness_agrees = 0.01;

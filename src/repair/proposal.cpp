@@ -6,10 +6,10 @@
 
 #include "core/parallel.h"
 #include "core/units.h"
+#include "pipeline/roughness_gauge.h"
 #include "program/dialects/dialect_rules.h"
 #include "repair/feeds/feed_equalisation.h"
 #include "repair/line_edit.h"
-#include "repair/roughness_gauge.h"
 
 namespace clsurf {
 namespace {
@@ -218,10 +218,10 @@ RunMeasures Evaluator::measures_before() const {
 }
 
 void Evaluator::measure_roughness(const CuttingTool& tool) {
-    const RoughnessGauge gauge(before_, tool);
+    const RoughnessGauge gauge(before_.gauged(), tool);
     roughness_before_ = gauge.before();
     for (const TriedProposal& each : finalists()) {
-        each->roughness = gauge.after(each->run);
+        each->roughness = gauge.after(each->run.gauged());
         each->evaluation.reason = objection(*each);
         each->evaluation.accepted = each->evaluation.reason.empty();
     }

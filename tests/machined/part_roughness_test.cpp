@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "support/made_surface.h"
@@ -103,6 +105,43 @@ TEST(PartRoughness, AnotherRunIsMeasuredAtTheSamePlacesOverTheSameForm) {
     EXPECT_NEAR(was.sa, in_theory(0, 0).sa, 0.05 * was.sa);
     EXPECT_NEAR(is.sa, in_theory(0.004, 0).sa, 0.05 * is.sa);
     EXPECT_GT(is.sa, 1.2 * was.sa);
+}
+
+/// A patch that is known, at a point, `um` rough.
+RoughPatch patch_at(PointIndex point, double um) {
+    RoughPatch patch;
+    patch.point = point;
+    patch.profile = {};
+    patch.profile.ra = um;
+    patch.profile.rz = 5 * um;
+    patch.profile.length = 4;
+    patch.area.sa = um;
+    patch.area.cells = 1;
+    return patch;
+}
+
+PartRoughness roughness_at(std::initializer_list<std::pair<PointIndex, double>> places) {
+    PartRoughness roughness;
+    for (const auto& [point, um] : places) {
+        roughness.patches.push_back(patch_at(point, um));
+        roughness.ra += um / static_cast<double>(places.size());
+    }
+    return roughness;
+}
+
+TEST(PartRoughness, TwoRunsAreComparedWhereBothAreKnown) {
+    PartRoughness a = roughness_at({{10, 1}, {20, 2}, {30, 9}}), b = roughness_at({{10, 3}, {20, 4}});
+    keep_common_patches(a, b);
+    ASSERT_EQ(a.patches.size(), 2);
+    EXPECT_DOUBLE_EQ(a.ra, 1.5);
+    EXPECT_DOUBLE_EQ(a.rz, 7.5);
+    EXPECT_DOUBLE_EQ(a.sa, 1.5);
+    EXPECT_EQ(a.roughest, 1);
+    EXPECT_DOUBLE_EQ(b.ra, 3.5);
+    PartRoughness elsewhere = roughness_at({{40, 3}});
+    keep_common_patches(a, elsewhere);
+    EXPECT_TRUE(a.patches.empty());
+    EXPECT_TRUE(elsewhere.patches.empty());
 }
 
 }  // namespace

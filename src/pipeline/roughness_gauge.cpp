@@ -1,0 +1,57 @@
+#include "pipeline/roughness_gauge.h"
+
+#include "pipeline/roles.h"
+
+namespace clsurf {
+namespace {
+
+bool can_gauge(const GaugedRun& run, const CuttingTool& tool) {
+    return run.surface.step_over > 0 && (tool.kind == ToolKind::ball || !tilts(run.log, run.path));
+}
+
+}  // namespace
+
+RoughnessGauge::RoughnessGauge(const GaugedRun& before, const CuttingTool& tool, std::optional<Role> role)
+    : tool_(tool),
+      role_(role),
+      swept_(sweep(before)),
+      form_of_(swept_.run().as_machined(tool)),
+      places_(roughness_places(form_of_, swept_.run().read.signals)),
+      roughness_(measure(swept_.run())) {}
+
+PartRoughness RoughnessGauge::after(const GaugedRun& run) const {
+    const Swept swept = sweep(run);
+    return measure(swept.run());
+}
+
+RoughnessGauge::Swept RoughnessGauge::sweep(const GaugedRun& run) const {
+    Swept swept{upright_part(run.log, run.path, run.lines, role_, tool_), {}, run};
+    if (!swept.upright) swept.read = signals_along(run.log, run.path, run.surface, role_);
+    return swept;
+}
+
+PartRoughness RoughnessGauge::measure(const ToolRun& run) const {
+    const AsMachinedSurface measured = run.as_machined(tool_);
+    std::optional<AsMachinedSurface> commanded;
+    if (run.has_both()) commanded.emplace(run.as_commanded(tool_));
+    return measure_roughness({measured, form_of_, commanded ? &*commanded : nullptr}, places_);
+}
+
+std::optional<RoughnessChange> roughness_change(const GaugedRun& before, const GaugedRun& after,
+                                                const CuttingTool& tool, std::optional<Role> role) {
+    if (!can_gauge(before, tool) || !can_gauge(after, tool)) return std::nullopt;
+    if (!role) role = common_measured_role(before.log, after.log).value_or(Role::commanded);
+    const RoughnessGauge gauge(before, tool, role);
+    RoughnessChange change{gauge.before(), gauge.after(after)};
+    keep_common_patches(change.before, change.after);
+    return change;
+}
+
+std::optional<RoughnessChange> roughness_change(const Part& before, const ClSurface& surface_before, const Part& after,
+                                                const ClSurface& surface_after, std::optional<Role> role) {
+    if (!after.tool || before.tool != after.tool) return std::nullopt;
+    return roughness_change({before.log, before.path, *before.lines, surface_before},
+                            {after.log, after.path, *after.lines, surface_after}, *after.tool, role);
+}
+
+}  // namespace clsurf
