@@ -13,6 +13,7 @@
 #include "field/range.h"
 #include "io/page/kept_points.h"
 #include "io/reports/quality_report.h"
+#include "io/reports/reported_measurement.h"
 #include "log/log.h"
 #include "mapping/line_map.h"
 #include "pipeline/roughness_gauge.h"
@@ -81,6 +82,12 @@ struct PageProgrammed {
     std::vector<std::uint8_t> begin;  ///< per corner: 1 where no line leads to it from the one before
 };
 
+/// A measurement of the part, next to what was predicted.
+struct PageMeasured {
+    ReportedMeasurement measurement;
+    std::optional<PagePicture> picture;  ///< nothing: nothing was compared
+};
+
 /// How a field is distributed over the cutting points, in shown units.
 struct PagePercentiles {
     std::string field;
@@ -96,8 +103,9 @@ struct ReportPage {
     std::vector<ShownRange> ranges;                ///< per field, of all logs
     std::string first_field;                       ///< shown at first
     ReportedQuality quality;
-    std::optional<PageChange> change;  ///< where there is a log before
-    std::vector<PageDefect> defects;   ///< one per defect of the report
+    std::optional<PageMeasured> measured;  ///< where the part was measured
+    std::optional<PageChange> change;      ///< where there is a log before
+    std::vector<PageDefect> defects;       ///< one per defect of the report
     std::vector<PagePercentiles> percentiles;
     Diagnostics health;  ///< findings on program and log
     std::vector<PagePicture> pictures;

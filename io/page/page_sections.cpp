@@ -11,6 +11,7 @@
 #include "io/files/json_value.h"
 #include "io/page/defect_cards.h"
 #include "io/page/html_text.h"
+#include "io/page/measured_section.h"
 #include "io/reports/quality_words.h"
 #include "io/reports/roughness_words.h"
 
@@ -165,8 +166,8 @@ std::string roughness_change_html(const PageChange& change) {
                             after, by);
     });
     if (rows.empty()) return {};
-    return "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"roughness before and after\"><table><thead><tr><th>Formed surface</th><th>before</th><th>after</th><th>change</th></tr></thead><tbody>\n" +
-           rows + "</tbody></table></div>\n<p>Both at the same places, over the form of the log before.</p>\n";
+    return "<p>Both surfaces at the same places, over the form of the log before:</p>\n<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"roughness before and after\"><table><thead><tr><th>Formed surface</th><th>before</th><th>after</th><th>change</th></tr></thead><tbody>\n" +
+           rows + "</tbody></table></div>\n";
 }
 
 /// What became of the defects of the log before, and of the surface.
@@ -364,8 +365,8 @@ std::string page_sections(const ReportPage& page) {
         for (const PagePicture& picture : page.pictures) text += picture_html(picture);
         text += "</div></section>\n";
     }
-    text += change_section(page) + defects_section(page) + numbers_section(page) + health_section(page) +
-            defect_list_section(page) + contents_section(page);
+    text += change_section(page) + defects_section(page) + numbers_section(page) + measured_section(page) +
+            health_section(page) + defect_list_section(page) + contents_section(page);
     return text + "</main>\n";
 }
 

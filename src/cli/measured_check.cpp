@@ -12,9 +12,9 @@
 namespace clsurf::cli {
 
 void declare_measured_check(po::options_description& options) {
+    declare_measured_file(options);
     // clang-format off
     options.add_options()
-        ("measured", po::value<std::string>()->value_name("FILE"), "what was measured on the part: a profile or points (delimited text), or an areal map (.sdf); needs the tool")
         ("picture", po::value<std::string>()->value_name("FILE"), "of --measured: the measured profile over the predicted one, and their difference (.png, .jpg, .tif, .webp, .svg or .pdf)");
     // clang-format on
     declare_measured(options);
@@ -30,36 +30,44 @@ std::unique_ptr<MeasuredInput> read_measured_input(const po::variables_map& valu
     if (logs > 1) throw UsageError("--measured belongs to one log: the part that was measured was cut once");
     if (format != "text" && format != "json")
         throw UsageError(fmt::format("--measured is reported as text and JSON, not as {}", format));
-    const MeasuredOptions options = read_measured_options(values);
     auto input = std::make_unique<MeasuredInput>();
-    input->data = io::read_measured(values["measured"].as<std::string>(), options.columns);
-    input->rules = options.rules;
+    input->measurement = read_measurement(values);
     if (values.count("picture") > 0)
         input->picture =
             std::make_unique<PictureOutput>(values["picture"].as<std::string>(), "--picture", PictureKind::drawing);
     return input;
 }
 
+io::ReportedMeasurement compare_measured(const Part& part, const ClSurface& surface, const QualityReport& report,
+                                         std::optional<Role> role, Measurement measurement, StageClock& clock) {
+    const CuttingTool tool = required_tool(part, "--measured", "--measured stylus.csv --tool ball:6");
+    if (surface.step_over <= 0)
+        throw InputError(Place::of_file(part.log.name), "has no adjacent passes: there is no surface to align with");
+    clock.begin("compare with the measurement");
+    const AsMachinedPart as_machined(part, surface, role, tool);
+    io::ReportedMeasurement measured{std::move(measurement.data), {}};
+    measured.result =
+        compare_with_measured(measured.data, as_machined.surface(), as_machined.signals(), report, measurement.rules);
+    clock.end();
+    return measured;
+}
+
 io::ReportedMeasurement compare_measured(CheckedRun& run, std::optional<Role> role, MeasuredInput& input,
                                          StageClock& clock) {
-    const CuttingTool tool = required_tool(run.part, "--measured", "--measured stylus.csv --tool ball:6");
-    if (run.surface.step_over <= 0)
-        throw InputError(Place::of_file(run.part.log.name),
-                         "has no adjacent passes: there is no surface to align with");
-    clock.begin("compare with the measurement");
-    const AsMachinedPart as_machined(run.part, run.surface, role, tool);
-    io::ReportedMeasurement measured{std::move(input.data), {}};
-    measured.result = compare_with_measured(measured.data, as_machined.surface(), as_machined.signals(),
-                                            run.quality.report, input.rules);
+    io::ReportedMeasurement measured =
+        compare_measured(run.part, run.surface, run.quality.report, role, std::move(input.measurement), clock);
     const std::string& reason = measured.result.comparison.reason;
-    if (input.picture && reason.empty()) draw_measured(measured, run.part, tool, *input.picture);
+    if (input.picture && reason.empty()) {
+        const MeasuredPicture picture =
+            draw_measured(measured, run.part, *run.part.tool, input.picture->wants_drawing());
+        input.picture->write(picture.image, picture.title);
+    }
     if (input.picture && !reason.empty())
         run.part.diagnostics.add({Severity::warning,
                                   "measured.no-picture",
                                   Place::of_file(measured.data.name),
                                   "no picture is drawn: " + reason,
                                   {}});
-    clock.end();
     return measured;
 }
 

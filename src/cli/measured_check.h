@@ -5,17 +5,16 @@
 #include <string>
 
 #include "cli/checked_run.h"
+#include "cli/measured_options.h"
 #include "cli/picture_output.h"
 #include "cli/stage_clock.h"
 #include "io/reports/reported_measurement.h"
-#include "measured/align.h"
 
 namespace clsurf::cli {
 
 /// What was measured on the part, and the picture of the comparison.
 struct MeasuredInput {
-    MeasuredData data;
-    AlignRules rules;
+    Measurement measurement;
     std::unique_ptr<PictureOutput> picture;  ///< nullptr: not asked for
 };
 
@@ -27,7 +26,13 @@ void declare_measured_check(po::options_description& options);
 [[nodiscard]] std::unique_ptr<MeasuredInput> read_measured_input(const po::variables_map& values,
                                                                  const std::string& format, std::size_t logs);
 
-/// Aligns and compares, and draws the picture, or adds a warning that it is not drawn. Takes the data out of `input`. Throws UsageError: the tool is not known.
+/// Aligns what was measured on a part with the surface that `role` (none: the most truthful positions) predicts, and compares.
+/// `report` has the predicted marks. Throws UsageError: the tool is not known; InputError: no adjacent passes.
+[[nodiscard]] io::ReportedMeasurement compare_measured(const Part& part, const ClSurface& surface,
+                                                       const QualityReport& report, std::optional<Role> role,
+                                                       Measurement measurement, StageClock& clock);
+
+/// The same of a run, and draws the picture, or adds a warning that it is not drawn. Takes the data out of `input`.
 [[nodiscard]] io::ReportedMeasurement compare_measured(CheckedRun& run, std::optional<Role> role, MeasuredInput& input,
                                                        StageClock& clock);
 

@@ -9,6 +9,12 @@
 
 namespace clsurf::cli {
 
+void declare_measured_file(po::options_description& options) {
+    options.add_options()(
+        "measured", po::value<std::string>()->value_name("FILE"),
+        "what was measured on the part: a profile or points (delimited text), or an areal map (.sdf); needs the tool");
+}
+
 void declare_measured(po::options_description& options) {
     // clang-format off
     options.add_options()
@@ -58,6 +64,11 @@ MeasuredOptions read_measured_options(const po::variables_map& values) {
             throw UsageError(fmt::format("--measured-search must be above 0 and at most {:g} mm", most));
     }
     return options;
+}
+
+Measurement read_measurement(const po::variables_map& values) {
+    const MeasuredOptions options = read_measured_options(values);
+    return {io::read_measured(values["measured"].as<std::string>(), options.columns), options.rules};
 }
 
 }  // namespace clsurf::cli

@@ -7,6 +7,8 @@
 
 namespace clsurf::cli {
 
+/// --measured.
+void declare_measured_file(po::options_description& options);
 /// --measured-at, --measured-columns, --measured-free, --measured-search.
 void declare_measured(po::options_description& options);
 
@@ -16,6 +18,13 @@ struct MeasuredOptions {
 };
 /// Throws UsageError.
 [[nodiscard]] MeasuredOptions read_measured_options(const po::variables_map& values);
+/// What was measured on a part, and how it is aligned.
+struct Measurement {
+    MeasuredData data;
+    AlignRules rules;
+};
+/// Reads the file of --measured. Throws UsageError; InputError: the file cannot be read.
+[[nodiscard]] Measurement read_measurement(const po::variables_map& values);
 /// The first of these options that is on the command line; nullptr: none.
 [[nodiscard]] const char* given_measured_option(const po::variables_map& values);
 

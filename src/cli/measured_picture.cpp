@@ -40,8 +40,8 @@ std::vector<viz::ChartCursor> cursors_of(const io::ReportedMeasurement& measured
 
 }  // namespace
 
-void draw_measured(const io::ReportedMeasurement& measured, const Part& part, const CuttingTool& tool,
-                   PictureOutput& output) {
+MeasuredPicture draw_measured(const io::ReportedMeasurement& measured, const Part& part, const CuttingTool& tool,
+                              bool keep_drawing) {
     const MeasuredComparison& c = measured.result.comparison;
     const ComparedProfile& profile = c.profiles[c.profiles.size() / 2];
     std::vector<double> x(profile.count);
@@ -60,7 +60,7 @@ void draw_measured(const io::ReportedMeasurement& measured, const Part& part, co
     curves.push_back({"Roughness: measured less predicted (µm)", in_um(residual)});
 
     viz::ChartLook look;
-    look.keep_drawing = output.wants_drawing();
+    look.keep_drawing = keep_drawing;
     look.title = fmt::format("Measured and predicted: Ra {:.2f} and {:.2f} µm, Rz {:.2f} and {:.2f} µm",
                              c.measured.ra * um_per_mm, c.predicted.ra * um_per_mm, c.measured.rz * um_per_mm,
                              c.predicted.rz * um_per_mm);
@@ -72,7 +72,7 @@ void draw_measured(const io::ReportedMeasurement& measured, const Part& part, co
         c.profiles.size() > 1 ? fmt::format("profile {} of {}; ", c.profiles.size() / 2 + 1, c.profiles.size()) : "",
         c.correlation, measured.result.alignment.rms * um_per_mm, c.measured.cutoff,
         c.short_cutoff > 0 ? fmt::format(", short waves below {:g} µm taken off", c.short_cutoff * um_per_mm) : "");
-    output.write(viz::draw_chart(x, curves, cursors_of(measured, profile, curves), look), look.title);
+    return {viz::draw_chart(x, curves, cursors_of(measured, profile, curves), look), look.title};
 }
 
 }  // namespace clsurf::cli

@@ -1,14 +1,23 @@
 #pragma once
-// The picture of `check --measured`: the measured profile over the predicted one, and their difference.
+// The picture of `check --measured` and `report --measured`: the measured profile over the predicted one, and their difference.
 
-#include "cli/picture_output.h"
+#include <string>
+
 #include "io/reports/reported_measurement.h"
 #include "pipeline/part.h"
+#include "viz/image.h"
 
 namespace clsurf::cli {
 
-/// Of an areal map the profile in its middle. Domain: something was compared.
-void draw_measured(const io::ReportedMeasurement& measured, const Part& part, const CuttingTool& tool,
-                   PictureOutput& output);
+/// A chart with its title.
+struct MeasuredPicture {
+    viz::Image image;
+    std::string title;
+};
+
+/// Of an areal map the profile in its middle. `keep_drawing`: as PictureOutput::wants_drawing() says. Domain: something was
+/// compared.
+[[nodiscard]] MeasuredPicture draw_measured(const io::ReportedMeasurement& measured, const Part& part,
+                                            const CuttingTool& tool, bool keep_drawing = false);
 
 }  // namespace clsurf::cli

@@ -56,6 +56,7 @@ ExitCode write_page(const ReportOptions& options, const po::variables_map& value
     clock.begin("measure");
     io::ReportPage page = report_page_of(shown, logs, options);
     page.programmed = programmed_path(shown, options);
+    if (options.measurement) page.measured = measured_for_report(shown, options, clock);
     std::optional<ReportedForm> as_machined;
     if (shown.part.tool && shown.surface.step_over > 0) {
         as_machined = form_for_report(shown, options, clock);
@@ -97,6 +98,7 @@ Subcommand report_subcommand() {
             "The page of a log that is too large for memory is made shard by shard (`clsurf survey`, docs/howto/shards.md).\n\n"
             "  clsurf report part.nc run.biip -o report.html\n"
             "  clsurf report part.nc run.biip -o report.html --tool ball:6 --before old.biip\n"
+            "  clsurf report part.nc run.biip -o report.html --tool ball:6 --measured stylus.csv --measured-at 12.5,3,90\n"
             "  clsurf report part.nc run.biip --survey run.survey --shards 8 -o report.html",
         .declare = declare_report_with_shards,
         .positional = {"PROGRAM", "LOG"},

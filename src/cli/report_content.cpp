@@ -8,6 +8,8 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include "cli/measured_check.h"
+#include "cli/measured_picture.h"
 #include "cli/report_pictures.h"
 #include "field/field_set.h"
 #include "io/readers/program_file.h"
@@ -119,6 +121,18 @@ void add_report_pictures(io::ReportPage& page, const ReportLog& shown, const Rep
         const double speed = speed_at(shown, defect.point);
         page.defects[i].slow = words_of(speed_reasons(shown.part, defect.point, speed), speed);
     }
+}
+
+io::PageMeasured measured_for_report(const ReportLog& shown, const ReportOptions& options, StageClock& clock) {
+    io::PageMeasured measured{compare_measured(shown.part, shown.surface, shown.quality.report, options.measured,
+                                               *options.measurement, clock),
+                              {}};
+    if (!measured.measurement.result.comparison.reason.empty()) return measured;
+    const MeasuredPicture picture = draw_measured(measured.measurement, shown.part, *shown.part.tool);
+    measured.picture = {"Measured profile",
+                        "Over its form, its roughness over the predicted one, and their difference.",
+                        viz::encode_image(picture.image, picture.title, "png")};
+    return measured;
 }
 
 io::PageRelief page_relief_of(const ReportedForm& as_machined) {

@@ -31,6 +31,10 @@ struct ReportedForm {
 [[nodiscard]] io::ReportPage report_page_of(const ReportLog& shown, const std::vector<ReportLog>& logs,
                                             const ReportOptions& options);
 
+/// What was measured on the part, with its picture. Throws as compare_measured() does.
+[[nodiscard]] io::PageMeasured measured_for_report(const ReportLog& shown, const ReportOptions& options,
+                                                   StageClock& clock);
+
 /// The pictures of the part, of its machined surface and of the first defects.
 void add_report_pictures(io::ReportPage& page, const ReportLog& shown, const ReportOptions& options,
                          const std::optional<ReportedForm>& as_machined);

@@ -1,5 +1,7 @@
 #include "cli/report_options.h"
 
+#include <fmt/format.h>
+
 #include "cli/follow.h"
 #include "core/error.h"
 
@@ -29,6 +31,8 @@ void declare_report(po::options_description& options) {
     declare_tool(options);
     declare_part(options);
     declare_derivative(options);
+    declare_measured_file(options);
+    declare_measured(options);
     declare_follow(options,
                    "the log is still being written: write the page again every few seconds until the log ends");
 }
@@ -50,6 +54,13 @@ ReportOptions read_report_options(const po::variables_map& values) {
     const double megabytes = values.count("max-size") > 0 ? values["max-size"].as<double>() : 30.0;
     if (!(megabytes >= 2 && megabytes <= 2000)) throw UsageError("--max-size must be 2 … 2000 MB");
     options.most_bytes = static_cast<std::uint64_t>(megabytes * 1e6);
+    if (values.count("measured") > 0) {
+        if (given(values, "follow"))
+            throw UsageError("--measured is of a part that is cut: a log that is still being written has none");
+        options.measurement = read_measurement(values);
+    } else if (const char* alone = given_measured_option(values)) {
+        throw UsageError(fmt::format("--{} is of --measured only", alone));
+    }
     options.reading_options = reading_options_of(values);
     return options;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/measured_options.h"
 #include "cli/merged_shards.h"
 #include "cli/part.h"
 #include "io/readers/accepted_file.h"
@@ -16,6 +17,7 @@ struct ReportOptions {
     PartOptions part;
     std::optional<Role> measured;
     std::string before, output, gl;
+    std::optional<Measurement> measurement;  ///< of the part, where it was measured
     std::optional<io::AcceptedFile> accepted;
     std::vector<std::string> fields;  ///< empty: the usual ones
     std::string first_field;

@@ -39,3 +39,10 @@ clsurf_cli_test(NAME measured_free_of_a_profile SETUP "${three}" ARGS align m.cs
 clsurf_cli_test(NAME measured_free_unknown SETUP "${three}" ARGS align m.csv ${bottle} --tool ball:6 --measured-free q EXIT 2 STDERR "'q' is none of x, y, z, a, b and c")
 clsurf_cli_test(NAME measured_bad_number SETUP "printf 'x,z\\n0,1\\n1,oops\\n' > m.csv" ARGS align m.csv ${bottle} --tool ball:6 EXIT 3 STDERR "m.csv:3: error: 'oops' in column 'z' is not a number")
 clsurf_cli_test(NAME measured_program_instead ARGS align ${bottle} ${bottle} --tool ball:6 EXIT 2 STDERR "argument|too many")
+
+# The page has the numbers of `check` and the picture; without a start nothing can be compared.
+clsurf_cli_test(NAME report_measured SETUP "${dexel} make . && $CLSURF report part.nc run.csv --tool ball:6 --fields speed -o r.html -q --measured profile.csv --measured-at 7.1,2.9,90 && $CLSURF check part.nc run.csv --tool ball:6 --measured profile.csv --measured-at 7.1,2.9,90 > r.txt; ra=$(sed -n 's/^  Ra \\([0-9.]*\\) µm measured, \\([0-9.]*\\) µm.*/<td>Ra<.td><td>\\1<.td><td>\\2<.td>/p' r.txt) && test -n \"$ra\" && grep -q \"$ra\" r.html && grep -q '1 is found and 0 are missing' r.html && grep -q 'data-defect=.1.><td>1</td><td>found</td>' r.html && grep -q 'alt=.Measured profile. src=.data:image/png' r.html && $CLSURF report part.nc run.csv --tool ball:6 --fields speed -o r.html -q --measured profile.csv && grep -q 'Its place on the part is not determined' r.html && ! grep -q 'Measured profile' r.html"
+  ARGS --version)
+clsurf_cli_test(NAME report_measured_without_a_tool SETUP "${three}" ARGS report ${bottle} --tool none --measured m.csv --measured-at 0,0 -o r.html EXIT 2 NO_FILE r.html STDERR "--measured needs to know the tool")
+clsurf_cli_test(NAME report_measured_place_alone ARGS report ${bottle} --measured-at 1,2 -o r.html EXIT 2 NO_FILE r.html STDERR "--measured-at is of --measured only")
+clsurf_cli_test(NAME report_measured_and_follow SETUP "${three}" ARGS report ${bottle} --measured m.csv --follow -o r.html EXIT 2 NO_FILE r.html STDERR "--measured is of a part that is cut")

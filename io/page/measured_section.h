@@ -1,0 +1,13 @@
+#pragma once
+// The section of a page that sets a measurement of the part beside the prediction. Used inside io only.
+
+#include <string>
+
+#include "io/page/page_content.h"
+
+namespace clsurf::io {
+
+/// Empty: nothing was measured.
+[[nodiscard]] std::string measured_section(const ReportPage& page);
+
+}  // namespace clsurf::io
