@@ -55,8 +55,9 @@ private:
         return shares;
     }
 
-    /// A run, cut at the bottom of each dip between two peaks.
+    /// A run, cut at the bottom of each dip between two peaks of the motion. Heights swing after what made them.
     [[nodiscard]] std::vector<CandidateSpan> bumps_of(CandidateSpan run) const {
+        if (quantity_ == index_of(Quantity::lag) || quantity_ == index_of(Quantity::relief)) return {run};
         const std::vector<float> shares = filled(run);
         std::vector<CandidateSpan> bumps;
         std::size_t first = 0, bottom = 0;

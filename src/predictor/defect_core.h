@@ -31,8 +31,8 @@ struct CoreSites {
 };
 
 /// On each pass, the sites of a group where `quantity` reaches half of its peak there. Dips shorter than `joined` mm
-/// belong to them, as an oscillation crosses zero. Where a longer dip lies between two peaks of one pass, each counts
-/// from its own peak. Both lists in the order of their points. O(sites · sites within `joined`²).
+/// belong to them, as an oscillation crosses zero. Where a longer dip lies between two peaks of a speed or an
+/// acceleration on one pass, each counts from its own peak. Both lists in the order of their points. O(sites · sites within `joined`²).
 [[nodiscard]] CoreSites core_of(CandidateSpan group, Quantity quantity, const ArcLength& arc_length, double joined);
 
 }  // namespace clsurf

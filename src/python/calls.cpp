@@ -161,7 +161,7 @@ std::string diff_parts(const Parts& parts) {
         RunReport report = report_run(a, *surface, reference.lines.get(), b, differences);
         if (reference.tool)
             PartContacts(reference.log, a.path, *reference.lines, *surface, *reference.tool).locate(report);
-        reported.runs.push_back({other.log.name, std::move(report), {}});
+        reported.runs.push_back({other.log.name, std::move(report), {}, {}});
         drift->add(differences);
     }
     reported.departures = drift->departures();
