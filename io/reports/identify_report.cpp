@@ -20,7 +20,7 @@ std::string evidence_of(const IdentifiedParameter& p) {
     std::string text;
     const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
     if (p.standard_error) add(fmt::format("± {:.2g}{}{}", *p.standard_error, p.unit.empty() ? "" : " ", p.unit));
-    if (p.reached) add(*p.reached ? "reached" : "a lower bound, never reached");
+    if (p.reached) add(*p.reached ? "reached" : "a lower bound");
     if (!p.note.empty()) add(p.note);
     return text;
 }

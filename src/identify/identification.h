@@ -19,8 +19,9 @@ struct IdentifiedParameter {
     double value = 0;                      ///< in `unit`
     std::string unit;                      ///< empty: a ratio
     std::optional<double> standard_error;  ///< in `unit`
-    std::optional<bool> reached;           ///< of limits; false: a lower bound, the runs never reached the limit
+    std::optional<bool> reached;           ///< of limits; false: a lower bound
     std::string note;                      ///< evidence, a few words; may be empty
+    double shown = 0;                      ///< of lower bounds: the value with what rounding may have added, in `unit`
 };
 
 /// A value that they do not determine.

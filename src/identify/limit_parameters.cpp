@@ -219,6 +219,13 @@ std::size_t stride_of(const Motion& motion, int order) {
     return stride;
 }
 
+/// What speaks for a limit.
+enum class Evidence : std::uint8_t {
+    lower_bound,  ///< the motion stays below it, or another limit explains where it stays
+    shared,       ///< the path's, or those of axes: only in directions in which they cannot be told apart
+    reached,
+};
+
 /// The highest levels of all quantities of one order.
 class LimitSearch {
 public:
@@ -248,15 +255,19 @@ public:
 
     void report(Identification& result) const {
         bool any_axis = false;
-        for (std::size_t q = 0; q < motion_.letters.size(); ++q) any_axis |= holds_alone(q);
-        for (std::size_t q = 0; q < motion_.letters.size(); ++q) report_axis(q, result);
+        for (std::size_t q = 0; q < motion_.letters.size(); ++q) {
+            const bool alone = holds_alone(q);
+            any_axis |= alone;
+            report_axis(q, alone, result);
+        }
         if (motion_.linear() < motion_.letters.size() && !motion_.has_tips) {
             result.unidentified.push_back(
                 {kind_.name, "path",
                  "with rotary axes the path of the linear axes is not that of the tool (--machine)"});
             return;
         }
-        const bool path = levels_.back() && (holds_alone(path_number()) || !any_axis);
+        Evidence path = holds_alone(path_number()) ? Evidence::reached : Evidence::lower_bound;
+        if (path == Evidence::lower_bound && levels_.back() && !any_axis) path = Evidence::shared;
         put("path", "mm", path_number(), path, result.machine.path.*kind_.of_path, 1, result);
     }
 
@@ -269,18 +280,16 @@ private:
                plateau.beside[q] > 0;
     }
 
-    /// Whether the quantity is at its level where no other limit explains it. On an axis-parallel path those of axis and path
-    /// cannot be distinguished: the limit is then assigned to the axis.
+    /// Whether the quantity is at its level where no other limit explains it. Where an axis-parallel path is as fast as it gets,
+    /// that is the path's limit as well as the axis'.
     [[nodiscard]] bool holds_alone(std::size_t q) const {
         if (!levels_[q]) return false;
         std::size_t alone = 0;
         double least_share = INFINITY, greatest_share = 0;
         for (const Plateau& plateau : levels_[q]->plateaus) {
             bool explained = false;
-            for (std::size_t other = 0; other < greatest_.size(); ++other) {
-                if (other == q || !at_limit(plateau, other)) continue;
-                explained |= other != path_number() || plateau.level < parallel * plateau.beside[other];
-            }
+            for (std::size_t other = 0; other < greatest_.size(); ++other)
+                explained |= other != q && at_limit(plateau, other);
             if (explained) continue;
             ++alone;
             const double path = plateau.beside[path_number()];
@@ -293,24 +302,24 @@ private:
         return alone >= 2 && (greatest_share >= parallel || greatest_share - least_share > same_direction);
     }
 
-    void report_axis(std::size_t q, Identification& result) const {
+    void report_axis(std::size_t q, bool reached, Identification& result) const {
         MachineAxis none;
         MachineAxis* axis = axis_of(result.machine, motion_.letters[q]);
         const bool rotary = motion_.letters[q] < 'x';
         MachineAxis& target = axis != nullptr ? *axis : none;
-        put({motion_.letters[q]}, rotary ? "deg" : "mm", q, holds_alone(q), target.*kind_.of_axis,
-            rotary ? rad_per_deg : 1, result);
+        put({motion_.letters[q]}, rotary ? "deg" : "mm", q, reached ? Evidence::reached : Evidence::lower_bound,
+            target.*kind_.of_axis, rotary ? rad_per_deg : 1, result);
     }
 
-    void put(const std::string& of, const std::string& unit, std::size_t q, bool reached, double& target,
+    void put(const std::string& of, const std::string& unit, std::size_t q, Evidence evidence, double& target,
              double to_machine, Identification& result) const {
-        IdentifiedParameter p{kind_.name, of, 0, unit + kind_.unit, std::nullopt, reached, ""};
+        IdentifiedParameter p{kind_.name, of, 0, unit + kind_.unit, std::nullopt, evidence == Evidence::reached, ""};
         if (is_rounding(q) || (kind_.order == 3 && result.find_missing("max_acceleration", of) != nullptr)) {
             const bool moves = kind_.order > 1 && result.find_missing("max_speed", of) == nullptr;
             result.unidentified.push_back({kind_.name, of, moves ? "constant speed throughout" : "no such motion"});
             return;
         }
-        if (reached) {
+        if (evidence == Evidence::reached) {
             // A planner fits ramps to whole periods and stays a little below its limits.
             const double margin = kind_.margin * levels_[q]->value;
             const double error = std::max(levels_[q]->standard_error, margin) * kind_.factor;
@@ -325,13 +334,27 @@ private:
             p.reached.reset();
             p.note = "no limit seen: the acceleration changes between its limits from one record to the next";
         } else {
-            p.value = rounded_to(bounds_[q] * kind_.factor, 1e-3 * bounds_[q] * kind_.factor);
-            const double bound = bounds_[q] * to_machine;
-            const bool unlimited = target == 0;
-            if (!unlimited && target < bound) target = p.value / kind_.factor * to_machine;
-            p.note = fmt::format("hardly exceeded; the file has {:.6g}", target * kind_.factor / to_machine);
+            p.value = lower_bound(q) * kind_.factor;
+            p.shown = rounded_to(bounds_[q] * kind_.factor, 1e-3 * bounds_[q] * kind_.factor);
+            const bool unlimited = target == 0, shared = evidence == Evidence::shared;
+            if (shared)
+                target = levels_[q]->value * to_machine;
+            else if (!unlimited && target < bounds_[q] * to_machine)
+                target = p.shown / kind_.factor * to_machine;
+            const std::string held =
+                shared ? fmt::format("held in {} places, by it or by an axis", levels_[q]->plateaus.size())
+                       : "hardly exceeded";
+            p.note = fmt::format("{}; the file has {:.6g}", held, target * kind_.factor / to_machine);
         }
         result.parameters.push_back(std::move(p));
+    }
+
+    /// What the motion shows of a limit that is not known: without what rounding of the positions and of the result may add.
+    [[nodiscard]] double lower_bound(std::size_t q) const {
+        constexpr double part = 1e-3;
+        const double rounding = std::max(rounding_[q], error_of(motion_.rounding, time_, kind_.order));
+        const double shown = std::max(0.0, bounds_[q] - rounding) * kind_.factor;
+        return rounded_to(shown * (1 - part), part * shown) / kind_.factor;
     }
 
     /// Whether rounding alone explains the greatest value.

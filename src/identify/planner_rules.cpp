@@ -110,8 +110,11 @@ std::vector<RuleCandidate> choose_family(RuleScores& scores, Identification& res
 void restate_accelerations(Identification& result) {
     for (IdentifiedParameter& p : result.parameters) {
         if (p.name != "max_acceleration") continue;
-        if (p.axis == "path" && result.machine.path.max_acceleration == no_path_limit)
+        if (p.axis == "path" && result.machine.path.max_acceleration == no_path_limit) {
             p.note = "the axes alone limit it";
+            if (p.reached) p.reached = false;
+            p.standard_error.reset();
+        }
         const auto axis = std::find(axis_names.begin(), axis_names.end(), p.axis);
         if (axis == axis_names.end()) continue;
         const double now = result.machine.axes[static_cast<std::size_t>(axis - axis_names.begin())].max_acceleration;

@@ -137,8 +137,9 @@ std::vector<double> possible_accelerations(std::size_t axis, const Identificatio
     const IdentifiedParameter* known = found.find("max_acceleration", axis_names[axis]);
     if (known == nullptr || !known->reached) return values;
     const bool overlap = !found.machine.controller.trapezoid.arc_blends;
-    if (!*known->reached && std::abs(known->value - now) > 0.01 * now) values.push_back(known->value);
-    if (overlap) values.push_back(2 * known->value);
+    const double shown = *known->reached ? known->value : known->shown;
+    if (!*known->reached && std::abs(shown - now) > 0.01 * now) values.push_back(shown);
+    if (overlap) values.push_back(2 * shown);
     return values;
 }
 

@@ -1,0 +1,95 @@
+// A limit is reached where no other one explains it: machines whose limits are known, and their own runs.
+
+#include "identify/limit_parameters.h"
+
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "pipeline/simulated_log.h"
+#include "repair/parts.h"
+
+namespace clsurf::limit_parameters_test {
+namespace {
+
+/// Lines from rest to rest in some directions, of several lengths and feeds.
+std::string lines_along(const std::vector<Vec3>& directions) {
+    std::string text = "G21 G90 G61\nG1 X0 Y0 Z0 F1000\n";
+    for (const double feed : {1500.0, 3000.0, 6000.0}) {
+        for (const Vec3& direction : directions) {
+            for (const double length : {2.0, 5.0, 12.0}) {
+                const Vec3 end = length * direction.normalized();
+                text += fmt::format("G1 X{:.6f} Y{:.6f} Z{:.6f} F{}\nX0 Y0 Z0\n", end.x(), end.y(), end.z(), feed);
+            }
+        }
+    }
+    return text + "M2\n";
+}
+
+const std::vector<Vec3> parallel{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+const std::vector<Vec3> all_ways{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {2, -1, 1}};
+
+Machine with_jerks(double axes, double path) {
+    Machine machine;
+    for (MachineAxis& axis : machine.axes) axis.max_jerk = axes, axis.max_acceleration = 6000;
+    machine.path.max_jerk = path;
+    machine.path.max_acceleration = 6000;
+    return machine;
+}
+
+Identification identified(const Machine& machine, const std::vector<Vec3>& directions) {
+    const Part part = assemble(read_text(lines_along(directions)),
+                               simulate_to_log(read_text(lines_along(directions)), machine, Vec3::Zero()).log);
+    const IdentifyRun run{&part.log, nullptr, nullptr};
+    Identification result;
+    identify_limits({&run, 1}, result);
+    return result;
+}
+
+/// A jerk limit that is called reached is right, and a lower bound is no more than the true value.
+void expect_no_contradiction(const Identification& result, const char* of, double truth) {
+    const IdentifiedParameter* jerk = result.find("max_jerk", of);
+    ASSERT_NE(jerk, nullptr) << of;
+    if (jerk->reached == true)
+        EXPECT_NEAR(jerk->value, truth, 0.01 * truth) << of;
+    else
+        EXPECT_LE(jerk->value, truth) << of;
+}
+
+TEST(LimitParameters, ALimitOfThePathIsNoneOfTheAxes) {
+    const Identification result = identified(with_jerks(80000, 50000), all_ways);
+    for (const char* axis : {"x", "y", "z"}) {
+        expect_no_contradiction(result, axis, 80000);
+        EXPECT_EQ(result.find("max_jerk", axis)->reached, false) << axis;
+        EXPECT_GT(result.find("max_jerk", axis)->value, 49000) << axis;
+    }
+    EXPECT_EQ(result.find("max_jerk", "path")->reached, true);
+    expect_no_contradiction(result, "path", 50000);
+    EXPECT_EQ(result.machine.axes[0].max_jerk, 80000);  // what was known before
+}
+
+TEST(LimitParameters, ALimitOfAnAxisIsReachedWhereThePathGoesBeyondIt) {
+    const Identification result = identified(with_jerks(50000, 400000), all_ways);
+    for (const char* axis : {"x", "y", "z"}) {
+        EXPECT_EQ(result.find("max_jerk", axis)->reached, true) << axis;
+        expect_no_contradiction(result, axis, 50000);
+    }
+    EXPECT_EQ(result.find("max_jerk", "path")->reached, false);
+    expect_no_contradiction(result, "path", 400000);
+}
+
+TEST(LimitParameters, LinesAlongTheAxesTellNoneFromThePath) {
+    const Identification of_path = identified(with_jerks(80000, 50000), parallel);
+    const Identification of_axes = identified(with_jerks(50000, 400000), parallel);
+    for (const Identification* result : {&of_path, &of_axes}) {
+        for (const char* of : {"x", "y", "z", "path"}) {
+            EXPECT_EQ(result->find("max_jerk", of)->reached, false) << of;
+            expect_no_contradiction(*result, of, 50000);
+        }
+        EXPECT_NEAR(result->machine.path.max_jerk, 50000, 500) << "a file that repeats the runs";
+    }
+}
+
+}  // namespace
+}  // namespace clsurf::limit_parameters_test
