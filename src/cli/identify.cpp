@@ -80,7 +80,6 @@ ExitCode run_identify(const po::variables_map& values) {
     clock.begin("test");
     test_runs(tests, result);
     clock.end();
-    if (picture) draw_speed_residual(result, parts, tests, *picture);
     file.write(io::identified_machine_text(result));
     file.commit();
     diagnostics.append(result.diagnostics);
@@ -90,6 +89,8 @@ ExitCode run_identify(const po::variables_map& values) {
         print(diagnostics, values);
         write_answer(io::identification_text(result), values);
     }
+    // The machine file is what was asked for: it stays where the picture cannot be drawn.
+    if (picture) draw_speed_residual(result, parts, tests, *picture);
     return ExitCode::done;
 }
 
@@ -108,7 +109,7 @@ Subcommand identify_subcommand() {
             "stays at it in several places; otherwise the value is a lower bound, and the file keeps a greater one. What the runs do not determine is listed with the reason, and keeps its default or the value of --machine.\n"
             "The rules of the planner are selected by simulation: each value is scored by the speed along the path. The fidelity of the result\n"
             "is measured on the runs of --test, else by leaving out one run after the other, else on the fitted run, and is kept in the file.\n"
-            "Exit code 3 says that nothing could be identified.\n\n"
+            "Exit code 3 says that nothing could be identified, or that the picture cannot be drawn: then the machine file is there.\n\n"
             "  clsurf identify part.nc run.biip -o mill.toml\n"
             "  clsurf identify a.nc a.biip b.nc b.biip --machine five_axis.toml -o mill.toml --test c.nc c.biip --picture residual.png",
         .declare =

@@ -2,7 +2,7 @@
 #                 [FILE name…] [NO_FILE path…] [SETUP shell commands]):
 # runs the built program in an empty folder of its own and checks the exit code (0), that every
 # regex (extended, over all lines) is found and no NO_STDOUT, that the FILEs are there and not empty,
-# and the NO_FILEs are not. A run that fails (exit code 2 to 4) must leave no new file and change none.
+# and the NO_FILEs are not. A run that fails (exit code 2 to 4) must leave no new file but FILEs, and change none.
 #
 # In ARGS and SETUP, @DATA@ is the folder data of the project, @LOGS@ that of the unpacked logs.
 # SETUP may use $CLSURF, the program.
