@@ -12,7 +12,7 @@
 #include "core/block.h"
 #include "core/statistics.h"
 #include "core/units.h"
-#include "program/feed_per_minute.h"
+#include "program/feed_mode_cursor.h"
 
 namespace clsurf {
 namespace {
@@ -45,12 +45,12 @@ std::optional<double> speed_that_tells(FeedSection& run) {
 class FeedComparison {
 public:
     explicit FeedComparison(const Program& program) : program_(program) {
-        FeedPerMinute per_minute(program);
+        FeedModeCursor feed_mode(program);
         const Motions& motions = program.motions;
         feed_.resize(motions.kind.size(), 0);
         for (std::size_t m = 0; m < feed_.size(); ++m) {
             const bool cuts = is_cut(motions.kind[m]);
-            if (per_minute.on(static_cast<std::int64_t>(m)) && cuts) feed_[m] = motions.feed[m];
+            if (feed_mode.per_minute(static_cast<std::int64_t>(m)) && cuts) feed_[m] = motions.feed[m];
         }
     }
 

@@ -7,7 +7,7 @@
 
 #include "core/units.h"
 #include "program/dialects/dialect_rules.h"
-#include "program/feed_per_minute.h"
+#include "program/feed_mode_cursor.h"
 #include "program/frame_placement.h"
 #include "program/text/lexer.h"
 #include "program/text/nc_text.h"
@@ -207,9 +207,9 @@ LineEditor::LineEditor(const Program& program, int least_decimals)
     constexpr std::array<double, 2> units{1, mm_per_inch};
     for (int turn = 0; turn < 2; ++turn) {
         // First which unit the words have, then which lines say where they go in it.
-        FeedPerMinute per_minute(program);
+        FeedModeCursor feed_mode(program);
         for (std::size_t i = 0; i < count; ++i) {
-            if (!per_minute.on(static_cast<std::int64_t>(i))) continue;
+            if (!feed_mode.per_minute(static_cast<std::int64_t>(i))) continue;
             if (motions.kind[i] == MotionKind::spline && in_main(i) && motions_of_line[motions.line[i]] == 1)
                 spans_[i] = 1;
             if (!cuts_in_a_line(motions, i) || !in_main(i) || motions_of_line[motions.line[i]] != 1) continue;

@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 #include "core/units.h"
-#include "program/feed_per_minute.h"
+#include "program/feed_mode_cursor.h"
 #include "program/interpret/arc.h"
 #include "program/tool_centre_point.h"
 #include "toolpath/toolpath.h"
@@ -177,7 +177,7 @@ private:
     Eigen::Isometry3d pose_, back_;
     Vec3 zero_;
     ToolCentrePoint control_;
-    FeedPerMinute feed_mode_;
+    FeedModeCursor feed_mode_;
     Toolpath path_;
     Motions to_;
     Vec3 tip_;

@@ -7,7 +7,7 @@
 
 #include "core/geometry.h"
 #include "core/units.h"
-#include "program/feed_per_minute.h"
+#include "program/feed_mode_cursor.h"
 #include "program/interpret/interpreter_state.h"
 
 namespace clsurf {

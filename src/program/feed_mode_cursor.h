@@ -1,5 +1,5 @@
 #pragma once
-// Feed modes: whether F counts lengths per minute (G94), or the inverse of a time (G93) or lengths per revolution (G95).
+// FeedModeCursor: whether F counts lengths per minute (G94), or the inverse of a time (G93) or lengths per revolution (G95).
 
 #include <cstdint>
 #include <string>
@@ -10,16 +10,16 @@
 
 namespace clsurf {
 
-/// The event of a feed mode that another one takes the place of, and its value for G94.
+/// The event of a feed mode that another one takes the place of, and its values for G94 and G93.
 inline constexpr std::string_view feed_mode_event = "feed-mode", feed_per_minute = "G94", feed_inverse_time = "G93";
 
-/// Goes along the events of a program. Programs begin with feeds per minute.
-class FeedPerMinute {
+/// Goes along the events of a program and says which feed mode holds. Programs begin with feeds per minute.
+class FeedModeCursor {
 public:
-    explicit FeedPerMinute(const Program& program) : program_(&program) {}
+    explicit FeedModeCursor(const Program& program) : program_(&program) {}
 
     /// Whether F counts lengths per minute at a motion; motions must not go back.
-    [[nodiscard]] bool on(std::int64_t motion) { return mode_at(motion) == feed_per_minute; }
+    [[nodiscard]] bool per_minute(std::int64_t motion) { return mode_at(motion) == feed_per_minute; }
 
     /// Whether F is the inverse of the time that a motion takes; motions must not go back.
     [[nodiscard]] bool inverse_time(std::int64_t motion) { return mode_at(motion) == feed_inverse_time; }
