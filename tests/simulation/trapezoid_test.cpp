@@ -109,7 +109,7 @@ TEST(TrapezoidalPlanner, AnOverlapOfArcsIsMeasuredFromTheArcs) {
     EXPECT_NEAR(r.summary.path_deviation, off, 1e-9);
 }
 
-// The kernel leaves the corner of mixed.ngc between its lines 47 and 48 by 0.7099 mm, too (data/logs/mixed.csv).
+// The kernel leaves the corner of mixed.ngc between its lines 47 and 48 by 0.7099 mm, too (data/logs/mixed.csv.xz).
 TEST(TrapezoidalPlanner, SaysWhereThePathHasNoTolerance) {
     const std::string corner = "G0 X0 Y0 Z0\nG1 X20 F3000\nG1 Y20\nM2\n";
     const Recorded free = run("G64\n" + corner, of_kernel()), held = run("G64 P0.05\n" + corner, of_kernel());
