@@ -129,11 +129,12 @@ Subcommand render_subcommand() {
         .description =
             "Maps each logged point to its line, rebuilds the cutter-location surface from adjacent passes,\n"
             "colours it by a field and draws it without a display. Without a log the program is simulated on\n"
-            "--machine, or drawn as it is programmed: by programmed_feed, block_length, turning_angle or\n"
-            "programmed_curvature.\n"
+            "--machine, or drawn as it is programmed: by programmed_feed, block_length, turning_angle,\n"
+            "programmed_curvature or, with a ball-end tool, scallop.\n"
             "A log that is too large for memory is drawn shard by shard, with --survey (docs/howto/shards.md).\n\n"
             "  clsurf render part.nc -o map.png\n"
             "  clsurf render part.nc -o blocks.png --color block_length --passes 3..8\n"
+            "  clsurf render part.nc -o scallop.png --color scallop --tool ball:6\n"
             "  clsurf render part.nc run.biip -o map.png\n"
             "  clsurf render part.nc run.biip -o map.png --color acceleration --view top --range 0,800\n"
             "  clsurf render part.nc run.biip -o map.png --surface formed --tool ball:6",

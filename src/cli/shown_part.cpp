@@ -12,6 +12,7 @@
 #include "pipeline/part_fields.h"
 #include "pipeline/program_fields.h"
 #include "pipeline/programmed_part.h"
+#include "pipeline/scallop_fields.h"
 #include "predictor/outline.h"
 #include "surface/selection.h"
 #include "surface/stitch.h"
@@ -71,8 +72,10 @@ Shown programmed(const PartOptions& options, const std::string& field, StageCloc
         throw InputError(Place::of_file(options.program), "has no motions to show");
     show_all_cutting(shown.surface);
     clock.begin("compute the field");
+    shown.part.tool = find_tool(options.tool, nullptr, &shown.part.program, shown.part.diagnostics);
     FieldSet fields(shown.part.log.records);
     fields.add(std::make_shared<const ProgramFields>(shown.part.program, shown.part.lines));
+    fields.add(std::make_shared<const ScallopFields>(shown.surface, shown.part.tool));
     shown.field = fields.get(field);
     clock.end();
     return shown;
@@ -95,7 +98,8 @@ Part load_run_of(const PartOptions& options, StageClock& clock) {
 }  // namespace
 
 Shown load_shown(const PartOptions& options, const std::string& field, bool defects, StageClock& clock) {
-    if (options.log.empty() && ProgramFields::has(field) && !defects) return programmed(options, field, clock);
+    const bool of_program = ProgramFields::has(field) || ScallopFields::has(field);
+    if (options.log.empty() && of_program && !defects) return programmed(options, field, clock);
     Shown shown;
     shown.origin = options.log.empty() ? PointOrigin::simulation : PointOrigin::log;
     shown.part = load_run_of(options, clock);

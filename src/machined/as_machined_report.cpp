@@ -130,11 +130,8 @@ std::vector<double> scallop_heights(const ClSurface& surface, const Signals& sig
             apart -= apart.dot(feed) * feed;
             const double chord = apart.norm();
             const double turn = (signals.normal(j) - signals.normal(i)).cast<double>().dot(apart);
-            if (!std::isfinite(turn) || !(chord > 0) || chord >= 2 * ball) continue;
-            const double curvature = turn / (chord * chord);  // > 0: normals spread, the surface is convex
-            if (curvature * ball <= -1) continue;             // the ball would gouge: no closed form
-            heights.push_back(
-                scallop_height(ball, chord, curvature != 0 ? 1 / curvature : std::numeric_limits<double>::infinity()));
+            const double height = cusp_height(ball, chord, turn);
+            if (std::isfinite(height)) heights.push_back(height);
         }
     }
     return heights;

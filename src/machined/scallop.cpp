@@ -1,7 +1,10 @@
 #include "machined/scallop.h"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
+
+#include "core/not_finite.h"
 
 namespace clsurf {
 
@@ -23,6 +26,16 @@ double scallop_height(double ball, double step_over, double rho) {
     if (ball >= radius) throw std::domain_error("the ball is larger than the hollow: it gouges");
     const double centre = radius - ball;
     return radius - centre * cosine - std::sqrt(ball * ball - centre * centre * sine * sine);
+}
+
+double cusp_height(double ball, double chord, double turn) {
+    if (!std::isfinite(turn) || !(chord > 0) || chord >= 2 * ball) return missing<double>;
+    const double curvature = turn / (chord * chord);  // > 0: normals spread, the surface is convex
+    if (curvature == 0) return scallop_height(ball, chord, std::numeric_limits<double>::infinity());
+    if (curvature * ball <= -1) return missing<double>;  // the ball would gouge: no closed form
+    const double sine = 0.5 * chord * std::abs(curvature);
+    if (sine >= 1 || (curvature > 0 && (1 / curvature + ball) * sine >= ball)) return missing<double>;
+    return scallop_height(ball, chord, 1 / curvature);
 }
 
 double scallop_ra(double height) { return 4 * height / (9 * std::sqrt(3.0)); }

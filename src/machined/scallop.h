@@ -10,6 +10,10 @@ namespace clsurf {
 /// (step_over ≥ 2 ball) or the ball gouges (concave, ball ≥ |rho|).
 [[nodiscard]] double scallop_height(double ball, double step_over, double rho);
 
+/// The same between two contact points, `chord` [mm] apart across the feed. `turn` [mm]: the difference of their normals times
+/// the chord as a vector, which tells the curvature; > 0: convex. NaN: passes do not meet, the ball gouges, or nothing is known.
+[[nodiscard]] double cusp_height(double ball, double chord, double turn);
+
 /// Ra of a periodic profile of parabolas of height h: 4 h / (9 √3). Same unit as h.
 [[nodiscard]] double scallop_ra(double height);
 /// Rq of the same profile: h √(4/45).

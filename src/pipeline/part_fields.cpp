@@ -9,6 +9,7 @@
 #include "pipeline/feed_fields.h"
 #include "pipeline/limits_of.h"
 #include "pipeline/program_fields.h"
+#include "pipeline/scallop_fields.h"
 #include "pipeline/signals_of.h"
 #include "predictor/quality_fields.h"
 
@@ -45,6 +46,7 @@ FieldSet fields_of(const Part& part, const ClSurface& surface,
     fields.add(
         std::make_shared<const IntervalFields>(part.program, part.lines, part.machine ? *part.machine : Machine{}));
     fields.add(limit_fields(part));
+    fields.add(std::make_shared<const ScallopFields>(surface, part.tool));
     for (const auto& provider : more) fields.add(provider);
     fields.add(std::make_shared<const ChannelFields>(part.log, channel_classes()));
     return fields;

@@ -66,6 +66,13 @@ foreach(field block_length turning_angle programmed_curvature programmed_feed)
   clsurf_cli_test(NAME render_program_${field}
     SETUP "$CLSURF render @DATA@/programs/bottle_uneven.nc --color ${field} -o map.png --size 320x240 -q && grep -q 'as programmed: ${field} ' map.png" ARGS --version)
 endforeach()
+# Passes over a plane, 0.4 mm apart: 3 - sqrt(9 - 0.04) mm under a ball of 6 mm; with one of 0.3 mm 9 gaps of 0.1 mm by 20 mm stand uncut.
+set(plane_nc "awk 'BEGIN { print \"G21 G90\\nG0 X0 Y0 Z10\\nG1 Z0 F1000\\nG1 F3000\"; for (k = 0; k < 10; ++k) printf \"X%d Y%.1f\\nX%d\\n\", k % 2 * 20, 0.4 * k, (1 - k % 2) * 20; print \"G0 Z10\\nM2\" }' > plane.nc")
+clsurf_cli_test(NAME render_program_scallop
+  SETUP "${plane_nc} && $CLSURF render plane.nc --color scallop --tool ball:6 -o map.svg -q && python3 ${CMAKE_CURRENT_LIST_DIR}/../read_svg.py map.svg images 1 'scallop 50 % 6.67, 95 % 6.67, at most 6.67 µm; uncut 0 mm²' && $CLSURF render plane.nc --color scallop --tool ball:0.3 -o gaps.svg -q && python3 ${CMAKE_CURRENT_LIST_DIR}/../read_svg.py gaps.svg images 1 'at most 150.00 µm; uncut 1[78][.0-9]* mm²'"
+  ARGS --version)
+clsurf_cli_test(NAME render_program_scallop_of_no_tool SETUP "${plane_nc}" ARGS render plane.nc --color scallop -o map.png EXIT 2 STDERR "'scallop' needs to know the tool" NO_FILE map.png)
+clsurf_cli_test(NAME render_program_scallop_of_a_flat_tool SETUP "${plane_nc}" ARGS render plane.nc --color scallop --tool flat:6 -o map.png EXIT 2 STDERR "scallops are computed for ball-end tools, not for" NO_FILE map.png)
 clsurf_cli_test(NAME render_program_formed ARGS render ${bottle_nc} --surface formed --tool ball:6 --size 320x240 -o map.png FILE map.png)
 clsurf_cli_test(NAME render_log_alone ARGS render @LOGS@/bottle_uneven.biip --color speed --size 320x240 -o map.png FILE map.png)
 clsurf_cli_test(NAME render_program_before ARGS render ${bottle_nc} --before @LOGS@/bottle_uneven.biip -o map.png EXIT 2 STDERR "--before compares logs")
