@@ -8,10 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "viz/depth_buffer.h"
 #include "viz/label_placer.h"
 
 namespace clsurf::viz {
 namespace {
+
+constexpr double least_step = 0.5;  ///< [px] of a line: shorter ones nobody sees
 
 void add_ring(Sheet& sheet, const Vec2& at, double radius, double width, Rgb rgb, Level level) {
     FlatLine ring{{}, width, rgb, level};
@@ -38,7 +41,7 @@ std::vector<std::vector<Vec2>> strokes(PointIndex count, const At& position, con
         const Vec2 at = corner + camera.pixel(p);
         if (!goes_on) all.emplace_back();
         goes_on = true;
-        if (all.back().empty() || (at - all.back().back()).norm() >= 0.5) all.back().push_back(at);
+        if (all.back().empty() || (at - all.back().back()).norm() >= least_step) all.back().push_back(at);
     }
     return all;
 }
@@ -56,6 +59,7 @@ public:
           placer_(panel.rect) {}
 
     int draw() {
+        if (map_.programmed != nullptr && !map_.programmed->empty()) add_programmed(*map_.programmed);
         for (const PointMark& mark : map_.points) take_ring(place_of(mark.point));
         for (const LineMark& mark : map_.lines) {
             for (const PointRange& range : mark.points) take_ring(place_of(range.first));
@@ -67,6 +71,7 @@ public:
     }
 
 private:
+    static constexpr double hiding_step_overs = 2;  ///< so far above a line must be what hides it
     static constexpr Rgb white{255, 255, 255};
     static constexpr Rgb black{0, 0, 0};
 
@@ -139,6 +144,37 @@ private:
         add_ring(sheet_, at, ring_radius(), 0.36 * layout_.text, white, Level::edge);
         add_ring(sheet_, at, ring_radius(), 0.18 * layout_.text, black, Level::line);
         add_label_beside(at, mark.label);
+    }
+
+    /// Thin lines, where the part does not hide them.
+    void add_programmed(const std::vector<std::vector<Vec3>>& lines) {
+        constexpr Rgb grey{70, 70, 70};
+        const DepthBuffer depth(panel_.geometry, panel_.camera);
+        const double tolerance = hiding_step_overs * map_.surface->step_over;
+        const auto seen = [&](const Vec3& p) {
+            return (look_.box.isEmpty() || look_.box.contains(p)) && !depth.hides(p, tolerance);
+        };
+        FlatLine stroke;
+        const auto close = [&] {
+            if (stroke.points.size() > 1) sheet_.lines.push_back(stroke);
+            stroke = {{}, 0.04 * layout_.text, grey, Level::area, panel_.rect};
+        };
+        for (const std::vector<Vec3>& corners : lines) {
+            close();
+            for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
+                const Vec3 &from = corners[k], &to = corners[k + 1];
+                const bool near = shows(panel_.camera, look_, from) || shows(panel_.camera, look_, to);
+                if (!near || !seen(from) || !seen(to)) {
+                    close();
+                    continue;
+                }
+                if (stroke.points.empty()) stroke.points.push_back(corner_ + panel_.camera.pixel(from));
+                const Vec2 at = corner_ + panel_.camera.pixel(to);
+                const bool goes_on = k + 2 < corners.size() && (at - stroke.points.back()).norm() < least_step;
+                if (!goes_on) stroke.points.push_back(at);
+            }
+        }
+        close();
     }
 
     /// An outline with its number above it.

@@ -57,6 +57,8 @@ struct MapPanel {
     std::vector<PointMark> points;
     std::vector<LineMark> lines;
     std::vector<OutlineMark> outlines;
+    /// Corners [mm] of lines that are drawn thinly, below all marks; nullptr: none.
+    const std::vector<std::vector<Vec3>>* programmed = nullptr;
     const DefectMap* defects = nullptr;     ///< the surface is then a grey relief below them, whatever the field
     const FieldClasses* classes = nullptr;  ///< of a field whose values are names
     const Relief* relief = nullptr;         ///< drawn in place of the surface; the field is then one of its vertices

@@ -33,6 +33,7 @@ viz::MapPanel panel_of(const Shown& shown, const RenderOptions& options, std::st
     panel.field = &shown.field;
     panel.caption = std::move(caption);
     panel.outlines = shown.defects.outlines;
+    panel.programmed = &shown.programmed;
     panel.place_of = [&shown](PointIndex i) { return shown.place_of(i); };
     if (has_classes(shown.field.info)) panel.classes = &shown.classes;
     if (shown.relief)
@@ -73,6 +74,7 @@ viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, c
     if (!options.selection.is_all()) texts.notes.push_back("only " + options.selection.words);
     if (!shown.field.info.note.empty()) texts.notes.push_back(shown.field.info.note);
     if (!shown.relief && is_speed(shown.field.info)) texts.notes.emplace_back("paler: ramps at the ends of passes");
+    if (options.programmed) texts.notes.emplace_back("thin lines: the programmed path");
     if (options.defects)
         texts.notes.push_back(shown.defects.outlines.empty()
                                   ? "no defects"
@@ -93,6 +95,7 @@ viz::Image draw_defect_map(const Shown& shown, const RenderOptions& options) {
     texts.subtitle = fmt::format("{} · {} · {} · {}", count, file_name(options.part.program), run_name(shown, options),
                                  viz::counts_of(shown.surface));
     texts.notes = {"coloured: the sections at fault", "darker: farther above the threshold; 1: the farthest"};
+    if (options.programmed) texts.notes.emplace_back("thin lines: the programmed path");
     return viz::draw_map({panel}, viz::placed_map({panel}, options.shown.look), {}, texts, options.shown.look);
 }
 

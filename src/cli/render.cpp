@@ -68,6 +68,7 @@ ExitCode draw_once(RenderOptions options, const po::variables_map& values, bool 
     Shown after = load_shown(options.part, options.field, options.defects, clock);
     if (options.part.as_machined) show_as_machined(after, options, clock);
     show_selection(after, options.selection);
+    if (options.programmed) show_programmed(after, options.part);
     if (last) print(after.part.diagnostics, values);
     if (has_classes(after.field.info)) {
         refuse_scale_options(after.field.info, options.shown);
@@ -93,6 +94,7 @@ ExitCode draw_once(RenderOptions options, const po::variables_map& values, bool 
         other.log_source.reset();
         before = load_shown(other, options.field, options.defects, clock);
         if (other.as_machined) show_as_machined(*before, options, clock);
+        if (options.programmed) before->programmed = after.programmed;
         if (last) print(before->part.diagnostics, values);
         panels.push_back(panel_of(*before, options, "before: " + file_name(options.before)));
     }

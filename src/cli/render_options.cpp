@@ -94,6 +94,7 @@ void declare_render(po::options_description& options) {
         ("points", po::value<std::string>()->value_name("A..B"), "show these points of the log only; A.., ..B and a single number are ranges, too")
         ("lines", po::value<std::string>()->value_name("A..B"), "show the points of these lines of the program only")
         ("passes", po::value<std::string>()->value_name("A..B"), "show these passes only, counted from 1 as in `clsurf check`")
+        ("programmed", "draw the path of the program, too: thin lines, below all marks")
         ("defects", "draw what `clsurf check` finds on a grey relief and name the twelve strongest; with --color, --before or --surface formed: outlines with numbers")
         ("before", po::value<std::string>()->value_name("LOG"), "another log of the program, drawn next to it on the same scale; what changed is drawn below both");
     // clang-format on
@@ -121,6 +122,7 @@ RenderOptions read_render_options(const po::variables_map& values) {
             options.lines.push_back(static_cast<LineNumber>(n));
         }
     }
+    options.programmed = values.count("programmed") > 0;
     options.defects = values.count("defects") > 0;
     options.defect_map =
         options.defects && !given(values, "color") && !options.part.as_machined && options.before.empty();

@@ -36,6 +36,7 @@ struct RenderOptions {
     std::vector<PointIndex> points;
     std::vector<LineNumber> lines;
     bool defects = false;
+    bool programmed = false;    ///< the path of the program is drawn, too
     std::optional<Role> swept;  ///< its positions; none: the most truthful
 };
 

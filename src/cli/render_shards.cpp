@@ -28,7 +28,8 @@ namespace clsurf::cli {
 namespace {
 
 void refuse_what_needs_the_whole(const RenderOptions& options, const po::variables_map& values) {
-    for (const char* name : {"defects", "before", "mark-point", "mark-line", "points", "lines", "passes", "follow"}) {
+    for (const char* name :
+         {"defects", "before", "programmed", "mark-point", "mark-line", "points", "lines", "passes", "follow"}) {
         if (given(values, name)) throw UsageError(fmt::format("--{} needs the whole log, without --survey", name));
     }
     if (options.part.as_machined || options.part.role)

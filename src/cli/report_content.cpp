@@ -10,13 +10,12 @@
 
 #include "cli/measured_check.h"
 #include "cli/measured_picture.h"
+#include "cli/programmed_lines.h"
 #include "cli/report_pictures.h"
 #include "field/field_set.h"
-#include "io/readers/program_file.h"
 #include "log/health.h"
 #include "pipeline/contacts.h"
 #include "pipeline/part_fields.h"
-#include "pipeline/programmed_part.h"
 #include "pipeline/signals_of.h"
 #include "pipeline/speed_reasons.h"
 #include "predictor/outline.h"
@@ -149,22 +148,12 @@ io::PageRelief page_relief_of(const ReportedForm& as_machined) {
 
 std::optional<io::PageProgrammed> programmed_path(const ReportLog& shown, const ReportOptions& options) {
     constexpr PointIndex most_corners = 200'000;  // of a long program some are left out: it is drawn thinly
-    if (options.part.program == "-" || shown.part.path.kinematics != nullptr) return std::nullopt;
-    io::ProgramOptions how = options.part.program_options;
-    how.coordinates = Coordinates::workpiece;
-    const ProgrammedPart made = programmed_part(io::read_program(options.part.program, how));
-    const PointIndex step = made.surface.positions.size() / most_corners + 1;
+    if (!why_no_programmed_lines(options.part, shown.part).empty()) return std::nullopt;
     io::PageProgrammed programmed;
-    bool joined = false;
-    for (const Pass& pass : made.surface.passes) {
-        if (pass.kind == PassKind::rapid) {
-            joined = false;
-            continue;
-        }
-        for (PointIndex i = pass.first; i <= pass.last; i = i < pass.last ? std::min(i + step, pass.last) : i + 1) {
-            programmed.corners.push_back(made.surface.positions.absolute(i));
-            programmed.begin.push_back(joined ? 0 : 1);
-            joined = true;
+    for (const std::vector<Vec3>& line : programmed_lines(options.part, most_corners)) {
+        for (std::size_t k = 0; k < line.size(); ++k) {
+            programmed.corners.push_back(line[k]);
+            programmed.begin.push_back(k > 0 ? 0 : 1);
         }
     }
     if (programmed.corners.empty()) return std::nullopt;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/as_machined.h"
+#include "cli/programmed_lines.h"
 #include "core/error.h"
 #include "io/readers/program_file.h"
 #include "pipeline/judge.h"
@@ -119,6 +120,13 @@ Shown load_shown(const PartOptions& options, const std::string& field, bool defe
     }
     clock.end();
     return shown;
+}
+
+void show_programmed(Shown& shown, const PartOptions& options) {
+    constexpr PointIndex most_points = 2'000'000;  // of longer programs a point now and then is left out
+    if (const std::string why = why_no_programmed_lines(options, shown.part); !why.empty())
+        throw UsageError("--programmed: " + why);
+    shown.programmed = programmed_lines(options, most_points);
 }
 
 void show_selection(Shown& shown, const Selection& selection) {

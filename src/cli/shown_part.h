@@ -36,6 +36,7 @@ struct Shown {
     viz::FieldClasses classes;          ///< of the field, where its values are names
     std::optional<viz::Relief> relief;  ///< the formed surface, whose vertices have the field then
     ShownDefects defects;
+    std::vector<std::vector<Vec3>> programmed;     ///< path of the program as lines [mm]; empty: not asked for
     std::unique_ptr<const PartContacts> contacts;  ///< of the formed surface; `this` does not move any more
 
     /// Where a point is marked in the picture [mm].
@@ -48,6 +49,9 @@ struct Shown {
 /// the points of what a program itself says are on its path, and all others those of a simulation. Throws InputError,
 /// UsageError.
 [[nodiscard]] Shown load_shown(const PartOptions& options, const std::string& field, bool defects, StageClock& clock);
+
+/// The path of the program, to be drawn as thin lines. Throws UsageError: it cannot be shown; InputError.
+void show_programmed(Shown& shown, const PartOptions& options);
 
 /// Leaves what was selected. Throws UsageError: nothing is left.
 void show_selection(Shown& shown, const Selection& selection);

@@ -83,6 +83,14 @@ clsurf_cli_test(NAME render_program_field_has_no_offset
   ARGS render ${bottle_nc} --color block_length --work-offset 1,2,3 -o map.png EXIT 2 STDERR "'block_length' is drawn in the coordinates of the program" NO_FILE map.png)
 clsurf_cli_test(NAME render_program_without_motions SETUP "echo '(nothing)' > empty.nc" ARGS render empty.nc --color block_length -o map.png EXIT 3 STDERR "empty.nc: error: has no motions to show" NO_FILE map.png)
 
+# The programmed path under a log: one line for each of ten passes and what joins them, less what the picture does not show.
+clsurf_cli_test(NAME render_programmed
+  SETUP "${plane_nc} && $CLSURF simulate plane.nc -o run.biip -q && $CLSURF render plane.nc run.biip -o bare.svg -q && $CLSURF render plane.nc run.biip --programmed -o lines.svg -q && python3 ${CMAKE_CURRENT_LIST_DIR}/../read_svg.py lines.svg images 1 'thin lines: the programmed path' && test $(grep -o '#464646' lines.svg | wc -l) -ge 1 && ! grep -q '#464646' bare.svg"
+  ARGS --version)
+clsurf_cli_test(NAME render_programmed_from_standard_input
+  SETUP "${plane_nc} && $CLSURF simulate plane.nc -o run.biip -q && ! $CLSURF render - run.biip --programmed -o map.png < plane.nc 2> said.txt && grep -q -e '--programmed: the program came from standard input' said.txt"
+  ARGS --version)
+
 # A part of the part.
 clsurf_cli_test(NAME render_passes
   SETUP "$CLSURF render @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip --passes 3..5 -o map.png --size 320x240 -q" ARGS --version)
