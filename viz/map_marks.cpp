@@ -59,7 +59,8 @@ public:
           placer_(panel.rect) {}
 
     int draw() {
-        if (map_.programmed != nullptr && !map_.programmed->empty()) add_programmed(*map_.programmed);
+        const bool over = look_.style == Style::surface || map_.relief != nullptr;
+        if (over && map_.programmed != nullptr && !map_.programmed->empty()) add_programmed(*map_.programmed);
         for (const PointMark& mark : map_.points) take_ring(place_of(mark.point));
         for (const LineMark& mark : map_.lines) {
             for (const PointRange& range : mark.points) take_ring(place_of(range.first));

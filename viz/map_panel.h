@@ -57,7 +57,7 @@ struct MapPanel {
     std::vector<PointMark> points;
     std::vector<LineMark> lines;
     std::vector<OutlineMark> outlines;
-    /// Corners [mm] of lines that are drawn thinly, below all marks; nullptr: none.
+    /// Corners [mm] of lines that are drawn thinly, below all marks and below points and lines of the log; nullptr: none.
     const std::vector<std::vector<Vec3>>* programmed = nullptr;
     const DefectMap* defects = nullptr;     ///< the surface is then a grey relief below them, whatever the field
     const FieldClasses* classes = nullptr;  ///< of a field whose values are names

@@ -190,6 +190,32 @@ Beyond fill_panel(const MapPanel& map, const ColourScale& scale, const Look& loo
     return here;
 }
 
+/// Thin lines behind the points or lines of a log, in one colour, as cells of the mesh: so the log lies over them. Where the log
+/// is a surface they are lines over it (map_marks.h).
+void add_programmed_below(const MapPanel& map, const Look& look, MeshPanel& panel) {
+    if (map.programmed == nullptr || map.relief != nullptr || look.style == Style::surface) return;
+    Geometry& g = panel.geometry;
+    const Vec3 behind = -0.05 * map.surface->step_over * panel.camera.towards - g.origin;
+    const auto add = [&](const Vec3& p) {
+        const Vec3 at = p + behind;
+        for (Eigen::Index k = 0; k < 3; ++k) g.xyz.push_back(static_cast<float>(at[k]));
+        for (const std::uint8_t c : missing_colour) g.rgb.push_back(c);
+        panel.along.push_back(0);
+        if (!panel.pale.empty()) panel.pale.push_back(0);
+        panel.bare_segments.push_back(static_cast<std::uint32_t>(g.xyz.size() / 3 - 1));
+    };
+    const auto inside = [&](const Vec3& p) { return look.box.isEmpty() || look.box.contains(p); };
+    for (const std::vector<Vec3>& corners : *map.programmed) {
+        for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
+            const Vec3 &from = corners[k], &to = corners[k + 1];
+            if (!inside(from) || !inside(to)) continue;
+            if (!shows(panel.camera, look, from) && !shows(panel.camera, look, to)) continue;
+            add(from);
+            add(to);
+        }
+    }
+}
+
 void widen(Beyond& beyond, const Beyond& other) {
     beyond.below = beyond.below || other.below;
     beyond.above = beyond.above || other.above;
@@ -251,6 +277,7 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const PlacedMap& placed, co
         panel.rect = panel_rect(panels, k, look, placed);
         panel.camera = placed.camera;  // each panel shows the same part at the same scale
         widen(beyond, fill_panel(map, scale, look, panel));
+        add_programmed_below(map, look, panel);
         if (map.defects != nullptr) add_defects(sheet, map, panel, legend, look, layout);
         without_room += add_marks(sheet, map, panel, look, layout);
         if (!map.caption.empty()) {
