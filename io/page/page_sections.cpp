@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "core/version.h"
 #include "io/files/json_value.h"
+#include "io/formats/run_parameters.h"
 #include "io/page/defect_cards.h"
 #include "io/page/html_text.h"
 #include "io/page/measured_section.h"
@@ -95,6 +96,16 @@ std::string alarm_bars(const ReportPage& page) {
     return text;
 }
 
+/// What the logs say of their runs: tool, wear, coolant …; empty: nothing.
+std::string parameter_fact(const ReportPage& page) {
+    const auto listed = [](const PageSurface& of) { return list_of(parameters_of_metadata(of.log->metadata)); };
+    const std::string own = listed(page.surfaces.front());
+    const std::string before = page.surfaces.size() > 1 ? listed(page.surfaces.back()) : own;
+    if (own.empty() && before.empty()) return {};
+    const std::string note = before == own ? "" : "before: " + (before.empty() ? "none" : before);
+    return fact("Parameters", own.empty() ? "none" : own, note, "parameters");
+}
+
 /// When and how the log was recorded.
 std::string run_facts(const ReportPage& page) {
     const QualityReport& report = *page.quality.report;
@@ -108,6 +119,7 @@ std::string run_facts(const ReportPage& page) {
     const std::string machine = metadata_text(log, "machine");
     if (!machine.empty()) text += fact("Machine", machine);
     if (page.quality.tool) text += fact("Tool", to_text(*page.quality.tool));
+    text += parameter_fact(page);
     text +=
         fact("Duration", duration_text(log.time_of(log.records - 1)), fmt::format("every {:g} ms", log.period * 1e3));
     text += fact("Points", count_text(log.records), fmt::format("{} log", log.format));

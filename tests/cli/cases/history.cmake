@@ -86,6 +86,8 @@ clsurf_cli_test(NAME record_with_the_configuration_of_the_part
 # ---- parameters in the metadata of a log ----
 set(laser @DATA@/parameters/laser_drilling.toml)
 set(with_parameters "$CLSURF convert @LOGS@/planted_loops.biip --parameters ${laser} --param hole=12 --param feed=1200 --param c=359.5deg --param laser_power=3 -o laser.biip -q")
+clsurf_cli_test(NAME parameters_are_shown_on_the_page SETUP "${with_parameters} && $CLSURF report @DATA@/programs/planted_loops.nc laser.biip --before @LOGS@/planted_loops.biip --fields speed -o r.html -q && grep -q '<dt>Parameters</dt><dd>c=359.5 deg, feed=1200 mm/min, hole=12, laser_power=3.* <small>before: none</small>' r.html && $CLSURF report @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip --fields speed -o r.html -q && ! grep -q '<dt>Parameters' r.html"
+  ARGS --version)
 clsurf_cli_test(NAME parameters_are_shown_with_the_log SETUP "${with_parameters}" ARGS info laser.biip
   STDOUT "parameters: c=359.5 deg, feed=1200 mm/min, hole=12, laser_power=3")
 clsurf_cli_test(NAME parameters_are_in_the_json_of_the_log SETUP "${with_parameters}" ARGS info laser.biip --json STDOUT "\"parameters\": ." "\"feed\": \"1200 mm/min\"")
