@@ -73,7 +73,7 @@ std::string ensemble_text(const EnsembleResult& ensemble) {
     const auto words = [](const char* name, const EnsembleRun& run) {
         return fmt::format(
             "  {}: time {:.3f} to {:.3f} s, speed mismatch{} {:.1f} to {:.1f} mm/min, defects {:.3g} to {:.3g}, gain {:.1f} %\n",
-            name, run.before.duration, run.after.duration, greatest_counts(run.before) ? " p99.9" : "",
+            name, run.before.duration, run.after.duration, defects_alone_count(run.before) ? " of defects" : "",
             mismatch_that_counts(run.before, run.before) * seconds_per_minute,
             mismatch_that_counts(run.before, run.after) * seconds_per_minute, run.before.defects, run.after.defects,
             100 * run.gain);

@@ -13,7 +13,7 @@ namespace {
 
 void add(const RunMeasures& each, double weight, RunMeasures& sum) {
     sum.mismatch += weight * each.mismatch;
-    sum.greatest_mismatch += weight * each.greatest_mismatch;
+    sum.defect_mismatch += weight * each.defect_mismatch;
     sum.defects += weight * each.defects;
     sum.duration += weight * each.duration;
     sum.speed += weight * each.speed;

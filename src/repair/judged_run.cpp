@@ -16,6 +16,15 @@
 #include "surface/stitch.h"
 
 namespace clsurf {
+
+double largest_speed_jump(const QualityReport& report) {
+    double largest = 0;
+    for (const Defect& defect : report.defects) {
+        if (defect.quantity == Quantity::speed) largest = std::max(largest, std::abs(defect.speed_jump));
+    }
+    return largest;
+}
+
 std::size_t defects_by_check(const JudgedRun& run, const Program& program) {
     return find_defects(run.surface, run.signals, *run.lines, program, run.log.period, QualityRules{}).defects.size();
 }

@@ -16,6 +16,9 @@
 
 namespace clsurf {
 
+/// The largest speed difference of a defect to the passes beside it [mm/s]; 0: no defect of the speed.
+[[nodiscard]] double largest_speed_jump(const QualityReport& report);
+
 struct JudgedRun {
     Log log;
     Trajectory path;  ///< commanded, or what the log has
@@ -36,7 +39,7 @@ struct JudgedRun {
                 .defects = static_cast<double>(report.defects.size()),
                 .duration = duration,
                 .speed = static_cast<double>(report.thresholds.usual_speed),
-                .greatest_mismatch = greatest_mismatch};
+                .defect_mismatch = largest_speed_jump(report)};
     }
 };
 

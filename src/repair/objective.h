@@ -2,6 +2,7 @@
 // What a repair is to lower, in one place: mismatch, defects and time of a run, the roughness of the surface that it
 // leaves, and the length of the program.
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -17,7 +18,7 @@ struct RunMeasures {
     double duration = 0;                 ///< [s]
     double speed = 0;                    ///< [mm/s] usual speed of the cuts
     double roughness = missing<double>;  ///< [mm] Ra of the as-machined surface; NaN: not known
-    double greatest_mismatch = 0;        ///< [mm/s] 99.9th percentile of the speed differences
+    double defect_mismatch = 0;          ///< [mm/s] the largest speed difference of a defect
 };
 
 /// The measures of a run with its roughness, where that is known.
@@ -29,14 +30,14 @@ inline constexpr double roughness_agrees = 0.01;
 /// A smaller mismatch, as a share of the speed, is none.
 inline constexpr double least_mismatch = 0.002;
 
-/// RunMeasures::mismatch is none in the run before. A few sections may still differ: greatest_mismatch counts then.
-[[nodiscard]] inline bool greatest_counts(const RunMeasures& before) {
+/// RunMeasures::mismatch is none in the run before. A few sections may still differ: defect_mismatch counts then.
+[[nodiscard]] inline bool defects_alone_count(const RunMeasures& before) {
     return before.mismatch <= least_mismatch * before.speed;
 }
 
 /// The mismatch of `run` that counts [mm/s].
 [[nodiscard]] inline double mismatch_that_counts(const RunMeasures& before, const RunMeasures& run) {
-    return greatest_counts(before) ? run.greatest_mismatch : run.mismatch;
+    return defects_alone_count(before) ? std::max(run.mismatch, run.defect_mismatch) : run.mismatch;
 }
 
 /// Gains below this are not worth a new program.

@@ -28,7 +28,9 @@ struct Group {
         for (const DefectCandidate& candidate : kept) candidates.push_back(&candidate);
     }
 
-    [[nodiscard]] CoreSites sites() const { return core_of(candidates, Quantity::speed, ArcLength(positions), joined); }
+    [[nodiscard]] CoreSites sites(Quantity quantity = Quantity::speed) const {
+        return core_of(candidates, quantity, ArcLength(positions), joined);
+    }
     [[nodiscard]] std::vector<PointIndex> core() const { return points(sites().core); }
     [[nodiscard]] std::vector<PointIndex> rest() const { return points(sites().rest); }
 
