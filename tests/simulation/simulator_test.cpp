@@ -209,6 +209,21 @@ TEST(Simulator, CornersStayInsideTheToleranceAndEndsAreExact) {
 }
 
 // A right angle and a tolerance of 0.02 mm: r = e cos 45°/(1 − cos 45°) = 0.04828 mm, entered and left at √(a r).
+// An arc with unequal radii is driven by its angle: the speed of its points is not that of the plan.
+TEST(Simulator, ASpiralHasTheSpeedOfItsPoints) {
+    const Machine machine;
+    const Recorded r = run_program(program_of("G21 G17 G64 P0.01 F600\nG1 X5\nG3 X10.002 Y5 J5\nM2\n"), machine);
+    int compared = 0;
+    for (std::size_t i = 1; i < r.points.size(); ++i) {
+        const SimulatedPoint &a = r.points[i - 1], &b = r.points[i];
+        if (a.line != 3 || b.line != 3 || a.limit != LimitingFactor::feed || b.limit != LimitingFactor::feed) continue;
+        ++compared;
+        const double speed = (b.commanded - a.commanded).norm() / machine.controller.period;
+        EXPECT_NEAR(0.5 * (a.speed + b.speed), speed, 2e-4);  // 10 mm/s, with up to 2e-3 more and less
+    }
+    EXPECT_GT(compared, 300);
+}
+
 TEST(Simulator, ACornerOfAnArcIsPassedAtTheLeastOfItsSpeeds) {
     Machine machine = ideal();
     machine.controller.corner = CornerMode::arc;

@@ -25,9 +25,14 @@ std::string_view name_of(LimitingFactor limiting) {
 Vec3 Span::at(double tau, double& deviation, double& pace) const {
     deviation = base.deviation;
     pace = 1;
-    if (!rounded) return base.at(from + tau);
+    const bool spiral = base.arc && base.growth != 0;  // by its angle, not by its length
+    if (!rounded && !spiral) return base.at(from + tau);
     Vec3 tangent;
     const Vec3 position = base.at(from + tau, tangent);
+    if (!rounded) {
+        pace = tangent.norm();
+        return position;
+    }
     const std::array<Vec3, 5>& c = rounding;
     const Vec3 added = c[0] + tau * (c[1] + tau * (c[2] + tau * (c[3] + tau * c[4])));
     deviation += added.norm();
