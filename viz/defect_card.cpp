@@ -9,6 +9,7 @@
 #include "viz/chart.h"
 #include "viz/chart_frame.h"
 #include "viz/drawing.h"
+#include "viz/map_margin.h"
 
 namespace clsurf::viz {
 namespace {
@@ -176,8 +177,10 @@ Image draw_card(const DefectCard& card, int width, int height, const std::string
     const double margin = text;
     sheet.texts.push_back(fitted({margin, height - 1.5 * text, card.title, 1.35 * text, Align::left, true, chart_ink},
                                  width - 2 * margin));
-    sheet.texts.push_back(fitted(
-        {margin, height - 3.2 * text, card.subtitle, 0.9 * text, Align::left, false, chart_faint}, width - 2 * margin));
+    constexpr std::size_t subtitle_lines = 2;  // there is room for them above the key
+    (void)add_wrapped(sheet, card.subtitle,
+                      {margin, height - 3.2 * text, "", 0.9 * text, Align::left, false, chart_faint},
+                      width - 2 * margin, subtitle_lines);
     const double left = map_share * width + 5.2 * text;
     const double right = width - margin;
     const double top = (1 - title_share) * height - 2.3 * text;

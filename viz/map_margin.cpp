@@ -127,28 +127,6 @@ std::vector<FlatText> note_lines(const std::vector<std::string>& notes, FlatText
     return lines;
 }
 
-/// Words in as many lines as they need, from `line.y` down. Returns the middle of the line after them [px].
-double add_wrapped(Sheet& sheet, const std::string& words, FlatText line, double room) {
-    const auto finish = [&] {
-        sheet.texts.push_back(fitted(line, room));
-        line.y -= 1.25 * line.size;
-    };
-    for (std::size_t at = 0; at < words.size();) {
-        const std::size_t end = std::min(words.find(' ', at), words.size());
-        FlatText longer = line;
-        longer.text += (line.text.empty() ? "" : " ") + words.substr(at, end - at);
-        if (!line.text.empty() && text_width(longer) > room) {
-            finish();
-            line.text = words.substr(at, end - at);
-        } else {
-            line.text = longer.text;
-        }
-        at = end + 1;
-    }
-    finish();
-    return line.y;
-}
-
 void add_notes(Sheet& sheet, const std::vector<std::string>& notes, const FlatText& note, double width,
                std::size_t most_lines) {
     std::vector<FlatText> lines = note_lines(notes, note, width, most_lines);
@@ -174,6 +152,29 @@ void add_title_column(Sheet& sheet, const MapTexts& texts, FlatText title, FlatT
 }
 
 }  // namespace
+
+double add_wrapped(Sheet& sheet, const std::string& words, FlatText line, double room, std::size_t most_lines) {
+    std::size_t finished = 0;
+    const auto finish = [&] {
+        sheet.texts.push_back(fitted(line, room));
+        line.y -= 1.25 * line.size;
+        ++finished;
+    };
+    for (std::size_t at = 0; at < words.size();) {
+        const std::size_t end = std::min(words.find(' ', at), words.size());
+        FlatText longer = line;
+        longer.text += (line.text.empty() ? "" : " ") + words.substr(at, end - at);
+        if (!line.text.empty() && finished + 1 < most_lines && text_width(longer) > room) {
+            finish();
+            line.text = words.substr(at, end - at);
+        } else {
+            line.text = longer.text;
+        }
+        at = end + 1;
+    }
+    finish();
+    return line.y;
+}
 
 void add_title(Sheet& sheet, const MapTexts& texts, double beside, const Look& look, const MapLayout& layout, Rgb ink) {
     constexpr std::size_t most_notes = 2;

@@ -1,6 +1,10 @@
 #pragma once
 // The items around a map: title, legend, scale bar, axes.
 
+#include <limits>
+#include <string>
+#include <vector>
+
 #include "viz/colour_map.h"
 #include "viz/map_layout.h"
 
@@ -10,6 +14,11 @@ namespace clsurf::viz {
 struct Beyond {
     bool below = false, above = false, missing = false;
 };
+
+/// Words in as many lines as they need, at most `most_lines`, from `line.y` down; what has no room is left out of the middle of the
+/// last one. Returns the middle of the line after them [px].
+double add_wrapped(Sheet& sheet, const std::string& words, FlatText line, double room,
+                   std::size_t most_lines = std::numeric_limits<std::size_t>::max());
 
 /// Title, subtitle and notes, in a wide picture in a column. The notes end `beside` [px] before the right edge, where other
 /// things are.
