@@ -5,9 +5,10 @@
 namespace clsurf {
 namespace {
 
-constexpr float weak_peak = 0.25F;      ///< of the strongest of its group
-constexpr float half_of_dip = 0.5F;     ///< a dip is at most this share of the lower of the peaks beside it
-constexpr float peak_of_its_own = 1.0;  ///< share of the threshold that a second peak reaches
+constexpr float weak_peak = 0.25F;   ///< of the strongest of its group
+constexpr float half_of_dip = 0.5F;  ///< a dip is at most this share of the lower of the peaks beside it
+constexpr float peak_of_its_own =
+    3.0;  ///< share of the threshold that a second peak reaches; weaker ones follow strong ones
 
 class CoreFinder {
 public:

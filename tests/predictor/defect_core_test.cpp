@@ -81,14 +81,14 @@ TEST(DefectCore, ATailIsNoPeakOfItsOwn) {
 }
 
 TEST(DefectCore, LeavesWhatIsMuchWeakerToItself) {
-    // 2 is a fifth of 10.
-    const Group group({10, 10, 10, 2, 0.5, 0.3, 0.2, 0.2, 0.3, 2, 2, 2});
+    // 3 is a fifth of 15.
+    const Group group({15, 15, 15, 2, 0.5, 0.3, 0.2, 0.2, 0.3, 3, 3, 3});
     EXPECT_EQ(group.core(), (Points{0, 1, 2}));
     EXPECT_EQ(group.rest(), (Points{5, 6, 7, 8, 9, 10, 11}));
 }
 
-TEST(DefectCore, APeakBelowTheThresholdIsNone) {
-    const Group group({10, 10, 10, 2, 0.1, 0.1, 0.1, 0.1, 0.1, 0.9, 0.9, 0.1});
+TEST(DefectCore, APeakBelowThreeThresholdsIsNone) {
+    const Group group({10, 10, 10, 2, 0.1, 0.1, 0.1, 0.1, 0.1, 2.9, 2.9, 0.1});
     EXPECT_EQ(group.core(), (Points{0, 1, 2}));
     EXPECT_TRUE(group.rest().empty());
 }
