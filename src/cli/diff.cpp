@@ -49,6 +49,14 @@ void open_map(DiffOptions& options, std::optional<PictureOutput>& output) {
     options.look.look.keep_drawing = output->wants_drawing();
 }
 
+DrawnDifference drawn_between(const std::string& reference, const std::string& run, RunDifferences& differences,
+                              RunQuantity quantity) {
+    DrawnDifference shown = drawn_difference(differences, quantity);
+    shown.reference = reference;
+    shown.run = run;
+    return shown;
+}
+
 ExitCode run_diff(const po::variables_map& values) {
     DiffOptions options = read_diff_options(values);
     std::optional<PictureOutput> output;
@@ -61,9 +69,9 @@ ExitCode run_diff(const po::variables_map& values) {
     io::ReportedRuns reported = reported_against(reference, diagnostics);
 
     std::unique_ptr<LineMap> lines;
-    ClSurface surface;
     std::unique_ptr<DriftFinder> drift;
     std::optional<CuttingTool> tool;
+    ClSurface surface;
     ComparedRun a;
     std::optional<DrawnDifference> shown;
     for (std::size_t k = 1; k < options.files.size(); ++k) {
@@ -97,11 +105,7 @@ ExitCode run_diff(const po::variables_map& values) {
         }
         reported.runs.push_back({loaded.name, std::move(report), std::move(budget), std::move(roughness)});
         drift->add(differences);
-        if (output && !shown) {
-            shown = drawn_difference(differences, options.shown);
-            shown->reference = options.files.front();
-            shown->run = loaded.name;
-        }
+        if (output && !shown) shown = drawn_between(options.files.front(), loaded.name, differences, options.shown);
     }
     reported.departures = drift->departures();
     reported.drifted = drifted_run(reported.departures);

@@ -15,7 +15,7 @@ namespace clsurf::cli::vocabulary_test {
 namespace {
 
 TEST(Vocabulary, ListsEveryRowOfTheTables) {
-    const std::size_t others = 3 + 4;  // feed_share, cause, interval; four of the program
+    const std::size_t others = 4 + 4;  // feed_share, cause, interval, scallop; four of the program
     const std::size_t limits = 3 * 7;  // speed, acceleration, jerk; of six axes and of the worst one
     EXPECT_EQ(words_of("FIELD").size(), field_table().size() + quality_field_table().size() + others + limits);
     EXPECT_EQ(words_of("FORMAT").size(), io::log_formats().size());
