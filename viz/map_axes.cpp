@@ -127,8 +127,8 @@ private:
         const double high = std::max(from[axis], to[axis]);
         if (!(high >= low)) return;
         const int wanted = std::max(2, static_cast<int>(length / (between_ticks * size_)));
-        std::vector<double> ticks = high > low ? nice_ticks(low, high, wanted) : std::vector<double>();
-        if (ticks.size() < 2 && high > low) ticks = nice_ticks(low, high, 2 * wanted);
+        std::vector<double> ticks = nice_ticks(low, high, wanted);
+        if (ticks.size() < 2) ticks = nice_ticks(low, high, 2 * wanted);
         if (!(length > shortest_scale * size_) || ticks.size() < 2) {
             const bool steep = std::abs(outwards.x()) > std::abs(outwards.y());
             const Vec2 end = steep ? Vec2(a.y() > b.y() ? a : b) : Vec2(0.5 * (a + b));

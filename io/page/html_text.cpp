@@ -72,6 +72,12 @@ std::string html(std::string_view text) {
     return out;
 }
 
+std::string wide_table(std::string_view label, std::string_view head, std::string_view rows) {
+    return fmt::format(
+        "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{}\"><table><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table></div>\n",
+        label, head, rows);
+}
+
 std::string json_for_html(const std::string& json) {
     std::string out;
     out.reserve(json.size());

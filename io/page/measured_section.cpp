@@ -13,12 +13,6 @@
 namespace clsurf::io {
 namespace {
 
-std::string table(std::string_view label, std::string_view head, const std::string& rows) {
-    return fmt::format(
-        "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{}\"><table><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table></div>\n",
-        label, head, rows);
-}
-
 /// Ra, Rq and Rz of both, and how alike the profiles are.
 std::string roughness_html(const MeasuredComparison& c) {
     if (!c.reason.empty()) return fmt::format("<p>Not compared: {}.</p>\n", html(c.reason));
@@ -36,8 +30,8 @@ std::string roughness_html(const MeasuredComparison& c) {
     row("Ra", c.measured.ra, c.predicted.ra);
     row("Rq", c.measured.rq, c.predicted.rq);
     row("Rz", c.measured.rz, c.predicted.rz);
-    return table("roughness measured and predicted",
-                 "<th>Roughness [µm]</th><th>measured</th><th>predicted</th><th>difference</th><th></th>", rows) +
+    return wide_table("roughness measured and predicted",
+                      "<th>Roughness [µm]</th><th>measured</th><th>predicted</th><th>difference</th><th></th>", rows) +
            fmt::format(
                "<p>Correlation of the roughness profiles {:.3f}; {} of {:.3g} mm, cut-off {:g} mm{}.</p>\n",
                c.correlation, c.profiles.size() == 1 ? "a profile" : fmt::format("{} profiles", c.profiles.size()),
@@ -68,9 +62,9 @@ std::string marks_html(const std::vector<ComparedMark>& marks) {
             "<tr data-defect=\"{0}\"><td>{0}</td><td>{1}</td><td>{2}</td><td>{3}</td><td>{4:.2f} {5:.2f} {6:.2f}</td></tr>\n",
             mark.defect + 1, html(state_text(mark)), depth(mark, mark.measured), depth(mark, mark.predicted),
             mark.place.x(), mark.place.y(), mark.place.z());
-    return table("predicted marks",
-                 "<th>Defect</th><th>On the part</th><th>Measured [µm]</th><th>Predicted [µm]</th><th>X Y Z [mm]</th>",
-                 rows);
+    return wide_table(
+        "predicted marks",
+        "<th>Defect</th><th>On the part</th><th>Measured [µm]</th><th>Predicted [µm]</th><th>X Y Z [mm]</th>", rows);
 }
 
 /// "Of 3 predicted marks that it crosses, 2 are found and 1 is missing."

@@ -178,8 +178,9 @@ std::string roughness_change_html(const PageChange& change) {
                             after, by);
     });
     if (rows.empty()) return {};
-    return "<p>Both surfaces at the same places, over the form of the log before:</p>\n<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"roughness before and after\"><table><thead><tr><th>Formed surface</th><th>before</th><th>after</th><th>change</th></tr></thead><tbody>\n" +
-           rows + "</tbody></table></div>\n";
+    return "<p>Both surfaces at the same places, over the form of the log before:</p>\n" +
+           wide_table("roughness before and after",
+                      "<th>Formed surface</th><th>before</th><th>after</th><th>change</th>", rows);
 }
 
 /// What became of the defects of the log before, and of the surface.
@@ -205,9 +206,8 @@ std::string change_section(const ReportPage& page) {
         if (!match.before_of[i]) rows += row("new", i + 1, page.quality.report->defects[i]);
     }
     if (!rows.empty())
-        text +=
-            "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"gone and new defects\"><table><thead><tr><th>Defect</th><th>Rank</th><th>Severity</th><th>Finding</th><th>Lines</th></tr></thead><tbody>\n" +
-            rows + "</tbody></table></div>\n";
+        text += wide_table("gone and new defects",
+                           "<th>Defect</th><th>Rank</th><th>Severity</th><th>Finding</th><th>Lines</th>", rows);
     return text + roughness_change_html(*page.change) + "</section>\n";
 }
 
@@ -216,13 +216,14 @@ std::string defect_list_section(const ReportPage& page) {
     const QualityReport& report = *page.quality.report;
     if (report.defects.empty()) return "";
     const bool as_machined = page.quality.as_machined != nullptr;
-    std::string text = fmt::format(
-        "<section id=\"defect-list\"><h2>All defects</h2>\n<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"table of all defects\"><table><thead><tr><th>Rank</th><th>Severity</th><th>Finding</th><th>Times the threshold</th><th>Depth [µm]</th>{}<th>Speed [%]</th>"
-        "<th>Length [mm]</th><th>X Y Z [mm]</th><th>Lines</th></tr></thead><tbody>\n",
+    const std::string head = fmt::format(
+        "<th>Rank</th><th>Severity</th><th>Finding</th><th>Times the threshold</th><th>Depth [µm]</th>{}<th>Speed [%]</th>"
+        "<th>Length [mm]</th><th>X Y Z [mm]</th><th>Lines</th>",
         as_machined ? "<th>Formed [µm]</th>" : "");
+    std::string rows;
     for (std::size_t i = 0; i < std::min(defects_in_table, report.defects.size()); ++i) {
         const Defect& d = report.defects[i];
-        text += fmt::format(
+        rows += fmt::format(
             "<tr data-defect=\"{}\"><td>{}</td><td><span class=\"severity s{}\">{}</span> {}</td><td>{}</td><td>{:.1f}</td><td>{:.1f} {}</td>{}<td>{:+.1f}</td><td>{:.1f}</td><td>{:.2f} {:.2f} {:.2f}</td><td>{}</td></tr>\n",
             i + 1, i + 1, d.severity, d.severity, name_of_severity(d.severity),
             html(sentence_of(d)) + accepted_note(page, i), d.score, d.depth * um_per_mm, shape_of(d),
@@ -230,7 +231,8 @@ std::string defect_list_section(const ReportPage& page) {
             100 * d.speed_mismatch, d.length, d.place.position().x(), d.place.position().y(), d.place.position().z(),
             html(defect_lines(d)));
     }
-    text += "</tbody></table></div>\n";
+    std::string text =
+        "<section id=\"defect-list\"><h2>All defects</h2>\n" + wide_table("table of all defects", head, rows);
     if (report.defects.size() > defects_in_table)
         text += fmt::format("<p>The table stops at the first {}; <code>clsurf check</code> lists all.</p>\n",
                             defects_in_table);
@@ -239,20 +241,22 @@ std::string defect_list_section(const ReportPage& page) {
 
 std::string numbers_section(const ReportPage& page) {
     const QualityReport& report = *page.quality.report;
-    std::string text =
-        "<section id=\"numbers\"><h2>Adjacent passes in numbers</h2>\n<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"numbers\"><table><thead><tr><th>Size of</th><th>50 %</th><th>90 %</th><th>99 %</th><th>maximum</th><th>unit</th></tr></thead><tbody>\n";
+    std::string rows;
     for (const PagePercentiles& row : page.percentiles) {
         const FieldInfo* info = nullptr;
         for (const Field& field : page.surfaces.front().fields) {
             if (field.info.name == row.field) info = &field.info;
         }
         if (info == nullptr) continue;
-        text += fmt::format("<tr><td>{}</td>", html(info->label));
+        rows += fmt::format("<tr><td>{}</td>", html(info->label));
         for (const double value : row.of_magnitude)
-            text += std::isfinite(value) ? fmt::format("<td>{}</td>", number_text(value)) : "<td>–</td>";
-        text += fmt::format("<td>{}</td></tr>\n", html(info->unit.name));
+            rows += std::isfinite(value) ? fmt::format("<td>{}</td>", number_text(value)) : "<td>–</td>";
+        rows += fmt::format("<td>{}</td></tr>\n", html(info->unit.name));
     }
-    text += "</tbody></table></div>\n";
+    std::string text =
+        "<section id=\"numbers\"><h2>Adjacent passes in numbers</h2>\n" +
+        wide_table("numbers", "<th>Size of</th><th>50 %</th><th>90 %</th><th>99 %</th><th>maximum</th><th>unit</th>",
+                   rows);
     const std::string thresholds = thresholds_text(report);
     if (!thresholds.empty())
         text += fmt::format("<p>Thresholds of a defect: {}; {}.</p>\n", html(thresholds), html(report.note));

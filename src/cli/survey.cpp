@@ -1,5 +1,7 @@
 // clsurf survey: what a long log is as a whole, for judging it in shards.
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "cli/survey_options.h"
@@ -23,14 +25,10 @@ ExitCode run_survey(const po::variables_map& values) {
     clock.begin("write the survey");
     io::write_survey(output, survey, origin);
     clock.end();
-    PointIndex cut = 0;
-    std::int64_t passes = 0;
-    for (const Pass& pass : survey.passes) {
-        cut += pass.kind == PassKind::cut ? pass.size() : 0;
-        passes += pass.kind == PassKind::cut ? 1 : 0;
-    }
-    write_answer(fmt::format("{} points, {} of them in {} passes, {:.3f} mm apart\n", survey.points, cut, passes,
-                             survey.step_over),
+    const auto passes = std::count_if(survey.passes.begin(), survey.passes.end(),
+                                      [](const Pass& pass) { return pass.kind == PassKind::cut; });
+    write_answer(fmt::format("{} points, {} of them in {} passes, {:.3f} mm apart\n", survey.points,
+                             cutting_points(survey.passes), passes, survey.step_over),
                  values);
     return ExitCode::done;
 }

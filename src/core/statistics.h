@@ -36,6 +36,21 @@ template <typename Values>
                         static_cast<std::size_t>(std::lround(share * static_cast<double>(std::size(values) - 1))));
 }
 
+/// The least value that a share (0 … 1) of the weights does not exceed. `values`: pairs of a value and its weight, in any order;
+/// sorted afterwards. Domain: not empty. O(n log n).
+template <typename Values>
+[[nodiscard]] double weighted_quantile(Values& values, double share) {
+    std::sort(values.begin(), values.end());
+    double all = 0;
+    for (const auto& [value, weight] : values) all += weight;
+    double sum = 0;
+    for (const auto& [value, weight] : values) {
+        sum += weight;
+        if (sum >= share * all) return value;
+    }
+    return values.back().first;
+}
+
 /// Standard deviation over median absolute deviation of a normal distribution.
 inline constexpr double deviation_of_mad = 1.4826;
 

@@ -32,7 +32,7 @@ struct Values {
 
 Values values_of_all(const Field& field, const Passes& passes) {
     Values values;
-    for (const Pass& pass : passes) values.cutting += pass.kind == PassKind::cut ? pass.size() : 0;
+    values.cutting = cutting_points(passes);
     const PointIndex step = std::max<PointIndex>(1, values.cutting / sampled_points);
     PointIndex next = 0;
     for (const Pass& pass : passes) {

@@ -221,8 +221,8 @@ std::size_t stride_of(const Motion& motion, int order) {
 
 /// What speaks for a limit.
 enum class Evidence : std::uint8_t {
-    lower_bound,  ///< the motion stays below it, or another limit explains where it stays
-    shared,       ///< the path's, or those of axes: only in directions in which they cannot be told apart
+    lower_bound,  ///< the motion stays below it, or another limit explains its greatest values
+    shared,       ///< reached, but only where the limits of the path and of an axis have the same effect
     reached,
 };
 
@@ -280,8 +280,8 @@ private:
                plateau.beside[q] > 0;
     }
 
-    /// Whether the quantity is at its level where no other limit explains it. Where an axis-parallel path is as fast as it gets,
-    /// that is the path's limit as well as the axis'.
+    /// Whether the quantity is at its level where no other limit explains it. On a path parallel to an axis, the limit of the
+    /// path explains what the axis does, and the other way round.
     [[nodiscard]] bool holds_alone(std::size_t q) const {
         if (!levels_[q]) return false;
         std::size_t alone = 0;

@@ -84,17 +84,7 @@ public:
     }
     [[nodiscard]] bool empty() const { return values_.empty(); }
     /// What |value| stays below over a share of the path. Domain: not empty.
-    [[nodiscard]] double quantile(double share) {
-        std::sort(values_.begin(), values_.end());
-        double all = 0;
-        for (const auto& [value, length] : values_) all += length;
-        double sum = 0;
-        for (const auto& [value, length] : values_) {
-            sum += length;
-            if (sum >= share * all) return value;
-        }
-        return values_.back().first;
-    }
+    [[nodiscard]] double quantile(double share) { return weighted_quantile(values_, share); }
 
 private:
     std::vector<std::pair<double, double>> values_;

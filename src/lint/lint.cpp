@@ -37,9 +37,7 @@ LintReport lint(const Program& program, const ProgrammedSurface& programmed, con
     report.spacing = context.spacing();
     report.chord_error = context.chord_error();
     report.tolerance = context.tolerance();
-    PointIndex finishing = 0;
-    for (const Pass& pass : programmed.surface.passes) finishing += pass.kind == PassKind::cut ? pass.size() : 0;
-    const PointIndex all = finishing + programmed.surface.not_finishing;
+    const PointIndex all = cutting_points(programmed.surface.passes) + programmed.surface.not_finishing;
     if (all > 0)
         report.not_finishing = static_cast<double>(programmed.surface.not_finishing) / static_cast<double>(all);
     // What lies beside what by chance says nothing.

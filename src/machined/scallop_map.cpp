@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/not_finite.h"
 #include "core/parallel.h"
+#include "core/statistics.h"
 #include "machined/contact.h"
 #include "machined/scallop.h"
 
@@ -28,8 +29,8 @@ struct Place {
     Vec3 feed = Vec3::Constant(missing<double>);
     Vec3 normal = Vec3::Constant(missing<double>);
     double length = 0;  ///< [mm] of the path that the point stands for
-    /// The point that tells what stands beside it: where a pass ends, the adjacent one may end before, and the neighbour is one of
-    /// another pass.
+    /// The point whose neighbours are used. At the end of a pass the adjacent pass may already have ended, and the neighbour
+    /// found there belongs to another pass.
     PointIndex inner = 0;
 };
 
@@ -122,7 +123,7 @@ private:
 /// What stands beside a point: cusps, and a share of the gaps to passes that are too far away.
 struct Beside {
     double height = missing<double>;
-    double gap = 0;  ///< [mm] half the width of both gaps
+    double gap = 0;  ///< [mm] half of the widths of both gaps
 };
 
 Beside beside(const ClSurface& surface, const PlacesOfPath& places, double ball, PointIndex i) {
@@ -143,18 +144,6 @@ Beside beside(const ClSurface& surface, const PlacesOfPath& places, double ball,
     }
     if (result.gap > 0) result.height = ball;  // the limit of cusps where passes hardly meet; what stands is higher
     return result;
-}
-
-/// The height that a share of the path does not exceed. `heights`: with the lengths that have them, rising.
-double height_at(const std::vector<std::pair<float, double>>& heights, double share) {
-    double all = 0;
-    for (const auto& [height, length] : heights) all += length;
-    double sum = 0;
-    for (const auto& [height, length] : heights) {
-        sum += length;
-        if (sum >= share * all) return height;
-    }
-    return heights.empty() ? missing<double> : heights.back().first;
 }
 
 }  // namespace
@@ -181,10 +170,12 @@ ScallopMap scallop_map(const ClSurface& surface, const CuttingTool& tool) {
         const float height = map.height[static_cast<std::size_t>(i)];
         if (std::isfinite(height)) heights.emplace_back(height, places[i].length);
     }
-    std::sort(heights.begin(), heights.end());
-    map.median = height_at(heights, 0.5);
-    map.p95 = height_at(heights, 0.95);
-    map.most = height_at(heights, 1);
+    const auto height_at = [&](double share) {
+        return heights.empty() ? missing<double> : weighted_quantile(heights, share);
+    };
+    map.median = height_at(0.5);
+    map.p95 = height_at(0.95);
+    map.most = height_at(1);
     return map;
 }
 

@@ -1,6 +1,9 @@
 #include "predictor/border.h"
 
 #include <algorithm>
+#include <vector>
+
+#include "predictor/defect_core.h"
 
 namespace clsurf {
 namespace {
@@ -111,19 +114,11 @@ bool Border::stands_out(const DefectCandidates& core, Quantity quantity) const {
         if (c.left == 0 || c.right == 0) return std::max(c.left, c.right) >= passes_enough;
         return quantity == Quantity::speed && c.residual[q] < 0 && signals_[s->point].zone != Zone::ramp;
     };
-    for (std::size_t k = 0; k < core.size();) {
-        std::size_t end = k + 1;
-        while (end < core.size() && core[end]->pass == core[k]->pass &&
-               !arc_length_.at_least(core[end - 1]->point, core[end]->point, along_))
-            ++end;
-        const auto first = core.begin() + static_cast<std::ptrdiff_t>(k);
-        const auto last = core.begin() + static_cast<std::ptrdiff_t>(end);
-        if (static_cast<std::size_t>(std::count_if(first, last, clear)) >= sites_enough &&
-            goes_on(core[k]->point, -1) && goes_on(core[end - 1]->point, +1))
-            return true;
-        k = end;
-    }
-    return false;
+    const std::vector<CandidateSpan> runs = runs_of(core, arc_length_, along_);
+    return std::any_of(runs.begin(), runs.end(), [&](CandidateSpan run) {
+        return static_cast<std::size_t>(std::count_if(run.begin(), run.end(), clear)) >= sites_enough &&
+               goes_on(run.front()->point, -1) && goes_on(run.back()->point, +1);
+    });
 }
 
 }  // namespace clsurf

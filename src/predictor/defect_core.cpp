@@ -5,8 +5,8 @@
 namespace clsurf {
 namespace {
 
-constexpr float weak_peak = 0.25F;   ///< of the strongest of its group
-constexpr float half_of_dip = 0.5F;  ///< a dip is at most this share of the lower of the peaks beside it
+constexpr float weak_peak = 0.25F;  ///< of the strongest of its group
+constexpr float dip_share = 0.5F;   ///< of the lower of its two peaks, to which a dip falls
 constexpr float peak_of_its_own =
     3.0;  ///< share of the threshold that a second peak reaches; weaker ones follow strong ones
 
@@ -17,17 +17,17 @@ public:
 
     CoreSites find() {
         const float peak = peak_of(group_);
-        // What is hardly a candidate is not at fault.
+        // A pass whose peak is lower than this is not at fault.
         const float enough = std::max(std::min(1.0F, half_of_peak * peak), weak_peak * peak);
         CoreSites sites;
-        for_each_run(group_, arc_length_, joined_, [&](CandidateSpan run) {
+        for (const CandidateSpan run : runs_of(group_, arc_length_, joined_)) {
             for (const CandidateSpan bump : bumps_of(run)) {
                 if (peak_of(bump) < enough)
                     sites.rest.insert(sites.rest.end(), bump.begin(), bump.end());
                 else
                     append_strong(bump, sites.core);
             }
-        });
+        }
         return sites;
     }
 
@@ -64,7 +64,7 @@ private:
         std::size_t first = 0, bottom = 0;
         float peak = 0;
         for (std::size_t k = 0; k < run.size(); ++k) {
-            const float level = half_of_dip * std::min(peak, shares[k]);
+            const float level = dip_share * std::min(peak, shares[k]);
             if (shares[k] >= peak_of_its_own && shares[bottom] <= level) {
                 bumps.push_back(run.subspan(first, bottom - first));
                 first = bottom;
@@ -98,6 +98,19 @@ private:
 };
 
 }  // namespace
+
+std::vector<CandidateSpan> runs_of(CandidateSpan sites, const ArcLength& arc_length, double joined) {
+    std::vector<CandidateSpan> runs;
+    for (std::size_t k = 0; k < sites.size();) {
+        std::size_t end = k + 1;
+        while (end < sites.size() && sites[end]->pass == sites[k]->pass &&
+               !arc_length.at_least(sites[end - 1]->point, sites[end]->point, joined))
+            ++end;
+        runs.push_back(sites.subspan(k, end - k));
+        k = end;
+    }
+    return runs;
+}
 
 CoreSites core_of(CandidateSpan group, Quantity quantity, const ArcLength& arc_length, double joined) {
     return CoreFinder(group, quantity, arc_length, joined).find();

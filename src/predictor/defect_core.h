@@ -2,6 +2,7 @@
 // The core of a group of candidates: its strong sites, which make the defect.
 
 #include <span>
+#include <vector>
 
 #include "predictor/candidates.h"
 
@@ -12,18 +13,8 @@ using CandidateSpan = std::span<const DefectCandidate* const>;
 
 constexpr float half_of_peak = 0.5F;
 
-/// f(run) for the sections of `sites` that each hang together along one pass: less than `joined` mm lie between them.
-template <typename F>
-void for_each_run(CandidateSpan sites, const ArcLength& arc_length, double joined, F&& f) {
-    for (std::size_t k = 0; k < sites.size();) {
-        std::size_t end = k + 1;
-        while (end < sites.size() && sites[end]->pass == sites[k]->pass &&
-               !arc_length.at_least(sites[end - 1]->point, sites[end]->point, joined))
-            ++end;
-        f(sites.subspan(k, end - k));
-        k = end;
-    }
-}
+/// The sections of `sites` that each hang together along one pass: less than `joined` mm lie between them. O(sites).
+[[nodiscard]] std::vector<CandidateSpan> runs_of(CandidateSpan sites, const ArcLength& arc_length, double joined);
 
 struct CoreSites {
     DefectCandidates core;

@@ -132,9 +132,8 @@ public:
         defect.speed_beside = defect.speed - strongest.comparison.speed_jump;
         defect.place.tip = surface_.positions.absolute(defect.point);
         for (const DefectCandidate* s : core) defect.score = std::max(defect.score, largest(s->score, family));
-        for_each_run(core, arc_length_, joined_, [&](CandidateSpan run) {
+        for (const CandidateSpan run : runs_of(core, arc_length_, joined_))
             defect.runs.push_back(run_of(run.front()->pass, {run.front()->point, run.back()->point}));
-        });
         measure(core, defect);
         defect.neighbours = neighbours_of(core, defect.runs);
         defect.cause = causes_.cause_of(defect, core);
@@ -398,7 +397,7 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
     const double joined = joined_along(surface, report.thresholds.usual_speed * period);
     const Builder builder(surface, signals, lines, causes, arc_length, joined, report.thresholds, rules, forget);
     report.passes = builder.cut_passes();
-    for (const Pass& pass : surface.passes) report.points += pass.kind == PassKind::cut ? pass.size() : 0;
+    report.points = cutting_points(surface.passes);
     report.not_finishing = surface.not_finishing;
     report.compared = rules.found ? rules.found->compared : count_compared(surface, signals, {0, signals.size() - 1});
     for (const std::string& reason : signals.unfit) report.judgement.refuse(reason);

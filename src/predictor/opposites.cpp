@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "predictor/defect_core.h"
+
 namespace clsurf {
 namespace {
 
@@ -28,13 +30,12 @@ public:
         : core_(core), quantity_(index_of(quantity)), signals_(signals), arc_length_(arc_length), along_(along) {}
 
     std::vector<DefectCandidates> split() {
-        for (std::size_t k = 0; k < core_.size();) {
-            std::size_t end = k + 1;
-            while (end < core_.size() && core_[end]->pass == core_[k]->pass &&
-                   !arc_length_.at_least(core_[end - 1]->point, core_[end]->point, along_))
-                ++end;
-            if (cut_at_signs(k, end) >= (quantity_ == index_of(Quantity::speed) ? 1 : changes_of_swing)) return {core_};
-            k = end;
+        std::size_t first = 0;
+        for (const CandidateSpan run : runs_of(core_, arc_length_, along_)) {
+            const std::size_t end = first + run.size();
+            if (cut_at_signs(first, end) >= (quantity_ == index_of(Quantity::speed) ? 1 : changes_of_swing))
+                return {core_};
+            first = end;
         }
         const std::array<float, 2> peak{peak_of(false), peak_of(true)};
         if (peak[0] == 0 || peak[1] == 0) return {core_};

@@ -136,8 +136,7 @@ Field compute_row(const QualityFieldRow& row, const ClSurface& surface, const Si
     });
     PointIndex known = 0;
     for (const PointIndex n : with) known += n;
-    PointIndex cutting = 0;
-    for (const Pass& pass : surface.passes) cutting += pass.kind == PassKind::cut ? pass.size() : 0;
+    const PointIndex cutting = cutting_points(surface.passes);
     field.info.note = signals.*row.windows;
     if (points.size() == surface.positions.size())
         field.info.note +=

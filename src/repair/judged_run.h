@@ -16,7 +16,7 @@
 
 namespace clsurf {
 
-/// The largest speed difference of a defect to the passes beside it [mm/s]; 0: no defect of the speed.
+/// The largest difference in speed between a defect and its adjacent passes [mm/s]; 0: no defect is one of speed.
 [[nodiscard]] double largest_speed_jump(const QualityReport& report);
 
 struct JudgedRun {

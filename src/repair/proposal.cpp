@@ -92,10 +92,12 @@ void Evaluator::say(std::string_view what) const {
 }
 
 std::string Evaluator::candidate_text() const {
-    if (!best_ || !(before_.mismatch > 0)) return fmt::format("candidate {}", tried_);
+    const RunMeasures was = before_.measures();
+    const double mismatch = mismatch_that_counts(was, was);
+    if (!best_ || !(mismatch > 0)) return fmt::format("candidate {}", tried_);
     if (!best_->evaluation.accepted) return fmt::format("candidate {}, none is better so far", tried_);
     return fmt::format("candidate {}, best: {:.0f} % less mismatch, {:.1f} s", tried_,
-                       100 * (1 - best_->run.mismatch / before_.mismatch), best_->run.duration);
+                       100 * (1 - mismatch_that_counts(was, best_->run.measures()) / mismatch), best_->run.duration);
 }
 
 TriedProposal Evaluator::propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets) {

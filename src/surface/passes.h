@@ -9,6 +9,7 @@
 // neighbour of a point lies in its own pass (surface/cl_surface.h).
 
 #include <cstdint>
+#include <span>
 
 #include "core/column.h"
 #include "core/point.h"
@@ -33,6 +34,13 @@ struct Pass {
 
 /// All pieces in order; together they cover every point of the trajectory exactly once.
 using Passes = Column<Pass>;
+
+/// How many points cut. O(passes).
+[[nodiscard]] inline PointIndex cutting_points(std::span<const Pass> passes) {
+    PointIndex points = 0;
+    for (const Pass& pass : passes) points += pass.kind == PassKind::cut ? pass.size() : 0;
+    return points;
+}
 
 /// One cut of `count` points: for what is counted over all values of a field that has no passes.
 [[nodiscard]] inline Passes all_as_one_cut(PointIndex count) { return Passes(1, Pass{0, count - 1, PassKind::cut}); }

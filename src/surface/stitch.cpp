@@ -1,5 +1,6 @@
 #include "surface/stitch.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "surface/finishing.h"
@@ -154,8 +155,7 @@ ClSurface stitch(Positions positions, const LineMap& lines, double step_over) {
 
 void show_all_cutting(ClSurface& surface) {
     constexpr double few = 0.1;
-    PointIndex finishing = 0;
-    for (const Pass& pass : surface.passes) finishing += pass.kind == PassKind::cut ? pass.size() : 0;
+    const PointIndex finishing = cutting_points(surface.passes);
     if (static_cast<double>(finishing) >= few * static_cast<double>(finishing + surface.not_finishing)) return;
     for (Pass& pass : surface.passes) {
         if (pass.kind == PassKind::other) pass.kind = PassKind::cut;
@@ -163,7 +163,8 @@ void show_all_cutting(ClSurface& surface) {
     surface.not_finishing = 0;
     surface.step_over = 0;
     surface.step_over_moves.clear();
-    surface.neighbours = find_neighbours(surface.positions, surface.passes, ArcLength(surface.positions), 0);
+    for (Column<std::int32_t>* side : {&surface.neighbours.left, &surface.neighbours.right})
+        std::fill(side->begin(), side->end(), Adjacency::none);
 }
 
 }  // namespace clsurf

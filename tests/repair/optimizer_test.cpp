@@ -240,7 +240,7 @@ TEST(Optimizer, SlowsNeighboursDownOnlyInTheTimeThatIsAllowed) {
 }
 
 TEST(Optimizer, RepairsTheOnlySlowSectionOfAPart) {
-    // 1 mm on one of 41 passes of 20 mm: 0.4 % of the points differ, those on the passes beside it included.
+    // 1 mm on one of 41 passes of 20 mm: 0.4 % of the points differ, including those on the adjacent passes.
     const Program program = read_text(wavy_zigzag(
         41, 20, [](int pass, double x) { return pass == 20 && x > 9 && x < 10 ? 0.01 : 0.5; }, 0.1));
     Diagnostics diagnostics;

@@ -88,9 +88,7 @@ TEST(MapAxes, AFlatBoxHasTheScalesOfAnyBoxAndTellsItsHeight) {
         const bool height = text.text == "Z 2.000 mm";
         if (text.bold || height) names += text.text + ";";
         // No edge runs through it: it stands in the lower left corner.
-        if (height) {
-            EXPECT_LT(text.y, 60 + 0.1 * 400);
-        }
+        if (height) { EXPECT_LT(text.y, 60 + 0.1 * 400); }
     }
     EXPECT_EQ(names, "X [mm];Y [mm];Z 2.000 mm;");
     Sheet thin;

@@ -10,7 +10,8 @@ constexpr double no_speed = 1e-8;      ///< [mm/s]
 constexpr double no_distance = 1e-12;  ///< [mm]
 constexpr double no_time = 1e-12;      ///< [s]
 
-/// From a point to a segment that is beside it [mm]. Lines need one step, arcs in a few periods' reach less than four.
+/// Distance of a point from a segment nearby [mm]. A line needs one step, an arc fewer than four if the point is within a few
+/// periods of its progress.
 double distance_to(const BlendSegment& segment, const Vec3& point) {
     constexpr int most_steps = 4;
     double at = segment.progress;
