@@ -109,7 +109,7 @@ Subcommand identify_subcommand() {
             "stays at it in several places; otherwise the value is a lower bound, and the file keeps a greater one. What the runs do not determine is listed with the reason, and keeps its default or the value of --machine.\n"
             "The rules of the planner are selected by simulation: each value is scored by the speed along the path. The fidelity of the result\n"
             "is measured on the runs of --test, else by leaving out one run after the other, else on the fitted run, and is kept in the file.\n"
-            "Exit code 3 says that nothing could be identified, or that the picture cannot be drawn: then the machine file is there.\n\n"
+            "Exit code 3 says that nothing could be identified, or that the picture cannot be drawn; the machine file is written even then.\n\n"
             "  clsurf identify part.nc run.biip -o mill.toml\n"
             "  clsurf identify a.nc a.biip b.nc b.biip --machine five_axis.toml -o mill.toml --test c.nc c.biip --picture residual.png",
         .declare =
