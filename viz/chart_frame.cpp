@@ -7,24 +7,32 @@
 #include "viz/colour_map.h"
 
 namespace clsurf::viz {
-namespace {}  // namespace
+namespace {
 
-void add_grid(Sheet& sheet, const ChartFrame& f, double text, bool x_labels) {
-    // One tick alone, such as 0, tells no scale.
-    std::vector<double> ys;
-    for (int wanted = std::max(2, static_cast<int>(f.rect.height / (3 * text))); ys.size() < 2 && wanted < 10; ++wanted)
-        ys = nice_ticks(f.y_low, f.y_high, wanted);
+/// Round values, about three times the height of the text apart.
+std::vector<double> y_ticks(const ChartFrame& f, double text) {
+    constexpr int most_tries = 8;
+    int wanted = std::max(2, static_cast<int>(f.rect.height / (3 * text)));
+    std::vector<double> ticks = nice_ticks(f.y_low, f.y_high, wanted);
+    // One tick alone, such as 0, gives no scale.
+    for (int k = 1; ticks.size() < 2 && k < most_tries; ++k) ticks = nice_ticks(f.y_low, f.y_high, ++wanted);
+    return ticks;
+}
+
+}  // namespace
+
+void add_y_axis(Sheet& sheet, const ChartFrame& f, double text) {
+    const std::vector<double> ys = y_ticks(f, text);
     const double y_step = ys.size() > 1 ? ys[1] - ys[0] : 1;
     double labelled = -std::numeric_limits<double>::infinity();
     for (const double y : ys) {
         const Vec2 p = f.at(f.x_low, y);
-        sheet.lines.push_back({{p, {f.rect.x + f.rect.width, p.y()}}, 1, chart_grid, Level::edge});
+        sheet.lines.push_back({{p, {f.rect.x + f.rect.width, p.y()}}, 1, chart_grid, Level::area});
         if (p.y() - labelled < 1.05 * text) continue;  // numbers one over the other cannot be read
         labelled = p.y();
         sheet.texts.push_back(
             {f.rect.x - 0.5 * text, p.y(), tick_text(y, y_step), text, Align::right, false, chart_ink});
     }
-    add_x_grid(sheet, f, text, x_labels);
     const Rect& r = f.rect;
     sheet.lines.push_back(
         {{{r.x, r.y}, {r.x + r.width, r.y}, {r.x + r.width, r.y + r.height}, {r.x, r.y + r.height}, {r.x, r.y}},
@@ -33,13 +41,18 @@ void add_grid(Sheet& sheet, const ChartFrame& f, double text, bool x_labels) {
          Level::edge});
 }
 
+void add_grid(Sheet& sheet, const ChartFrame& f, double text, bool x_labels) {
+    add_x_grid(sheet, f, text, x_labels);
+    add_y_axis(sheet, f, text);
+}
+
 void add_x_grid(Sheet& sheet, const ChartFrame& f, double text, bool x_labels) {
     const std::vector<double> xs =
         nice_ticks(f.x_low, f.x_high, std::max(2, static_cast<int>(f.rect.width / (7 * text))));
     const double x_step = xs.size() > 1 ? xs[1] - xs[0] : 1;
     for (const double x : xs) {
         const Vec2 p = f.at(x, f.y_low);
-        sheet.lines.push_back({{p, {p.x(), f.rect.y + f.rect.height}}, 1, chart_grid, Level::edge});
+        sheet.lines.push_back({{p, {p.x(), f.rect.y + f.rect.height}}, 1, chart_grid, Level::area});
         if (x_labels)
             sheet.texts.push_back(
                 {p.x(), f.rect.y - 0.9 * text, tick_text(x, x_step), text, Align::centre, false, chart_ink});

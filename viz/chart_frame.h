@@ -22,6 +22,8 @@ struct ChartFrame {
 
 /// Grid lines at round values, numbers of a text size [px] at the left, and below where `x_labels` says so.
 void add_grid(Sheet& sheet, const ChartFrame& frame, double text, bool x_labels);
+/// The grid lines of the y axis with their numbers, two at least where the range has a length, and the frame.
+void add_y_axis(Sheet& sheet, const ChartFrame& frame, double text);
 /// The lines up from the x axis, and its numbers, alone.
 void add_x_grid(Sheet& sheet, const ChartFrame& frame, double text, bool x_labels);
 

@@ -30,7 +30,7 @@ public:
 
     Image drawn() {
         add_texts();
-        add_y_axis();
+        add_y_axis(sheet_, frame_, text_);
         add_runs();
         if (picture_.levels) add_levels(*picture_.levels);
         if (picture_.limit) add_across(*picture_.limit, frame_.x_low, frame_.x_high, limit_colour, 0.12 * text_);
@@ -81,25 +81,6 @@ private:
         text(r.x + r.width, r.y - 3.6 * text_, look_.x_label, text_, Align::right, true, chart_ink);
         sheet_.texts.push_back(
             fitted({text_, 0.9 * text_, look_.footnote, 0.85 * text_, Align::left, false, chart_faint}, room));
-    }
-
-    void add_y_axis() {
-        const Rect& r = frame_.rect;
-        std::vector<double> ticks;
-        for (int wanted = std::max(2, static_cast<int>(r.height / (4 * text_))); ticks.size() < 2 && wanted < 12;
-             ++wanted)
-            ticks = nice_ticks(frame_.y_low, frame_.y_high, wanted);
-        const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1;
-        for (const double y : ticks) {
-            const Vec2 p = frame_.at(frame_.x_low, y);
-            sheet_.lines.push_back({{p, {r.x + r.width, p.y()}}, 1, chart_grid, Level::area});
-            text(r.x - 0.5 * text_, p.y(), tick_text(y, step), text_, Align::right, false, chart_ink);
-        }
-        sheet_.lines.push_back(
-            {{{r.x, r.y}, {r.x + r.width, r.y}, {r.x + r.width, r.y + r.height}, {r.x, r.y + r.height}, {r.x, r.y}},
-             1,
-             level_colour,
-             Level::edge});
     }
 
     /// Numbers of runs as close as they can be read, and the day where it is another one.

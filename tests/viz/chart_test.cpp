@@ -1,8 +1,13 @@
 #include "viz/chart.h"
 
+#include <algorithm>
+#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include "viz/drawing.h"
+#include "viz/trend_chart.h"
 
 namespace clsurf::viz::chart_test {
 namespace {
@@ -22,6 +27,30 @@ TEST(ThinCurve, KeepsEveryExtremeOfEveryColumn) {
     EXPECT_TRUE(std::any_of(thin.begin(), thin.end(), [](const Vec2& p) { return p == Vec2(12'345, 1e6); }));
     EXPECT_TRUE(std::any_of(thin.begin(), thin.end(), [](const Vec2& p) { return p == Vec2(54'321, -1e6); }));
     for (std::size_t i = 1; i < thin.size(); ++i) EXPECT_LT(thin[i - 1].x(), thin[i].x());
+}
+
+/// Numbers to the left of a plot whose frame begins at x [px].
+std::ptrdiff_t y_numbers(const std::vector<FlatText>& texts, double x) {
+    return std::ranges::count_if(texts, [&](const FlatText& t) { return t.align == Align::right && t.x < x; });
+}
+
+TEST(Chart, ATallPlotHasAYAxis) {
+    // 1600 by 900 with text of 20.45 px: the frame is 688 px high, room for eleven ticks.
+    ChartLook look;
+    look.keep_drawing = true;
+    const Image image = draw_chart(std::vector<double>{0, 1, 2}, {{"speed", {500, 1000, 1500}}}, {}, look);
+    EXPECT_GE(y_numbers(image.drawing->texts, 6.5 * 900 / 44), 2);
+}
+
+TEST(Trend, ATallPlotHasAYAxis) {
+    ChartLook look;
+    look.width = 800;
+    look.height = 1600;
+    look.keep_drawing = true;
+    TrendPicture picture;
+    picture.groups = {""};
+    picture.symbols = {{3, "1", "2026-11-01"}, {5, "2", "2026-11-02"}};
+    EXPECT_GE(y_numbers(draw_trend(picture, look).drawing->texts, 6.5 * 480 / 40), 2);
 }
 
 TEST(Chart, BreaksAFootnoteBeforeTheEdge) {
