@@ -65,8 +65,9 @@ std::vector<Vec2> thin_curve(std::span<const double> x, std::span<const double> 
         std::size_t high = i;
         std::size_t end = i;
         for (; end < x.size() && std::floor((x[end] - x_low) * per_x) == column; ++end) {
-            if (!(y[low] <= y[end])) low = end;
-            if (!(y[high] >= y[end])) high = end;
+            // A gap is no extreme, and the first value after it is both.
+            if (y[end] < y[low] || std::isnan(y[low])) low = end;
+            if (y[end] > y[high] || std::isnan(y[high])) high = end;
         }
         const std::size_t picks[4] = {i, std::min(low, high), std::max(low, high), end - 1};
         for (std::size_t k = 0; k < 4; ++k) {

@@ -46,7 +46,7 @@ struct ChartLook {
 [[nodiscard]] double text_size_of(const ChartLook& look, double lines);
 
 /// The points of a curve that a width of pixels can show: the lowest and highest of each column, in
-/// their order, so that no extreme is lost. O(points).
+/// their order, so that no extreme is lost. A gap (NaN) within one column is closed. O(points).
 [[nodiscard]] std::vector<Vec2> thin_curve(std::span<const double> x, std::span<const double> y, double x_low,
                                            double x_high, int columns);
 

@@ -29,6 +29,20 @@ TEST(ThinCurve, KeepsEveryExtremeOfEveryColumn) {
     for (std::size_t i = 1; i < thin.size(); ++i) EXPECT_LT(thin[i - 1].x(), thin[i].x());
 }
 
+TEST(ThinCurve, KeepsTheExtremesOnBothSidesOfAGap) {
+    constexpr double gap = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<double> x{0, 1, 2, 3, 4, 5, 6, 100};  // all but the last one in the first of ten columns
+    const auto has = [](const std::vector<Vec2>& points, const Vec2& p) {
+        return std::find(points.begin(), points.end(), p) != points.end();
+    };
+    std::vector<Vec2> thin = thin_curve(x, std::vector<double>{1, 9, -7, gap, 2, 3, 1, 0}, 0, 100, 10);
+    EXPECT_TRUE(has(thin, Vec2(1, 9)));
+    EXPECT_TRUE(has(thin, Vec2(2, -7)));
+    thin = thin_curve(x, std::vector<double>{gap, gap, 2, -7, 9, 1, 1, 0}, 0, 100, 10);
+    EXPECT_TRUE(has(thin, Vec2(3, -7)));
+    EXPECT_TRUE(has(thin, Vec2(4, 9)));
+}
+
 /// Numbers to the left of a plot whose frame begins at x [px].
 std::ptrdiff_t y_numbers(const std::vector<FlatText>& texts, double x) {
     return std::ranges::count_if(texts, [&](const FlatText& t) { return t.align == Align::right && t.x < x; });
