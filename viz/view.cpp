@@ -36,8 +36,8 @@ View parse_view(const std::string& text) {
     const auto first = std::from_chars(text.data(), end, view.azimuth);
     const bool comma = first.ec == std::errc() && first.ptr != end && *first.ptr == ',';
     const auto second = comma ? std::from_chars(first.ptr + 1, end, view.elevation) : first;
-    if (!comma || second.ec != std::errc() || second.ptr != end || std::abs(view.elevation) > 90 ||
-        !std::isfinite(view.azimuth)) {
+    if (!comma || second.ec != std::errc() || second.ptr != end || !std::isfinite(view.azimuth) ||
+        !(std::abs(view.elevation) <= 90)) {
         const std::string nearest = did_you_mean(text, names);
         throw UsageError("--view: '" + text + "' is not a view",
                          nearest.empty() ? "iso, top, front, left, right, back, bottom or AZ,EL in degrees" : nearest);

@@ -57,6 +57,8 @@ TEST(View, RefusesWhatIsNone) {
     EXPECT_THROW((void)parse_view("tpo"), UsageError);
     EXPECT_THROW((void)parse_view("10"), UsageError);
     EXPECT_THROW((void)parse_view("10,95"), UsageError);
+    for (const char* text : {"0,nan", "nan,0", "0,inf", "inf,0"})
+        EXPECT_THROW((void)parse_view(text), UsageError) << text;
 }
 
 TEST(LabelPlacer, NoLabelLiesOnAnotherOneNorOutside) {
