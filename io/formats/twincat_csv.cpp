@@ -18,6 +18,7 @@
 #include "core/error.h"
 #include "io/formats/owned_columns.h"
 #include "io/formats/text_mapping.h"
+#include "log/held_values.h"
 
 namespace clsurf::io {
 namespace {
@@ -128,27 +129,42 @@ std::size_t end_of_records(std::string_view text) {
     return std::string_view("EOF").starts_with(text.substr(line, end - line)) ? line : text.size();
 }
 
-/// Milliseconds since the first record of the file, whichever way they are written.
+/// Milliseconds since the first record of the file, in whichever form they are written. NaN: an empty or damaged cell.
 std::vector<double> times_of(const Channel& channel) {
     std::vector<double> t(static_cast<std::size_t>(channel.values.count));
     copy_block(channel.values, 0, t);
-    if (!t.empty() && t[0] > least_file_time) {
-        const double origin = t[0];
+    const auto first = std::ranges::find_if(t, [](double v) { return std::isfinite(v); });
+    if (first != t.end() && *first > least_file_time) {
+        const double origin = *first;
         for (double& v : t) v = (v - origin) / file_time_per_millisecond;
     }
     return t;
 }
 
-/// The values of a slower channel at the times of another column: the last one holds.
-std::vector<double> held(const Channel& channel, const std::vector<double>& times, const std::vector<double>& at) {
-    std::vector<double> values(at.size(), std::numeric_limits<double>::quiet_NaN());
-    std::size_t next = 0;
-    for (std::size_t i = 0; i < at.size(); ++i) {
-        // Rows behind the last sample of a slow channel are empty: NaN is never at or before.
-        while (next < times.size() && times[next] <= at[i]) ++next;
-        if (next > 0) values[i] = channel.values.at(static_cast<PointIndex>(next - 1));
+/// The step of one record between the first two that have times; infinity: there are none.
+double first_step(const std::vector<double>& times) {
+    const auto known = [](double v) { return std::isfinite(v); };
+    const auto first = std::find_if(times.begin(), times.end(), known);
+    if (first == times.end()) return std::numeric_limits<double>::infinity();
+    const auto second = std::find_if(first + 1, times.end(), known);
+    if (second == times.end()) return std::numeric_limits<double>::infinity();
+    return (*second - *first) / static_cast<double>(second - first);
+}
+
+/// The times with each that is missing set to the one before it: of a damaged one it is only known that it is not earlier.
+std::vector<double> filled(std::vector<double> times) {
+    for (std::size_t i = 1; i < times.size(); ++i) {
+        if (!std::isfinite(times[i])) times[i] = times[i - 1];
     }
-    return values;
+    return times;
+}
+
+/// A log of these times alone [ms].
+Log clock_of(std::vector<double> times) {
+    Log log;
+    log.records = static_cast<PointIndex>(times.size());
+    OwnedColumns(log).add("time", "ms", std::move(times));
+    return log;
 }
 
 /// Times of the records [ms], for each column of times; the others are empty.
@@ -166,7 +182,7 @@ TimeColumns read_times(const Source& source, const Header& header, const Log& re
         if (header.time_column[i] != i) continue;
         std::vector<double>& own = times.of[i];
         own = times_of(*read.find(header.plan.columns[i].name));
-        const double step = own.size() > 1 ? own[1] - own[0] : least_step;
+        const double step = first_step(own);
         if (!found || step < least_step) {
             found = true;
             times.fastest = i;
@@ -204,20 +220,21 @@ Log open_twincat(const Source& source, const LogOptions& options) {
     log.records = read.records;
     log.diagnostics = read.diagnostics;
     OwnedColumns owned(log);
+    const Log clock = clock_of(filled(base));
+    const HoldRule hold{0, std::numeric_limits<double>::infinity()};
     std::size_t held_channels = 0;
     for (std::size_t i = 0; i < header.plan.columns.size(); ++i) {
         const ColumnPlan& column = header.plan.columns[i];
         if (column.name.empty() || header.time_column[i] == i) continue;
         const Channel& channel = *read.find(column.name);
         const std::vector<double>& own = times.of[header.time_column[i]];
-        const bool same = own == base;
-        if (same) {
+        if (header.time_column[i] == times.fastest || own == base) {
             std::vector<double> values(static_cast<std::size_t>(log.records));
             copy_block(channel.values, 0, values);
             owned.add(column.name, column.unit, std::move(values));
         } else {
             ++held_channels;
-            owned.add(column.name, column.unit, held(channel, own, base));
+            owned.add(column.name, column.unit, held_values(clock_of(own), channel, clock, hold));
         }
     }
     if (held_channels > 0) {
@@ -225,9 +242,12 @@ Log open_twincat(const Source& source, const LogOptions& options) {
             {Severity::note,
              "log.held",
              Place::of_line(source.name, header.plan.first_data_line),
-             fmt::format(
-                 "{} channels have other times than the fastest one; between their samples they keep the last value",
-                 held_channels),
+             held_channels == 1
+                 ? std::string(
+                       "1 channel has other times than the fastest one; between its samples it keeps the last value")
+                 : fmt::format(
+                       "{} channels have other times than the fastest one; between their samples they keep the last value",
+                       held_channels),
              {}});
     }
     if (log.find("time") == nullptr) owned.add("time", "ms", base);

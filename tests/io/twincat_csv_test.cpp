@@ -49,6 +49,40 @@ TEST(TwinCat, ReadsSharedTimesAndHoldsSlowerChannels) {
     }
 }
 
+std::string with(const std::string& from, const std::string& to) {
+    std::string text = scope;
+    return text.replace(text.find(from), from.size(), to);
+}
+
+TEST(TwinCat, ADamagedTimeIsTheOnlyThingMissing) {
+    // Of the fast channels the time of the second record cannot be read: their values are in that row all the same.
+    Log log = open(with("\n1\t1,6", "\n1#\t1,6"));
+    EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(0), 1.5);
+    EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(1), 1.6);
+    EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(2), 1.7);
+    EXPECT_DOUBLE_EQ(log.find("load")->values.at(1), 17) << "not earlier than the record before it";
+    EXPECT_DOUBLE_EQ(log.find("load")->values.at(2), 18);
+    EXPECT_EQ(log.diagnostics.count("log.bad-number"), 1u);
+    // Of the slow one: that sample is passed over, the next one counts.
+    log = open(with("2\t2\t18\n2\t1,7\t2\t\t\n", "2\t2#\t18\n2\t1,7\t2\t2\t19\n"));
+    EXPECT_DOUBLE_EQ(log.find("load")->values.at(0), 17);
+    EXPECT_DOUBLE_EQ(log.find("load")->values.at(1), 17);
+    EXPECT_DOUBLE_EQ(log.find("load")->values.at(2), 19);
+}
+
+TEST(TwinCat, CountsTheHeldChannels) {
+    const auto note = [](const std::string& text) {
+        const Log log = open(text);
+        for (const Diagnostic& d : log.diagnostics.kept()) {
+            if (d.code == "log.held") return d.text;
+        }
+        return std::string();
+    };
+    EXPECT_TRUE(note(scope).starts_with("1 channel has other times")) << note(scope);
+    EXPECT_TRUE(note("Name;a\nStarttime of export;1\n\nName;cmd.x;Name;b;c\n\n0;1;0;5;6\n1;2;2;5;6\n")
+                    .starts_with("2 channels have other times"));
+}
+
 TEST(TwinCat, UnderstandsDecimalPointsAndCommasAsSeparators) {
     EXPECT_DOUBLE_EQ(open(replaced(replaced(scope, ',', '.'), '\t', ',')).find("cmd.x")->values.at(1), 1.6);
     EXPECT_DOUBLE_EQ(open(replaced(scope, ',', '.')).find("cmd.x")->values.at(1), 1.6);
