@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/units.h"
 #include "program/motion_rows.h"
 
 namespace clsurf::siemens_test {
@@ -61,6 +62,49 @@ TEST(SiemensSwivel, NamesWhatItCannotDo) {
     EXPECT_NE(
         error_of("CYCLE800(0,\"TC\",0,9,0,0,0,10,20,30,0,0,0,1)\n", "siemens").find("has no axis for the angle 30"),
         std::string::npos);
+}
+
+/// C at the end of every motion [deg].
+std::vector<double> turned(const std::string& text) {
+    std::vector<double> all;
+    for (const Xyz& angles : parse(text, "siemens").motions.rotary) all.push_back(angles.z * deg_per_rad);
+    return all;
+}
+
+void expect_turned(const std::string& text, const std::vector<double>& expected) {
+    const std::vector<double> all = turned(text);
+    ASSERT_EQ(all.size(), expected.size()) << text;
+    for (std::size_t i = 0; i < all.size(); ++i) EXPECT_NEAR(all[i], expected[i], 1e-9) << text << "motion " << i;
+}
+
+TEST(SiemensRotaryAxes, TurnTheShortWayOrInTheGivenDirection) {
+    // 350° to 10°: 20° forward, and 20° back again; from 10° to 190° both ways are 180°: forward.
+    expect_turned("G0 C350\nC=DC(10)\nC=DC(350)\nC=DC(10)\nC=DC(190)\nC=DC(190)\n", {350, 370, 350, 370, 550, 550});
+    // From 10°: to 350° forward by 340°, to 10° back by 340°, to 350° back by 20°, to 10° forward by 20°.
+    expect_turned("G0 C10\nC=ACP(350)\nC=ACN(10)\nC=ACN(350)\nC=ACP(10)\nC=ACP(10)\nC=ACN(10)\n",
+                  {10, 350, 10, -10, 10, 10, 10});
+    // A position is one within the turn, also beyond it; decimals make no turn: 359.999° to 0° is 0.001°.
+    expect_turned("G0 C359.999\nC=DC(360)\nC=ACP(0)\nC=ACN(0)\nC=DC(-90)\n", {359.999, 360, 360, 360, 270});
+    expect_turned("G0 C0.1\nG91 C=DC(0.3)\nC=ACN(0.1)\nC5\n", {0.1, 0.3, 0.1, 5.1});
+}
+
+TEST(SiemensRotaryAxes, AModuloAxisStaysInItsTurn) {
+    // 10° of the second turn. 20° and AC(30) are in that turn; IC(350) leads into the third, where 5° is 15° behind.
+    expect_turned("G0 C350\nC=DC(10)\nC20\nC=AC(30)\nC=IC(350)\nC5\n", {350, 370, 380, 390, 740, 725});
+    // An axis that has none of these words counts on.
+    expect_turned("G0 C370\nC10\nC-350\n", {370, 10, -350});
+    // Each axis by itself.
+    const Program p = parse("G0 A350 C350\nA=ACP(10) C10\n", "siemens");
+    EXPECT_NEAR(p.motions.rotary[1].x, 370 * rad_per_deg, 1e-12);
+    EXPECT_NEAR(p.motions.rotary[1].z, 10 * rad_per_deg, 1e-12);
+    // A linear axis has no turns.
+    EXPECT_EQ(rows("G0 X350 Y0 Z0\nX=DC(10)\n"), (Rows{"rapid 350 0 0", "rapid 10 0 0"}));
+}
+
+TEST(SiemensRotaryAxes, CountTheFeedOfTheWayThatTheyTurn) {
+    // 20° at 600°/min.
+    const Program p = parse("G0 X0 Y0 Z0 C350\nG1 C=DC(10) F600\n", "siemens");
+    EXPECT_NEAR(p.motions.feed[1], 10, 1e-6);
 }
 
 TEST(SiemensPoles, AreAtTheToolTheZeroOrTheLastPole) {

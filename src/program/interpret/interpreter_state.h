@@ -210,7 +210,8 @@ public:
                         Vec3& end);
     void flatten_arc(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end, const Vec3& rotary);
     void put_polar(const Block& block, Vec3& end) const;
-    [[nodiscard]] Vec3 rotary_target(const Block& block) const;
+    [[nodiscard]] Vec3 rotary_target(const Block& block);
+    [[nodiscard]] static double whole_turns(const Block& block, std::uint32_t bit, double position, double from);
     void move(const Block& block);
     void straight(MotionKind kind, const Vec3& end, const Vec3& rotary);
     void arc(const Block& block, bool clockwise);

@@ -64,7 +64,9 @@ struct ModalState {
 
     Vec3 position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< [mm], of the work system
     Vec3 rotary = Vec3::Zero();                                                ///< A, B, C [deg]
-    std::uint8_t held = 0, absolute = 0;                                       ///< axes, as in WorkFrame
+    /// Rotary axes (bits as of A, B, C) that DC, ACP or ACN have shown to be modulo axes: positions count within a turn.
+    std::uint8_t modulo = 0;
+    std::uint8_t held = 0, absolute = 0;          ///< axes, as in WorkFrame
     std::uint8_t unplaced = WorkFrame::all_axes;  ///< axes that no word has placed since the program began
     std::uint64_t frame_changes = 0;              ///< counts what changes the way to machine coordinates
     Vec3 tool_axis =

@@ -112,13 +112,29 @@ void Interpreter::put_polar(const Block& block, Vec3& end) const {
     end.y() = radius * std::sin(angle);
 }
 
-Vec3 Interpreter::rotary_target(const Block& block) const {
+/// The whole turns [deg] that are added to an absolute position of a modulo axis [deg], which stands at `from` [deg].
+/// SINUMERIK Function Manual Axes and Spindles, R2: DC turns by 180° at most, and by 180° in positive direction; ACP and ACN
+/// turn by less than 360°; without them the axis stays in its turn.
+double Interpreter::whole_turns(const Block& block, std::uint32_t bit, double position, double from) {
+    constexpr double turn = 360;
+    constexpr double same_angle = 1e-9;  // [deg] of rounding
+    const double turns = (from - position) / turn;
+    const double rounding = same_angle / turn;
+    if ((block.shortest & bit) != 0) return turn * std::floor(turns + 0.5 + rounding);
+    if ((block.positive & bit) != 0) return turn * std::ceil(turns - rounding);
+    if ((block.negative & bit) != 0) return turn * std::floor(turns + rounding);
+    return turn * std::floor(from / turn + rounding);
+}
+
+Vec3 Interpreter::rotary_target(const Block& block) {
     const bool machine = this_block_.machine_coordinates && rules_->motion.rotary_in_machine;
     Vec3 target = state_.rotary;
     for (int axis = 0; axis < 3; ++axis) {
         const char letter = "ABC"[axis];
         if (!block.words.given(letter)) continue;
         const std::uint32_t bit = Words::bit(letter);
+        if (((block.shortest | block.positive | block.negative) & bit) != 0)
+            state_.modulo = static_cast<std::uint8_t>(state_.modulo | 1u << axis);
         if (machine) {
             target[axis] = block.words.of(letter) - state_.rotary_offset()[axis];
             continue;
@@ -128,7 +144,11 @@ Vec3 Interpreter::rotary_target(const Block& block) const {
             fail(fmt::format("an increment of {}: its angle is not known after a tool axis given as a vector", letter),
                  block.words.column[static_cast<std::size_t>(letter - 'A')]);
         }
-        target[axis] = (incremental ? target[axis] : 0.0) + block.words.of(letter);
+        const double from = target[axis];
+        target[axis] = (incremental ? from : 0.0) + block.words.of(letter);
+        // After a tool axis given as a vector the turn is not known.
+        if (!incremental && (state_.modulo >> axis & 1) != 0 && !std::isnan(from))
+            target[axis] += whole_turns(block, bit, target[axis], from);
     }
     return target;
 }

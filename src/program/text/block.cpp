@@ -429,14 +429,17 @@ private:
         assign_named(id, column);
     }
 
-    /// `X=AC(5)`, `X=IC(5)`; of rotary axes DC, ACP, ACN, which are absolute.
+    /// `X=AC(5)`, `X=IC(5)`; of rotary axes DC, ACP, ACN, which are absolute modulo 360°.
     void assign_letter(char letter, std::size_t column) {
-        for (const std::string_view name : {"AC", "IC", "DC", "ACP", "ACN"}) {
+        for (const auto& [name, letters] : {std::pair{"AC", &block_.absolute}, std::pair{"IC", &block_.incremental},
+                                            std::pair{"DC", &block_.shortest}, std::pair{"ACP", &block_.positive},
+                                            std::pair{"ACN", &block_.negative}}) {
             Cursor inside = c_;
             if (!inside.take_word(name) || inside.peek() != '(') continue;
             c_ = inside;
             put(letter, read_value(c_, variables_, rules_), column);
-            (name == "IC" ? block_.incremental : block_.absolute) |= Words::bit(letter);
+            *letters |= Words::bit(letter);
+            if (letters != &block_.incremental) block_.absolute |= Words::bit(letter);
             return;
         }
         put(letter, evaluate(c_, variables_, rules_), column);
@@ -444,14 +447,10 @@ private:
 
     void assign_named(const std::string& id, std::size_t column) {
         std::optional<bool> increment;
-        if (id == "RP") {
-            block_.polar_radius = coordinate(increment);
-            block_.polar_radius_incremental = increment.value_or(false);
-            return;
-        }
-        if (id == "AP") {
-            block_.polar_angle = coordinate(increment);
-            block_.polar_angle_incremental = increment.value_or(false);
+        if (id == "RP" || id == "AP") {
+            const bool radius = id == "RP";
+            (radius ? block_.polar_radius : block_.polar_angle) = coordinate(increment);
+            (radius ? block_.polar_radius_incremental : block_.polar_angle_incremental) = increment.value_or(false);
             return;
         }
         static constexpr auto of_blocks =

@@ -39,7 +39,9 @@ struct NamedWord {
 
 struct Block {
     Words words;
-    std::uint32_t absolute = 0, incremental = 0;      ///< letters given as AC(…), IC(…)
+    std::uint32_t absolute = 0, incremental = 0;  ///< letters given as AC(…), IC(…)
+    /// Letters given as DC(…), ACP(…), ACN(…): absolute modulo 360°, and which of both directions a rotary axis turns in.
+    std::uint32_t shortest = 0, positive = 0, negative = 0;
     int extra_turns = 0;                              ///< TURN=
     std::optional<double> polar_radius, polar_angle;  ///< @ and ^ of LinuxCNC, RP= and AP= of Siemens, as written
     bool polar_radius_incremental = false, polar_angle_incremental = false;  ///< IC(…)
@@ -63,6 +65,7 @@ struct Block {
     void clear() {
         words.clear();
         absolute = incremental = 0;
+        shortest = positive = negative = 0;
         extra_turns = 0;
         polar_radius.reset();
         polar_angle.reset();
