@@ -4,9 +4,11 @@
 #include <limits>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "core/error.h"
 #include "core/file_name.h"
 #include "io/files/sha256.h"
 #include "io/files/utc.h"
@@ -59,7 +61,7 @@ void bind_run(SqliteStatement& row, const RunRecord& run, const std::string& ide
         row.bind(id);
     else
         row.bind(std::numeric_limits<double>::quiet_NaN());
-    row.bind(run.time).bind(utc_now()).bind(run.program).bind(run.program_sha256).bind(run.log).bind(run.log_sha256);
+    row.bind(run.time).bind(run.recorded).bind(run.program).bind(run.program_sha256).bind(run.log).bind(run.log_sha256);
     row.bind(run.machine).bind(run.tool).bind(run.version).bind(run.duration_s).bind(run.points).bind(run.passes);
     row.bind(flag(run.judged)).bind(run.not_judged_reasons).bind(flag(run.within_budget)).bind(run.coverage_percent);
     for (const RunMismatch& m : {run.speed_percent, run.acceleration_mm_s2, run.lag_um}) row.bind(m.median).bind(m.p99);
@@ -96,6 +98,19 @@ void write_defects(const SqliteConnection& connection, std::int64_t id, const st
     }
 }
 
+void write_rules(const SqliteConnection& connection, const ParameterRules& rules) {
+    connection.execute("DELETE FROM parameter_rules");
+    SqliteStatement row(connection, "INSERT INTO parameter_rules VALUES (?, ?, ?, ?, ?, ?)");
+    SqliteStatement value_row(connection, "INSERT INTO parameter_values VALUES (?, ?, ?)");
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    for (const ParameterRule& rule : rules.rules) {
+        row.bind(rule.name).bind(std::string(name_of(rule.kind))).bind(rule.unit).bind(rule.low.value_or(none));
+        row.bind(rule.high.value_or(none)).bind(flag(rule.required)).run();
+        for (std::size_t k = 0; k < rule.values.size(); ++k)
+            value_row.bind(rule.name).bind(static_cast<std::int64_t>(k)).bind(rule.values[k]).run();
+    }
+}
+
 /// The condition of a filter, and what its parameters are.
 struct Condition {
     std::string sql = "1";
@@ -114,6 +129,7 @@ Condition condition_of(const RunFilter& filter) {
         condition.sql += " AND time >= ?";
         condition.values.push_back(filter.since);
     }
+    if (filter.failed) condition.sql += " AND failure <> ''";
     for (const RunParameter& parameter : filter.parameters) {
         condition.sql += " AND EXISTS (SELECT 1 FROM parameters WHERE run = runs.id AND name = ? AND value = ?)";
         condition.values.insert(condition.values.end(), {parameter.name, parameter.value});
@@ -224,6 +240,20 @@ HistoryWriter::HistoryWriter(const std::string& path)
     prepare_history(connection());
 }
 
+bool HistoryDatabase::has_verdict(const RunRecord& failed) const {
+    if (failed.failure.empty()) return false;
+    for (const RunRecord& run : runs({.parameters = failed.parameters})) {
+        if (supersedes(run, failed)) return true;
+    }
+    return false;
+}
+
+bool HistoryDatabase::has_log(const std::string& log_sha256) const {
+    SqliteStatement row(*connection_, "SELECT 1 FROM runs WHERE log_sha256 = ? LIMIT 1");
+    row.bind(log_sha256);
+    return row.step();
+}
+
 std::optional<RunRecord> HistoryDatabase::find_same(const RunRecord& run) const {
     SqliteStatement row(*connection_, fmt::format("SELECT {} FROM runs WHERE identity = ?", run_columns));
     row.bind(identity_of(run));
@@ -232,57 +262,88 @@ std::optional<RunRecord> HistoryDatabase::find_same(const RunRecord& run) const 
 }
 
 AddedRun HistoryWriter::add(const RunRecord& run) {
-    const std::string identity = identity_of(run);
+    RunRecord now = run;
+    now.recorded = utc_now();
     SqliteTransaction transaction(connection());
-    SqliteStatement known(connection(), "SELECT id FROM runs WHERE identity = ?");
-    known.bind(identity);
+    std::vector<RunRecord> failed = runs({.failed = true});
+    const AddedRun added = put(now, failed);
+    transaction.commit();
+    return added;
+}
+
+AddedRun HistoryWriter::put(const RunRecord& run, std::vector<RunRecord>& failed) {
+    const std::string identity = identity_of(run);
     AddedRun added;
-    added.replaced = known.step();
-    if (added.replaced) {
-        added.id = known.integer(0);
-        known.reset();
-        SqliteStatement(connection(), "DELETE FROM runs WHERE id = ?").bind(added.id).run();
+    if (const std::optional<RunRecord> known = find_same(run)) added = {known->id, true};
+    std::vector<std::int64_t> old;
+    if (added.replaced) old.push_back(added.id);
+    for (const RunRecord& f : failed) {
+        if (f.id == added.id || !supersedes(run, f)) continue;
+        old.push_back(f.id);
+        if (added.id == 0) added.id = f.id;
     }
+    std::erase_if(failed, [&](const RunRecord& f) { return std::ranges::find(old, f.id) != old.end(); });
+    SqliteStatement remove(connection(), "DELETE FROM runs WHERE id = ?");
+    for (const std::int64_t id : old) remove.bind(id).run();
     std::string marks = "?, ?";  // the first column's, and that of the identity
     for (std::ptrdiff_t k = std::ranges::count(run_columns, ','); k > 0; --k) marks += ", ?";
     SqliteStatement row(connection(), fmt::format("INSERT INTO runs ({}, identity) VALUES ({})", run_columns, marks));
     bind_run(row, run, identity, added.id);
     row.run();
-    if (!added.replaced) added.id = connection().last_row();
+    if (added.id == 0) added.id = connection().last_row();
     SqliteStatement parameter_row(connection(), "INSERT INTO parameters VALUES (?, ?, ?)");
     for (const RunParameter& parameter : run.parameters)
         parameter_row.bind(added.id).bind(parameter.name).bind(parameter.value).run();
     write_defects(connection(), added.id, run.found);
-    transaction.commit();
+    if (!run.failure.empty()) {
+        failed.push_back(run);
+        failed.back().id = added.id;
+    }
     return added;
 }
 
-std::size_t HistoryWriter::merge(const HistoryDatabase& other) {
-    std::vector<RunRecord> runs = other.runs();
-    other.read_defects(runs);
-    std::size_t taken = 0;
-    for (const RunRecord& run : runs) {
-        const std::optional<RunRecord> known = find_same(run);
-        const auto rank = [](const RunRecord& r) { return std::tuple(r.failure.empty(), r.recorded); };
-        if (known && rank(*known) >= rank(run)) continue;
-        add(run);
-        ++taken;
+ParameterRules common_rules(const HistoryDatabase* into, std::span<const HistoryDatabase> histories) {
+    const HistoryDatabase* first = into;
+    ParameterRules common = into == nullptr ? ParameterRules{} : into->parameter_rules();
+    for (const HistoryDatabase& history : histories) {
+        ParameterRules rules = history.parameter_rules();
+        if (rules.rules.empty()) continue;
+        if (common.rules.empty()) {
+            common = std::move(rules);
+            first = &history;
+        } else if (const std::string name = first_difference(common, rules); !name.empty()) {
+            throw InputError(
+                Place::of_file(history.path()),
+                fmt::format("has another rule for the parameter '{}' than {}", name, first->path()),
+                "record both with the same --parameters FILE; `clsurf history DB add … --parameters FILE` changes the rules of DB");
+        }
     }
+    return common;
+}
+
+std::size_t HistoryWriter::merge(std::span<const HistoryDatabase> others) {
+    const auto rank = [](const RunRecord& r) { return std::tuple(r.failure.empty(), r.recorded); };
+    SqliteTransaction transaction(connection());
+    write_rules(connection(), common_rules(this, others));
+    std::vector<RunRecord> failed = runs({.failed = true});
+    std::size_t taken = 0;
+    for (const HistoryDatabase& other : others) {
+        std::vector<RunRecord> all = other.runs();
+        other.read_defects(all);
+        for (const RunRecord& run : all) {
+            const std::optional<RunRecord> known = find_same(run);
+            if (known ? rank(*known) >= rank(run) : has_verdict(run)) continue;
+            put(run, failed);
+            ++taken;
+        }
+    }
+    transaction.commit();
     return taken;
 }
 
 void HistoryWriter::set_parameter_rules(const ParameterRules& rules) {
     SqliteTransaction transaction(connection());
-    connection().execute("DELETE FROM parameter_rules");
-    SqliteStatement row(connection(), "INSERT INTO parameter_rules VALUES (?, ?, ?, ?, ?, ?)");
-    SqliteStatement value_row(connection(), "INSERT INTO parameter_values VALUES (?, ?, ?)");
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    for (const ParameterRule& rule : rules.rules) {
-        row.bind(rule.name).bind(std::string(name_of(rule.kind))).bind(rule.unit).bind(rule.low.value_or(none));
-        row.bind(rule.high.value_or(none)).bind(flag(rule.required)).run();
-        for (std::size_t k = 0; k < rule.values.size(); ++k)
-            value_row.bind(rule.name).bind(static_cast<std::int64_t>(k)).bind(rule.values[k]).run();
-    }
+    write_rules(connection(), rules);
     transaction.commit();
 }
 

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct RunFilter {
     std::string program = {};                   ///< its name, with folders or without
     std::vector<RunParameter> parameters = {};  ///< each of them
     std::string since = {};                     ///< UTC; not before that
+    bool failed = false;                        ///< only those that could not be judged
     std::size_t last = 0;                       ///< that many at most, the latest ones; 0: all
 };
 
@@ -49,6 +51,10 @@ public:
     [[nodiscard]] std::vector<RunRecord> runs(const RunFilter& filter = {}) const;
     /// The run of the same identity, without defects and parameters; nothing: there is none.
     [[nodiscard]] std::optional<RunRecord> find_same(const RunRecord& run) const;
+    /// A run that was judged has what a failed one could not judge (supersedes()); false for one that did not fail.
+    [[nodiscard]] bool has_verdict(const RunRecord& failed) const;
+    /// A run of a log with this content is there.
+    [[nodiscard]] bool has_log(const std::string& log_sha256) const;
     /// Adds the defects that match to each of the runs. O(defects).
     void read_defects(std::vector<RunRecord>& runs, const DefectFilter& filter = {}) const;
     /// Of all runs, in the order of their ids.
@@ -68,14 +74,23 @@ class HistoryWriter : public HistoryDatabase {
 public:
     explicit HistoryWriter(const std::string& path);
 
-    /// Adds a run with its defects in one transaction; a run of the same identity is replaced and keeps its id. Sets
-    /// `recorded`. O(defects).
+    /// Adds a run with its defects in one transaction; a run of the same identity is replaced and keeps its id, and so are
+    /// failed ones that it supersedes(). Sets `recorded`. O(defects + runs).
     AddedRun add(const RunRecord& run);
-    /// Adds the runs of another history that are not here yet, in the order of their times; where both have a run, the
-    /// one that was judged counts, and of two the later one. Returns how many were added or replaced. O(defects).
-    std::size_t merge(const HistoryDatabase& other);
+    /// Adds the runs of other histories that are not here yet, in the order of their times, as they were recorded; where both
+    /// have a run, the one that was judged counts, and of two the later one. Rules of parameters are taken where there are
+    /// none. All in one transaction. Returns how many were added or replaced. Throws InputError: rules that differ. O(defects).
+    std::size_t merge(std::span<const HistoryDatabase> others);
     /// Replaces the rules; rows that are there already stay as they are.
     void set_parameter_rules(const ParameterRules& rules);
+
+private:
+    /// Adds or replaces a run as it is, in the transaction of the caller. `failed`: the runs here that failed, kept up to date.
+    AddedRun put(const RunRecord& run, std::vector<RunRecord>& failed);
 };
+
+/// The rules of all these histories that have any, and of the one that they are merged into (nullptr: a new one). Throws
+/// InputError: two of them differ.
+[[nodiscard]] ParameterRules common_rules(const HistoryDatabase* into, std::span<const HistoryDatabase> histories);
 
 }  // namespace clsurf::io

@@ -33,15 +33,15 @@ ExitCode merge(const po::variables_map& values, const std::string& database) {
     // All are looked at before anything is written.
     std::vector<io::HistoryDatabase> opened;
     for (const std::string& part : parts) opened.emplace_back(part);
+    static_cast<void>(io::common_rules(nullptr, opened));
     io::HistoryWriter history(database);
-    std::size_t taken = 0;
-    for (const io::HistoryDatabase& part : opened) taken += history.merge(part);
+    const std::size_t taken = history.merge(opened);
     const std::size_t runs = history.runs().size();
     if (read_json(values))
         write_to_stdout(io::merge_json({parts.size(), taken, runs}));
     else
-        write_answer(fmt::format("{} runs of {} databases taken into {}, which has {} now\n", taken, parts.size(),
-                                 database, runs),
+        write_answer(fmt::format("{} run{} of {} database{} taken into {}, which has {} now\n", taken,
+                                 taken == 1 ? "" : "s", parts.size(), parts.size() == 1 ? "" : "s", database, runs),
                      values);
     return ExitCode::done;
 }

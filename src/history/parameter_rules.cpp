@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -97,6 +98,16 @@ std::vector<RunParameter> ParameterRules::with_units(std::vector<RunParameter> p
         if (rule != rules.end() && !rule->unit.empty()) parameter.value += " " + rule->unit;
     }
     return parameters;
+}
+
+std::string first_difference(const ParameterRules& a, const ParameterRules& b) {
+    for (const auto& [one, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+        for (const ParameterRule& rule : one->rules) {
+            const auto same = std::ranges::find(other->rules, rule.name, &ParameterRule::name);
+            if (same == other->rules.end() || !(*same == rule)) return rule.name;
+        }
+    }
+    return {};
 }
 
 RunParameter parse_parameter(const std::string& text) {

@@ -20,6 +20,7 @@ struct ParameterRule {
     std::optional<double> low, high;       ///< of a number, both ends included
     std::vector<std::string> values = {};  ///< of a text: all that are allowed; empty: any
     bool required = false;
+    friend bool operator==(const ParameterRule&, const ParameterRule&) = default;
 };
 
 struct ParameterRules {
@@ -32,6 +33,9 @@ struct ParameterRules {
     /// Numbers with their unit, as they are read again: "0.05 mm". Domain: checked ones.
     [[nodiscard]] std::vector<RunParameter> with_units(std::vector<RunParameter> parameters) const;
 };
+
+/// The name of a parameter of which two sets have different rules, or which only one of them has; empty: they agree.
+[[nodiscard]] std::string first_difference(const ParameterRules& a, const ParameterRules& b);
 
 /// "tool=D6R3". Throws UsageError: no "=", no name, no value.
 [[nodiscard]] RunParameter parse_parameter(const std::string& text);

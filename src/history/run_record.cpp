@@ -21,6 +21,18 @@ std::string identity_text(const RunRecord& run) {
     return text;
 }
 
+bool supersedes(const RunRecord& judged, const RunRecord& failed) {
+    if (!judged.failure.empty() || failed.failure.empty()) return false;
+    if (failed.program_sha256.empty() ? judged.program != failed.program
+                                      : judged.program_sha256 != failed.program_sha256)
+        return false;
+    if (failed.log_sha256.empty() ? judged.log != failed.log : judged.log_sha256 != failed.log_sha256) return false;
+    return std::ranges::all_of(failed.parameters, [&](const RunParameter& p) {
+        const std::string* value = judged.parameter(p.name);
+        return value != nullptr && *value == p.value;
+    });
+}
+
 void sort_parameters(std::vector<RunParameter>& parameters) {
     std::ranges::sort(parameters, {}, &RunParameter::name);
     const auto twice = std::ranges::adjacent_find(parameters, {}, &RunParameter::name);

@@ -85,6 +85,10 @@ struct RunRecord {
 /// they were judged by.
 [[nodiscard]] std::string identity_text(const RunRecord& run);
 
+/// Whether a judged run has what a failed one could not judge: the same program and log (by name where the failed one could not
+/// be read), and at least its parameters, because those of a log are not known before it is read.
+[[nodiscard]] bool supersedes(const RunRecord& judged, const RunRecord& failed);
+
 /// Puts parameters into the order of their names. Throws UsageError: a name that is given twice.
 void sort_parameters(std::vector<RunParameter>& parameters);
 

@@ -269,25 +269,106 @@ TEST(History, ReadsVersion1AndBringsItUpToDateWhereItWrites) {
     EXPECT_EQ(answer(file.path(), "PRAGMA integrity_check"), "ok ");
 }
 
+RunRecord failed_run(int number) {
+    RunRecord run = numbered_run(number);
+    run.judged = false;
+    run.failure = "killed";
+    run.found.clear();
+    run.defects = 0;
+    return run;
+}
+
+/// Takes the runs of one database into another one.
+std::size_t merged(const HistoryFile& from, const HistoryFile& into) {
+    const std::vector<std::string> paths{from.path()};
+    const std::vector<HistoryDatabase> opened(paths.begin(), paths.end());
+    return HistoryWriter(into.path()).merge(opened);
+}
+
 TEST(History, MergesWhatIsNewAndWhatIsBetter) {
     const HistoryFile a("merge_a");
     const HistoryFile b("merge_b");
     HistoryWriter into(a.path());
     HistoryWriter from(b.path());
-    RunRecord failed = numbered_run(2);
-    failed.judged = false;
-    failed.failure = "killed";
-    failed.found.clear();
-    failed.defects = 0;
     for (int k = 1; k <= 4; ++k) from.add(numbered_run(k));
     into.add(numbered_run(1));  // after that of `from`: the later one counts
-    into.add(failed);
-    EXPECT_EQ(into.merge(from), 3U) << "2, which had failed, 3 and 4";
-    EXPECT_EQ(into.merge(from), 0U);
+    into.add(failed_run(2));
+    EXPECT_EQ(merged(b, a), 3U) << "2, which had failed, 3 and 4";
+    EXPECT_EQ(merged(b, a), 0U);
     expect_every_row_whole(a.path());
     EXPECT_EQ(into.runs().size(), 4U);
-    from.add(failed);
-    EXPECT_EQ(into.merge(from), 0U) << "a failure replaces no verdict";
+    from.add(failed_run(2));
+    EXPECT_EQ(merged(b, a), 0U) << "a failure replaces no verdict";
+}
+
+TEST(History, AMergedRunIsAsOldAsItWas) {
+    const HistoryFile older("merge_older");
+    const HistoryFile newer("merge_newer");
+    const HistoryFile into("merge_into");
+    RunRecord run = numbered_run(1);
+    HistoryWriter(older.path()).add(run);
+    execute(older.path(), "UPDATE runs SET recorded = '2026-11-01T00:00:00Z'");
+    run.worst_score = 77;
+    HistoryWriter(newer.path()).add(run);
+    execute(newer.path(), "UPDATE runs SET recorded = '2026-11-02T00:00:00Z'");
+    EXPECT_EQ(merged(older, into), 1U);
+    EXPECT_EQ(answer(into.path(), "SELECT recorded FROM runs"), "2026-11-01T00:00:00Z ");
+    EXPECT_EQ(merged(newer, into), 1U) << "judged later, though both before the merge";
+    EXPECT_EQ(answer(into.path(), "SELECT recorded, worst_score FROM runs"), "2026-11-02T00:00:00Z 77.0 ");
+    EXPECT_EQ(merged(older, into), 0U);
+}
+
+TEST(History, MergesRulesOfParametersOrRefusesOthers) {
+    const HistoryFile plain("rules_plain");
+    const HistoryFile ruled("rules_ruled");
+    const HistoryFile other("rules_other");
+    const HistoryFile into("rules_into");
+    const ParameterRules rules{{{"number", ParameterKind::number, "", {}, {}, {}, true},
+                                {"tool", ParameterKind::text, "", {}, {}, {"D6R3", "D8"}, false}}};
+    HistoryWriter(plain.path()).add(numbered_run(1));
+    HistoryWriter(ruled.path()).add(numbered_run(2));
+    HistoryWriter(ruled.path()).set_parameter_rules(rules);
+    merged(plain, into);
+    merged(ruled, into);
+    merged(ruled, into);
+    EXPECT_EQ(first_difference(HistoryDatabase(into.path()).parameter_rules(), rules), "");
+    ParameterRules changed = rules;
+    changed.rules[1].values.pop_back();
+    HistoryWriter(other.path()).add(numbered_run(3));
+    HistoryWriter(other.path()).set_parameter_rules(changed);
+    try {
+        merged(other, into);
+        ADD_FAILURE();
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.diagnostic().text,
+                  fmt::format("has another rule for the parameter 'tool' than {}", into.path()));
+    }
+    EXPECT_EQ(answer(into.path(), "SELECT count(*) FROM runs"), "2 ") << "nothing is taken";
+    EXPECT_EQ(first_difference(rules, {{rules.rules[0]}}), "tool");
+    EXPECT_EQ(first_difference({{rules.rules[1]}}, rules), "number");
+}
+
+TEST(History, AVerdictReplacesTheFailureOfItsRun) {
+    const HistoryFile file("superseded");
+    HistoryWriter history(file.path());
+    RunRecord unread = failed_run(1);  // the log was not there: no hash, and its parameters are not known
+    unread.log_sha256.clear();
+    unread.parameters = {{"tool", "D6R3"}};
+    RunRecord other_tool = failed_run(1);
+    other_tool.parameters = {{"tool", "D8"}};
+    history.add(unread);
+    history.add(other_tool);
+    history.add(failed_run(2));
+    const AddedRun added = history.add(numbered_run(1));
+    EXPECT_EQ(added.id, 1);
+    EXPECT_FALSE(added.replaced) << "no verdict was there";
+    EXPECT_EQ(answer(file.path(), "SELECT id, length(failure) > 0 FROM runs ORDER BY id"), "1 0 2 1 3 1 ");
+    // The failures of another history are not taken where there is a verdict, and a verdict replaces those here.
+    const HistoryFile failures("superseded_failures");
+    HistoryWriter(failures.path()).add(unread);
+    EXPECT_EQ(merged(failures, file), 0U);
+    EXPECT_EQ(merged(file, failures), 3U);
+    EXPECT_EQ(answer(failures.path(), "SELECT count(*), sum(length(failure) > 0) FROM runs"), "3 2 ");
 }
 
 TEST(History, AnEmptyFileHasNoRuns) {
