@@ -32,6 +32,7 @@ struct LogFormat {
     /// The frame of a log whose beginning that is: its head and some records. Throws InputError: the head is not whole, or
     /// wrong. nullptr: the format cannot be read before it is whole.
     RecordFrame (*frame)(const Source& beginning, const LogOptions& options) = nullptr;
+    bool names_parameters = false;  ///< the metadata of its logs may name parameters of the run (run_parameters.h)
 };
 
 /// What the user may say about a log that the log does not say itself.

@@ -19,7 +19,7 @@ namespace {
 
 /// One line a format. Later lines win only with a better score.
 constexpr auto known_formats = std::to_array<LogFormat>({
-    {"biip", "BIIP v1: self-describing fixed records (docs/formats/biip.md)", probe_biip, open_biip, frame_biip},
+    {"biip", "BIIP v1: self-describing fixed records (docs/formats/biip.md)", probe_biip, open_biip, frame_biip, true},
     {"layout", "fixed binary records, described by --layout FILE", probe_layout, open_layout, frame_layout},
     {"halsampler", "LinuxCNC halsampler text, columns named by --mapping FILE", probe_halsampler, open_halsampler,
      frame_text},

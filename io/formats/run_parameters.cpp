@@ -1,6 +1,7 @@
 #include "io/formats/run_parameters.h"
 
 #include "core/printable_text.h"
+#include "io/files/compressed.h"
 #include "io/files/json_value.h"
 
 namespace clsurf::io {
@@ -26,6 +27,13 @@ std::vector<RunParameter> parameters_of_metadata(const std::string& metadata) {
     }
     sort_parameters(parameters);
     return parameters;
+}
+
+std::vector<RunParameter> parameters_of_log(const std::string& path, const LogOptions& options) {
+    const Source source = open_source(path);
+    const LogFormat* format = recognise_log(source, options);
+    if (format == nullptr || !format->names_parameters) return {};
+    return parameters_of_metadata(format->open(source, options).metadata);
 }
 
 std::string list_of(const std::vector<RunParameter>& parameters) {

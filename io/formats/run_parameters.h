@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "history/run_record.h"
+#include "io/formats/log_format.h"
 
 namespace clsurf::io {
 
@@ -13,6 +14,9 @@ namespace clsurf::io {
 
 /// Those of the metadata, numbers as texts, in the order of their names; what is neither text nor number is left out.
 [[nodiscard]] std::vector<RunParameter> parameters_of_metadata(const std::string& metadata);
+
+/// The same of a log, which is opened only if its format can name some. Throws InputError.
+[[nodiscard]] std::vector<RunParameter> parameters_of_log(const std::string& path, const LogOptions& options);
 
 /// "tool=D6R3, wear=0.05 mm".
 [[nodiscard]] std::string list_of(const std::vector<RunParameter>& parameters);

@@ -24,6 +24,7 @@
 #include "core/version.h"
 #include "history/memory_plan.h"
 #include "io/files/utc.h"
+#include "io/formats/run_parameters.h"
 
 namespace clsurf::cli {
 namespace {
@@ -111,7 +112,10 @@ private:
         if (unit.program.empty()) return fail(i, "no program was found for this log");
         all_bytes_ += unit.bytes;
         try {
-            const std::optional<RunRecord> known = history_.find_same(record_of_unit(unit));
+            RunRecord run = record_of_unit(unit);
+            // Only a log that was recorded once is opened for its parameters.
+            if (history_.has_log(run.log_sha256)) add_log_parameters(run, unit);
+            const std::optional<RunRecord> known = history_.find_same(run);
             if (known && known->settings == settings_of(values_of(unit)) &&
                 (known->failure.empty() || !rules_.retry_failed)) {
                 all_bytes_ -= unit.bytes;
@@ -140,7 +144,7 @@ private:
         return parse_words(find_subcommand("history"), words_of_unit(unit, rules_.database));
     }
 
-    /// What is known of a unit without judging it.
+    /// What is known of a unit without judging it and without opening its log.
     RunRecord record_of_unit(const FleetUnit& unit) const {
         RunRecord run;
         run.program = unit.program;
@@ -158,12 +162,26 @@ private:
         return run;
     }
 
+    /// The parameters that the run has when it is recorded. If the log cannot be read, or has some that are not allowed, the
+    /// run fails by itself, with --param alone.
+    void add_log_parameters(RunRecord& run, const FleetUnit& unit) const {
+        if (run.log_sha256.empty()) return;
+        const po::variables_map values = values_of(unit);
+        const RunRecorder recorder(rules_.database, values);
+        try {
+            run.parameters = recorder.parameters_with(io::parameters_of_log(unit.log, read_log_options(values)));
+        } catch (const InputError&) { run.parameters = recorder.parameters(); } catch (const UsageError&) {
+            run.parameters = recorder.parameters();
+        }
+    }
+
     /// A failure is a row, too.
     void fail(std::size_t i, const std::string& cause) {
         const FleetUnit& unit = units_[i];
         RunRecord run;
         try {
             run = record_of_unit(unit);
+            add_log_parameters(run, unit);
         } catch (const UsageError&) {  // its parameters are what failed
             run = RunRecord{};
             run.program = unit.program;

@@ -82,6 +82,15 @@ std::optional<RunRecorder> read_recorder(const po::variables_map& values, const 
     return RunRecorder(values["record"].as<std::string>(), values);
 }
 
+std::vector<RunParameter> RunRecorder::parameters_with(std::vector<RunParameter> of_log) const {
+    std::vector<RunParameter> all = parameters_;
+    for (RunParameter& parameter : of_log) {
+        if (std::ranges::find(parameters_, parameter.name, &RunParameter::name) == parameters_.end())
+            all.push_back(std::move(parameter));
+    }
+    return in_force_.checked(std::move(all));
+}
+
 io::AddedRun RunRecorder::add(const PartOptions& options, const CheckedRun& run) const {
     RunRecord record = record_of(run.part, run.quality, run.within_budget());
     record.program = options.program;
@@ -93,12 +102,7 @@ io::AddedRun RunRecorder::add(const PartOptions& options, const CheckedRun& run)
                                              : io::read_machine(options.machine).name;
     record.version = version;
     record.settings = settings_;
-    record.parameters = parameters_;
-    for (RunParameter& of_log : io::parameters_of_metadata(run.part.log.metadata)) {
-        if (std::ranges::find(parameters_, of_log.name, &RunParameter::name) == parameters_.end())
-            record.parameters.push_back(std::move(of_log));
-    }
-    record.parameters = in_force_.checked(std::move(record.parameters));
+    record.parameters = parameters_with(io::parameters_of_metadata(run.part.log.metadata));
     io::HistoryWriter history(database_);
     if (rules_) history.set_parameter_rules(*rules_);
     return history.add(record);

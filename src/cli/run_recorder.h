@@ -36,13 +36,16 @@ public:
     /// Throws UsageError, InputError.
     RunRecorder(std::string database, const po::variables_map& values);
 
-    /// Adds it, with the parameters of the log's metadata that are not given. Throws SystemError, UsageError: those of the
-    /// log are not allowed, or a required one is missing.
+    /// Adds it with its parameters_with(). Throws SystemError, UsageError.
     io::AddedRun add(const PartOptions& options, const CheckedRun& run) const;
     /// "run 12 of shop.db", with what became of the run that was there.
     [[nodiscard]] std::string text_of(const io::AddedRun& added) const;
 
+    /// --param.
     [[nodiscard]] const std::vector<RunParameter>& parameters() const { return parameters_; }
+    /// Those of a run: --param, and of those of its log the others. Throws UsageError: those of the log are not allowed, or a
+    /// required one is missing.
+    [[nodiscard]] std::vector<RunParameter> parameters_with(std::vector<RunParameter> of_log) const;
     /// --time; empty: it is not given.
     [[nodiscard]] const std::string& time() const { return time_; }
 

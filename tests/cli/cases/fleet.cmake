@@ -12,6 +12,14 @@ clsurf_cli_test(NAME fleet_goes_on_where_it_was SETUP "${fleet_twice}" ARGS flee
 clsurf_cli_test(NAME fleet_judges_again_what_changed SETUP "${fleet_twice}; printf 'y' >> part_2.biip" ARGS fleet runs.toml -o shop.db EXIT 1 STDOUT ". 2 of the 3 were recorded already")
 clsurf_cli_test(NAME fleet_judges_again_with_other_options SETUP "${fleet_twice}" ARGS fleet runs.toml -o shop.db --tool ball:6 --json EXIT 1 STDOUT "\"already_recorded\": 0" "\"cause\": \"nowhere.biip: error")
 clsurf_cli_test(NAME fleet_tries_failed_runs_again SETUP "${fleet_twice}; $CLSURF history shop.db list > ../before; cp @LOGS@/planted_loops.biip nowhere.biip" ARGS fleet runs.toml -o shop.db --retry-failed STDOUT "3 judged.*0 failed. 2 of the 3 were recorded already")
+clsurf_cli_test(NAME fleet_a_verdict_replaces_its_failure SETUP "${fleet_twice}; cp @LOGS@/planted_loops.biip nowhere.biip; $CLSURF fleet runs.toml -o shop.db --retry-failed -q" ARGS history shop.db list --json STDOUT "\"log\": \"nowhere.biip\"" NO_STDOUT "\"failure\": \"nowhere")
+# Parameters of the log count, also where --param gives another one.
+clsurf_cli_test(NAME fleet_knows_runs_by_the_parameters_of_their_logs
+  SETUP "cp ${planted} part.nc; $CLSURF convert @LOGS@/planted_loops.biip --param tool=D6R3 -o part.biip -q; $CLSURF fleet --program part.nc --log part.biip -o shop.db --param wear=0.1 -q"
+  ARGS fleet --program part.nc --log part.biip -o shop.db --param wear=0.1 STDOUT "^1 run in shop.db: 1 judged.* 0 failed. 1 of the 1 were recorded already")
+clsurf_cli_test(NAME fleet_merge_of_one SETUP "${fleet_runs}; $CLSURF history a.db add part.nc part_1.biip -q" ARGS fleet --merge a.db -o m.db STDOUT "^1 run of 1 database taken into m.db, which has 1 now")
+clsurf_cli_test(NAME fleet_merge_of_other_rules SETUP "${fleet_runs}; printf '[wear]\nkind = \"number\"\n' > a.toml; printf '[wear]\nkind = \"text\"\n' > b.toml; for k in a b; do $CLSURF history $k.db add part.nc part_1.biip --parameters $k.toml --param wear=1 -q; done"
+  ARGS fleet --merge a.db b.db -o m.db EXIT 3 STDERR "b.db: error: has another rule for the parameter 'wear' than a.db" "--parameters FILE")
 clsurf_cli_test(NAME fleet_is_killed_and_goes_on
   SETUP "${fleet_runs}; $CLSURF fleet runs.toml -o whole.db -q || true; for wait in 0.02 0.1 0.3 0.6 1; do timeout -s KILL $wait $CLSURF fleet runs.toml -o shop.db --jobs 1 -q || true; done; $CLSURF fleet runs.toml -o shop.db -q || true; python3 -c \"${rows}\" whole.db > a; python3 -c \"${rows}\" shop.db > b; cmp a b"
   ARGS fleet runs.toml -o shop.db EXIT 1 STDOUT "3 of the 3 were recorded already")
