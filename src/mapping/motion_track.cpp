@@ -92,7 +92,7 @@ private:
 
     std::size_t keys_ = 0;
     std::vector<std::size_t> base_;       ///< by file: key of its line 0
-    Column<std::uint32_t> first_of_key_;  ///< by key: where in stretches_ its own begin
+    Column<std::uint32_t> first_of_key_;  ///< by key: where in sections_ its own begin
     Column<Section> sections_;            ///< sorted by key, then by motion
 };
 

@@ -35,7 +35,7 @@ struct FittedPose {
     Distances distances;
 };
 
-/// What a fit tells of its degrees of freedom: per unit of `directions`, in mm that a point moves (rotations: at the root
+/// What a fit tells of its degrees of freedom: along `axes`, in mm that a point moves (rotations: at the root
 /// mean square distance of the points from their centre).
 struct PoseInformation {
     std::vector<PoseAxis> axes;  ///< that were free

@@ -11,7 +11,7 @@
 namespace clsurf {
 
 /// Points no farther than `radii` [mm] from `places`, with a small sum of squared third divided differences over
-/// `ways` [mm] (strictly rising); a radius of 0 holds a point. `start` is where the search begins, one point a
+/// `arc_lengths` [mm] (strictly rising); a radius of 0 holds a point. `start` is where the search begins, one point a
 /// place; empty: at the places. Fewer than four places: the start.
 ///
 /// Alternating directions (S. Boyd et al., Foundations and Trends in Machine Learning 3 (2011) 1–122, section 3) over a

@@ -9,7 +9,7 @@ namespace clsurf {
 
 class Chords {
 public:
-    /// Stands at `point` of the run [first, last]; chords reach over `way` [mm] to each side, less at
+    /// Stands at `point` of the run [first, last]; chords reach over `arc_length` [mm] to each side, less at
     /// the run's ends. O(points in the window).
     Chords(const ArcLength& lengths, PointRange run, PointIndex point, float arc_length)
         : lengths_(&lengths), run_(run), arc_length_(arc_length), at_(point), behind_(point), ahead_(point) {

@@ -22,7 +22,7 @@ class SegmentQueue {
 public:
     explicit SegmentQueue(const Machine& machine) : machine_(&machine) {}
 
-    /// Takes the next block; `start`: where the one before it ends [mm].
+    /// Takes the next block, which begins where the one before it ends.
     void add(const PathElement& element);
     [[nodiscard]] bool empty() const { return segments_.empty(); }
     [[nodiscard]] std::size_t size() const { return segments_.size(); }
