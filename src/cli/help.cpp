@@ -145,7 +145,7 @@ std::span<const ExitCodeRow> exit_codes() {
         ExitCodeRow{ExitCode::check_failed, "done, but a check or a comparison failed"},
         ExitCodeRow{ExitCode::usage, "wrong options or arguments"},
         ExitCodeRow{ExitCode::bad_input, "an input that cannot be used"},
-        ExitCodeRow{ExitCode::system, "the machine failed: disk, memory, graphics"},
+        ExitCodeRow{ExitCode::system, "system failure: disk, memory, graphics"},
         ExitCodeRow{ExitCode::not_judged, "done, but not judged: the data do not allow a verdict"},
     };
     return table;

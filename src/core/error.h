@@ -13,7 +13,7 @@ enum class ExitCode : int {
     check_failed = 1,  ///< done, but a check or a comparison failed
     usage = 2,         ///< wrong options or arguments
     bad_input = 3,     ///< a file that cannot be used
-    system = 4,        ///< disk, memory, graphics failed us
+    system = 4,        ///< system failure: disk, memory, graphics
     not_judged = 5,    ///< done, but the data do not allow a verdict
 };
 
@@ -39,7 +39,7 @@ private:
     std::string hint_;
 };
 
-/// The machine failed us: disk full, not writable, no graphics context.
+/// A system failure: disk full, not writable, no graphics context.
 class SystemError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

@@ -58,4 +58,4 @@ class UsageError(Error, ValueError):
 
 
 class SystemError(Error, OSError):  # noqa: A001 - the name of the library's own
-    """The machine failed: disk, graphics."""
+    """A system failure: disk, memory, graphics."""
