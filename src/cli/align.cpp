@@ -47,12 +47,13 @@ Subcommand align_subcommand() {
         .summary = "the pose of measured points on the predicted surface",
         .description =
             "POINTS is what was measured on the finished part: a profile (x, z) or points of a coordinate measuring machine\n"
-            "(x, y, z) as delimited text, or an areal map as a surface data file (ISO 25178-71, .sdf). The pose is found for which\n"
-            "the points lie nearest to the surface that the tool leaves along the positions of the log (least squares, distances\n"
-            "along the normal). Each fitted value has a standard error. From the stated start the form leads first; then poses\n"
-            "about it are compared, since a surface with scallops fits nearly as well one step-over beside the right place.\n"
-            "The exit code is 5 if the data do not determine the pose, and the reason is given: a plane can be shifted, a profile\n"
-            "without a known start can lie anywhere, and without a mark or a form two poses fit alike.\n\n"
+            "(x, y, z) as delimited text, or an areal map as a surface data file (ISO 25178-71, .sdf). The fit is a least-squares\n"
+            "fit: it minimises the distances along the normal from the points to the surface that the tool leaves along the\n"
+            "positions of the log. Each fitted value has a standard error. The first fit starts from the stated start and uses\n"
+            "the form alone. Poses near its result are compared next, because a surface with scallops fits nearly as well when\n"
+            "it is displaced by one step-over.\n"
+            "The exit code is 5 if the data do not determine the pose. The reason is given: a plane can be shifted, a profile\n"
+            "without a known start can be anywhere, and without a mark or a form two poses fit equally well.\n\n"
             "  clsurf align cmm.csv part.nc run.biip --tool ball:6\n"
             "  clsurf align stylus.csv part.nc run.biip --tool ball:6 --measured-at 12.5,3,90",
         .declare =
