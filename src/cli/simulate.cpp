@@ -59,8 +59,8 @@ Subcommand simulate_subcommand() {
             "kept.\n"
             "With --tradeoff or --weight the program is simulated at many settings: shares of the limits of jerk and\n"
             "acceleration, of the feeds, and feeds of constant-speed intervals. The Pareto front of time, speed\n"
-            "difference between adjacent passes and jerk is drawn, and --weight W chooses from it: the settings of\n"
-            "least (1 - W) t + W (m + j) / 2, where t, m and j are time, difference and jerk (95th percentiles)\n"
+            "difference between adjacent passes and jerk is drawn, and --weight W chooses from it: the settings\n"
+            "with the smallest value of (1 - W) t + W (m + j) / 2, where t, m and j are time, difference and jerk (95th percentiles)\n"
             "relative to those of the machine file. -o writes the log of that run, --settings its machine file.\n\n"
             "  clsurf simulate part.nc --machine mill.toml -o run.biip\n"
             "  clsurf simulate part.nc --controller 'run_on_kernel.sh {program} {log}' -o run.biip\n"
@@ -75,7 +75,7 @@ Subcommand simulate_subcommand() {
                 declare_settings_tradeoff(options);
                 declare_simulation(options);
                 declare_controller(options);
-                declare_work_offset(options);
+                declare_work_offset(options, false);
                 declare_json(options);
                 declare_program_options(options);
             },

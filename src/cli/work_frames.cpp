@@ -33,10 +33,12 @@ Eigen::Isometry3d pose_from(const std::string& text) {
 
 }  // namespace
 
-void declare_work_offset(po::options_description& options) {
-    options.add_options()(
-        "work-offset", po::value<std::vector<std::string>>()->composing()->value_name("X,Y,Z[,R]"),
-        "machine position of the program's zero [mm], and its rotation about Z [deg] (default: from the log, else from the program); G55:X,Y,Z,R sets one work offset; repeat the option for others");
+void declare_work_offset(po::options_description& options, bool with_log) {
+    const std::string text = fmt::format(
+        "machine position of the program's zero [mm], and its rotation about Z [deg] (default: {}); G55:X,Y,Z,R sets one work offset; repeat the option for others",
+        with_log ? "from the log, else from the program" : "from the program");
+    options.add_options()("work-offset", po::value<std::vector<std::string>>()->composing()->value_name("X,Y,Z[,R]"),
+                          text.c_str());
 }
 
 FramePoses read_work_offset(const po::variables_map& values) {

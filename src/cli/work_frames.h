@@ -13,8 +13,8 @@
 
 namespace clsurf::cli {
 
-/// --work-offset
-void declare_work_offset(po::options_description& options);
+/// --work-offset. `with_log`: the subcommand can read a log.
+void declare_work_offset(po::options_description& options, bool with_log = true);
 /// X,Y,Z or X,Y,Z,R of the program's zero, a default where the configuration gives it; G55:X,Y,Z,R of a work system that the program does not set.
 [[nodiscard]] FramePoses read_work_offset(const po::variables_map& values);
 
