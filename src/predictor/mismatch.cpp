@@ -74,11 +74,11 @@ float change_of_two_periods(const Signals& signals, float Sample::*signal, Point
     return change == change ? change : 0;
 }
 
-/// Whether a relief is the part's own. A pass that lies off lifts the chords of its neighbours, or lowers them: with
-/// theirs its relief adds up to nothing, and so it does for two passes that lie off, or every second one, with both of theirs. That of an edge
-/// or a fillet of the part adds up to the angle by which the surface turns there, and beside one reliefs may add up
-/// to anything, but are smaller. Counted from the mean of all `places` around: those of one side, the adjacent one first, then as
-/// many of the other one.
+/// Whether a relief is the part's own. If one pass is displaced, its neighbours' reliefs have the opposite sign, and the three
+/// reliefs sum to about zero. The same holds for two adjacent displaced passes and for every second pass, with four reliefs.
+/// At an edge or a fillet the sum is half a step-over times the angle by which the surface turns. Next to one, reliefs can
+/// have any sum, but they are smaller than that of the edge. Reliefs count from the mean of all `places`: those of one
+/// side, the adjacent one first, then as many of the other one.
 bool is_shape(float relief, std::span<const Compared> places) {
     float sum = relief;
     int known = 1;
