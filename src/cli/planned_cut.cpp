@@ -18,8 +18,8 @@ double plane_of(const MeasuredData& data) {
     if (data.kind == MeasuredKind::profile) return 0;
     const auto [least, most] = std::minmax_element(data.points.begin(), data.points.end(),
                                                    [](const Vec3& a, const Vec3& b) { return a.y() < b.y(); });
-    constexpr double play = 1e-3;  // mm
-    if (data.kind == MeasuredKind::areal || most->y() - least->y() > play)
+    constexpr double tolerance = 1e-3;  // mm
+    if (data.kind == MeasuredKind::areal || most->y() - least->y() > tolerance)
         throw InputError(Place::of_file(data.name), "is not a profile: its points do not have one y",
                          "--x and --z choose the columns of a profile");
     return least->y();

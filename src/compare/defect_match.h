@@ -1,7 +1,7 @@
 #pragma once
 // Defect match: which defects of one run are there in another one of the same part: gone, new, remaining.
 //
-// Two defects are the same mark if they are of one kind (motion, or height) and run over the same stretch of the same
+// Two defects are the same mark if they are of one kind (motion, or height) and run over the same section of the same
 // pass: at least a quarter of the shorter one lies within three quarters of a step-over of the other. Places decide,
 // not lines and numbers of passes, so a repaired program compares with the one before.
 

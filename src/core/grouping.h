@@ -10,7 +10,7 @@ namespace clsurf {
 
 /// 0 … count − 1 by group, rising inside each.
 struct Grouping {
-    std::vector<std::size_t> start;  ///< in `order`, of each group, and behind the last
+    std::vector<std::size_t> start;  ///< in `order`, of each group, and after the last
     std::vector<std::uint32_t> order;
 
     [[nodiscard]] std::span<const std::uint32_t> of(std::size_t group) const {

@@ -149,7 +149,7 @@ public:
     /// The guess made better; none where too few points come near, or a direction is not determined.
     std::optional<Eigen::Isometry3d> refine(Eigen::Isometry3d pose, bool turns) {
         for (int round = 0; round < most_rounds; ++round) {
-            find_feet(pose);
+            project(pose);
             if (static_cast<double>(residuals_.size()) < found_share * static_cast<double>(samples_.size()))
                 return std::nullopt;
             const Eigen::Vector4d step = solve(pose * centre_, turns);
@@ -175,7 +175,7 @@ public:
         return share(pose) >= near_share && typical_distance() <= near;
     }
     [[nodiscard]] double share(const Eigen::Isometry3d& pose) {
-        find_feet(pose);
+        project(pose);
         const auto good = std::count_if(residuals_.begin(), residuals_.end(),
                                         [&](const Residual& r) { return r.off.squaredNorm() <= near_ * near_; });
         return static_cast<double>(good) / static_cast<double>(samples_.size());
@@ -201,7 +201,7 @@ private:
         Vec3 off, direction, point;
     };
 
-    void find_feet(const Eigen::Isometry3d& pose) {
+    void project(const Eigen::Isometry3d& pose) {
         residuals_.clear();
         for (const PathSample& sample : samples_) {
             const Vec3 p = pose * sample.position;

@@ -261,11 +261,11 @@ std::vector<double> BezierCurve::chord_ends(double error) const {
     return ends;
 }
 
-bool BezierCurve::same_as(const BezierCurve& other, double play) const {
+bool BezierCurve::same_as(const BezierCurve& other, double tolerance) const {
     if (points_.size() != other.points_.size()) return false;
     for (std::size_t i = 0; i < points_.size(); ++i) {
         const Vec3 off = point(i) - other.point(i);
-        if ((off.array().abs() > play).any() || std::abs(weight(i) - other.weight(i)) > 1e-9) return false;
+        if ((off.array().abs() > tolerance).any() || std::abs(weight(i) - other.weight(i)) > 1e-9) return false;
     }
     return true;
 }

@@ -57,8 +57,8 @@ public:
     /// Where chords end that stay within `error` [mm] of the curve; the last one is 1.
     [[nodiscard]] std::vector<double> chord_ends(double error) const;
 
-    /// Whether it has the same control points, within `play` [mm], and weights, within 10⁻⁹.
-    [[nodiscard]] bool same_as(const BezierCurve& other, double play) const;
+    /// Whether it has the same control points, within `tolerance` [mm], and weights, within 10⁻⁹.
+    [[nodiscard]] bool same_as(const BezierCurve& other, double tolerance) const;
     /// Coordinates that are not known are those of `rest`.
     [[nodiscard]] BezierCurve with_unknown_at(const Vec3& rest) const;
     /// The curve as an affine map makes it.

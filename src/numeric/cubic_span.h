@@ -20,7 +20,7 @@ struct CubicSpan {
     /// Sets the pieces that make arc_length_to() exact. One is enough for a gentle bend. In a sharp one the speed |dr/du| varies so
     /// much that a single rule is wrong by 10⁻⁴, which jumps from curve to curve.
     void choose_pieces();
-    /// The u where the way from u = 0 is `arc_length` [mm], clipped to [0, chord]; `length`: arc_length_to(chord). Newton's
+    /// The u where the arc length from u = 0 is `arc_length` [mm], clipped to [0, chord]; `length`: arc_length_to(chord). Newton's
     /// method, kept in a bracket.
     [[nodiscard]] double at_arc_length(double arc_length, double length) const;
     [[nodiscard]] double at_arc_length(double arc_length) const {

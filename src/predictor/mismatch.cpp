@@ -305,7 +305,7 @@ std::array<float, quantities> Comparer::change_nearby(PointIndex point, float re
 
 Comparison Comparer::compare_at_end(const PathLocation& here) const {
     const PointIndex point = here.nearest();
-    Comparison result = compare_with(Peers::same_way, here, passes_aside);
+    Comparison result = compare_with(Peers::same_direction, here, passes_aside);
     const float reference = std::max(signals_[point].speed, least_speed_);
     result.slack = change_nearby(point, reference);
     // What the others do not, it does by itself.
@@ -341,7 +341,7 @@ Comparison Comparer::compare_with(Peers peers, const PathLocation& here, int asi
             if (passes == 1) against = runs_against(signals_, point, at);
             if ((passes == 1 || (passes == 2 && against)) && signals_[at.nearest()].zone == Zone::ramp)
                 result.ramp = true;
-            if (peers == Peers::same_way && runs_against(signals_, point, at)) return;
+            if (peers == Peers::same_direction && runs_against(signals_, point, at)) return;
             beside_it[s][static_cast<std::size_t>(count[s]++)] = compared_at(signals_, at, normal);
         });
         if (count[s] == 0) continue;

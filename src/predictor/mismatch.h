@@ -25,7 +25,7 @@ struct Comparison {
     std::array<float, quantities> slack{};        ///< of step and residual, where passes begin and end a little apart
     float speed_jump = 0;                         ///< residual of the speed [mm/s]
     int left = 0, right = 0;                      ///< passes that were compared with
-    bool ramp = false;  ///< it lies in the ramp of its pass, of an adjacent one, or of the next of its own way
+    bool ramp = false;  ///< it lies in the ramp of its pass, of an adjacent one, or of the next with its direction
     PathLocation beside_left, beside_right;  ///< on the adjacent passes
 };
 
@@ -42,8 +42,8 @@ public:
     /// O(1): up to `aside` passes on each side. With one, the steps are the same, residuals mean little.
     [[nodiscard]] Comparison compare(const PathLocation& here, int aside = passes_aside) const;
 
-    /// Among passes of the place's own way, where all of them begin or end there. They do so a little apart,
-    /// and change fast: as much as all of them change within half a step-over is slack.
+    /// Among passes with the direction of travel of the place, where all of them begin or end there. They do so a little
+    /// apart, and change fast: as much as all of them change within half a step-over is slack.
     [[nodiscard]] Comparison compare_at_end(const PathLocation& here) const;
 
     /// Where the passes round a place do one after the other what it does too, its motion is
@@ -51,9 +51,9 @@ public:
     void compare_obliquely_around(const PathLocation& here, Comparison& comparison) const;
 
 private:
-    /// What a place is compared with: all passes, or those only that run the same way, of a zigzag every
+    /// What a place is compared with: all passes, or those only with the same direction of travel, of a zigzag every
     /// second one.
-    enum class Peers : std::uint8_t { all, same_way };
+    enum class Peers : std::uint8_t { all, same_direction };
 
     [[nodiscard]] Comparison compare_with(Peers peers, const PathLocation& here, int aside) const;
 

@@ -86,25 +86,27 @@ void add(const JudgedRun& run, int sign, const Mismatch& mismatch, std::size_t d
     }
 }
 
-std::unordered_set<CellGrid::Key> worse_cells(CellMap& map, int aside) {
-    std::unordered_set<CellGrid::Key> worse;
-    std::vector<std::pair<double, CellGrid::Key>> dear;  // the time that a gain takes, and where
-    std::int64_t longer = 0;                             // than before, outside the worse cells [periods]
+std::unordered_set<CellGrid::Key> cells_to_restore(CellMap& map, int aside) {
+    std::unordered_set<CellGrid::Key> restored;
+    std::vector<std::pair<double, CellGrid::Key>> expensive;  // the time that a gain takes, and where
+    std::int64_t longer = 0;                                  // than before, outside the restored cells [periods]
     for (const auto& [key, sum] : map.sums(aside)) {
         if (sum.loss() > least_loss) {
-            worse.insert(key);
+            restored.insert(key);
             continue;
         }
         longer += map.at(key).points;
-        if (sum.points > 0) dear.emplace_back(static_cast<double>(sum.points) / std::max(-sum.loss(), least_loss), key);
+        if (sum.points > 0)
+            expensive.emplace_back(static_cast<double>(sum.points) / std::max(-sum.loss(), least_loss), key);
     }
-    std::stable_sort(dear.begin(), dear.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    for (const auto& [price, key] : dear) {
+    std::stable_sort(expensive.begin(), expensive.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    for (const auto& [time_per_gain, key] : expensive) {
         if (longer <= 0) break;
         longer -= map.at(key).points;
-        worse.insert(key);
+        restored.insert(key);
     }
-    return worse;
+    return restored;
 }
 
 }  // namespace
@@ -115,10 +117,10 @@ std::vector<std::uint8_t> worse_motions(const JudgedRun& before, const JudgedRun
     const Mismatch mismatch(before);
     add(before, -1, mismatch, before.report.defects.size(), map);
     add(after, 1, mismatch, before.report.defects.size(), map);
-    const std::unordered_set<CellGrid::Key> worse = worse_cells(map, rules.cells_aside);
+    const std::unordered_set<CellGrid::Key> restored = cells_to_restore(map, rules.cells_aside);
     std::vector<std::uint8_t> marks(static_cast<std::size_t>(before.surface.positions.size()), 0);
     for (std::size_t i = 0; i < marks.size(); ++i)
-        marks[i] = worse.contains(map.key(before.surface.positions.absolute(static_cast<PointIndex>(i)))) ? 1 : 0;
+        marks[i] = restored.contains(map.key(before.surface.positions.absolute(static_cast<PointIndex>(i)))) ? 1 : 0;
     return marked_motions(before, program, marks);
 }
 

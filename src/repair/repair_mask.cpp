@@ -46,7 +46,7 @@ Marks spread_aside(const JudgedRun& run, const Marks& marks) {
     return spread;
 }
 
-/// All points within `reach` of arc length of a mark on its pass, forth or back.
+/// All points within `reach` of arc length of a mark on its pass, forward or backward.
 void spread_along(const JudgedRun& run, double reach, Marks& marks) {
     for (const Pass& pass : run.surface.passes) {
         if (pass.kind != PassKind::cut) continue;

@@ -27,13 +27,13 @@ std::vector<Vec2> resampled(const std::vector<Vec2>& tips, double step) {
 }
 
 /// What the ball leaves: under each tip the place where it touches. A program of lines has corners; its slope at a tip is
-/// that of the chord over a stretch that a line of this tolerance may have.
+/// that of the chord over the length that a line of this tolerance may have.
 std::vector<Vec2> contacts_of(const std::string& name, const std::vector<Vec2>& even, double radius, double tolerance) {
     if (radius == 0) return even;
     std::vector<Vec2> contacts;
     const double step = even[1].x() - even[0].x();
-    const double stretch = std::sqrt(8 * tolerance * radius);
-    const auto reach = static_cast<std::size_t>(std::max(1.0, std::round(stretch / step)));
+    const double chord = std::sqrt(8 * tolerance * radius);
+    const auto reach = static_cast<std::size_t>(std::max(1.0, std::round(chord / step)));
     for (std::size_t i = 0; i < even.size(); ++i) {
         // Equal reach on both sides: the chord is then parallel to the curve in the middle, to third order.
         const std::size_t n = std::max<std::size_t>(1, std::min({reach, i, even.size() - 1 - i}));
@@ -43,7 +43,7 @@ std::vector<Vec2> contacts_of(const std::string& name, const std::vector<Vec2>& 
         const double length = std::hypot(1.0, slope);
         const Vec2 contact(even[i].x() + radius * slope / length, even[i].y() + radius - radius / length);
         if (!contacts.empty() && contact.x() <= contacts.back().x()) {
-            if (contact.x() < contacts.back().x() - stretch)
+            if (contact.x() < contacts.back().x() - chord)
                 throw InputError(
                     Place::of_file(name),
                     fmt::format("the pass is tighter than a ball of radius {:g} mm at X {:.3f} mm: it has gouged there",
@@ -71,8 +71,8 @@ public:
     /// Throws where the pass goes on without deviations.
     void check_cover(double from, double to) const {
         constexpr double share = 0.02;  // of the pass, that may lie beyond at each end
-        const double play = share * (to - from);
-        if (scan_.x.front() - from > play || to - scan_.x.back() > play)
+        const double most_beyond = share * (to - from);
+        if (scan_.x.front() - from > most_beyond || to - scan_.x.back() > most_beyond)
             throw InputError(
                 Place::of_file(name_),
                 fmt::format("has deviations from X {:.3f} to {:.3f} mm: the pass goes from {:.3f} to {:.3f}",
@@ -111,8 +111,8 @@ PassTips pass_tips(const Program& program) {
             tips.emplace_back(end.x, end.z);
             continue;
         }
-        constexpr double play = 1e-6;  // mm
-        if (std::abs(end.y - pass.y) > play) fail(k, "the pass leaves its plane: Y changes");
+        constexpr double tolerance = 1e-6;  // mm
+        if (std::abs(end.y - pass.y) > tolerance) fail(k, "the pass leaves its plane: Y changes");
         if (is_arc(motions.kind[k])) fail(k, "the pass has an arc: lines and splines can be corrected");
         if (const Curve* curve = motions.curve_of(i)) {
             constexpr int divided = 32;

@@ -15,7 +15,7 @@ std::size_t chords_of(const FitPiece& piece, double radius, double error) {
     for (int k = 0; k <= looked_at; ++k) {
         const double x = piece.begin + (piece.end - piece.begin) * k / looked_at;
         const FitJet jet = piece.jet(x);
-        // The path turns as the fit does, over a way that is as much longer as the ball is larger.
+        // The path turns as the fit does, over a chord that is as much longer as the ball is larger.
         const double curvature = std::abs(jet.second) / std::pow(1 + jet.slope * jet.slope, 1.5);
         second = std::max(second, std::abs(jet.second) * (1 + radius * curvature));
     }
@@ -29,17 +29,17 @@ std::size_t chords_of(const FitPiece& piece, double radius, double error) {
 struct Sleeve {
     double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
 
-    [[nodiscard]] bool takes(const Vec2& way) const {
-        const double direction = std::atan2(way.y(), way.x());
+    [[nodiscard]] bool takes(const Vec2& chord) const {
+        const double direction = std::atan2(chord.y(), chord.x());
         return low <= direction && direction <= high;
     }
-    void pass(const Vec2& way, double tolerance) {
-        const double length = way.norm();
+    void pass(const Vec2& chord, double tolerance) {
+        const double length = chord.norm();
         if (length <= tolerance) return;
-        const double direction = std::atan2(way.y(), way.x());
-        const double play = std::asin(tolerance / length);
-        low = std::max(low, direction - play);
-        high = std::min(high, direction + play);
+        const double direction = std::atan2(chord.y(), chord.x());
+        const double half_angle = std::asin(tolerance / length);
+        low = std::max(low, direction - half_angle);
+        high = std::min(high, direction + half_angle);
     }
 };
 

@@ -27,8 +27,8 @@ void check_range(const std::string& name, const CleanScan& scan, const CutPath& 
     const double range = *high - *low;
     for (const Vec2& place : path.contacts()) {
         const double beyond = std::max(*low - place.y(), place.y() - *high);
-        constexpr double play = 1;  // mm: of planes, whose range is noise
-        if (!(beyond <= range + play))
+        constexpr double tolerance = 1;  // mm: of planes, whose range is noise
+        if (!(beyond <= range + tolerance))
             throw InputError(
                 Place::of_file(name),
                 fmt::format("the fit swings {:.3g} mm beyond all points, at X {:.6g} mm", beyond, place.x()),

@@ -28,7 +28,7 @@ public:
     /// Arc length from the first point to point i [mm]. O(64).
     [[nodiscard]] double to(PointIndex i) const;
 
-    /// True where the way between two points is at least `distance` [mm]. O(1) but where it is close.
+    /// Whether the arc length between two points is at least `distance` [mm]. O(1) but where it is close.
     [[nodiscard]] bool at_least(PointIndex i, PointIndex j, double distance) const;
 
     /// Where positions are gathered when they are read: the steps take no memory until they are asked for again. Nobody may

@@ -35,7 +35,7 @@ public:
     [[nodiscard]] double curvature(std::int64_t motion) const;
     /// Arc length along a motion [mm].
     [[nodiscard]] double length(std::int64_t motion) const;
-    /// The nearest point of a motion at or after `from` (fraction of its way) to `p`.
+    /// The nearest point of a motion at or after `from` (fraction of its arc length) to `p`.
     [[nodiscard]] Projection projection(std::int64_t motion, const Vec3& p, double from = 0.0) const;
 
 private:

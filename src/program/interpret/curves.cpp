@@ -221,15 +221,15 @@ void Interpreter::finish_knotted() {
     std::vector<double> knots;
     for (const SplinePoint& point : open.points) knots.push_back(point.knot);
     knots.insert(knots.end(), open.last_knots.begin(), open.last_knots.end());
-    const double play = same_knot * std::abs(knots.back() - knots.front());
+    const double tolerance = same_knot * std::abs(knots.back() - knots.front());
     for (std::size_t i = 1; i < knots.size(); ++i) {
         if (!(knots[i] >= knots[i - 1]))
             fail(fmt::format("knots of a spline (K) may not fall: {} behind {}", knots[i], knots[i - 1]));
         const bool inside = i >= order && i < open.points.size();
-        if (inside && knots[i] - knots[i - order + 1] <= play)
+        if (inside && knots[i] - knots[i - order + 1] <= tolerance)
             fail(fmt::format("a knot of a spline (K{}) may stand {} times at most", knots[i], order - 1));
     }
-    if (knots[order - 1] - knots[0] > play || knots.back() - knots[knots.size() - order] > play)
+    if (knots[order - 1] - knots[0] > tolerance || knots.back() - knots[knots.size() - order] > tolerance)
         fail(fmt::format("the first {} knots of a spline (K) must be the same, and the last {}", order, order));
     if (!(knots.back() > knots.front())) fail("the knots of a spline (K) are all the same");
     finish_nurbs(std::move(knots));

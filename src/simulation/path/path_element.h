@@ -60,7 +60,7 @@ struct PathElement {
     /// How far the direction turns on the whole, summed up [rad].
     [[nodiscard]] double turning() const;
 
-    /// What lies between two places of its way.
+    /// The part between two arc lengths of it.
     [[nodiscard]] PathElement part(double from, double to) const;
     /// Stands for the same block as another one.
     void take_block(const PathElement& other);

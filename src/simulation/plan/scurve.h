@@ -11,7 +11,7 @@ namespace clsurf {
 [[nodiscard]] double ramp_time(double difference, double acceleration, double jerk);
 /// Arc length of a ramp from v0 to v1 [mm]: point-symmetric, therefore mean speed times duration.
 [[nodiscard]] double ramp_distance(double v0, double v1, double acceleration, double jerk);
-/// The greatest speed that a ramp from v0 reaches over a way; by time reversal also the greatest
+/// The greatest speed that a ramp from v0 reaches over an arc length; by time reversal also the greatest
 /// from which v0 is reached by braking. Closed form: T³ + (2 v0/j) T = L/j by the hyperbolic sine,
 /// which does not cancel for large v0 as Cardano's form does.
 [[nodiscard]] double reach(double v0, double arc_length, double acceleration, double jerk);
@@ -31,7 +31,7 @@ struct MotionState {
 enum class ProfileStatus : unsigned char {
     ok,
     end_speed_lowered,  ///< the end speed cannot be reached: `end_speed` is what can
-    infeasible_decel,   ///< the way is too short to brake: only a lower start speed helps
+    infeasible_decel,   ///< the path is too short to brake: only a lower start speed helps
 };
 
 /// Jerk +, 0, −, 0, −, 0, + over seven durations.
@@ -55,7 +55,7 @@ public:
     [[nodiscard]] MotionState in_phase(int phase, double t) const;
     /// State at t; from the end on exactly (length, end speed, 0).
     [[nodiscard]] MotionState at(double t) const;
-    /// When a way is reached [s]; way in 0 … length. Closed without jerk, otherwise by Halley's method, kept in a bracket.
+    /// When an arc length in 0 … length is reached [s]. Closed without jerk, otherwise by Halley's method, kept in a bracket.
     [[nodiscard]] double time_at(double arc_length) const;
 
     /// Sets length and end speed to what they are meant to be, free of the phases' rounding.

@@ -1,4 +1,4 @@
-// Signal curves over time or way: one chart a field, stacked, with common ends and cursor.
+// Signal curves over time or arc length: one chart a field, stacked, with common ends and cursor.
 
 import uPlot from 'uplot';
 
@@ -14,22 +14,22 @@ interface Chart {
     field: number;
 }
 
-/** Way from the first vertex to each [mm]. */
-function wayOf(surface: Surface): Float64Array {
+/** Arc length from the first vertex to each [mm]. */
+function arcLengthOf(surface: Surface): Float64Array {
     const xyz = surface.roles[0].xyz;
-    const way = new Float64Array(surface.count);
+    const arcLength = new Float64Array(surface.count);
     for (let i = 1; i < surface.count; ++i) {
-        way[i] =
-            way[i - 1] +
+        arcLength[i] =
+            arcLength[i - 1] +
             Math.hypot(xyz[3 * i] - xyz[3 * i - 3], xyz[3 * i + 1] - xyz[3 * i - 2], xyz[3 * i + 2] - xyz[3 * i - 1]);
     }
-    return way;
+    return arcLength;
 }
 
 export class CurvesPane {
     readonly element = element('div', { class: 'curves' });
     private readonly charts: Chart[] = [];
-    private readonly ways = new Map<Surface, Float64Array>();
+    private readonly arcLengths = new Map<Surface, Float64Array>();
     private low = 0;
     private high = 1;
     private readonly refill = oncePerFrame(() => this.fill());
@@ -53,9 +53,9 @@ export class CurvesPane {
 
     private x(surface: Surface): Float64Array {
         if (this.store.state.over === 'time') return surface.time;
-        let way = this.ways.get(surface);
-        if (!way) this.ways.set(surface, (way = wayOf(surface)));
-        return way;
+        let arcLength = this.arcLengths.get(surface);
+        if (!arcLength) this.arcLengths.set(surface, (arcLength = arcLengthOf(surface)));
+        return arcLength;
     }
 
     build(): void {
