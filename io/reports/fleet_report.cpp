@@ -10,7 +10,9 @@ std::string fleet_text(const FleetReport& r) {
     std::string text =
         fmt::format("{} run{} in {}: {} judged, {} of them over their limits, {} not judged, {} failed", r.runs,
                     r.runs == 1 ? "" : "s", r.database, r.judged, r.over_budget, r.not_judged, r.failed.size());
-    text += r.skipped > 0 ? fmt::format("; {} of the {} were recorded already\n", r.skipped, r.runs) : "\n";
+    text += r.skipped > 0 ? fmt::format("; {} of the {} {} recorded already\n", r.skipped, r.runs,
+                                        r.skipped == 1 ? "was" : "were")
+                          : "\n";
     for (const FleetFailure& f : r.failed)
         text += fmt::format("  failed: {} {}: {}\n", f.program.empty() ? "-" : f.program, f.log, f.cause);
     return text;

@@ -16,7 +16,7 @@ clsurf_cli_test(NAME fleet_a_verdict_replaces_its_failure SETUP "${fleet_twice};
 # Parameters of the log count, also where --param gives another one.
 clsurf_cli_test(NAME fleet_knows_runs_by_the_parameters_of_their_logs
   SETUP "cp ${planted} part.nc; $CLSURF convert @LOGS@/planted_loops.biip --param tool=D6R3 -o part.biip -q; $CLSURF fleet --program part.nc --log part.biip -o shop.db --param wear=0.1 -q"
-  ARGS fleet --program part.nc --log part.biip -o shop.db --param wear=0.1 STDOUT "^1 run in shop.db: 1 judged.* 0 failed. 1 of the 1 were recorded already")
+  ARGS fleet --program part.nc --log part.biip -o shop.db --param wear=0.1 STDOUT "^1 run in shop.db: 1 judged.* 0 failed. 1 of the 1 was recorded already")
 clsurf_cli_test(NAME fleet_merge_of_one SETUP "${fleet_runs}; $CLSURF history a.db add part.nc part_1.biip -q" ARGS fleet --merge a.db -o m.db STDOUT "^1 run of 1 database taken into m.db, which has 1 now")
 clsurf_cli_test(NAME fleet_merge_of_other_rules SETUP "${fleet_runs}; printf '[wear]\nkind = \"number\"\n' > a.toml; printf '[wear]\nkind = \"text\"\n' > b.toml; for k in a b; do $CLSURF history $k.db add part.nc part_1.biip --parameters $k.toml --param wear=1 -q; done"
   ARGS fleet --merge a.db b.db -o m.db EXIT 3 STDERR "b.db: error: has another rule for the parameter 'wear' than a.db" "--parameters FILE")
