@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "machine/machine_ensemble.h"
+#include "machine/planning_value.h"
 
 namespace clsurf::io {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "machine/machine_ensemble.h"
+#include "machine/planning_value.h"
 
 namespace clsurf {
 namespace {

@@ -2,9 +2,12 @@
 
 #include "machine/machine_ensemble.h"
 
+#include <array>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include "machine/planning_value.h"
 
 namespace clsurf::machine_ensemble_test {
 namespace {
@@ -58,6 +61,21 @@ TEST(MachineEnsemble, AlternativesComeInTurn) {
     EXPECT_EQ(drawn[1].controller.lookahead_blocks, 50);
     EXPECT_EQ(drawn[2].controller.lookahead_blocks, 200);
     EXPECT_EQ(drawn[3].controller.lookahead_blocks, 20);
+}
+
+// Of more alternatives than machines the lowest ones alone would be no fair sample.
+TEST(MachineEnsemble, ManyAlternativesAreSpreadOverTheMachines) {
+    Machine machine;
+    machine.uncertainty = {
+        {.key = "lookahead_blocks", .of = "controller", .alternatives = {5, 7, 10, 14, 20, 50, 200, 1000}},
+        {.key = "tolerance", .of = "controller", .alternatives = {0.002, 0.005, 0.01, 0.02, 0.05, 0.1}}};
+    const std::vector<Machine> drawn = machines_drawn_from(machine, 4);
+    const std::array<int, 4> blocks{7, 14, 50, 1000};
+    const std::array<double, 4> tolerances{0.01, 0.02, 0.1, 0.002};
+    for (std::size_t k = 0; k < 4; ++k) {
+        EXPECT_EQ(drawn[k].controller.lookahead_blocks, blocks[k]);
+        EXPECT_DOUBLE_EQ(drawn[k].controller.tolerance, tolerances[k]);
+    }
 }
 
 // Speeds that a simulation misses by 3 % make accelerations at least as uncertain.

@@ -1,0 +1,82 @@
+#include "machine/planning_value.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "core/units.h"
+
+namespace clsurf {
+namespace {
+
+/// A value that plans the motion, in the unit of the machine file.
+struct PlanningValue {
+    std::function<double()> get;
+    std::function<void(double)> set;
+};
+
+PlanningValue scaled(double& value, double unit) {
+    return {[&value, unit] { return value / unit; }, [&value, unit](double given) { value = given * unit; }};
+}
+
+PlanningValue whole(int& value) {
+    return {[&value] { return static_cast<double>(value); },
+            [&value](double given) { value = static_cast<int>(std::lround(given)); }};
+}
+
+std::optional<PlanningValue> axis_value(MachineAxis& axis, std::string_view key, double unit) {
+    if (key == "max_speed") return scaled(axis.max_speed, unit / seconds_per_minute);
+    if (key == "max_acceleration") return scaled(axis.max_acceleration, unit);
+    if (key == "max_jerk") return scaled(axis.max_jerk, unit);
+    return std::nullopt;
+}
+
+std::optional<PlanningValue> path_value(PathLimits& path, std::string_view key) {
+    if (key == "max_speed") return scaled(path.max_speed, 1 / seconds_per_minute);
+    if (key == "max_acceleration") return scaled(path.max_acceleration, 1);
+    if (key == "max_normal_acceleration") return scaled(path.max_normal_acceleration, 1);
+    if (key == "max_jerk") return scaled(path.max_jerk, 1);
+    return std::nullopt;
+}
+
+std::optional<PlanningValue> controller_value(ControllerSettings& c, std::string_view key) {
+    constexpr double percent = 0.01;
+    if (key == "tolerance") return scaled(c.tolerance, 1);
+    if (key == "block_time") return scaled(c.block_time, 1);
+    if (key == "lookahead_blocks") return whole(c.lookahead_blocks);
+    if (key == "blocks_per_period") return whole(c.trapezoid.blocks_per_period);
+    if (key == "max_feed_override") return scaled(c.trapezoid.max_feed_override, percent);
+    return std::nullopt;
+}
+
+std::optional<PlanningValue> value_of(Machine& machine, std::string_view key, std::string_view of) {
+    if (of == "path") return path_value(machine.path, key);
+    if (of == "controller") return controller_value(machine.controller, key);
+    const auto axis = std::find(axis_names.begin(), axis_names.end(), of);
+    if (axis != axis_names.end())
+        return axis_value(machine.axes[static_cast<std::size_t>(axis - axis_names.begin())], key, 1);
+    const Kinematics& kinematics = machine.kinematics;
+    if (!kinematics.has_rotary() || of.size() != 1) return std::nullopt;
+    if (of.front() == kinematics.tilt.letter) return axis_value(machine.rotary[0], key, rad_per_deg);
+    if (of.front() == kinematics.rotation.letter) return axis_value(machine.rotary[1], key, rad_per_deg);
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<double> planning_value(const Machine& machine, std::string_view key, std::string_view of) {
+    Machine copy = machine;
+    const std::optional<PlanningValue> value = value_of(copy, key, of);
+    if (!value) return std::nullopt;
+    return value->get();
+}
+
+void set_planning_value(Machine& machine, std::string_view key, std::string_view of, double value) {
+    if (const std::optional<PlanningValue> known = value_of(machine, key, of)) known->set(value);
+}
+
+bool is_planning_value(std::string_view key, std::string_view of) {
+    return planning_value(Machine(), key, of).has_value();
+}
+
+}  // namespace clsurf
