@@ -10,12 +10,12 @@
 
 #include "identify/rule_list.h"
 #include "identify/rule_search.h"
+#include "identify/simulated_limits.h"
 
 namespace clsurf {
 namespace {
 
 constexpr int most_passes = 4;                 // over all rules
-constexpr double explained_share = 0.002;      // of the speed: a family whose mean error is no larger is the right one
 constexpr double gain_of_later_passes = 0.25;  // of the speed error: they correct what other rules hid, no details
 
 /// The value that leaves the machine's rule as it is.
@@ -35,7 +35,7 @@ void refuse_half_right(const Rule& rule, std::size_t present, const Machine& bef
     const auto rows = result.rules.end() - static_cast<std::ptrdiff_t>(rule.values.size());
     const auto best = std::find_if(rows, result.rules.end(), [](const RuleCandidate& c) { return c.chosen; });
     if (best - rows == static_cast<std::ptrdiff_t>(present) ||
-        best->speed_error <= explained_share * scores.usual_speed())
+        scores.explains(best->speed_error))
         return;
     best->chosen = false;
     rows[static_cast<std::ptrdiff_t>(present)].chosen = true;
@@ -92,7 +92,7 @@ std::vector<RuleCandidate> choose_family(RuleScores& scores, Identification& res
         const auto last =
             std::find_if(trial.rules.rbegin(), trial.rules.rend(), [](const RuleCandidate& c) { return c.chosen; });
         planner.values.push_back({kind.name, [machine = trial.machine](Machine& m) { m = machine; }});
-        const bool explains_all = last->speed_error <= explained_share * scores.usual_speed();
+        const bool explains_all = scores.explains(last->speed_error);
         found.push_back(std::move(trial));
         if (explains_all) break;
     }
@@ -133,6 +133,7 @@ void identify_rules(std::span<const RecordedRun> runs, Identification& result) {
     const PathLimits identified = result.machine.path;
     const std::vector<UnidentifiedParameter> known_missing = result.unidentified;
     const std::vector<RuleCandidate> other_families = choose_family(scores, result);
+    search_limits(0, scores, result);
     // One rule may hide another: a short look-ahead slows short lines down, as a block time does.
     for (int pass = 1; pass < most_passes; ++pass) {
         const Machine before = result.machine;
@@ -143,14 +144,16 @@ void identify_rules(std::span<const RecordedRun> runs, Identification& result) {
         const auto own = std::find_if(families.begin(), families.end(), [](const auto& f) { return f.has_present(); });
         search_rule(own->rule, own->present, gain_of_later_passes, scores, next);
         search_rules(identified, gain_of_later_passes, scores, next);
+        search_limits(gain_of_later_passes, scores, next);
         result = std::move(next);
         if (plan_alike(before, result.machine)) break;
     }
     result.rules.insert(result.rules.begin(), other_families.begin(), other_families.end());
     for (const auto& [name, reason] : omitted_rules(result.machine))
         result.unidentified.push_back({name, "controller", reason});
-    if (!is_trapezoidal(result.machine)) return;
-    restate_accelerations(result);
+    const std::vector<SimulatedLimit> limits = limit_intervals(scores, result);
+    if (is_trapezoidal(result.machine)) restate_accelerations(result);
+    state_limits(limits, result);
 }
 
 }  // namespace clsurf

@@ -138,8 +138,12 @@ std::vector<double> possible_accelerations(std::size_t axis, const Identificatio
     if (known == nullptr || !known->reached) return values;
     const bool overlap = !found.machine.controller.trapezoid.arc_blends;
     const double shown = *known->reached ? known->value : known->shown;
-    if (!*known->reached && std::abs(shown - now) > 0.01 * now) values.push_back(shown);
-    if (overlap) values.push_back(2 * shown);
+    const auto add = [&](double value) {
+        const auto alike = [&](double other) { return std::abs(value - other) <= 0.01 * other; };
+        if (std::none_of(values.begin(), values.end(), alike)) values.push_back(value);
+    };
+    if (!*known->reached) add(shown);
+    if (overlap) add(2 * shown);
     return values;
 }
 

@@ -13,30 +13,20 @@
 #include <boost/math/tools/minima.hpp>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "simulation/path/block_merging.h"
 
 namespace clsurf {
 namespace {
 
-constexpr double decisive = 10;          // of the criterion: "very strong" evidence (Kass and Raftery 1995)
 constexpr PointIndex sample_every = 32;  // records
 
-/// Scores of candidates over the samples that any of them has.
 void score(const std::vector<std::vector<float>>& residuals, const RuleScores& scores,
            std::span<RuleCandidate> candidates) {
-    const double usual_speed = scores.usual_speed(), resolution = scores.resolution();
-    std::vector<double> sums(residuals.size(), 0);
-    std::size_t samples = 0;
-    for (std::size_t i = 0; i < residuals.front().size(); ++i) {
-        if (std::all_of(residuals.begin(), residuals.end(), [&](const auto& r) { return std::isnan(r[i]); })) continue;
-        ++samples;
-        for (std::size_t k = 0; k < residuals.size(); ++k)
-            sums[k] += std::isnan(residuals[k][i]) ? usual_speed : static_cast<double>(residuals[k][i]);
-    }
-    for (std::size_t k = 0; k < residuals.size(); ++k) {
-        const auto n = static_cast<double>(samples);
-        candidates[k].speed_error = samples > 0 ? sums[k] / n : 0;
-        candidates[k].score = 2 * n * std::log(std::max(candidates[k].speed_error, resolution));
+    const std::vector<Explanation> found = compare(residuals, scores);
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        candidates[k].score = found[k].score;
+        candidates[k].speed_error = found[k].speed_error;
     }
 }
 
@@ -66,11 +56,7 @@ void refine(const Rule& rule, std::size_t chosen, RuleScores& scores, Machine& m
         rule.continuous.set(changed, number);
         return changed;
     };
-    const auto score_of = [&](const std::vector<float>& residuals) {
-        RuleCandidate candidate;
-        score({residuals}, scores, {&candidate, 1});
-        return candidate.score;
-    };
+    const auto score_of = [&](const std::vector<float>& residuals) { return compare({residuals}, scores).front().score; };
     const double below = chosen > 0 ? numbers[chosen - 1] : 0.5 * numbers[chosen],
                  above = chosen + 1 < numbers.size() ? numbers[chosen + 1] : 2 * numbers[chosen];
     constexpr int bits = 10;
@@ -129,11 +115,35 @@ RuleScores::RuleScores(std::span<const RecordedRun> runs) {
 }
 
 std::vector<float> RuleScores::residuals(const Machine& machine) {
+    prepare({&machine, 1});
     const Machine asked = merging_alike(machine);
-    const auto known = std::find_if(scored_.begin(), scored_.end(),
-                                    [&](const Scored& scored) { return plan_alike(scored.machine, asked); });
-    if (known != scored_.end()) return known->residuals;
-    return scored_.emplace_back(Scored{asked, simulated(asked)}).residuals;
+    return std::find_if(scored_.begin(), scored_.end(),
+                        [&](const Scored& scored) { return plan_alike(scored.machine, asked); })
+        ->residuals;
+}
+
+bool RuleScores::is_known(const Machine& machine) const {
+    return std::any_of(scored_.begin(), scored_.end(),
+                       [&](const Scored& scored) { return plan_alike(scored.machine, machine); });
+}
+
+void RuleScores::prepare(std::span<const Machine> machines) {
+    const std::size_t first = scored_.size();
+    for (const Machine& machine : machines) {
+        const Machine asked = merging_alike(machine);
+        if (!is_known(asked)) scored_.push_back({asked, {}});
+    }
+    const std::size_t runs = runs_.size();
+    std::vector<Residuals> found((scored_.size() - first) * runs);
+    parallel_for(std::ssize(found), 1, [&](std::int64_t from, std::int64_t to) {
+        for (auto k = static_cast<std::size_t>(from); k < static_cast<std::size_t>(to); ++k)
+            found[k] = simulated(*runs_[k % runs], scored_[first + k / runs].machine);
+    });
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        std::vector<float>& all = scored_[first + k / runs].residuals;
+        all.insert(all.end(), found[k].of_speed.begin(), found[k].of_speed.end());
+        usual_speed_ = std::max(usual_speed_, found[k].usual_speed);
+    }
 }
 
 /// The machine with the first tolerance asked for that merges the same lines.
@@ -157,24 +167,45 @@ Machine RuleScores::merging_alike(const Machine& machine) {
     return alike;
 }
 
-std::vector<float> RuleScores::simulated(const Machine& machine) {
-    std::vector<float> all;
-    for (const RecordedRun* run : runs_) {
-        std::optional<Part> simulation;
-        try {
-            simulation = run->simulated(machine);
-        } catch (const InputError&) {
-            // A machine that cannot drive the program did not record the run: it is apart everywhere.
-            const std::size_t samples = (run->surface().positions.size() + sample_every - 1) / sample_every;
-            all.insert(all.end(), samples, std::numeric_limits<float>::quiet_NaN());
-            continue;
-        }
-        const RunDifferences found = run->differences(*simulation);
-        usual_speed_ = std::max(usual_speed_, found.usual_speed);
-        const Column<float>& speed = found.of[index_of(RunQuantity::speed)];
-        for (std::size_t i = 0; i < speed.size(); i += sample_every) all.push_back(std::abs(speed[i]));
+RuleScores::Residuals RuleScores::simulated(const RecordedRun& run, const Machine& machine) {
+    Residuals result;
+    std::optional<Part> simulation;
+    try {
+        simulation = run.simulated(machine);
+    } catch (const InputError&) {
+        // A machine that cannot drive the program did not record the run: it is apart everywhere.
+        const std::size_t samples = (run.surface().positions.size() + sample_every - 1) / sample_every;
+        result.of_speed.assign(samples, std::numeric_limits<float>::quiet_NaN());
+        return result;
     }
-    return all;
+    const RunDifferences found = run.differences(*simulation);
+    result.usual_speed = found.usual_speed;
+    const Column<float>& speed = found.of[index_of(RunQuantity::speed)];
+    for (std::size_t i = 0; i < speed.size(); i += sample_every) result.of_speed.push_back(std::abs(speed[i]));
+    return result;
+}
+
+std::vector<Explanation> compare(const std::vector<std::vector<float>>& residuals, const RuleScores& scores) {
+    std::vector<double> sums(residuals.size(), 0);
+    std::size_t samples = 0;
+    for (std::size_t i = 0; i < residuals.front().size(); ++i) {
+        if (std::all_of(residuals.begin(), residuals.end(), [&](const auto& r) { return std::isnan(r[i]); })) continue;
+        ++samples;
+        for (std::size_t k = 0; k < residuals.size(); ++k)
+            sums[k] += std::isnan(residuals[k][i]) ? scores.usual_speed() : static_cast<double>(residuals[k][i]);
+    }
+    std::vector<Explanation> found(residuals.size());
+    for (std::size_t k = 0; k < residuals.size(); ++k) {
+        const auto n = static_cast<double>(samples);
+        found[k].speed_error = samples > 0 ? sums[k] / n : 0;
+        found[k].score = 2 * n * std::log(std::max(found[k].speed_error, scores.resolution()));
+    }
+    return found;
+}
+
+bool RuleScores::explains(double mean_error) const {
+    constexpr double share = 0.002;  // of the speed
+    return mean_error <= share * usual_speed();
 }
 
 double RuleScores::resolution() const {
@@ -185,11 +216,15 @@ double RuleScores::resolution() const {
 
 void search_rule(const Rule& rule, std::size_t present, double least_gain, RuleScores& scores, Identification& result) {
     std::vector<RuleCandidate> candidates;
-    std::vector<std::vector<float>> residuals;
+    std::vector<Machine> machines;
     for (const RuleValue& value : rule.values) {
-        Machine machine = result.machine;
-        value.apply(machine);
-        residuals.push_back(scores.residuals(machine));
+        machines.push_back(result.machine);
+        value.apply(machines.back());
+    }
+    scores.prepare(machines);
+    std::vector<std::vector<float>> residuals;
+    for (const Machine& machine : machines) residuals.push_back(scores.residuals(machine));
+    for (const RuleValue& value : rule.values) {
         candidates.push_back({.rule = rule.name, .value = value.name, .axis = rule.axis});
     }
     score(residuals, scores, candidates);

@@ -43,10 +43,14 @@ public:
     /// |difference of speed| at every sample [mm/s]; NaN: not compared. Machines that plan alike, and those that merge the same
     /// lines, are simulated once.
     [[nodiscard]] std::vector<float> residuals(const Machine& machine);
+    /// Simulates those of the machines that are not known yet, in parallel, so that residuals() finds them.
+    void prepare(std::span<const Machine> machines);
     /// The speed that a place counts as wrong by where the simulation does not go there [mm/s].
     [[nodiscard]] double usual_speed() const { return static_cast<double>(usual_speed_); }
     /// No smaller mean difference [mm/s] tells planners apart.
     [[nodiscard]] double resolution() const;
+    /// Whether a mean difference [mm/s] is what the right planner with the right values may leave.
+    [[nodiscard]] bool explains(double mean_error) const;
 
 private:
     struct Scored {
@@ -59,7 +63,12 @@ private:
         std::optional<double> tolerance;
         std::vector<LineNumber> lines;
     };
-    [[nodiscard]] std::vector<float> simulated(const Machine& machine);
+    struct Residuals {
+        std::vector<float> of_speed;
+        float usual_speed = 0;
+    };
+    [[nodiscard]] static Residuals simulated(const RecordedRun& run, const Machine& machine);
+    [[nodiscard]] bool is_known(const Machine& machine) const;
     [[nodiscard]] Machine merging_alike(const Machine& machine);
 
     std::vector<Scored> scored_;
@@ -67,6 +76,19 @@ private:
     std::vector<const RecordedRun*> runs_;
     float usual_speed_ = 0;
 };
+
+/// How well a machine explains the runs.
+struct Explanation {
+    double score = 0;        ///< see RuleCandidate
+    double speed_error = 0;  ///< [mm/s] mean |difference| of the speed
+};
+
+/// A difference of scores that tells two machines apart: "very strong" evidence (Kass and Raftery 1995).
+inline constexpr double decisive = 10;
+
+/// Explanations by residuals, over the samples that any of them has.
+[[nodiscard]] std::vector<Explanation> compare(const std::vector<std::vector<float>>& residuals,
+                                               const RuleScores& scores);
 
 /// Searches one rule and keeps the value that explains the runs best; where the runs do not tell it from the present one,
 /// that. Another value must lower the mean error of the speed by the share `least_gain`. `present`: the index of the value that the machine has, size() where it has none of them. Between the values of a

@@ -1,0 +1,101 @@
+// Limits that the motion hides are found by simulation, and those that nothing depends on are left alone.
+
+#include "identify/simulated_limits.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "machine/planning_value.h"
+#include "pipeline/simulated_log.h"
+#include "repair/parts.h"
+
+namespace clsurf::simulated_limits_test {
+namespace {
+
+/// Blocks overlap, and each has half of the acceleration: no axis stays at its limit.
+Machine overlapping() {
+    Machine machine;
+    machine.controller.planner = PlannerKind::trapezoidal;
+    machine.controller.trapezoid.arc_blends = false;
+    machine.path.max_acceleration = machine.path.max_normal_acceleration = 1'000'000;
+    for (MachineAxis& axis : machine.axes) axis.max_jerk = 0;
+    machine.axes[0].max_acceleration = 1200;
+    machine.axes[2].max_acceleration = 800;
+    return machine;
+}
+
+Part waves_on(const Machine& machine, double height = 0.8) {
+    const Program program = read_text(wavy_zigzag(4, 20, [](int, double) { return 0.3; }, height));
+    return assemble(program, simulate_to_log(program, machine, Vec3::Zero()).log);
+}
+
+IdentifiedParameter lower_bound(const char* name, const char* axis, double value) {
+    return {name, axis, value, "mm/s²", {}, false, "", value};
+}
+
+/// The acceleration of an axis, of a machine that is known to have `now`.
+IdentifiedParameter found_from(const Part& part, const char* axis, double now) {
+    const RecordedRun run(part);
+    RuleScores scores({&run, 1});
+    Identification result;
+    result.machine = overlapping();
+    set_planning_value(result.machine, "max_acceleration", axis, now);
+    result.parameters = {lower_bound("max_acceleration", axis, 300)};
+    search_limits(0, scores, result);
+    state_limits(limit_intervals(scores, result), result);
+    EXPECT_DOUBLE_EQ(*planning_value(result.machine, "max_acceleration", axis), result.parameters.front().value);
+    return result.parameters.front();
+}
+
+TEST(SimulatedLimits, AccelerationsOfBlocksThatOverlapAreFound) {
+    const Part gentle = waves_on(overlapping()), steep = waves_on(overlapping(), 2);
+    for (const IdentifiedParameter& p : {found_from(gentle, "x", 1300), found_from(gentle, "x", 900)}) {
+        ASSERT_TRUE(p.standard_error);
+        EXPECT_TRUE(*p.reached);
+        EXPECT_NEAR(p.value, 1200, std::min(3 * *p.standard_error, 12.0));
+    }
+    for (const IdentifiedParameter& p : {found_from(steep, "z", 1000), found_from(steep, "z", 2500)}) {
+        ASSERT_TRUE(p.standard_error);
+        EXPECT_NEAR(p.value, 800, std::min(3 * *p.standard_error, 8.0));
+    }
+}
+
+// The axes are slower than the path.
+TEST(SimulatedLimits, ALimitThatIsOnlyBoundedFromBelowKeepsItsValue) {
+    const Part part = waves_on(overlapping());
+    const RecordedRun run(part);
+    RuleScores scores({&run, 1});
+    Identification result;
+    result.machine = overlapping();
+    result.machine.path.max_acceleration = 50'000;
+    result.parameters = {lower_bound("max_acceleration", "path", 300)};
+    search_limits(0, scores, result);
+    const std::vector<SimulatedLimit> limits = limit_intervals(scores, result);
+    ASSERT_EQ(limits.size(), 1U);
+    EXPECT_TRUE(limits[0].explains);
+    EXPECT_FALSE(limits[0].highest);
+    ASSERT_TRUE(limits[0].lowest);
+    state_limits(limits, result);
+    EXPECT_DOUBLE_EQ(result.machine.path.max_acceleration, 50'000);
+    EXPECT_GT(result.parameters[0].value, 300) << "with less the simulation would be slower";
+    EXPECT_EQ(result.parameters[0].reached, false);
+    EXPECT_FALSE(result.parameters[0].standard_error);
+}
+
+TEST(SimulatedLimits, AModelThatDoesNotExplainTheRunGivesNoStandardError) {
+    const Part part = waves_on(overlapping());
+    const RecordedRun run(part);
+    RuleScores scores({&run, 1});
+    Identification result;
+    result.machine = overlapping();
+    result.machine.controller.trapezoid.arc_blends = true;
+    result.parameters = {lower_bound("max_acceleration", "x", 500)};
+    search_limits(0, scores, result);
+    state_limits(limit_intervals(scores, result), result);
+    EXPECT_FALSE(result.parameters[0].standard_error);
+    EXPECT_EQ(result.parameters[0].reached, false);
+}
+
+}  // namespace
+}  // namespace clsurf::simulated_limits_test
