@@ -34,9 +34,7 @@ void refuse_half_right(const Rule& rule, std::size_t present, const Machine& bef
                        Identification& result) {
     const auto rows = result.rules.end() - static_cast<std::ptrdiff_t>(rule.values.size());
     const auto best = std::find_if(rows, result.rules.end(), [](const RuleCandidate& c) { return c.chosen; });
-    if (best - rows == static_cast<std::ptrdiff_t>(present) ||
-        scores.explains(best->speed_error))
-        return;
+    if (best - rows == static_cast<std::ptrdiff_t>(present) || scores.explains(best->speed_error)) return;
     best->chosen = false;
     rows[static_cast<std::ptrdiff_t>(present)].chosen = true;
     result.machine = before;

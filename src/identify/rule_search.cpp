@@ -56,7 +56,9 @@ void refine(const Rule& rule, std::size_t chosen, RuleScores& scores, Machine& m
         rule.continuous.set(changed, number);
         return changed;
     };
-    const auto score_of = [&](const std::vector<float>& residuals) { return compare({residuals}, scores).front().score; };
+    const auto score_of = [&](const std::vector<float>& residuals) {
+        return compare({residuals}, scores).front().score;
+    };
     const double below = chosen > 0 ? numbers[chosen - 1] : 0.5 * numbers[chosen],
                  above = chosen + 1 < numbers.size() ? numbers[chosen + 1] : 2 * numbers[chosen];
     constexpr int bits = 10;

@@ -147,9 +147,9 @@ private:
             return std::abs(a - b) <= std::max(share_of_interval * std::abs(a - best), finest * best);
         };
         std::uintmax_t steps = most_steps;
-        const auto [low, high] = boost::math::tools::toms748_solve([&](double value) { return excess(value, best); },
-                                                                   std::min(good, bad), std::max(good, bad),
-                                                                   near_enough, steps);
+        const auto [low, high] =
+            boost::math::tools::toms748_solve([&](double value) { return excess(value, best); }, std::min(good, bad),
+                                              std::max(good, bad), near_enough, steps);
         return worse < best ? low : high;
     }
 
@@ -188,8 +188,7 @@ std::vector<SimulatedLimit> limit_intervals(RuleScores& scores, const Identifica
     std::vector<SimulatedLimit> limits;
     for (const IdentifiedParameter* p : searched_limits(result)) {
         const double now = *planning_value(result.machine, p->name, p->axis);
-        limits.push_back(
-            LimitSlice(scores, result.machine, p->name, p->axis).interval(std::min(p->value, now), now));
+        limits.push_back(LimitSlice(scores, result.machine, p->name, p->axis).interval(std::min(p->value, now), now));
     }
     return limits;
 }
@@ -198,13 +197,11 @@ void state_limits(const std::vector<SimulatedLimit>& limits, Identification& res
     // A slice takes the other limits as they are, and one that is a little wrong moves it.
     double fixed_errors = smallest_error;
     for (const IdentifiedParameter& p : result.parameters) {
-        if (p.reached == true && p.standard_error)
-            fixed_errors = std::max(fixed_errors, *p.standard_error / p.value);
+        if (p.reached == true && p.standard_error) fixed_errors = std::max(fixed_errors, *p.standard_error / p.value);
     }
     for (const SimulatedLimit& limit : limits) {
-        const auto p = std::find_if(result.parameters.begin(), result.parameters.end(), [&](const auto& each) {
-            return each.name == limit.key && each.axis == limit.of;
-        });
+        const auto p = std::find_if(result.parameters.begin(), result.parameters.end(),
+                                    [&](const auto& each) { return each.name == limit.key && each.axis == limit.of; });
         if (limit.explains && limit.lowest && limit.highest) {
             // At √10 standard errors the criterion of independent samples rises by 10.
             const double farther = std::max(limit.best - *limit.lowest, *limit.highest - limit.best);

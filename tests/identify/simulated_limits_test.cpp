@@ -26,7 +26,8 @@ Machine overlapping() {
 }
 
 Part waves_on(const Machine& machine, double height = 0.8) {
-    const Program program = read_text(wavy_zigzag(4, 20, [](int, double) { return 0.3; }, height));
+    const Program program = read_text(wavy_zigzag(
+        4, 20, [](int, double) { return 0.3; }, height));
     return assemble(program, simulate_to_log(program, machine, Vec3::Zero()).log);
 }
 
