@@ -16,6 +16,8 @@ namespace {
 constexpr double shared_reach = 2;  ///< step-overs along the path, that boundaries of adjacent passes scatter
 constexpr double alike = 0.15;      ///< speeds side by side that differ by less (a share) become one
 
+bool are_alike(double a, double b) { return std::max(a, b) < (1 + alike) * std::min(a, b); }
+
 /// A cut pass without repeated points.
 struct PassPoints {
     std::vector<Vec3> points;
@@ -75,8 +77,22 @@ private:
         std::vector<PointIndex> boundaries;
         for (const std::size_t b : all_boundaries(mine.points, mine.curvature, rules_))
             boundaries.push_back(pass.ends[b]);
+        add_changes_of_feed(pass.ends, boundaries);
         points_.push_back(std::move(mine));
         return boundaries;
+    }
+
+    [[nodiscard]] double programmed_feed(PointIndex end) const {
+        return static_cast<double>(motions_.feed[programmed_.motion_of(end)]);
+    }
+
+    /// A few lines with a lower feed must not slow the whole interval down.
+    void add_changes_of_feed(const std::vector<PointIndex>& ends, std::vector<PointIndex>& boundaries) const {
+        for (std::size_t i = 1; i + 1 < ends.size(); ++i) {
+            if (!are_alike(programmed_feed(ends[i]), programmed_feed(ends[i + 1]))) boundaries.push_back(ends[i]);
+        }
+        std::sort(boundaries.begin(), boundaries.end());
+        boundaries.erase(std::unique(boundaries.begin(), boundaries.end()), boundaries.end());
     }
 
     /// Boundaries in line with those of the adjacent passes, without those that no other pass has and that separate equal
@@ -104,9 +120,16 @@ private:
     /// Whether two consecutive intervals can be run at one speed.
     [[nodiscard]] bool alike_across(std::size_t k, const SpeedInterval& before, const SpeedInterval& after) const {
         if (!std::isfinite(points_[k].curvature[before.last])) return false;  // turns back
-        const double a = planned_speed(before, machine_.path.max_speed, limits_),
-                     b = planned_speed(after, machine_.path.max_speed, limits_);
-        return std::max(a, b) < (1 + alike) * std::min(a, b);
+        return are_alike(planned_speed(before, machine_.path.max_speed, limits_),
+                         planned_speed(after, machine_.path.max_speed, limits_)) &&
+               are_alike(lowest_feed(k, before), lowest_feed(k, after));
+    }
+
+    [[nodiscard]] double lowest_feed(std::size_t k, const SpeedInterval& interval) const {
+        double lowest = std::numeric_limits<double>::infinity();
+        for (std::size_t i = interval.first + 1; i <= interval.last; ++i)
+            lowest = std::min(lowest, programmed_feed(passes_[k].ends[i]));
+        return lowest;
     }
 
     [[nodiscard]] std::vector<SpeedInterval> intervals_of(std::size_t k,
@@ -129,12 +152,9 @@ private:
             interval.last_line = motions_.line[programmed_.motion_of(ends[piece.last])];
             interval.mean_curvature = piece.mean_curvature;
             interval.greatest_curvature = piece.greatest_curvature;
-            interval.feed = std::numeric_limits<double>::infinity();
-            for (std::size_t i = piece.first + 1; i <= piece.last; ++i) {
+            interval.feed = lowest_feed(k, piece);
+            for (std::size_t i = piece.first + 1; i <= piece.last; ++i)
                 interval.length += (points[i] - points[i - 1]).norm();
-                interval.feed =
-                    std::min(interval.feed, static_cast<double>(motions_.feed[programmed_.motion_of(ends[i])]));
-            }
             for (PointIndex i = ends[piece.first] + 1; i <= ends[piece.last]; ++i)
                 of_point_[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(result_.intervals.size());
             const double most = std::min(interval.feed * machine_.controller.feed_override, machine_.path.max_speed);
@@ -190,7 +210,7 @@ private:
                 if (!at.exists() || of_point_[static_cast<std::size_t>(at.nearest())] == none) continue;
                 double &a = result_.intervals[mine].speed,
                        &b = result_.intervals[of_point_[static_cast<std::size_t>(at.nearest())]].speed;
-                if (std::max(a, b) < (1 + alike) * std::min(a, b)) a = b = std::min(a, b);
+                if (are_alike(a, b)) a = b = std::min(a, b);
             }
         };
         for (PointIndex i = 0; i < count; ++i) match(i);

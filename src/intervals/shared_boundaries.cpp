@@ -11,9 +11,9 @@ namespace {
 constexpr int passes_on_a_side = 2;
 constexpr std::array<Side, 2> sides{Side::left, Side::right};
 
-/// Direction of travel at a point.
-Eigen::Vector3f feed_at(const Positions& p, PointIndex i) {
-    return i > 0 ? Eigen::Vector3f(p[i] - p[i - 1]) : Eigen::Vector3f(p[i + 1] - p[i]);
+/// Direction of travel at a point. `first`: of its pass; what comes before it is the link from another one.
+Eigen::Vector3f feed_at(const Positions& p, PointIndex i, bool first = false) {
+    return i > 0 && !first ? Eigen::Vector3f(p[i] - p[i - 1]) : Eigen::Vector3f(p[i + 1] - p[i]);
 }
 
 /// The end of a motion nearest to a point.
@@ -92,9 +92,9 @@ AdjacentBoundaries::Places AdjacentBoundaries::around(PointIndex point) const {
     return places;
 }
 
-std::vector<PointIndex> AdjacentBoundaries::missing_beside(PointIndex boundary) const {
+std::vector<PointIndex> AdjacentBoundaries::missing_beside(PointIndex boundary, bool first) const {
     const ClSurface& surface = programmed_.surface;
-    const Eigen::Vector3f feed = feed_at(surface.positions, boundary);
+    const Eigen::Vector3f feed = feed_at(surface.positions, boundary, first);
     std::vector<PointIndex> missing;
     for (const Side side : sides) {
         const PathLocation here{boundary, 0}, at = beside(surface, here, feed, side);
@@ -114,7 +114,7 @@ PassBoundaries share_boundaries(const ProgrammedSurface& programmed, const std::
     for (std::size_t k = 0; k < boundaries.size(); ++k) {
         const std::vector<PointIndex>& own = boundaries[k];
         for (std::size_t b = 0; b < own.size(); ++b) {
-            const std::vector<PointIndex> beside_it = adjacent.missing_beside(own[b]);
+            const std::vector<PointIndex> beside_it = adjacent.missing_beside(own[b], b == 0);
             missing.insert(missing.end(), beside_it.begin(), beside_it.end());
             if (b == 0 || b + 1 == own.size()) {
                 shared[k].push_back(own[b]);

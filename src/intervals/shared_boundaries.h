@@ -26,8 +26,9 @@ public:
     /// O(log boundaries)
     [[nodiscard]] Places around(PointIndex point) const;
 
-    /// Places of the adjacent passes that have no boundary, while the passes on both their sides have one there.
-    [[nodiscard]] std::vector<PointIndex> missing_beside(PointIndex boundary) const;
+    /// Places of the adjacent passes that have no boundary, while the passes on both their sides have one there. `first`: the
+    /// boundary is where its pass begins.
+    [[nodiscard]] std::vector<PointIndex> missing_beside(PointIndex boundary, bool first) const;
 
     /// Whether a boundary is within reach of a location on its own pass.
     [[nodiscard]] bool has_at(const PathLocation& at) const;

@@ -85,6 +85,27 @@ TEST(ProgramIntervals, AreNoLongerThanTheRulesAllow) {
 }
 
 // The steepest curvature of the wave is 0.1316 /mm: √(a / κ) with a normal acceleration of 100 mm/s² is 27.6 mm/s.
+// 4 mm of one pass of a plane have half of the feed. The rest of the pass keeps the feed of its neighbours.
+TEST(ProgramIntervals, AFewLinesWithALowerFeedSlowNoOtherLinesDown) {
+    std::string text = "G21 G90 G64 P0.01\nG0 X0 Y0 Z20\nF2400\n";
+    for (int k = 0; k < 6; ++k) {
+        for (int i = 0; i <= 80; ++i) {
+            const bool slow = k == 3 && i > 40 && i <= 48;
+            text += fmt::format("G1 X{:.1f} Y{:.1f} Z0 F{}\n", 0.5 * (k % 2 == 0 ? i : 80 - i), 0.3 * k,
+                                slow ? 1200 : 2400);
+        }
+    }
+    const auto bytes = std::make_shared<std::string>(text + "M2\n");
+    const Program program = parse_program(SourceText("plane.ngc", *bytes, bytes), {});
+    const ProgramIntervals intervals = planned(program);
+    EXPECT_EQ(intervals.intervals.size(), 8U) << "one for each pass, three for that with the slow lines";
+    for (std::size_t i = 1; i < intervals.speed_of_motion.size(); ++i) {
+        const float speed = intervals.speed_of_motion[i];
+        if (!std::isfinite(speed)) continue;
+        EXPECT_FLOAT_EQ(speed, program.motions.feed[i]) << "line " << program.motions.line[i];
+    }
+}
+
 TEST(IntervalFeeds, HoldTheSpeedThatTheCurvatureAllows) {
     Machine machine;
     machine.path.max_normal_acceleration = 100;
