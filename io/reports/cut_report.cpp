@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.h"
 #include "io/files/json_value.h"
 
 namespace clsurf::io {
@@ -79,8 +80,9 @@ std::string cut_text(const CutReport& report, const ScanCut& cut) {
     if (report.rules.fit.join == WindowJoin::none && jumps.count > 0)
         text += fmt::format("  it jumps between windows at {} places: {:.4f} mm rms, {:.4f} mm at most, at X {:.6g}\n",
                             jumps.count, jumps.rms, jumps.most, jumps.most_x);
-    text += fmt::format("  {}: {} {}, within {:.4f} mm of the {} (read back; tolerance {:g} mm)\n", report.output,
-                        report.written.motions, report.splines ? "spline blocks" : "lines", report.written.deviation,
+    text += fmt::format("  {}: {}, within {:.4f} mm of the {} (read back; tolerance {:g} mm)\n", report.output,
+                        clsurf::counted(report.written.motions, report.splines ? "spline block" : "line"),
+                        report.written.deviation,
                         report.rules.radius > 0 ? fmt::format("path of a ball of radius {:g} mm", report.rules.radius)
                                                 : std::string("fit"),
                         report.rules.tolerance);

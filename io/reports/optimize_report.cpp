@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.h"
 #include "core/units.h"
 #include "io/files/json_value.h"
 #include "io/reports/defect_json.h"
@@ -143,8 +144,9 @@ std::string optimize_text(const Optimized& r) {
     row("lines", r.evaluation.lines_before, r.evaluation.lines_after, 0);
     const std::string splines =
         r.evaluation.splines > 0 ? fmt::format(" ({} as splines)", r.evaluation.splines) : std::string();
-    text += fmt::format("{} sections{}, {} lines changed; off the programmed path by at most {:.4f} mm\n",
-                        r.evaluation.intervals, splines, r.evaluation.changed_lines, r.evaluation.deviation.greatest);
+    text += fmt::format("{}{}, {} changed; off the programmed path by at most {:.4f} mm\n",
+                        clsurf::counted(r.evaluation.intervals, "section"), splines,
+                        clsurf::counted(r.evaluation.changed_lines, "line"), r.evaluation.deviation.greatest);
     if (r.five_axes)
         text += fmt::format("tool axis deviates from the programmed one by at most {:.4f} deg\n",
                             r.evaluation.deviation.turned * deg_per_rad);

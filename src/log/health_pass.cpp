@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/block.h"
+#include "core/counted.h"
 
 namespace clsurf {
 namespace {
@@ -245,7 +246,9 @@ private:
             const double last = i > 0 ? value(line, i - 1) : now;
             const double next = i + 1 < log_.records ? value(line, i + 1) : now;
             const bool known = now >= 0 && now <= limits_.last_line && now == std::floor(now);
-            if (!known) {
+            if (!(now == now)) {
+                // It is reported as a missing value.
+            } else if (!known) {
                 summary_.bad_lines.append({1, i, now, now});
             } else {
                 summary_.highest_line = std::max(summary_.highest_line, now);
@@ -363,15 +366,14 @@ private:
     void note_bad_lines() {
         if (bad_lines_.count == 0) return;
         std::string numbers = fmt::format("{}", bad_lines_.low);
+        const std::string points = counted(bad_lines_.count, "point") + (bad_lines_.count == 1 ? " has" : " have");
         if (bad_lines_.high > bad_lines_.low) numbers += fmt::format(" … {}", bad_lines_.high);
         found_.diagnostics.add(
             {Severity::warning, "log.line-range", Place::of_point(log_.name, bad_lines_.first),
              std::isfinite(limits_.last_line)
-                 ? fmt::format(
-                       "{} points have a line number that the program of {:.0f} lines does not have: {}; the first is here",
-                       bad_lines_.count, limits_.last_line, numbers)
-                 : fmt::format("{} points have a value that is not a line number: {}; the first is here",
-                               bad_lines_.count, numbers),
+                 ? fmt::format("{} a line number that the program of {:.0f} lines does not have: {}; the first is here",
+                               points, limits_.last_line, numbers)
+                 : fmt::format("{} a value that is not a line number: {}; the first is here", points, numbers),
              "another program, or another version of it?"});
     }
 

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.h"
+
 namespace clsurf {
 namespace {
 
@@ -16,10 +18,6 @@ std::pair<std::int64_t, std::int64_t> count_findings(const Diagnostics& diagnost
         warnings += d.severity == Severity::warning ? 1 : 0;
     }
     return {errors, warnings};
-}
-
-std::string counted(std::int64_t count, std::string_view noun) {
-    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.h"
+
 #include "repair/proposal.h"
 
 namespace clsurf {
@@ -16,7 +18,7 @@ constexpr double large = 1e6;                       ///< points of a run
 /// "candidate 14: 231 sections and feeds"
 std::string name_of(const Proposal& proposal) {
     const std::size_t sections = proposal.evaluation.intervals;
-    const std::string points = sections > 0 ? fmt::format("{} sections", sections) : std::string();
+    const std::string points = sections > 0 ? clsurf::counted(sections, "section") : std::string();
     const std::string feeds = proposal.targets.empty() ? "" : points.empty() ? "feeds" : " and feeds";
     return fmt::format("candidate {}: {}{}", proposal.number, points, feeds);
 }

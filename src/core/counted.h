@@ -1,0 +1,17 @@
+#pragma once
+// Counted nouns of messages.
+
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace clsurf {
+
+/// "1 line", "2 lines": a number and a noun whose plural ends with s.
+template <typename Number>
+[[nodiscard]] std::string counted(Number count, std::string_view noun) {
+    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+}  // namespace clsurf
