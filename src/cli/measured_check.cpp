@@ -44,7 +44,7 @@ io::ReportedMeasurement compare_measured(const Part& part, const ClSurface& surf
     if (surface.step_over <= 0)
         throw InputError(Place::of_file(part.log.name), "has no adjacent passes: there is no surface to align with");
     clock.begin("compare with the measurement");
-    const AsMachinedPart as_machined(part, surface, role, tool);
+    const AsMachinedPart as_machined(part, surface, role, tool, &report);
     io::ReportedMeasurement measured{std::move(measurement.data), {}};
     measured.result =
         compare_with_measured(measured.data, as_machined.surface(), as_machined.signals(), report, measurement.rules);

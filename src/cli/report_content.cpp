@@ -75,7 +75,8 @@ double speed_at(const ReportLog& shown, PointIndex point) {
 
 ReportedForm form_for_report(const ReportLog& shown, const ReportOptions& options, StageClock& clock) {
     clock.begin("sweep the tool");
-    const AsMachinedPart as_machined(shown.part, shown.surface, options.measured, *shown.part.tool);
+    const AsMachinedPart as_machined(shown.part, shown.surface, options.measured, *shown.part.tool,
+                                     &shown.quality.report);
     viz::MapPanel panel;
     panel.surface = &shown.surface;
     viz::Look look;

@@ -101,6 +101,14 @@ AsMachinedMark mark_depth(std::span<const double> deviation, double step, double
     return {depth, MarkNote::none};
 }
 
+Form::Of form_about_mark(const AsMachinedSurface& as_machined, PointIndex point) {
+    // The contact points of a program whose mark is taken off still have the normals that it gave them.
+    if (as_machined.knows_program() && !as_machined.marks().at(point).isZero(0)) return Form::Of::program;
+    // A form of the program takes up the marks that are programmed and were not found: where the contacts have one,
+    // theirs is better. Where the very passes are measured that it follows, there is no other.
+    return as_machined.follows_surface() ? Form::Of::contacts : Form::Of::contacts_and_program;
+}
+
 std::string_view name_of(MarkNote note) {
     switch (note) {
         case MarkNote::none: return "";
@@ -149,9 +157,7 @@ AsMachinedMark mark_of(const AsMachinedSurface& as_machined, const Signals& sign
     const double step = across.step_over / steps_per_pass;
     const ProfileRow row{across.at - passes_aside * across.step_over * across.direction, across.direction, step,
                          static_cast<std::int64_t>(2 * passes_aside * steps_per_pass) + 1};
-    // A form of the program takes up the marks that are programmed: where the contacts have one, theirs is better, and
-    // where the very passes are measured that it follows, there is no other.
-    const Form::Of of = as_machined.follows_surface() ? Form::Of::contacts : Form::Of::contacts_and_program;
+    const Form::Of of = form_about_mark(as_machined, defect.point);
     const std::vector<double> deviations =
         deviations_along(as_machined, as_machined, row, of, mark_tolerance * std::abs(defect.depth));
     return with_note(mark_depth(deviations, step, across.step_over, defect.pit), defect);

@@ -8,6 +8,7 @@
 
 #include "core/not_finite.h"
 #include "machined/as_machined_surface.h"
+#include "machined/form.h"
 #include "machined/part_roughness.h"
 #include "predictor/defects.h"
 
@@ -42,6 +43,9 @@ struct AsMachinedReport {
 /// over pieces of a step-over's length, paired about the middle; where these differ (passes to and fro lag
 /// to opposite sides), over every second pair, which are passes of the mark's own direction.
 [[nodiscard]] AsMachinedMark mark_depth(std::span<const double> deviation, double step, double step_over, bool pit);
+
+/// The form that a mark at a point is measured from.
+[[nodiscard]] Form::Of form_about_mark(const AsMachinedSurface& as_machined, PointIndex point);
 
 /// The usual height [mm] of the cusp between adjacent passes of a ball: the median over places spread over the part, each
 /// with the distance between its contact points and the surface's curvature across the feed (scallop.h). 0: not a

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -35,12 +36,13 @@ int smoother_points(double period) {
 
 AsMachinedSurface::AsMachinedSurface(const ClSurface& surface, const Signals& signals, Role surface_role,
                                      const Trajectory& swept, const std::vector<PointRange>& pieces,
-                                     const CuttingTool& tool)
+                                     const CuttingTool& tool, ProgrammedMarks marks)
     : surface_(surface),
       signals_(signals),
       surface_role_(surface_role),
       swept_(swept),
       tool_(tool),
+      marks_(std::move(marks)),
       smoother_({smoother_points(swept.period), 2, 0, swept.period}),
       smoothed_(smoother_points(swept.period) > 1) {
     const int points = smoother_.filter().points;
@@ -209,7 +211,7 @@ void AsMachinedSurface::map(const MapFrame& frame, const TakeRows& take) const {
 PassesBetween AsMachinedSurface::passes_between(const Box2& region, bool many) const {
     const double reach = tool_.radius + passes_apart * surface_.step_over;
     PassesBetween between(surface_, signals_, smoothed_ ? &smoother_ : nullptr, pieces_, points_near(region, reach),
-                          tool_, usual_cell());
+                          tool_, usual_cell(), marks_);
     const std::vector<std::size_t> near = sections_in(region, reach);
     if (!many || near.size() > most_kept) return between;
     for (const std::size_t k : near) {
@@ -295,7 +297,8 @@ std::vector<ContactPoint> AsMachinedSurface::contacts(const Box2& box, double sp
         bool goes_on = false;
         ContactPoint before;
         for (PointIndex i = section.first; i <= section.last; ++i) {
-            const ContactPoint now{contact(i), surface_.positions.absolute(i)};
+            const Vec3 mark = marks_.at(i);
+            const ContactPoint now{contact(i) - mark, surface_.positions.absolute(i) - mark};
             if (!now.at.allFinite()) {
                 goes_on = false;
                 continue;

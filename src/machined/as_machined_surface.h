@@ -18,6 +18,7 @@
 #include "machined/map_frame.h"
 #include "machined/swept_pieces.h"
 #include "machined/tool.h"
+#include "predictor/programmed_marks.h"
 #include "predictor/signals.h"
 
 namespace clsurf {
@@ -34,9 +35,10 @@ public:
     /// `surface`, gathered from the positions of `surface_role`, and `signals` (its normals) tell the
     /// contact, `swept` is what the tool did: commanded, feedback or actual positions of the same
     /// points. All must outlive it.
-    /// `pieces` (surface/smoothing_segments.h) bound the smoothing. O(points), parallel.
+    /// `pieces` (surface/smoothing_segments.h) bound the smoothing. `marks`: of `surface`; its form is without them.
+    /// O(points), parallel.
     AsMachinedSurface(const ClSurface& surface, const Signals& signals, Role surface_role, const Trajectory& swept,
-                      const std::vector<PointRange>& pieces, const CuttingTool& tool);
+                      const std::vector<PointRange>& pieces, const CuttingTool& tool, ProgrammedMarks marks = {});
 
     /// A twentieth of a step-over [mm]; without neighbours a fiftieth of the tool's radius.
     [[nodiscard]] double usual_cell() const {
@@ -59,14 +61,17 @@ public:
     /// of cells) and a list of sections of the path. The same for any number of threads.
     void map(const MapFrame& frame, const TakeRows& take) const;
 
-    /// The surface's own positions with more passes between each two adjacent ones, for maps inside a region. `many`: of
-    /// which there will be several, so that what they have in common is kept.
+    /// The marks of the surface's own positions that are no form.
+    [[nodiscard]] const ProgrammedMarks& marks() const { return marks_; }
+
+    /// The surface's own positions without their marks, with more passes between each two adjacent ones, for maps inside a
+    /// region. `many`: of which there will be several, so that what they have in common is kept.
     [[nodiscard]] PassesBetween passes_between(const Box2& region, bool many = false) const;
     /// The same map of what a tool would leave that follows them: no scallops, no errors of the machine.
     void map_programmed(const PassesBetween& between, const MapFrame& frame, const TakeRows& take) const;
 
-    /// Contact points of the surface's own positions [mm] inside a box, about every `spacing` mm along
-    /// the passes, where the normal is known. O(points / 64) and the points near the box.
+    /// Contact points of the surface's own positions without their marks [mm] inside a box, about every `spacing` mm
+    /// along the passes, where the normal is known. O(points / 64) and the points near the box.
     [[nodiscard]] std::vector<ContactPoint> contacts(const Box2& box, double spacing) const;
     /// Of one point; not finite where its normal is not known.
     [[nodiscard]] Vec3 contact(PointIndex point) const;
@@ -100,6 +105,7 @@ private:
     Role surface_role_;
     const Trajectory& swept_;
     CuttingTool tool_;
+    ProgrammedMarks marks_;
     std::vector<PointRange> pieces_;  ///< those that are swept
     mutable std::vector<Section> sections_;
     BlockFillPointer measured_;  ///< of a surface that is read in parts: sections are measured when they are asked for

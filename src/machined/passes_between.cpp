@@ -74,11 +74,12 @@ private:
 
 PassesBetween::PassesBetween(const ClSurface& surface, const Signals& signals, const Differentiator* smoother,
                              const std::vector<PointRange>& pieces, std::span<const PointRange> near,
-                             const CuttingTool& tool, double cell)
+                             const CuttingTool& tool, double cell, const ProgrammedMarks& marks)
     : surface_(surface),
       signals_(signals),
       smoother_(smoother),
       pieces_(pieces),
+      marks_(marks),
       longest_(longest_piece(tool, cell)),
       least_(2 * cell) {
     if (smoother == nullptr) return;
@@ -98,7 +99,7 @@ void PassesBetween::smooth_into(PointRange points, std::vector<Eigen::Vector3f>&
     for (PointIndex first = points.first; first <= points.last;) {
         while (piece != pieces_.end() && piece->last < first) ++piece;
         if (piece == pieces_.end() || piece->first > first) {  // of no piece: as it is
-            smoothed.push_back(p[first]);
+            smoothed.emplace_back(p[first] - marks_.at(first).cast<float>());
             ++first;
             continue;
         }
@@ -109,6 +110,7 @@ void PassesBetween::smooth_into(PointRange points, std::vector<Eigen::Vector3f>&
         for (int axis = 0; axis < 3; ++axis) {
             const Column<float>& column = axis == 0 ? p.x : axis == 1 ? p.y : p.z;
             samples.assign(column.data() + from, column.data() + to + 1);
+            marks_.take_off(from, axis, samples);
             values[axis].resize(static_cast<std::size_t>(last - first + 1));
             smoother_->apply(samples, from, *piece, first, values[axis]);
         }
@@ -121,7 +123,7 @@ void PassesBetween::smooth_into(PointRange points, std::vector<Eigen::Vector3f>&
 
 Vec3 PassesBetween::smooth(PointIndex point) const {
     const Positions& p = surface_.positions;
-    if (smoother_ == nullptr) return p.absolute(point);
+    if (smoother_ == nullptr) return p.absolute(point) - marks_.at(point);
     const auto run =
         std::upper_bound(runs_.begin(), runs_.end(), point, [](PointIndex i, const Run& r) { return i < r.first; });
     if (run != runs_.begin()) {

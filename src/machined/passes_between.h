@@ -10,6 +10,7 @@
 
 #include "machined/map_frame.h"
 #include "machined/swept_pieces.h"
+#include "predictor/programmed_marks.h"
 #include "predictor/signals.h"
 #include "surface/path_location.h"
 
@@ -21,10 +22,11 @@ public:
     static constexpr int count = 7;
 
     /// `smoother`: of the positions inside one of `pieces`; nullptr: none. `near`: points that will be asked for, in
-    /// order; these are smoothed once. All but `near` must outlive it. O(points in `near`).
+    /// order; these are smoothed once. `marks` are taken off the positions. All but `near` must outlive it.
+    /// O(points in `near`).
     PassesBetween(const ClSurface& surface, const Signals& signals, const Differentiator* smoother,
                   const std::vector<PointRange>& pieces, std::span<const PointRange> near, const CuttingTool& tool,
-                  double cell);
+                  double cell, const ProgrammedMarks& marks);
 
     /// The pass itself along points of a piece and, where it goes on, to the next one; and what lies between it and
     /// later passes beside it. O(points).
@@ -62,6 +64,7 @@ private:
     const Signals& signals_;
     const Differentiator* smoother_;
     const std::vector<PointRange>& pieces_;
+    const ProgrammedMarks& marks_;
     std::vector<Run> runs_;
     std::vector<Kept> kept_;
     double longest_ = 0, least_ = 0;  ///< [mm] pieces

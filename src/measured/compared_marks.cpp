@@ -81,7 +81,7 @@ public:
         const double step = step_over / steps_per_pass;
         const ProfileRow row{crossed.place - passes_aside * step_over * along, along, step,
                              static_cast<std::int64_t>(2 * passes_aside * steps_per_pass) + 1};
-        const Form::Of of = as_machined_.follows_surface() ? Form::Of::contacts : Form::Of::contacts_and_program;
+        const Form::Of of = form_about_mark(as_machined_, crossed.point);
         const ComparedProfile both =
             deviations_of_both(measured_, as_machined_, row, of, mark_tolerance * std::abs(defect.depth));
         mark.predicted = mark_depth(both.predicted, step, step_over, defect.pit).depth;

@@ -1,12 +1,19 @@
 #include "pipeline/as_machined_part.h"
 
 #include "core/error.h"
+#include "pipeline/judge.h"
 #include "surface/stitch.h"
 
 namespace clsurf {
 
-AsMachinedSurface ToolRun::as_machined(const CuttingTool& tool) const {
-    return {surface, read.signals, path.role, read.swept(path), read.pieces, tool};
+AsMachinedSurface ToolRun::as_machined(const CuttingTool& tool, const QualityReport& report) const {
+    return {surface,
+            read.signals,
+            path.role,
+            read.swept(path),
+            read.pieces,
+            tool,
+            ProgrammedMarks(surface, read.signals, report)};
 }
 
 AsMachinedSurface ToolRun::as_commanded(const CuttingTool& tool) const {
@@ -30,11 +37,17 @@ std::unique_ptr<const UprightPart> upright_part(const Log& log, const Trajectory
 }
 
 AsMachinedPart::AsMachinedPart(const Part& part, const ClSurface& surface, std::optional<Role> role,
-                               const CuttingTool& tool)
+                               const CuttingTool& tool, const QualityReport* report)
     : upright_(upright_part(part.log, part.path, *part.lines, role, tool)) {
-    if (!upright_) read_ = signals_of(part, surface, role);
+    if (!upright_ || report == nullptr) read_ = signals_of(part, surface, role);
+    QualityReport found;
+    if (report == nullptr) {
+        found = find_defects(part, surface, read_);
+        report = &found;
+    }
+    if (upright_) read_ = {};
     const ToolRun run = upright_ ? upright_->run() : ToolRun{part.path, surface, read_};
-    as_machined_.emplace(run.as_machined(tool));
+    as_machined_.emplace(run.as_machined(tool, *report));
 }
 
 }  // namespace clsurf

@@ -7,6 +7,7 @@
 #include "machined/as_machined_surface.h"
 #include "pipeline/part.h"
 #include "pipeline/signals_of.h"
+#include "predictor/defect.h"
 
 namespace clsurf {
 
@@ -16,8 +17,9 @@ struct ToolRun {
     const ClSurface& surface;
     const PartSignals& read;
 
-    /// Swept along the measured positions, where there are such. Refers to what this refers to.
-    [[nodiscard]] AsMachinedSurface as_machined(const CuttingTool& tool) const;
+    /// Swept along the measured positions, where there are such; the marks of the program that `report` has are no form.
+    /// Refers to what this refers to.
+    [[nodiscard]] AsMachinedSurface as_machined(const CuttingTool& tool, const QualityReport& report) const;
     /// Whether the log has commanded positions besides those that are measured.
     [[nodiscard]] bool has_both() const { return path.role == Role::commanded && read.measured.has_value(); }
     /// Swept along the path itself.
@@ -43,9 +45,11 @@ struct UprightPart {
 class AsMachinedPart {
 public:
     /// Sweeps `tool` along the role's positions (none: the most truthful ones of the log) of the part,
-    /// whose path is the commanded one where the log has it. Part and surface must outlive it. Throws UsageError as
-    /// upright_part() does. O(points), parallel.
-    AsMachinedPart(const Part& part, const ClSurface& surface, std::optional<Role> role, const CuttingTool& tool);
+    /// whose path is the commanded one where the log has it. `report`: the defects of the part, whose programmed marks
+    /// are no form; nullptr: they are looked for. Part and surface must outlive it. Throws UsageError as upright_part()
+    /// does. O(points), parallel.
+    AsMachinedPart(const Part& part, const ClSurface& surface, std::optional<Role> role, const CuttingTool& tool,
+                   const QualityReport* report = nullptr);
     AsMachinedPart(const AsMachinedPart&) = delete;
     AsMachinedPart& operator=(const AsMachinedPart&) = delete;
 
@@ -53,8 +57,7 @@ public:
     [[nodiscard]] const Signals& signals() const { return upright_ ? upright_->read.signals : read_.signals; }
 
 private:
-    std::unique_ptr<const UprightPart>
-        upright_;  ///< of a tool that is tilted; then nothing was read of the part itself
+    std::unique_ptr<const UprightPart> upright_;  ///< of a tool that is tilted; then nothing is kept of the part itself
     PartSignals read_;
     std::optional<AsMachinedSurface> as_machined_;
 };

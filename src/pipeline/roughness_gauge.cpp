@@ -1,6 +1,7 @@
 #include "pipeline/roughness_gauge.h"
 
 #include "pipeline/roles.h"
+#include "predictor/defects.h"
 
 namespace clsurf {
 namespace {
@@ -15,13 +16,13 @@ RoughnessGauge::RoughnessGauge(const GaugedRun& before, const CuttingTool& tool,
     : tool_(tool),
       role_(role),
       swept_(sweep(before)),
-      form_of_(swept_.run().as_machined(tool)),
+      form_of_(as_machined(swept_)),
       places_(roughness_places(form_of_, swept_.run().read.signals)),
-      roughness_(measure(swept_.run())) {}
+      roughness_(measure(form_of_, swept_.run())) {}
 
 PartRoughness RoughnessGauge::after(const GaugedRun& run) const {
     const Swept swept = sweep(run);
-    return measure(swept.run());
+    return measure(as_machined(swept), swept.run());
 }
 
 RoughnessGauge::Swept RoughnessGauge::sweep(const GaugedRun& run) const {
@@ -30,8 +31,17 @@ RoughnessGauge::Swept RoughnessGauge::sweep(const GaugedRun& run) const {
     return swept;
 }
 
-PartRoughness RoughnessGauge::measure(const ToolRun& run) const {
-    const AsMachinedSurface measured = run.as_machined(tool_);
+AsMachinedSurface RoughnessGauge::as_machined(const Swept& swept) const {
+    const GaugedRun& of = swept.of;
+    if (of.report != nullptr) return swept.run().as_machined(tool_, *of.report);
+    std::optional<PartSignals> own;
+    if (swept.upright) own = signals_along(of.log, of.path, of.surface, role_);
+    const Signals& signals = own ? own->signals : swept.read.signals;
+    // Which lines of a program are at fault does not matter here.
+    return swept.run().as_machined(tool_, find_defects(of.surface, signals, of.lines, {}, of.log.period, {}));
+}
+
+PartRoughness RoughnessGauge::measure(const AsMachinedSurface& measured, const ToolRun& run) const {
     std::optional<AsMachinedSurface> commanded;
     if (run.has_both()) commanded.emplace(run.as_commanded(tool_));
     return measure_roughness({measured, form_of_, commanded ? &*commanded : nullptr}, places_);

@@ -17,7 +17,8 @@ struct GaugedRun {
     const Log& log;
     const Trajectory& path;  ///< commanded, or what the log has
     const LineMap& lines;
-    const ClSurface& surface;  ///< of `path`
+    const ClSurface& surface;               ///< of `path`
+    const QualityReport* report = nullptr;  ///< its defects; nullptr: they are looked for
 };
 
 class RoughnessGauge {
@@ -41,7 +42,8 @@ private:
         [[nodiscard]] ToolRun run() const { return upright ? upright->run() : ToolRun{of.path, of.surface, read}; }
     };
     [[nodiscard]] Swept sweep(const GaugedRun& run) const;
-    [[nodiscard]] PartRoughness measure(const ToolRun& run) const;
+    [[nodiscard]] AsMachinedSurface as_machined(const Swept& swept) const;
+    [[nodiscard]] PartRoughness measure(const AsMachinedSurface& measured, const ToolRun& run) const;
 
     CuttingTool tool_;
     std::optional<Role> role_;

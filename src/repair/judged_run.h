@@ -33,7 +33,7 @@ struct JudgedRun {
     double greatest_mismatch = 0;  ///< [mm/s] 99.9th percentile of it
     std::optional<MotionQuality> motion{};  ///< where it is asked for
 
-    [[nodiscard]] GaugedRun gauged() const { return {log, path, *lines, surface}; }
+    [[nodiscard]] GaugedRun gauged() const { return {log, path, *lines, surface, &report}; }
     [[nodiscard]] RunMeasures measures() const {
         return {.mismatch = mismatch,
                 .defects = static_cast<double>(report.defects.size()),

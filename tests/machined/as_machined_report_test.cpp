@@ -19,20 +19,23 @@ namespace {
 
 /// A planted log as far as its formed surface.
 struct Planted {
-    explicit Planted(const planted::Recipe& recipe) : made(planted::make_planted_log(recipe)) {}
+    /// `programmed`: the positions that the program has; those of the feedback where it is at fault itself.
+    explicit Planted(const planted::Recipe& recipe, Role programmed = Role::commanded)
+        : made(planted::make_planted_log(recipe)), path(reconstruct(log, programmed, Vec3::Zero())) {}
 
     planted::PlantedLog made;
     Log log = planted::as_log(made);
     Program program = planted::program_of(made);
     Diagnostics diagnostics;
-    Trajectory path = reconstruct(log, Role::commanded, Vec3::Zero());
+    Trajectory path;
     Trajectory measured = reconstruct(log, Role::feedback, Vec3::Zero());
     LineMap lines = map_lines(path, log, program, true, diagnostics);
     ClSurface surface = stitch(gather(path), lines);
     std::vector<PointRange> pieces = smoothing_segments(log, surface.passes);
     Signals signals = derive_signals(surface, path, &measured, pieces, 1.0);
-    AsMachinedSurface as_machined{surface, signals, Role::commanded, measured, pieces, {ToolKind::ball, 3, 3}};
     QualityReport report = find_defects(surface, signals, lines, program, log.period, {});
+    AsMachinedSurface as_machined{
+        surface, signals, Role::commanded, measured, pieces, {ToolKind::ball, 3, 3}, {surface, signals, report}};
     AsMachinedReport result = measure_as_machined(as_machined, signals, report);
 };
 
@@ -68,6 +71,39 @@ TEST(AsMachinedReport, APlantedBulgeIsCutDownByItsNeighbours) {
     // Its cusps are h (1 + δ/4h)², those beside it h: less than half of the 6 µm are left over them.
     const double cusp = h * (1 + 0.006 / (4 * h)) * (1 + 0.006 / (4 * h));
     EXPECT_NEAR(bulge.result.marks[0].depth, cusp - h, 0.0006);
+}
+
+TEST(AsMachinedReport, AMarkOfTheProgramIsOneOfTheSameDepthAsOneOfTheMachine) {
+    // The program has a pass 8 µm higher or lower, and the machine follows it; or the program is even, and the machine
+    // runs off: the part is the same.
+    const double h = scallop_height(3, 0.3, std::numeric_limits<double>::infinity());
+    const double off = 0.008;
+    const double bulge = h * (1 + off / (4 * h)) * (1 + off / (4 * h)) - h;
+    for (const double amplitude : {off, -off}) {
+        planted::Recipe recipe = recipe_with(amplitude, planted::Shape::zigzag, planted::Surface::transition);
+        recipe.height = 0;
+        recipe.quantum = 1e-6;
+        recipe.noise = 0;
+        recipe.give = 0;
+        recipe.delay = 0;
+        const Planted of_machine(recipe), of_program(recipe, Role::feedback);
+        const double expected = amplitude > 0 ? bulge : off;
+        for (const Planted* each : {&of_machine, &of_program}) {
+            ASSERT_EQ(each->report.defects.size(), 1U);
+            EXPECT_EQ(each->report.defects[0].pit, amplitude < 0);
+            EXPECT_NEAR(each->result.marks[0].depth, expected, 0.0004);  // the form is a little round
+            EXPECT_EQ(each->result.marks[0].note, amplitude > 0 ? MarkNote::cut_away : MarkNote::none);
+        }
+        EXPECT_NEAR(of_machine.result.marks[0].depth, of_program.result.marks[0].depth, 0.0002);
+        // A section across the passes, over the form.
+        const Vec2 middle = of_machine.surface.positions.absolute(of_machine.report.defects[0].point).head<2>();
+        const Vec2 aside(0, 1.5);
+        const AsMachinedProfile a = measure_profile(of_machine.as_machined, middle - aside, middle + aside);
+        const AsMachinedProfile b = measure_profile(of_program.as_machined, middle - aside, middle + aside);
+        ASSERT_EQ(a.deviation.size(), b.deviation.size());
+        for (std::size_t k = 0; k < a.deviation.size(); ++k) EXPECT_NEAR(a.deviation[k], b.deviation[k], 0.0002) << k;
+        EXPECT_NEAR(a.roughness.rz, b.roughness.rz, 0.0002);
+    }
 }
 
 TEST(AsMachinedReport, RoughnessOfACleanPartIsThatOfItsScallops) {
