@@ -44,7 +44,9 @@ viz::Image draw_place(const JudgedPart& judged, std::size_t index, const viz::Ca
     const Defect& d = judged.report.defects[index];
     QualityReport one;
     one.defects = {d};
-    const viz::DefectMap map = defect_map_of(one);
+    viz::DefectMap map = defect_map_of(one);
+    // There is one kind only; a double line across the whole strip would look like a hole.
+    map.kinds.front().style = viz::StrokeStyle::solid;
     viz::MapPanel panel;
     panel.surface = &judged.surface;
     const Field none{{}, Column<float>(static_cast<std::size_t>(judged.surface.positions.size()), 0.0F)};
@@ -145,12 +147,22 @@ viz::CardChart chart_across(const DefectProfile& profile, float threshold, const
     return chart;
 }
 
+std::string title_of(DefectProfile::HeightOf height) {
+    switch (height) {
+        case DefectProfile::HeightOf::measured: return "Height of the measured path [µm]";
+        case DefectProfile::HeightOf::programmed: return "Height of the programmed path [µm]";
+        case DefectProfile::HeightOf::relief: return "Height over adjacent passes [µm]";
+    }
+    return {};
+}
+
 }  // namespace
 
 viz::Image draw_defect_card(const JudgedPart& judged, std::size_t index, int width, int height, const std::string& gl,
                             bool keep_drawing) {
     const Defect& d = judged.report.defects[index];
-    const DefectProfile profile = profile_of(d, judged.surface, judged.signals, *judged.part.lines);
+    const DefectProfile profile = profile_of(d, judged.surface, judged.signals, *judged.part.lines,
+                                             ProgrammedMarks(judged.surface, judged.signals, judged.report));
     const Thresholds& thresholds = judged.report.thresholds;
     QualityReport one;
     one.defects = {d};
@@ -171,10 +183,11 @@ viz::Image draw_defect_card(const JudgedPart& judged, std::size_t index, int wid
         chart_along(profile, profile.speed, profile.usual_speed, seconds_per_minute, speed_threshold, rgb);
     speed.title = "Speed [mm/min]";
     label_lines(speed, profile);
-    const float height_threshold = thresholds.of[index_of(profile.lag ? Quantity::lag : Quantity::relief)];
+    const bool by_lag = profile.height_of == DefectProfile::HeightOf::measured && d.quantity != Quantity::relief;
+    const float height_threshold = thresholds.of[index_of(by_lag ? Quantity::lag : Quantity::relief)];
     viz::CardChart heights = chart_along(profile, profile.height, profile.usual_height, um_per_mm,
                                          std::vector<double>(profile.along.size(), height_threshold), rgb);
-    heights.title = profile.lag ? "Height of the measured path [µm]" : "Height over adjacent passes [µm]";
+    heights.title = title_of(profile.height_of);
     card.charts = {std::move(speed), std::move(heights), chart_across(profile, height_threshold, rgb)};
     return viz::draw_card(card, width, height, gl);
 }

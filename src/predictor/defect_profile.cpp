@@ -60,13 +60,25 @@ float median_known(std::vector<float> values) {
     return 0.5F * (*middle + *std::max_element(values.begin(), middle));
 }
 
-void add_across(DefectProfile& profile, const ClSurface& surface, const Signals& signals, PointIndex point) {
+using HeightOf = DefectProfile::HeightOf;
+
+/// How high a place lies along a normal [mm]; `there`: compared_at() of it.
+float height_at(HeightOf of, const PathLocation& at, const Compared& there, const Eigen::Vector3f& normal,
+                const ProgrammedMarks& marks) {
+    if (of == HeightOf::relief) return there.relief;
+    Vec3 mark = marks.at(at.point);
+    if (at.fraction > 0) mark += static_cast<double>(at.fraction) * (marks.at(at.point + 1) - mark);
+    const auto above = static_cast<float>(mark.dot(normal.cast<double>()));
+    return of == HeightOf::measured ? there.lag + above : above;
+}
+
+void add_across(DefectProfile& profile, const ClSurface& surface, const Signals& signals, const ProgrammedMarks& marks,
+                PointIndex point) {
     const Eigen::Vector3f normal = signals.normal(point);
-    const auto height_at = [&](const PathLocation& at) {
-        const Compared c = compared_at(signals, at, normal);
-        return profile.lag ? c.lag : c.relief;
+    const auto height = [&](const PathLocation& at) {
+        return height_at(profile.height_of, at, compared_at(signals, at, normal), normal, marks);
     };
-    std::vector<std::pair<double, float>> places{{0.0, height_at({point, 0})}};
+    std::vector<std::pair<double, float>> places{{0.0, height({point, 0})}};
     for (const Side side : {Side::left, Side::right}) {
         Eigen::Vector3f before = surface.positions[point];
         double gone = 0;
@@ -74,21 +86,25 @@ void add_across(DefectProfile& profile, const ClSurface& surface, const Signals&
             const Eigen::Vector3f here = position_at(surface.positions, at);
             gone += (here - before).norm();
             before = here;
-            places.emplace_back(side == Side::left ? -gone : gone, height_at(at));
+            places.emplace_back(side == Side::left ? -gone : gone, height(at));
         }
     }
     std::sort(places.begin(), places.end());
-    for (const auto& [across, height] : places) {
+    for (const auto& [across, high] : places) {
         profile.across.push_back(across);
-        profile.across_height.push_back(height);
+        profile.across_height.push_back(high);
     }
 }
 
 }  // namespace
 
-DefectProfile profile_of(const Defect& defect, const ClSurface& surface, const Signals& signals, const LineMap& lines) {
+DefectProfile profile_of(const Defect& defect, const ClSurface& surface, const Signals& signals, const LineMap& lines,
+                         const ProgrammedMarks& marks) {
     DefectProfile profile;
-    profile.lag = signals.measured;
+    if (signals.measured)
+        profile.height_of = HeightOf::measured;
+    else if (!marks.at(defect.point).isZero(0))
+        profile.height_of = HeightOf::programmed;
     const PointRange section = strongest_section(defect);
     double length = 0;
     for (PointIndex i = section.first; i < section.last; ++i)
@@ -125,7 +141,7 @@ DefectProfile profile_of(const Defect& defect, const ClSurface& surface, const S
             if (places[k].exists()) {
                 const Compared c = compared_at(signals, places[k], signals.normal(i));
                 speed = c.speed;
-                height = profile.lag ? c.lag : c.relief;
+                height = height_at(profile.height_of, places[k], c, signals.normal(i), marks);
             }
             profile.speed[k].push_back(speed);
             profile.height[k].push_back(height);
@@ -136,7 +152,7 @@ DefectProfile profile_of(const Defect& defect, const ClSurface& surface, const S
         profile.usual_speed.push_back(median_known(std::move(other_speeds)));
         profile.usual_height.push_back(median_known(std::move(other_heights)));
     }
-    add_across(profile, surface, signals, defect.point);
+    add_across(profile, surface, signals, marks, defect.point);
     return profile;
 }
 

@@ -3,10 +3,12 @@
 // a mark.
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "mapping/line_map.h"
 #include "predictor/defect.h"
+#include "predictor/programmed_marks.h"
 
 namespace clsurf {
 
@@ -20,7 +22,7 @@ struct DefectProfile {
         along;  ///< [mm] along the pass at fault; 0 where its section begins, which has room on both sides
     double section_length = 0;                      ///< [mm]
     std::array<std::vector<float>, passes> speed;   ///< [mm/s] of each pass, one value per place; NaN: no pass there
-    std::array<std::vector<float>, passes> height;  ///< [mm] lag where it was measured, else relief, along the normal
+    std::array<std::vector<float>, passes> height;  ///< [mm] along the normal, over what `height_of` says
     std::vector<float> usual_speed, usual_height;   ///< the median of the other passes at each place; NaN: none
     struct LineStart {
         double along = 0;  ///< [mm]
@@ -30,11 +32,17 @@ struct DefectProfile {
 
     std::vector<double> across;        ///< [mm] to the left (−) and right of the strongest place, pass by pass
     std::vector<float> across_height;  ///< [mm] there
-    bool lag = false;                  ///< heights are lags of measured positions
+    /// Where a mark is programmed, the passes that it is not on say how high the program should be there.
+    enum class HeightOf : std::uint8_t {
+        measured,    ///< measured positions over the programmed ones, and these over the clean passes
+        programmed,  ///< programmed positions over the clean passes; without measured positions
+        relief,      ///< over the chord between both adjacent passes; of neither of these
+    };
+    HeightOf height_of = HeightOf::relief;
 };
 
-/// Of the section that is strongest. O(points of the section).
+/// Of the section that is strongest. `marks`: of the report that has the defect. O(points of the section).
 [[nodiscard]] DefectProfile profile_of(const Defect& defect, const ClSurface& surface, const Signals& signals,
-                                       const LineMap& lines);
+                                       const LineMap& lines, const ProgrammedMarks& marks);
 
 }  // namespace clsurf

@@ -57,7 +57,7 @@ TEST(DefectProfile, HasTheSpeedsOfFivePassesOverTheSamePath) {
     const Signals signals = made.signals();
     std::vector<std::uint32_t> columns;
     const LineMap lines = lines_of(made, columns);
-    const DefectProfile profile = profile_of(middle_of(made, 5, 4), made.surface, signals, lines);
+    const DefectProfile profile = profile_of(middle_of(made, 5, 4), made.surface, signals, lines, {});
     EXPECT_NEAR(profile.section_length, 8, 0.1);
     ASSERT_FALSE(profile.along.empty());
     EXPECT_NEAR(profile.along.front(), -6, 0.1) << "three quarters of the section before it";
@@ -80,12 +80,43 @@ TEST(DefectProfile, ShowsAPassThatLiesLower) {
     const Signals signals = made.signals();
     std::vector<std::uint32_t> columns;
     const LineMap lines = lines_of(made, columns);
-    const DefectProfile profile = profile_of(middle_of(made, 5, 4), made.surface, signals, lines);
-    EXPECT_TRUE(profile.lag);
+    const DefectProfile profile = profile_of(middle_of(made, 5, 4), made.surface, signals, lines, {});
+    EXPECT_EQ(profile.height_of, DefectProfile::HeightOf::measured);
     ASSERT_EQ(profile.across.size(), 11U);
     for (std::size_t k = 0; k < profile.across.size(); ++k) {
         EXPECT_NEAR(profile.across[k], apart * (static_cast<double>(k) - 5), 1e-4);
         EXPECT_NEAR(profile.across_height[k], k == 5 ? -0.008 : 0.0, 1e-5) << k;
+    }
+}
+
+TEST(DefectProfile, ShowsThePassesOfAProgrammedMarkOverThoseThatAreNotOnIt) {
+    // Two passes are programmed 8 µm higher on a cylinder across the feed. The machine follows them, or nothing was measured.
+    const auto place = [](const Vec3& p) {
+        const bool high = p.y() > 4.5 * apart && p.y() < 6.5 * apart;
+        return Vec3(p.x(), p.y(), p.y() * p.y() / 100 + (high ? 0.008 : 0.0));
+    };
+    for (const bool measured : {false, true}) {
+        const test::Measure follows = [](const Vec3& p, const Vec3&) { return p; };
+        const test::MadeSurface made =
+            test::made_zigzag(std::vector<double>(12, 50), length, apart, measured ? follows : test::Measure(), place);
+        const Signals signals = made.signals();
+        std::vector<std::uint32_t> columns;
+        const LineMap lines = lines_of(made, columns);
+        QualityReport report;
+        report.defects = {middle_of(made, 5, 4)};
+        report.defects[0].quantity = Quantity::relief;
+        report.defects[0].runs.push_back(middle_of(made, 6, 4).runs[0]);
+        const ProgrammedMarks marks(made.surface, signals, report);
+        const DefectProfile profile = profile_of(report.defects[0], made.surface, signals, lines, marks);
+        EXPECT_EQ(profile.height_of,
+                  measured ? DefectProfile::HeightOf::measured : DefectProfile::HeightOf::programmed);
+        ASSERT_EQ(profile.across.size(), 11U);
+        // The sixth pass runs against X: the seventh is on its right, at +0.4 mm.
+        for (std::size_t k = 0; k < profile.across.size(); ++k)
+            EXPECT_NEAR(profile.across_height[k], k == 5 || k == 6 ? 0.008 : 0.0, 1e-4) << k << ' ' << measured;
+        const std::size_t middle = profile.along.size() / 2;
+        EXPECT_NEAR(profile.height[DefectProfile::at_fault][middle], 0.008, 1e-4);
+        EXPECT_NEAR(profile.usual_height[middle], 0.0, 1e-4) << "of the four others one is at fault, too";
     }
 }
 
