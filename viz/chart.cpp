@@ -133,15 +133,16 @@ void add_cursor(Sheet& sheet, const ChartFrame& f, const ChartCursor& cursor, co
     const Vec2 p = f.at(cursor.x, f.y_low);
     if (p.x() < f.rect.x || p.x() > f.rect.x + f.rect.width) return;
     sheet.lines.push_back({{p, {p.x(), f.rect.y + f.rect.height}}, 1.4, cursor_colour});
-    const CurveClass* known = class_of(curve, cursor.values[k]);
-    const std::string value =
-        known != nullptr ? known->name : tick_text(cursor.values[k], std::max(1e-4, (f.y_high - f.y_low) / 1000));
-    FlatText note{p.x(),
-                  f.rect.y + f.rect.height + 0.9 * text,
-                  k == 0 ? cursor.label + ": " + value : value,
-                  text,
-                  Align::left,
-                  true,
+    const bool with_value = !cursor.values.empty();
+    if (!with_value && k > 0) return;
+    const CurveClass* known = with_value ? class_of(curve, cursor.values[k]) : nullptr;
+    std::string words = cursor.label;
+    if (with_value) {
+        const std::string value =
+            known != nullptr ? known->name : tick_text(cursor.values[k], std::max(1e-4, (f.y_high - f.y_low) / 1000));
+        words = k == 0 ? words + ": " + value : value;
+    }
+    FlatText note{p.x(),        f.rect.y + f.rect.height + 0.9 * text, std::move(words), text, Align::left, true,
                   cursor_colour};
     const double least = f.rect.x + text_width({0, 0, name.text, text, Align::left, true, name.rgb}) + text;
     if (known != nullptr) note.y = f.rect.y + f.rect.height - 0.9 * text;  // names of classes stand above

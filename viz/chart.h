@@ -28,7 +28,7 @@ struct Curve {
 struct ChartCursor {
     double x = 0;
     std::string label;           ///< "point 812, line 204"
-    std::vector<double> values;  ///< one per curve, shown at the cursor
+    std::vector<double> values;  ///< one per curve, shown at the cursor; none: the label alone, at the first curve
 };
 
 struct ChartLook {

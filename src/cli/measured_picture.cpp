@@ -19,21 +19,18 @@ std::vector<double> in_um(std::span<const double> mm) {
 }
 
 /// The marks that are judged, where a profile crosses them.
-std::vector<viz::ChartCursor> cursors_of(const io::ReportedMeasurement& measured, const ComparedProfile& profile,
-                                         const std::vector<viz::Curve>& curves) {
+std::vector<viz::ChartCursor> cursors_of(const io::ReportedMeasurement& measured, const ComparedProfile& profile) {
     std::vector<viz::ChartCursor> cursors;
     if (measured.data.kind != MeasuredKind::profile) return cursors;
     for (const ComparedMark& mark : measured.result.marks) {
         if (mark.state == MarkState::not_judged) continue;
         const double at = mark.along / profile.row.step - static_cast<double>(profile.first);
-        const auto k = static_cast<std::size_t>(std::max(0.0, at));
-        if (k >= profile.count) continue;
-        viz::ChartCursor cursor{
-            mark.along,
-            fmt::format("mark {} {}", mark.defect + 1, mark.state == MarkState::found ? "found" : "missing"),
-            {}};
-        for (const viz::Curve& curve : curves) cursor.values.push_back(curve.values[k]);
-        cursors.push_back(std::move(cursor));
+        if (!(at < static_cast<double>(profile.count))) continue;
+        cursors.push_back({mark.along,
+                           mark.state == MarkState::found
+                               ? fmt::format("mark {}: {:.2f} µm deep", mark.defect + 1, mark.measured * um_per_mm)
+                               : fmt::format("mark {} missing", mark.defect + 1),
+                           {}});
     }
     return cursors;
 }
@@ -72,7 +69,7 @@ MeasuredPicture draw_measured(const io::ReportedMeasurement& measured, const Par
         c.profiles.size() > 1 ? fmt::format("profile {} of {}; ", c.profiles.size() / 2 + 1, c.profiles.size()) : "",
         c.correlation, measured.result.alignment.rms * um_per_mm, c.measured.cutoff,
         c.short_cutoff > 0 ? fmt::format(", short waves below {:g} µm taken off", c.short_cutoff * um_per_mm) : "");
-    return {viz::draw_chart(x, curves, cursors_of(measured, profile, curves), look), look.title};
+    return {viz::draw_chart(x, curves, cursors_of(measured, profile), look), look.title};
 }
 
 }  // namespace clsurf::cli
