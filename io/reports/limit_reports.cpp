@@ -94,9 +94,9 @@ std::string limits_text(const LimitReport& report, const Program& program) {
     }
     std::string judged;
     for (const JudgedLimit& limit : report.judged)
-        judged += fmt::format("{}{} {} {:.3f}", judged.empty() ? "" : ", ", name_of(limit.limit.quantity),
-                              axis_name(limit.limit), limit.factor);
-    return text + "judged, with the greatest share of each limit: " + judged + "\n\n";
+        judged += fmt::format("{}{} {} {:.3f} ± {:.3f}", judged.empty() ? "" : ", ", name_of(limit.limit.quantity),
+                              axis_name(limit.limit), limit.factor, limit.uncertainty);
+    return text + "judged, with the share of each limit that is greatest beyond its uncertainty: " + judged + "\n\n";
 }
 
 std::string_view limit_column_titles() { return "axis,factor,uncertainty,value,limit,unit,time [s],duration [s]"; }

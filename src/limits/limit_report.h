@@ -27,7 +27,7 @@ struct LimitFinding {
 /// A limit that the motion was compared with.
 struct JudgedLimit {
     StatedLimit limit;
-    double factor = 0;       ///< the greatest of the log
+    double factor = 0;       ///< of the record where factor less uncertainty is greatest
     double uncertainty = 0;  ///< of this factor
 };
 
