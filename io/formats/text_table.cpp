@@ -4,9 +4,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "core/counted.h"
 #include "core/error.h"
 #include "core/not_finite.h"
 #include "core/parallel.h"
@@ -73,60 +75,104 @@ struct Chunk {
     std::uint64_t lines = 0;
     std::vector<std::vector<double>> columns;
     std::size_t rows = 0;
-    std::size_t missing = 0;  ///< fields that rows lack
+    std::size_t missing = 0;         ///< fields that rows lack
+    std::size_t wide = 0;            ///< rows that have more fields than columns …
+    std::uint64_t first_wide = 0;    ///< … the line of the first one in this section …
+    std::size_t fields_of_wide = 0;  ///< … and its fields
     Diagnostics diagnostics;
 };
+
+/// Whether a line is the last one of a text, without an end and with fewer fields than the others: whoever wrote it was
+/// interrupted. `rest`: what comes after it.
+bool is_cut(std::string_view text, std::string_view rest, std::string_view line, const TextPlan& plan) {
+    if (!rest.empty() || line.data() + line.size() != text.data() + text.size()) return false;
+    std::size_t at = 0;
+    std::size_t fields = 0;
+    std::string_view field;
+    while (next_field(line, at, plan.separator, field)) ++fields;
+    return fields < plan.columns.size();
+}
+
+/// Throws where most rows have more fields than the header.
+void refuse_wide_rows(const Source& source, const TextPlan& plan, const std::vector<Chunk>& chunks) {
+    std::size_t wide = 0, rows = 0;
+    for (const Chunk& chunk : chunks) {
+        wide += chunk.wide;
+        rows += chunk.rows;
+    }
+    if (2 * wide <= rows) return;
+    std::uint64_t before = plan.first_data_line - 1;
+    for (const Chunk& chunk : chunks) {
+        if (chunk.wide > 0)
+            throw InputError(
+                Place::of_line(source.name, before + chunk.first_wide),
+                fmt::format("a row has {} fields, the header {}", chunk.fields_of_wide, plan.columns.size()),
+                plan.separator == ',' ? "decimal commas need another separator than the comma" : "");
+        before += chunk.lines;
+    }
+}
+
+/// Takes the fields of a row into the columns. Returns how many it has; `wide`: there are values beyond the last column.
+std::size_t read_row(const Source& source, const TextPlan& plan, std::string_view line, std::uint64_t number,
+                     Chunk& chunk, bool& wide) {
+    std::size_t at = 0;
+    std::size_t column = 0;
+    std::string_view field;
+    wide = false;
+    for (; next_field(line, at, plan.separator, field); ++column) {
+        if (column >= plan.columns.size()) {
+            wide = wide || !field.empty();
+            continue;
+        }
+        const ColumnPlan& c = plan.columns[column];
+        if (c.name.empty()) continue;
+        bool bad = false;
+        const double value = c.clock ? parse_time(field, plan.day, bad) : parse_number(field, plan.decimal_comma, bad);
+        if (bad) {
+            chunk.diagnostics.add(
+                {Severity::warning,
+                 "log.bad-number",
+                 Place::of_line(source.name, number, static_cast<std::uint32_t>(field.data() - line.data() + 1)),
+                 fmt::format("'{}' of channel '{}' is not a {} and counts as missing", field.substr(0, 40), c.name,
+                             c.clock ? "time of day" : "number"),
+                 {}});
+        }
+        chunk.columns[column].push_back(value * c.scale + c.bias);
+    }
+    return column;
+}
 
 void read_chunk(const Source& source, const TextPlan& plan, Chunk& chunk) {
     std::string_view rest = source.text().substr(chunk.begin, chunk.end - chunk.begin);
     chunk.columns.resize(plan.columns.size());
+    const std::size_t columns = plan.columns.size();
     std::uint64_t number = 0;  // of the line in this section
+    const auto warn = [&](const char* code, std::string text) {
+        chunk.diagnostics.add({Severity::warning, code, Place::of_line(source.name, number), std::move(text), {}});
+    };
     while (!rest.empty()) {
         const std::string_view line = first_line(rest);
         ++number;
         if (is_comment(line)) continue;
         if (plan.overruns && line.starts_with("overrun")) {
-            chunk.diagnostics.add({Severity::warning,
-                                   "log.overrun",
-                                   Place::of_line(source.name, number),
-                                   "the sampler lost records here (overrun)",
-                                   {}});
+            warn("log.overrun", "the sampler lost records here (overrun)");
             continue;
         }
-        std::size_t at = 0;
-        std::size_t column = 0;
-        std::string_view field;
-        while (next_field(line, at, plan.separator, field)) {
-            if (column >= plan.columns.size()) {
-                ++column;
-                continue;
-            }
-            const ColumnPlan& c = plan.columns[column];
-            if (!c.name.empty()) {
-                bool bad = false;
-                const double value =
-                    c.clock ? parse_time(field, plan.day, bad) : parse_number(field, plan.decimal_comma, bad);
-                if (bad) {
-                    chunk.diagnostics.add({Severity::warning,
-                                           "log.bad-number",
-                                           Place::of_line(source.name, number,
-                                                          static_cast<std::uint32_t>(field.data() - line.data() + 1)),
-                                           fmt::format("'{}' of channel '{}' is not a {} and counts as missing",
-                                                       field.substr(0, 40), c.name, c.clock ? "time of day" : "number"),
-                                           {}});
-                }
-                chunk.columns[column].push_back(value * c.scale + c.bias);
-            }
-            ++column;
+        if (is_cut(source.text(), rest, line, plan)) {
+            warn("log.incomplete", "the last line is incomplete and is left out");
+            continue;
         }
-        if (column != plan.columns.size()) {
-            chunk.diagnostics.add(
-                {Severity::warning,
-                 "log.ragged-row",
-                 Place::of_line(source.name, number),
-                 fmt::format("{} fields, expected {}; missing ones are taken as missing", column, plan.columns.size()),
-                 {}});
-            for (; column < plan.columns.size(); ++column) {
+        bool wide = false;
+        std::size_t column = read_row(source, plan, line, number, chunk, wide);
+        if (column != columns) {
+            warn("log.ragged-row", fmt::format("{}, expected {}; {}", clsurf::counted(column, "field"), columns,
+                                               column > columns ? "the last ones are ignored"
+                                                                : "those that are not there count as missing"));
+            if (wide && chunk.wide++ == 0) {
+                chunk.first_wide = number;
+                chunk.fields_of_wide = column;
+            }
+            for (; column < columns; ++column) {
                 if (plan.columns[column].name.empty()) continue;
                 if (++chunk.missing > most_missing_of_byte * (chunk.end - chunk.begin)) return;
                 chunk.columns[column].push_back(missing<double>);
@@ -268,6 +314,7 @@ Log read_table(const Source& source, const TextPlan& plan, const char* format) {
         log.diagnostics.append(placed);
         line_offset += chunk.lines;
     }
+    refuse_wide_rows(source, plan, chunks);
     if (rows == 0) throw InputError(Place::of_file(source.name), "holds no records");
     log.records = static_cast<PointIndex>(rows);
     if (!plan.words.empty()) {

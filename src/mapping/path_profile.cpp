@@ -210,7 +210,9 @@ PathProfile profile_of(const Toolpath& path, std::size_t most_points) {
 }
 
 PathProfile profile_of(const Trajectory& path, double spacing) {
+    constexpr double most_points = 1 << 21;  // of a path of the program's size, driven some 60 times
     EvenPoints points(spacing);
+    double length = 0;
     std::vector<double> x(static_cast<std::size_t>(block_points)), y(x.size()), z(x.size());
     for (PointIndex begin = 0; begin < path.count; begin += block_points) {
         const auto n = static_cast<std::size_t>(std::min(block_points, path.count - begin));
@@ -219,6 +221,8 @@ PathProfile profile_of(const Trajectory& path, double spacing) {
             const Vec3 p(x[i], y[i], z[i]);
             if (!p.allFinite() || (points.begun() && (p - points.last()).squaredNorm() < least_step * least_step))
                 continue;
+            if (points.begun()) length += (p - points.last()).norm();
+            if (length > most_points * spacing) return EvenPoints(spacing).take();
             points.go_to(p);
         }
     }

@@ -172,6 +172,32 @@ TEST(Delimited, TakesABadNumberAsMissingAndNamesItsPlace) {
     EXPECT_EQ(log.diagnostics.count("log.ragged-row"), 1u);
 }
 
+TEST(Delimited, LeavesOutALastLineThatWasCut) {
+    const test::TemporaryFolder folder;
+    const Log log = open(folder, "time,cmd.x,line\n0,1,5\n0.001,2,5\n0.00");
+    EXPECT_EQ(log.records, 2);
+    ASSERT_EQ(log.diagnostics.kept().size(), 1u);
+    EXPECT_EQ(log.diagnostics.kept()[0].code, "log.incomplete");
+    EXPECT_EQ(log.diagnostics.kept()[0].where.number, 4u);
+    // Whole, though without an end.
+    EXPECT_EQ(open(folder, "time,cmd.x\n0,1\n0.001,2").records, 2);
+}
+
+TEST(Delimited, RefusesRowsWithMoreFieldsThanTheHeader) {
+    const test::TemporaryFolder folder;
+    try {
+        (void)open(folder, "time,cmd.x\n0,000,1,5\n0,001,2,5\n");
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("a row has 4 fields, the header 2"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("decimal commas need another separator"), std::string::npos)
+            << error.what();
+    }
+    // A separator at the end of each line is no field, and one row alone is a warning.
+    EXPECT_EQ(open(folder, "time,cmd.x\n0,1,\n0.001,2,\n").records, 2);
+    EXPECT_EQ(open(folder, "time,cmd.x\n0,1\n0.001,2,7\n0.002,3\n").diagnostics.count("log.ragged-row"), 1u);
+}
+
 TEST(Delimited, NeedsAPeriodFromSomewhere) {
     const test::TemporaryFolder folder;
     EXPECT_THROW((void)open(folder, "cmd.x\n1\n2\n"), InputError);
