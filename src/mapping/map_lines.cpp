@@ -12,6 +12,7 @@
 #include "mapping/feed_edits.h"
 #include "mapping/line_agreement.h"
 #include "mapping/line_edits.h"
+#include "mapping/log_unit.h"
 #include "mapping/motion_track.h"
 #include "mapping/program_course.h"
 #include "mapping/program_lines.h"
@@ -69,9 +70,11 @@ public:
     LineMap by_geometry() {
         LineMap map = align_lines(path_, program_, diagnostics_);
         const double off = off_share(map);
-        const bool explained = off > offset_share && note_pose(path_, program_, nullptr, diagnostics_);
+        match_.off = off;
+        const bool explained =
+            off > offset_share && !find_other_unit() && note_pose(path_, program_, nullptr, diagnostics_);
         const double foreign_at = identity_ == ProgramIdentity::other ? other_share : offset_share;
-        if (identity_ != ProgramIdentity::same && !explained && off > foreign_at)
+        if (identity_ != ProgramIdentity::same && !explained && off > foreign_at && match_.foreign.empty())
             match_.foreign = fmt::format("{:.0f} % of its points lie off the programmed path", 100 * off);
         if (off <= offset_share) match_.missing = note_course(path_, log_, program_, map, diagnostics_);
         return finish(std::move(map));
@@ -90,10 +93,12 @@ public:
         }
         const LineAgreement agreement = check_lines(path_, program_, map);
         if (share_of(agreement) > disagreeing_share) note_disagreement(agreement);
-        const bool explained = share_of(agreement) > offset_share && note_pose(path_, program_, &map, diagnostics_);
+        if (agreement.checked >= least_checked) match_.off = share_of(agreement);
+        const bool explained =
+            share_of(agreement) > offset_share && !find_other_unit() && note_pose(path_, program_, &map, diagnostics_);
         const double foreign_at = identity_ == ProgramIdentity::other ? other_share : offset_share;
         if (identity_ != ProgramIdentity::same && !explained && agreement.checked >= least_checked &&
-            share_of(agreement) > foreign_at) {
+            share_of(agreement) > foreign_at && match_.foreign.empty()) {
             match_.foreign = fmt::format("{:.0f} % of {} checked points lie farther than {} mm from their lines",
                                          100 * share_of(agreement), agreement.checked, agreement.tolerance);
         }
@@ -104,6 +109,16 @@ public:
 private:
     static double share_of(const LineAgreement& a) {
         return a.checked > 0 ? static_cast<double>(a.disagreeing) / static_cast<double>(a.checked) : 0.0;
+    }
+
+    /// Whether the positions would fit in another unit: no work offset aligns them.
+    bool find_other_unit() {
+        const std::optional<LogUnit> unit = other_unit(path_, program_);
+        if (!unit) return false;
+        match_.foreign = unit->evidence;
+        match_.foreign_hint =
+            fmt::format("name the unit in the header of the log, as in \"x [{}]\", or with --mapping", unit->name);
+        return true;
     }
 
     LineMap finish(LineMap map) {

@@ -15,9 +15,11 @@ enum class ProgramIdentity {
 };
 
 struct ProgramMatch {
-    bool edited = false;  ///< the text is not the one that ran: no line is certain
-    std::string foreign;  ///< why the log does not belong to the program: a clause; empty: it does
-    double missing = 0;   ///< share of the program's motions that the log does not have, 0 … 1
+    bool edited = false;            ///< the text is not the one that ran: no line is certain
+    std::string foreign;            ///< why the log does not belong to the program: a clause; empty: it does
+    std::string foreign_hint = {};  ///< what may help then; empty: nothing in particular
+    double off = 0;                 ///< share of checked points that lie off their lines, 0 … 1
+    double missing = 0;             ///< share of the program's motions that the log does not have, 0 … 1
 
     /// Why a comparison of passes must not be trusted, as sentences; empty: nothing speaks against it.
     [[nodiscard]] std::vector<std::string> doubts() const;

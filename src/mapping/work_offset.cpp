@@ -14,6 +14,7 @@
 #include "core/statistics.h"
 #include "core/units.h"
 #include "mapping/allowed_motions.h"
+#include "mapping/log_unit.h"
 #include "mapping/motion_grid.h"
 #include "mapping/path_profile.h"
 #include "program/frame_placement.h"
@@ -118,22 +119,6 @@ Box3 box_of(const Toolpath& path) {
         for (int k = 0; k < pieces; ++k) extend(path.at(m, static_cast<double>(k) / pieces));
     }
     return box;
-}
-
-Box3 box_of(const Trajectory& path) {
-    std::vector<Box3> boxes(static_cast<std::size_t>((path.count + block_points - 1) / block_points));
-    for_each_block(path.count, [&](PointIndex first, PointIndex last) {
-        std::vector<double> x(static_cast<std::size_t>(last - first)), y(x.size()), z(x.size());
-        path.read(first, x, y, z);
-        Box3& box = boxes[static_cast<std::size_t>(first / block_points)];
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            const Vec3 p(x[i], y[i], z[i]);
-            if (p.allFinite()) box.extend(p);
-        }
-    });
-    Box3 all;
-    for (const Box3& box : boxes) all.extend(box);
-    return all;
 }
 
 class Fit {

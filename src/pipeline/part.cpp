@@ -3,6 +3,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 #include "mapping/map_lines.h"
 #include "pipeline/placement.h"
@@ -13,10 +15,15 @@
 namespace clsurf {
 namespace {
 
-/// Without the machine's kinematics the path of a five-axis log does not say whether it belongs to the program.
-void forget_path(LineMap& lines) {
+/// Of a five-axis log without the machine's kinematics: these may be all that is missing.
+void ask_for_kinematics(LineMap& lines) {
     ProgramMatch match = lines.match();
-    match.foreign.clear();
+    constexpr double most_off = 0.5;  // known to be the run of this program, its points still lie elsewhere
+    if (match.foreign.empty() && match.off > most_off)
+        match.foreign = fmt::format("{:.0f} % of its points lie off their lines", 100 * match.off);
+    if (match.foreign.empty()) return;
+    match.foreign_hint =
+        "--machine FILE gives the kinematics, without which the tips are not known; --force continues anyway";
     lines.set_match(std::move(match));
 }
 
@@ -49,8 +56,11 @@ void refuse_foreign(const ProgramMatch& match, const Program& program, const Log
                     Diagnostics& diagnostics) {
     if (match.foreign.empty()) return;
     const Place place = Place::of_file(log.name);
-    const std::string text = "does not belong to " + program.main().name() + ": " + match.foreign;
-    const std::string hint = "--force continues anyway; --work-offset or --machine may be missing";
+    const std::string relation = match.foreign_hint.empty() ? "does not belong to " : "does not fit ";
+    const std::string text = relation + program.main().name() + ": " + match.foreign;
+    const std::string hint = match.foreign_hint.empty()
+                                 ? "--force continues anyway; --work-offset or --machine may be missing"
+                                 : match.foreign_hint;
     if (!accept) throw InputError(place, text, hint);
     diagnostics.add({Severity::warning, "map.foreign", place, text, {}});
 }
@@ -82,7 +92,7 @@ Part assemble(Program program, Log log, const PartRules& rules) {
     }
     const Trajectory mapped = reconstruct_like(part.log, mapping_role(part.log, role), part.path);
     LineMap lines = map_lines(mapped, part.log, part.program, rules.use_line_channel, part.diagnostics, rules.identity);
-    if (kinematics == nullptr && part.diagnostics.count("path.rotary") > 0) forget_path(lines);
+    if (kinematics == nullptr && part.diagnostics.count("path.rotary") > 0) ask_for_kinematics(lines);
     refuse_foreign(lines.match(), part.program, part.log, rules.accept_foreign, part.diagnostics);
     part.lines = std::make_shared<const LineMap>(std::move(lines));
     return part;
@@ -95,7 +105,7 @@ void exchange_log(Part& part, Log log, const PartRules& rules) {
     Trajectory path = reconstruct(log, part.path.role, part.path.pose(), part.path.kinematics);
     const Trajectory mapped = reconstruct_like(log, mapping_role(log, path.role), path);
     LineMap lines = map_lines(mapped, log, part.program, rules.use_line_channel, diagnostics, rules.identity);
-    if (diagnostics.count("path.rotary") > 0) forget_path(lines);
+    if (diagnostics.count("path.rotary") > 0) ask_for_kinematics(lines);
     part.log = std::move(log);
     part.path = std::move(path);
     part.lines = std::make_shared<const LineMap>(std::move(lines));

@@ -176,6 +176,10 @@ clsurf_cli_test(NAME work_offset_unknown SETUP "${displace}" ARGS info ${part} r
   STDOUT "displaced by X 312.5 Y -48.125 Z -101.3 mm" "hint: --work-offset 312.5,-48.125,-101.3 aligns them")
 clsurf_cli_test(NAME work_offset_unknown_without_lines SETUP "${displace_without_lines}"
   ARGS query ${part} run.csv --point 5000 STDERR "hint: --work-offset 312.5,-48.125,-101.3 aligns them" STDOUT "confidence 0.0")
+# The same in inches that the header does not name: no offset aligns it.
+clsurf_cli_test(NAME unit_unknown
+  SETUP "$CLSURF export ${part} ${run} -o mm.csv --columns time,x,y,z,line && awk -F, 'NR == 1 { print \"time,cmd.x,cmd.y,cmd.z,line\"; next } { printf \"%s,%.7f,%.7f,%.7f,%s\\n\", $1, $2 / 25.4, $3 / 25.4, $4 / 25.4, $5 }' mm.csv > run.csv"
+  ARGS check ${part} run.csv EXIT 3 STDERR "as if they were in inch" "hint: name the unit in the header of the log, as in .x .inch..")
 clsurf_cli_test(NAME work_offset_given SETUP "${displace}" ARGS info ${part} run.csv --work-offset 312.5,-48.125,-101.3
   STDOUT "positions lie 0.000[0-9] mm" NO_STDOUT "displaced" "another program")
 clsurf_cli_test(NAME work_offset_given_without_lines SETUP "${displace_without_lines}"
@@ -464,6 +468,8 @@ clsurf_cli_test(NAME optimize_five_axes_keeps_the_rest
   ARGS moves better.nc --machine m.toml STDOUT "feed,6,0,-0.199,-16.2,0,93,")
 clsurf_cli_test(NAME optimize_five_axes_from_a_log SETUP "${crowded5} && $CLSURF simulate part.nc --machine m.toml --work-offset 5,0,10 -o run.biip -q"
   ARGS optimize part.nc --log run.biip --machine m.toml --json -o better.nc STDOUT "\"accepted\": true" "\"motions_in_need\": [1-9]" FILE better.nc)
+clsurf_cli_test(NAME check_five_axes_without_the_machine SETUP "${crowded5} && $CLSURF simulate part.nc --machine m.toml --work-offset 5,0,10 -o run.biip -q"
+  ARGS check part.nc run.biip EXIT 3 STDERR "% of its points lie off their lines" "hint: --machine FILE gives the kinematics")
 clsurf_cli_test(NAME optimize_five_axes_refuses SETUP "${crowded5}; sed -i 's/^X.*/& (KEEP)/' part.nc" ARGS optimize part.nc --machine m.toml -o better.nc
   EXIT 1 STDOUT "refused: no section of the program can be rewritten" "tool axis deviates from the programmed one by at most 0.0000 deg" NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_five_axes_on_three SETUP "${crowded5}" ARGS optimize part.nc --machine @DATA@/machines/three_axis_mill.toml -o better.nc

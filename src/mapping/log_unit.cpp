@@ -1,0 +1,66 @@
+#include "mapping/log_unit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/block.h"
+#include "toolpath/toolpath_summary.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double least_extent = 0.1;    ///< [mm] of the program, on an axis that tells a unit
+constexpr double extents_differ = 0.1;  ///< share: rapids and approaches of the log belong to no motion at feed
+
+struct LogScale {
+    const char* name;
+    double mm;
+};
+constexpr std::array units{LogScale{"inch", 25.4}, LogScale{"m", 1000}, LogScale{"µm", 0.001}};
+
+}  // namespace
+
+Box3 box_of(const Trajectory& path) {
+    std::vector<Box3> boxes(static_cast<std::size_t>((path.count + block_points - 1) / block_points));
+    for_each_block(path.count, [&](PointIndex first, PointIndex last) {
+        std::vector<double> x(static_cast<std::size_t>(last - first)), y(x.size()), z(x.size());
+        path.read(first, x, y, z);
+        Box3& box = boxes[static_cast<std::size_t>(first / block_points)];
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            const Vec3 p(x[i], y[i], z[i]);
+            if (p.allFinite()) box.extend(p);
+        }
+    });
+    Box3 all;
+    for (const Box3& box : boxes) all.extend(box);
+    return all;
+}
+
+std::optional<LogUnit> other_unit(const Trajectory& path, const Program& program) {
+    const Box3 cut = summarise(program.motions).bounds;
+    const Box3 box = box_of(path);
+    if (cut.isEmpty() || box.isEmpty()) return std::nullopt;
+    const Vec3 of_program = cut.sizes(), of_log = box.sizes();
+    std::array<int, 3> axes{0, 1, 2};
+    std::sort(axes.begin(), axes.end(), [&](int a, int b) { return of_program[a] > of_program[b]; });
+    for (const LogScale& unit : units) {
+        const auto fits = [&](int axis) {
+            return of_program[axis] > least_extent &&
+                   std::abs(unit.mm * of_log[axis] / of_program[axis] - 1) < extents_differ;
+        };
+        if (!fits(axes[0]) || !fits(axes[1])) continue;
+        constexpr char names[] = {'X', 'Y', 'Z'};
+        return LogUnit{unit.name,
+                       fmt::format("in {} and {} its positions extend over {:.4g} and {:.4g} mm, the program over "
+                                   "{:.4g} and {:.4g} mm, as if they were in {}",
+                                   names[axes[0]], names[axes[1]], of_log[axes[0]], of_log[axes[1]],
+                                   of_program[axes[0]], of_program[axes[1]], unit.name)};
+    }
+    return std::nullopt;
+}
+
+}  // namespace clsurf

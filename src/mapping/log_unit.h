@@ -1,0 +1,26 @@
+#pragma once
+// LogUnit: whether the positions of a log are in another unit than the log says.
+
+#include <optional>
+#include <string>
+
+#include "core/geometry.h"
+#include "program/program.h"
+#include "toolpath/trajectory.h"
+
+namespace clsurf {
+
+/// A unit that would make the positions as large as the path of the program.
+struct LogUnit {
+    std::string name;      ///< "inch"
+    std::string evidence;  ///< a clause: the extents of both
+};
+
+/// Nothing unless the path extends over 1/25.4, 1/1000 or 1000 of the program's path on both of its longer axes, within a
+/// tenth. O(points + motions), parallel.
+[[nodiscard]] std::optional<LogUnit> other_unit(const Trajectory& path, const Program& program);
+
+/// All finite positions of a path [mm]. O(points), parallel.
+[[nodiscard]] Box3 box_of(const Trajectory& path);
+
+}  // namespace clsurf
