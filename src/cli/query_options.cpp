@@ -142,11 +142,10 @@ std::vector<QueryMatch> find_matches(const Part& part, const po::variables_map& 
     }
     if (values.count("time") > 0) {
         const double time = values["time"].as<double>();
-        const PointIndex point = point_at_time(part.log, time);
-        if (point < 0 || point >= part.log.records || !std::isfinite(time)) {
-            throw UsageError(fmt::format("--time {:g}: the log lasts from 0 to {:.6f} s", time,
-                                         part.log.time_of(part.log.records - 1)));
-        }
+        const double first = part.log.time_of(0), last = part.log.time_of(part.log.records - 1);
+        if (!(time >= first - 0.5 * part.log.period && time <= last + 0.5 * part.log.period))
+            throw UsageError(fmt::format("--time {:g}: the log lasts from {:g} to {:.6f} s", time, first, last));
+        const PointIndex point = std::clamp<PointIndex>(point_at_time(part.log, time), 0, part.log.records - 1);
         matches.push_back(query.match(point));
     }
     if (values.count("line") > 0) {

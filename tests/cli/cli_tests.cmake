@@ -205,6 +205,8 @@ clsurf_cli_test(NAME check_of_a_leaning_bull SETUP "${leaning}" ARGS check plane
   EXIT 5 STDERR "bull:6,1 is tilted: the formed surface and its roughness are available for ball-end tools only")
 clsurf_cli_test(NAME query_json ARGS query ${part} ${run} --point 5000 --json STDOUT "\"line\": 638" "\"confidence\": 1.0")
 clsurf_cli_test(NAME query_time ARGS query ${part} ${run} --time 3.2 STDOUT "point 3200 at 3.200 s")
+clsurf_cli_test(NAME query_time_before ARGS query ${part} ${run} --time -5 EXIT 2 STDERR "--time -5: the log lasts from 0 to 27[.]516")
+clsurf_cli_test(NAME query_time_after ARGS query ${part} ${run} --time 9999 EXIT 2 STDERR "--time 9999: the log lasts from 0 to 27[.]516")
 clsurf_cli_test(NAME query_line ARGS query ${part} ${run} --line 515 STDOUT "X1.053 Z4.590")
 clsurf_cli_test(NAME query_by_geometry ARGS query ${part} ${run} --point 5000 --ignore-lines --json STDOUT "\"line\": 63[78]")
 clsurf_cli_test(NAME query_nothing_asked ARGS query ${part} ${run} EXIT 2 STDERR "--point N, --at X,Y,Z")
