@@ -182,6 +182,9 @@ private:
             text.x = left;
             text.y = corner_.y() + size_;
         }
+        // Two of them may meet in a small picture.
+        constexpr int most_lines = 4;
+        for (int k = 0; k < most_lines && !take(text_rect(text)); ++k) text.y += 1.3 * size_;
         add_words(std::move(text));
     }
 

@@ -55,6 +55,11 @@ viz::MapPanel panel_of(const Shown& shown, const RenderOptions& options, std::st
     return panel;
 }
 
+/// Reports name contact points where the tool is known; a map has tool tips.
+void note_axes(const Shown& shown, std::vector<std::string>& notes) {
+    if (shown.part.tool && !shown.relief) notes.emplace_back("axes: positions of the tool tip");
+}
+
 viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, const RenderOptions& options,
                        const std::vector<std::string>& range_notes) {
     viz::MapTexts texts;
@@ -79,6 +84,7 @@ viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, c
         texts.notes.push_back(shown.defects.outlines.empty()
                                   ? "no defects"
                                   : fmt::format("{} defects, 1 the worst", shown.defects.outlines.size()));
+    if (options.defects) note_axes(shown, texts.notes);
     texts.notes.insert(texts.notes.end(), range_notes.begin(), range_notes.end());
     return texts;
 }
@@ -95,6 +101,7 @@ viz::Image draw_defect_map(const Shown& shown, const RenderOptions& options) {
     texts.subtitle = fmt::format("{} · {} · {} · {}", count, file_name(options.part.program), run_name(shown, options),
                                  viz::counts_of(shown.surface));
     texts.notes = {"coloured: the sections at fault", "darker: farther above the threshold; 1: the farthest"};
+    note_axes(shown, texts.notes);
     if (options.programmed) texts.notes.emplace_back("thin lines: the programmed path");
     return viz::draw_map({panel}, viz::placed_map({panel}, options.shown.look), {}, texts, options.shown.look);
 }
