@@ -223,10 +223,12 @@ std::string defect_list_section(const ReportPage& page) {
     std::string rows;
     for (std::size_t i = 0; i < std::min(defects_in_table, report.defects.size()); ++i) {
         const Defect& d = report.defects[i];
+        const std::string_view shape = shape_of(d);
         rows += fmt::format(
-            "<tr data-defect=\"{}\"><td>{}</td><td><span class=\"severity s{}\">{}</span> {}</td><td>{}</td><td>{:.1f}</td><td>{:.1f} {}</td>{}<td>{:+.1f}</td><td>{:.1f}</td><td>{:.2f} {:.2f} {:.2f}</td><td>{}</td></tr>\n",
+            "<tr data-defect=\"{}\"><td>{}</td><td><span class=\"severity s{}\">{}</span> {}</td><td>{}</td><td>{:.1f}</td><td>{:.1f}{}{}</td>{}<td>{:+.1f}</td><td>{:.1f}</td><td>{:.2f} {:.2f} {:.2f}</td><td>{}</td></tr>\n",
             i + 1, i + 1, d.severity, d.severity, name_of_severity(d.severity),
-            html(sentence_of(d)) + accepted_note(page, i), d.score, d.depth * um_per_mm, shape_of(d),
+            html(sentence_of(d)) + accepted_note(page, i), d.score, d.depth * um_per_mm, shape == "none" ? "" : " ",
+            shape == "none" ? "" : shape,
             as_machined ? fmt::format("<td>{}</td>", um_text(page.quality.as_machined->marks[i].depth)) : "",
             100 * d.speed_mismatch, d.length, d.place.position().x(), d.place.position().y(), d.place.position().z(),
             html(defect_lines(d)));
@@ -354,7 +356,8 @@ std::string page_summary(const ReportPage& page) {
     for (const PagePercentiles& row : page.percentiles) {
         if (row.field == "speed_mismatch" && std::isfinite(row.of_magnitude[2]))
             text += fact("Speed mismatch",
-                         fmt::format("{:.{}f} mm/min", row.of_magnitude[2], row.of_magnitude[2] < 10 ? 2 : 0), "99 %");
+                         fmt::format("{:.{}f} mm/min", row.of_magnitude[2], row.of_magnitude[2] < 10 ? 2 : 0),
+                         "99th percentile");
     }
     if (page.quality.as_machined != nullptr && !page.quality.as_machined->roughness.patches.empty()) {
         text += fact("Roughness", fmt::format("Rz {:.2f} µm", page.quality.as_machined->roughness.rz * um_per_mm),

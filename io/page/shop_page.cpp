@@ -77,6 +77,7 @@ std::string trend_figure(const ShopPage& page, const HistoryQuantity& quantity,
     reported.trend = &trend;
     reported.quantity = &quantity;
     svg.description = trend_text(reported);
+    svg.counts = quantity.unit.empty();
     for (std::size_t i = 0; i < trend.points.size(); ++i) {
         const RunRecord& run = page.runs[i];
         const std::string parameters = parameters_of(run);
@@ -95,9 +96,9 @@ std::string trend_figure(const ShopPage& page, const HistoryQuantity& quantity,
         note = fmt::format(" Since run {} ({}) the median is {:.4g}, before it was {:.4g}.", since.run,
                            day_of(since.time), svg.after, svg.before);
     }
-    return fmt::format("<figure>{}<figcaption><b>{}</b>{}{}</figcaption></figure>\n", svg_trend(svg),
-                       html(quantity.label), quantity.unit.empty() ? "" : html(fmt::format(" [{}]", quantity.unit)),
-                       html(note));
+    return fmt::format("<figure><figcaption><b>{}</b>{}{}</figcaption>{}</figure>\n", html(quantity.label),
+                       quantity.unit.empty() ? "" : html(fmt::format(" [{}]", quantity.unit)), html(note),
+                       svg_trend(svg));
 }
 
 std::string trends_section(const ShopPage& page, const std::vector<std::string>& programs) {
@@ -129,8 +130,8 @@ std::string causes_section(const ShopPage& page) {
     double total = 0;
     for (const SvgBar& bar : bars) total += bar.value;
     text += fmt::format(
-        "<figure>{}<figcaption><b>Defects by cause</b> in {} runs: bars are defects, the line is their cumulative share.</figcaption></figure>\n",
-        svg_pareto("Defects by cause", bars), page.runs.size());
+        "<figure><figcaption><b>Defects by cause</b> in {} runs: bars are defects, the line is their cumulative share.</figcaption>{}</figure>\n",
+        page.runs.size(), svg_pareto("Defects by cause", bars));
     text +=
         "<table><thead><tr><th scope=\"col\">Cause</th><th scope=\"col\">Defects</th><th scope=\"col\">Share</th></tr></thead><tbody>\n";
     for (const SvgBar& bar : bars)
@@ -225,15 +226,16 @@ std::string runs_section(const ShopPage& page) {
 
 std::string summary(const ShopPage& page, std::size_t programs) {
     std::size_t judged = 0;
-    std::size_t within = 0;
+    std::size_t over = 0;
     for (const RunRecord& run : page.runs) {
         judged += run.judged ? 1 : 0;
-        within += run.judged && run.within_budget ? 1 : 0;
+        over += run.judged && !run.within_budget ? 1 : 0;
     }
     return fmt::format(
-        "<header><h1>{} <small>clsurf {}</small></h1>\n<p>{} runs of {} program{} from {} to {}: {} judged, {} of them within their budget.</p></header>\n",
+        "<header><h1>{} <small>clsurf {}</small></h1>\n<p>{} runs of {} program{} from {} to {}: {} judged{}.</p></header>\n",
         html(file_name(page.database)), version, page.runs.size(), programs, programs == 1 ? "" : "s",
-        day_of(page.runs.front().time), day_of(page.runs.back().time), judged, within);
+        day_of(page.runs.front().time), day_of(page.runs.back().time), judged,
+        over > 0 ? fmt::format(", {} of them over their budget", over) : std::string());
 }
 
 }  // namespace

@@ -28,9 +28,9 @@ double round_step(double range) {
 struct SvgScale {
     double high = 1, step = 0.2;  ///< from 0
 
-    explicit SvgScale(double most) {
+    SvgScale(double most, bool counts) {
         if (!(most > 0)) most = 1;
-        step = round_step(most);
+        step = counts ? std::max(1.0, round_step(most)) : round_step(most);
         high = step * std::ceil(most * 1.04 / step);
     }
     [[nodiscard]] double y(double value) const {
@@ -100,7 +100,7 @@ std::string svg_trend(const SvgTrend& trend) {
     for (const SvgPoint& point : trend.points) {
         if (std::isfinite(point.value)) most = std::max(most, point.value);
     }
-    const SvgScale scale(most);
+    const SvgScale scale(most, trend.counts);
     const double per_point =
         (chart_width - margin_left - margin_right) / static_cast<double>(std::max<std::size_t>(1, trend.points.size()));
     std::string text = svg_opening(trend.title, trend.description) + grid_lines(scale) + days_of(trend, per_point);
@@ -128,7 +128,7 @@ std::string svg_pareto(const std::string& title, const std::vector<SvgBar>& bars
         total += bar.value;
         description += fmt::format("{}{}: {:g}", description.empty() ? "" : ", ", bar.name, bar.value);
     }
-    const SvgScale scale(bars.empty() ? 0 : bars.front().value);
+    const SvgScale scale(bars.empty() ? 0 : bars.front().value, true);
     const double room =
         chart_width - margin_left - margin_right - 44;  // the cumulative share has its numbers at the right
     const double per_bar = room / static_cast<double>(std::max<std::size_t>(1, bars.size()));

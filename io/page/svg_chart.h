@@ -18,6 +18,7 @@ struct SvgPoint {
 struct SvgTrend {
     std::string title, description;  ///< for screen readers
     std::vector<SvgPoint> points;
+    bool counts = false;                ///< values are whole numbers
     std::optional<std::size_t> change;  ///< index of the first point of a new level
     double before = 0, after = 0;       ///< medians beside it
 };

@@ -60,9 +60,10 @@ Json defect_object(const RecordedDefect& d) {
             {"severity", d.severity},
             {"score", number(d.score, 2)},
             {"depth_um", number(d.depth_um, 3)},
-            {"shape", d.systematic ? "alternating"
-                      : d.pit      ? "pit"
-                                   : "bulge"},
+            {"shape", d.systematic        ? "alternating"
+                      : d.depth_um < 0.05 ? "none"
+                      : d.pit             ? "pit"
+                                          : "bulge"},
             {"systematic", d.systematic},
             {"speed_jump_percent", number(d.speed_jump_percent, 1)},
             {"length_mm", number(d.length_mm, 3)},

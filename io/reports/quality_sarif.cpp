@@ -50,9 +50,9 @@ std::string markdown_of(const Defect& d) {
     const Vec3& at = d.place.position();
     return fmt::format(
         "**{}** (severity {}, {:.1f} × threshold): {}\n\n| depth | speed | length | place [mm] |\n|---|---|---|---|\n"
-        "| {:.1f} µm {} | {:+.1f} % ({:+.0f} mm/min) | {:.1f} mm | X {:.2f} Y {:.2f} Z {:.2f} |\n",
-        name_of_severity(d.severity), d.severity, d.score, sentence_of(d), d.depth * um_per_mm, shape_of(d),
-        100 * d.speed_mismatch, d.speed_jump * seconds_per_minute, d.length, at.x(), at.y(), at.z());
+        "| {} | {:+.1f} % ({:+.0f} mm/min) | {:.1f} mm | X {:.2f} Y {:.2f} Z {:.2f} |\n",
+        name_of_severity(d.severity), d.severity, d.score, sentence_of(d), depth_text(d), 100 * d.speed_mismatch,
+        d.speed_jump * seconds_per_minute, d.length, at.x(), at.y(), at.z());
 }
 
 /// Accepted by the user: SARIF counts such results as suppressed.

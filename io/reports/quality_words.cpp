@@ -12,7 +12,8 @@
 namespace clsurf::io {
 namespace {
 
-constexpr double least_depth = 1e-4;  ///< [mm] that is worth a word beside a change of speed
+constexpr double least_shown_depth = 5e-5;  ///< [mm] 0.0 µm is neither a pit nor a bulge
+constexpr double least_depth = 1e-4;        ///< [mm] that is worth a word beside a change of speed
 
 std::string with_um(double mm) { return fmt::format("{:.1f} µm", mm * um_per_mm); }
 
@@ -157,7 +158,15 @@ std::string place_text(const CutterPlace& place) {
 }
 
 std::string_view shape_of(const Defect& defect) {
-    return defect.systematic ? "alternating" : defect.pit ? "pit" : "bulge";
+    if (defect.systematic) return "alternating";
+    if (defect.depth < least_shown_depth) return "none";
+    return defect.pit ? "pit" : "bulge";
+}
+
+std::string depth_text(const Defect& defect) {
+    const std::string_view shape = shape_of(defect);
+    return fmt::format("{:.1f} µm{}{}", defect.depth * um_per_mm, shape == "none" ? "" : " ",
+                       shape == "none" ? "" : shape);
 }
 
 std::string sentence_of(const Defect& d) {

@@ -17,8 +17,10 @@ namespace clsurf::io {
 /// "tool tip X 1.00 Y 2.00 Z 3.00 mm".
 [[nodiscard]] std::string place_text(const CutterPlace& place);
 
-/// "pit", "bulge"; "alternating" where one way lies below and the other above.
+/// "pit", "bulge", "alternating", or "none" where the depth is below 0.05 µm.
 [[nodiscard]] std::string_view shape_of(const Defect& defect);
+/// "8.0 µm bulge", or "0.0 µm".
+[[nodiscard]] std::string depth_text(const Defect& defect);
 
 /// What is wrong, as a sentence without its full stop: "Pass 14 runs 82 % slower than its neighbours over 3.4 mm".
 [[nodiscard]] std::string sentence_of(const Defect& defect);

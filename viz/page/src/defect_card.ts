@@ -19,7 +19,8 @@ export function factsOf(defect: Defect): [string, string][] {
     const facts: [string, string][] = [];
     const { speed_percent: speed, depth_um: depth, formed_um: formed, length_mm: length } = defect;
     if (speed !== null) facts.push(['Speed', `${speed > 0 ? '+' : ''}${speed.toFixed(1)} %`]);
-    if (depth !== null) facts.push(['Depth', `${depth.toFixed(1)} µm ${defect.shape}`]);
+    if (depth !== null)
+        facts.push(['Depth', `${depth.toFixed(1)} µm${defect.shape === 'none' ? '' : ` ${defect.shape}`}`]);
     if (formed !== null && formed !== undefined) facts.push(['Formed', `${formed.toFixed(1)} µm`]);
     if (length !== null) facts.push(['Length', `${length.toFixed(1)} mm`]);
     facts.push(['Threshold', `× ${defect.score.toFixed(1)}`]);

@@ -33,7 +33,7 @@ function columnsOf(manifest: Manifest): Column[] {
         {
             head: 'Depth [µm]',
             value: (d) => d.depth_um,
-            text: (d) => `${fixed(d.depth_um, 1)} ${d.shape}`,
+            text: (d) => fixed(d.depth_um, 1) + (d.shape === 'none' ? '' : ` ${d.shape}`),
         },
         { head: 'Formed [µm]', value: (d) => d.formed_um ?? null, text: (d) => fixed(d.formed_um, 1) },
         { head: 'Speed [%]', value: (d) => d.speed_percent, text: (d) => signed(d.speed_percent) },

@@ -55,7 +55,7 @@ export interface Defect {
     contact_mm?: [number, number, number];
     contact_outlines?: number[][]; // as outlines, on the part
     bounds_mm: [[number, number, number], [number, number, number]];
-    depth_um: number | null; // without a sign: `shape` is pit, bulge or alternating
+    depth_um: number | null; // without a sign: `shape` is pit, bulge, alternating or none
     score: number; // times the threshold
     speed_percent: number | null;
     length_mm: number | null;

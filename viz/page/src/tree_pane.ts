@@ -2,13 +2,21 @@
 
 import { baseName, element } from './dom';
 import { FilterBar, keeps } from './filters';
-import type { Manifest } from './manifest';
+import type { Defect, Manifest } from './manifest';
 import type { State, Store } from './store';
 import { Kind, type Surface } from './surface';
 
 const mostPasses = 1000;
 /** Below its neighbours, above them, or both in turn. */
 const shapeSigns: Record<string, string> = { pit: '▾ ', bulge: '▴ ', alternating: '± ' };
+
+/** How deep a defect is; of one without a depth how much slower or faster the pass is. */
+function sizeOf(defect: Defect): string {
+    if (defect.shape === 'none' && defect.speed_percent !== null)
+        return `${defect.speed_percent < 0 ? '−' : '+'}${Math.abs(defect.speed_percent).toFixed(0)} %`;
+    if (defect.depth_um === null) return '';
+    return `${shapeSigns[defect.shape] ?? ''}${defect.depth_um.toFixed(1)} µm`;
+}
 
 export class TreePane {
     readonly element = element('nav', { class: 'tree', 'aria-label': 'contents' });
@@ -120,8 +128,7 @@ export class TreePane {
         const { defects } = this.manifest;
         const list = element('div', { class: 'list' });
         defects.slice(0, 500).forEach((defect, k) => {
-            const depth =
-                defect.depth_um === null ? '' : `${shapeSigns[defect.shape] ?? ''}${defect.depth_um.toFixed(1)} µm`;
+            const size = sizeOf(defect);
             const button = element(
                 'button',
                 { class: 'item', 'data-choice': `defect-${k}`, title: defect.text },
@@ -131,7 +138,7 @@ export class TreePane {
                     String(defect.id),
                 ),
                 element('span', {}, defect.cause.replace('_', ' ')),
-                element('small', {}, defect.change === 'new' ? `new ${depth}` : depth),
+                element('small', {}, defect.change === 'new' ? `new ${size}` : size),
             );
             button.addEventListener('click', () => this.deeds.goToDefect(k));
             this.defectItems.push(button);
