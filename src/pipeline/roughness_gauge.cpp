@@ -1,7 +1,8 @@
 #include "pipeline/roughness_gauge.h"
 
+#include "pipeline/judge.h"
 #include "pipeline/roles.h"
-#include "predictor/defects.h"
+#include "pipeline/signals_of.h"
 
 namespace clsurf {
 namespace {
@@ -32,13 +33,8 @@ RoughnessGauge::Swept RoughnessGauge::sweep(const GaugedRun& run) const {
 }
 
 AsMachinedSurface RoughnessGauge::as_machined(const Swept& swept) const {
-    const GaugedRun& of = swept.of;
-    if (of.report != nullptr) return swept.run().as_machined(tool_, *of.report);
-    std::optional<PartSignals> own;
-    if (swept.upright) own = signals_along(of.log, of.path, of.surface, role_);
-    const Signals& signals = own ? own->signals : swept.read.signals;
-    // Which lines of a program are at fault does not matter here.
-    return swept.run().as_machined(tool_, find_defects(of.surface, signals, of.lines, {}, of.log.period, {}));
+    const QualityReport none;
+    return swept.run().as_machined(tool_, swept.of.report != nullptr ? *swept.of.report : none);
 }
 
 PartRoughness RoughnessGauge::measure(const AsMachinedSurface& measured, const ToolRun& run) const {
@@ -60,7 +56,8 @@ std::optional<RoughnessChange> roughness_change(const GaugedRun& before, const G
 std::optional<RoughnessChange> roughness_change(const Part& before, const ClSurface& surface_before, const Part& after,
                                                 const ClSurface& surface_after, std::optional<Role> role) {
     if (!after.tool || before.tool != after.tool) return std::nullopt;
-    return roughness_change({before.log, before.path, *before.lines, surface_before},
+    const QualityReport report = find_defects(before, surface_before, signals_of(before, surface_before, role));
+    return roughness_change({before.log, before.path, *before.lines, surface_before, &report},
                             {after.log, after.path, *after.lines, surface_after}, *after.tool, role);
 }
 

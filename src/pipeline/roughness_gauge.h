@@ -18,7 +18,7 @@ struct GaugedRun {
     const Trajectory& path;  ///< commanded, or what the log has
     const LineMap& lines;
     const ClSurface& surface;               ///< of `path`
-    const QualityReport* report = nullptr;  ///< its defects; nullptr: they are looked for
+    const QualityReport* report = nullptr;  ///< whose programmed marks are no form; nullptr: all of the program is form
 };
 
 class RoughnessGauge {
