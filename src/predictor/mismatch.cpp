@@ -11,8 +11,8 @@
 #include "core/block.h"
 #include "core/not_finite.h"
 #include "core/statistics.h"
-#include "predictor/median_of.h"
 #include "predictor/oblique_alignment.h"
+#include "predictor/residual.h"
 
 namespace clsurf {
 namespace {
@@ -20,24 +20,9 @@ namespace {
 constexpr std::size_t sampled_points = 50'000;
 constexpr float along_or_against = 0.866F;  ///< cos 30°: neighbours run along with the feed or against it
 constexpr float round_a_corner = 0.5F;      ///< cos 60°: straight across a corner they have turned more than that
-constexpr std::size_t fewest_passes = 2;    ///< for a median
 constexpr float slack_step_overs = 0.5F;    ///< along the feed between the ends of passes that end side by side
-constexpr float shape_left = 0.35F;         ///< of a relief: more is left of it beside it where it is the part's own
-constexpr float shape_beside = 0.6F;        ///< of the largest relief around: a smaller one lies beside an edge
 
-/// a · x + b · y.
-Compared mixed(float a, const Compared& x, float b, const Compared& y) {
-    return {a * x.speed + b * y.speed, a * x.lag + b * y.lag, a * x.relief + b * y.relief,
-            a * x.acceleration + b * y.acceleration};
-}
-
-/// What a place should have by the one pass on its one side and three on the other: the mean of both sides, and two ways in which the
-/// three go on. Each is exact where all change evenly; of a fault of one pass their median has half at most, and that
-/// only where it is the next one of the three.
-template <std::size_t n>
-std::array<Compared, 3> expected_from_three(const Compared& one, const std::array<Compared, n>& others) {
-    return {mixed(0.5F, one, 0.5F, others[0]), mixed(2, others[0], -1, others[1]), mixed(3, others[1], -2, others[2])};
-}
+constexpr float clear_of_scatter = 3;  ///< of the motions of the passes around a place near a border
 
 /// What is compared, where there is nothing.
 Compared no_pass() {
@@ -72,48 +57,6 @@ float change_of_two_periods(const Signals& signals, float Sample::*signal, Point
     if (point < reach || point + reach >= signals.size()) return 0;
     const float change = std::abs(signals[point + reach].*signal - signals[point - reach].*signal) / reach;
     return change == change ? change : 0;
-}
-
-/// Whether a relief is the part's own. If one pass is displaced, its neighbours' reliefs have the opposite sign, and the three
-/// reliefs sum to about zero. The same holds for two adjacent displaced passes and for every second pass, with four reliefs.
-/// At an edge or a fillet the sum is half a step-over times the angle by which the surface turns. Next to one, reliefs can
-/// have any sum, but they are smaller than that of the edge. Reliefs count from the mean of all `places`: those of one
-/// side, the adjacent one first, then as many of the other one.
-bool is_shape(float relief, std::span<const Compared> places) {
-    float sum = relief;
-    int known = 1;
-    for (const Compared& place : places) {
-        if (!(place.relief == place.relief)) continue;  // a pass at the border
-        sum += place.relief;
-        ++known;
-    }
-    const float mean = sum / static_cast<float>(known);
-    const float own = relief - mean;
-    const std::size_t aside = places.size() / 2;
-    const auto at = [&](std::size_t side, std::size_t k) {  // nothing, where there is no chord
-        const float there = k < aside ? places[side * aside + k].relief : missing<float>;
-        return there == there ? there - mean : 0;
-    };
-    const auto adds_up = [&](float all) { return std::abs(all) <= shape_left * std::abs(own); };
-    const float three = at(0, 0) + own + at(1, 0);
-    const bool alone = at(0, 0) == 0 && at(1, 0) == 0;
-    const bool lies_off = alone || adds_up(three) || adds_up(three + at(0, 1)) || adds_up(three + at(1, 1));
-    return !lies_off || std::any_of(places.begin(), places.end(), [&](const Compared& v) {
-        return std::abs(own) < shape_beside * std::abs(v.relief - mean);
-    });
-}
-
-/// How far a relief lies above the reliefs of the passes on its two sides, or below (−): by the distance from the interval between
-/// both medians. Where a flat face goes over into a fillet the curvature changes from one pass to the next. The relief is then that of one
-/// side or lies between both. A pass that lies off has its neighbours' reliefs on the other side of zero, and those beyond at zero.
-/// `places`: the passes of one side, then as many of the other one. Where a side has one pass only, from the median of all.
-float relief_beyond_sides(float relief, std::span<const Compared> places) {
-    const auto median = [](std::span<const Compared> some) {
-        return median_of(some, fewest_passes, [](const Compared& v) { return v.relief; });
-    };
-    const float one = median(places.first(places.size() / 2)), other = median(places.last(places.size() / 2));
-    if (!(one == one && other == other)) return relief - median(places);
-    return relief - std::clamp(relief, std::min(one, other), std::max(one, other));
 }
 
 float quantile(std::vector<float>& values, double share) {
@@ -190,46 +133,55 @@ std::vector<float> known(std::size_t count, Value&& value) {
 
 /// The passes beside a place, the adjacent one first, on the left and on the right.
 struct PassesBeside {
-    std::array<std::array<Compared, Comparer::passes_aside>, 2> of;
+    std::array<std::array<Compared, passes_around_border>, 2> of;
     std::array<int, 2> count{0, 0};
+};
+
+/// What `read` says of the passes on either side.
+class ReadBeside {
+public:
+    template <typename Read>
+    ReadBeside(const PassesBeside& others, Read&& read) : count_(others.count) {
+        for (std::size_t s = 0; s < 2; ++s) {
+            for (std::size_t k = 0; k < static_cast<std::size_t>(count_[s]); ++k) values_[s][k] = read(others.of[s][k]);
+        }
+    }
+    [[nodiscard]] std::span<const float> side(std::size_t s) const {
+        return std::span(values_[s]).first(static_cast<std::size_t>(count_[s]));
+    }
+    [[nodiscard]] float usual(float own) const { return usual_beside(own, side(0), side(1)); }
+    /// The same of a motion: speeds change from pass to pass where passes become shorter or more curved.
+    [[nodiscard]] float usual_motion(float own) const { return usual_beside(own, side(0), side(1), clear_of_scatter); }
+
+private:
+    std::array<int, 2> count_;
+    std::array<std::array<float, passes_around_border>, 2> values_;
 };
 
 /// Fills in residuals against the adjacent passes, and the jump of the speed. Returns the speed that differences of the
 /// speed are relative to [mm/s].
 float fill_residuals(const Compared& mine, const PassesBeside& others, float least_speed, Comparison& result) {
-    const auto& [beside_it, count] = others;
-    // As many on either side, so that what changes evenly from pass to pass drops out; all of one side
-    // where the other has none.
-    const int even = std::min(count[0], count[1]);
-    std::array<Compared, 2 * Comparer::passes_aside> all;
-    std::size_t n = 0;
-    for (std::size_t s = 0; s < 2; ++s) {
-        for (int k = 0; k < (even > 0 ? even : count[s]); ++k) all[n++] = beside_it[s][static_cast<std::size_t>(k)];
-    }
-    const std::span<const Compared> reliefs(all.data(), n);
-    // Of one pass on either side the median would be their mean, half of whatever one of them has.
-    std::array<Compared, 3> three;
-    std::span<const Compared> places = reliefs;
-    if (even == 1 && std::max(count[0], count[1]) >= 3) {
-        three = expected_from_three(beside_it[count[0] == 1 ? 0 : 1][0], beside_it[count[0] == 1 ? 1 : 0]);
-        places = three;
-    }
-    const float usual = median_of(places, fewest_passes, [](const Compared& v) { return v.speed; });
-    const float reference = std::max(usual == usual ? usual : mine.speed, least_speed);
+    const ReadBeside speeds(others, [](const Compared& v) { return v.speed; });
+    const ReadBeside lags(others, [](const Compared& v) { return v.lag; });
+    const ReadBeside reliefs(others, [](const Compared& v) { return v.relief; });
+    const float usual = speeds.usual_motion(mine.speed);
+    // Differences to two passes are relative to the mean of both.
+    const bool two = others.count[0] == 1 && others.count[1] == 1;
+    const float of_two = two ? 0.5F * (others.of[0][0].speed + others.of[1][0].speed) : usual;
+    const float reference = std::max(of_two == of_two ? of_two : mine.speed, least_speed);
     result.speed_jump = mine.speed - usual;
     result.residual[index_of(Quantity::speed)] = result.speed_jump / reference;
-    result.residual[index_of(Quantity::lag)] =
-        mine.lag - median_of(places, fewest_passes, [](const Compared& v) { return v.lag; });
-    float& relief = result.residual[index_of(Quantity::relief)];
-    if (even == 0)
-        relief = mine.relief - median_of(reliefs, fewest_passes, [](const Compared& v) { return v.relief; });
-    else if (is_shape(mine.relief, reliefs))
-        relief = 0;
-    else
-        relief = relief_beyond_sides(mine.relief, reliefs);
+    result.residual[index_of(Quantity::lag)] = mine.lag - lags.usual(mine.lag);
+    // The curvature of a part changes over more passes than a motion does: no more than five count.
+    const auto nearest = [&](std::size_t s) {
+        const std::span<const float> all = reliefs.side(s);
+        return all.first(std::min<std::size_t>(all.size(), Comparer::passes_aside));
+    };
+    result.residual[index_of(Quantity::relief)] = relief_mark(mine.relief, nearest(0), nearest(1));
     Eigen::Vector3f consensus;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        consensus[axis] = median_of(places, fewest_passes, [axis](const Compared& v) { return v.acceleration[axis]; });
+        const ReadBeside along(others, [axis](const Compared& v) { return v.acceleration[axis]; });
+        consensus[axis] = along.usual_motion(mine.acceleration[axis]);
     }
     result.residual[index_of(Quantity::acceleration)] = (mine.acceleration - consensus).norm();
     return reference;
@@ -331,28 +283,40 @@ Comparison Comparer::compare_with(Peers peers, const PathLocation& here, int asi
     result.ramp = signals_[point].zone == Zone::ramp;
 
     PassesBeside others;
-    auto& beside_it = others.of;
     auto& count = others.count;
-    for (const Side side : {Side::left, Side::right}) {
+    const auto collect = [&](Side side, int most) {
         const auto s = static_cast<std::size_t>(side);
         bool against = false;  // as in a zigzag: the next pass of this way is the second one
+        count[s] = 0;
         PathLocation& adjacent_place = side == Side::left ? result.beside_left : result.beside_right;
-        adjacent_place = for_each_beside(here, side, aside, along_or_against, [&](const PathLocation& at, int passes) {
+        adjacent_place = for_each_beside(here, side, most, along_or_against, [&](const PathLocation& at, int passes) {
             if (passes == 1) against = runs_against(signals_, point, at);
             if ((passes == 1 || (passes == 2 && against)) && signals_[at.nearest()].zone == Zone::ramp)
                 result.ramp = true;
             if (peers == Peers::same_direction && runs_against(signals_, point, at)) return;
-            beside_it[s][static_cast<std::size_t>(count[s]++)] = compared_at(signals_, at, normal);
+            others.of[s][static_cast<std::size_t>(count[s]++)] = compared_at(signals_, at, normal);
         });
+    };
+    constexpr std::array sides{Side::left, Side::right};
+    for (const Side side : sides) collect(side, aside);
+    // Near a border there are few passes on one side: more of the other side outvote a fault or a band of them.
+    if (aside == passes_aside && peers == Peers::all) {
+        const std::array<int, 2> near_ones = count;
+        for (std::size_t s = 0; s < 2; ++s) {
+            if (near_ones[s] == aside && near_ones[1 - s] < aside)
+                collect(sides[s], passes_around_border - near_ones[1 - s]);
+        }
+    }
+    for (std::size_t s = 0; s < 2; ++s) {
         if (count[s] == 0) continue;
-        const Compared& adjacent = beside_it[s][0];
+        const Compared& adjacent = others.of[s][0];
         const auto widen = [&](Quantity q, float difference) {
             float& step = result.step[index_of(q)];
             float& lesser = result.lesser_step[index_of(q)];
             lesser = step == step ? std::min(step, difference) : difference;
             step = larger(step, difference);
         };
-        const Compared next = count[s] > 1 ? beside_it[s][1] : no_pass();
+        const Compared next = count[s] > 1 ? others.of[s][1] : no_pass();
         widen(Quantity::speed, step_beyond_trend(mine.speed, adjacent.speed, next.speed));
         widen(Quantity::acceleration, step_beyond_trend(mine.acceleration, adjacent.acceleration, next.acceleration));
         widen(Quantity::lag, step_beyond_trend(mine.lag, adjacent.lag, next.lag));
