@@ -95,6 +95,18 @@ double DerivativeFilter::step_response() const {
     return most * std::pow(period, -derivative);
 }
 
+double DerivativeFilter::speed_step_response() const {
+    const std::vector<double> weights = derivative_weights(points, order, derivative, points / 2);
+    // A way of one record's length a record, from each of the points on.
+    double most = 0, sum = 0, response = 0;
+    for (std::size_t k = weights.size(); k-- > 0;) {
+        response += sum;
+        sum += weights[k];
+        most = std::max(most, std::abs(response));
+    }
+    return most * std::pow(period, 1 - derivative);
+}
+
 double DerivativeFilter::bandwidth() const {
     const int middle_point = points / 2;
     const std::vector<double> weights = derivative_weights(points, order, derivative, middle_point);

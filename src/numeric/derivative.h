@@ -18,6 +18,8 @@ struct DerivativeFilter {
 
     /// The most that the derivative is off where a position is rounded to another of its steps within the window, per mm of step [1/s^d].
     [[nodiscard]] double step_response() const;
+    /// The most that the derivative shows where the speed changes at once, per mm/s of change [1/s^(d−1)].
+    [[nodiscard]] double speed_step_response() const;
     /// Frequency at which the filter gives 1/√2 of the true derivative [Hz].
     [[nodiscard]] double bandwidth() const;
 };

@@ -131,7 +131,19 @@ public:
         defect.speed = signals_[strongest.point].speed;
         defect.speed_beside = defect.speed - strongest.comparison.speed_jump;
         defect.place.tip = surface_.positions.absolute(defect.point);
-        for (const DefectCandidate* s : core) defect.score = std::max(defect.score, largest(s->score, family));
+        const auto score_of = [&](Quantity q) {
+            float most = 0;
+            for (const DefectCandidate* s : core) most = std::max(most, s->score[index_of(q)]);
+            return most;
+        };
+        defect.score = score_of(quantity);
+        for (const Quantity other : family) {
+            // What the main quantity does not show by itself, the other one of its family does.
+            if (defect.score >= 1) break;
+            if (score_of(other) <= defect.score) continue;
+            defect.quantity = other;
+            defect.score = score_of(other);
+        }
         for (const CandidateSpan run : runs_of(core, arc_length_, joined_))
             defect.runs.push_back(run_of(run.front()->pass, {run.front()->point, run.back()->point}));
         measure(core, defect);

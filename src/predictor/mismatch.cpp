@@ -348,9 +348,12 @@ Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals, 
     values = known(points.size(), [&](std::size_t k) { return motion[k][1]; });
     thresholds.usual_acceleration = quantile(values, 0.99);
 
+    const float least_speed_step = larger(rule.speed, signals.speed_noise / thresholds.usual_speed);
     const std::array<float, quantities> least{
-        larger(rule.speed, signals.speed_noise / thresholds.usual_speed),
-        std::max(rule.acceleration * thresholds.usual_acceleration, signals.acceleration_noise),
+        least_speed_step,
+        // A change of speed below its threshold is no defect by its acceleration, however sharp it is and however clean the log.
+        std::max({rule.acceleration * thresholds.usual_acceleration, signals.acceleration_noise,
+                  least_speed_step * thresholds.usual_speed * signals.speed_step_response}),
         std::max(rule.height, rule.lag_quanta * signals.quantum),
         std::max(rule.height, rule.relief_quanta * signals.quantum)};
     thresholds.least_speed =

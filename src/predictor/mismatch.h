@@ -84,7 +84,8 @@ struct Thresholds {
 struct ThresholdRule {
     float speed = 0.03F;  ///< least threshold, relative to the neighbours' speed
     float acceleration =
-        0.15F;  ///< least threshold, relative to the usual acceleration; neither is less than rounding makes
+        0.15F;  ///< least threshold, relative to the usual acceleration; neither is less than rounding makes, and this one no
+                ///< less than what a sharp change of the speed by its least threshold shows
     float least_speed = 0.25F;   ///< of the usual speed, and no less than where rounding alone reaches the threshold
     float height = 0.0015F;      ///< least threshold [mm] …
     float lag_quanta = 1.5F;     ///< … and in steps of the positions: all of a pass may be rounded the same way,

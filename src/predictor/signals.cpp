@@ -149,6 +149,7 @@ public:
     void note_noise(double quantum, double scatter, Signals& signals) const {
         if (estimate_ != nullptr) {
             signals.speed_noise = static_cast<float>(scatter_deviations * estimate_->sigma(1));
+        signals.speed_step_response = static_cast<float>(acceleration_.filter().speed_step_response());
             signals.acceleration_noise = static_cast<float>(scatter_deviations * estimate_->sigma(2));
             return;
         }

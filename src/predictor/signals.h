@@ -25,6 +25,8 @@ struct Signals {
     /// What the rounding of the positions alone makes of two passes, at most: differences of speed [mm/s] and
     /// acceleration [mm/s²] along an axis.
     float speed_noise = 0, acceleration_noise = 0;
+    float speed_step_response =
+        0;  ///< [1/s] acceleration that is seen where the speed changes at once, over that change
     std::vector<PointRange> pieces;  ///< of the path, between which nothing is smoothed: they end where passes do
     std::vector<std::string> unfit;  ///< why the data cannot show marks, as sentences; empty: they can
     std::string speed_note, acceleration_note, height_note;  ///< the windows, "speed over 11 points (11 ms)"

@@ -32,6 +32,19 @@ TEST(Derivative, OfAStepIsAtMostTheStepResponse) {
     }
 }
 
+TEST(Derivative, OfAChangeOfSpeedIsAtMostTheSpeedStepResponse) {
+    // From rest to 1 mm/s at once: a speed of at most 1 mm/s. A parabola over the time T sees 1.875 / T of acceleration.
+    std::vector<double> ramp(200, 0.0);
+    for (std::size_t i = 100; i < ramp.size(); ++i) ramp[i] = static_cast<double>(i - 100) * period;
+    for (const int derivative : {1, 2}) {
+        const std::vector<double> d = derive(ramp, derivative);
+        const DerivativeFilter filter = derivative_filter(derivative, period);
+        EXPECT_NEAR(*std::max_element(d.begin(), d.end()), filter.speed_step_response(), 1e-6);
+        const double window = filter.points * period;
+        EXPECT_NEAR(filter.speed_step_response(), derivative == 1 ? 1 : 1.875 / window, derivative == 1 ? 0.1 : 2);
+    }
+}
+
 TEST(Derivative, IsExactOnPolynomialsOfItsOrderUpToTheEnds) {
     // x = 3 − 2t + 5t² + 7t³ t: the first two filters are exact to order 2, the third to order 3.
     std::vector<double> square(200);

@@ -405,11 +405,43 @@ TEST(Defects, AreListedByHowFarTheyStandOut) {
     ASSERT_EQ(report.defects.size(), 2U);
     EXPECT_EQ(report.defects[0].quantity, Quantity::speed);
     EXPECT_EQ(report.defects[1].quantity, Quantity::lag);
+    EXPECT_NEAR(report.defects[0].score, 0.4 / report.thresholds.of[index_of(Quantity::speed)], 0.3);
     EXPECT_GT(report.defects[0].score, report.defects[1].score);
     EXPECT_LT(report.defects[0].depth, report.defects[1].depth);
     EXPECT_NEAR(report.defects[0].speed_mismatch, -0.4, 0.02);
     EXPECT_NEAR(report.defects[0].speed_jump, -20, 1);
 }
+TEST(Defects, NearTheBorderAreOfThePassesAtFault) {
+    // Passes 0 to 23 of the zigzag: one, or two side by side, 30 % slower; numbers of passes count from 1.
+    for (const auto& [first, last] : {std::pair(1, 1), std::pair(2, 2), std::pair(2, 3), std::pair(3, 4),
+                                      std::pair(21, 21), std::pair(22, 22), std::pair(20, 21)}) {
+        const planted::PlantedLog log = plane_zigzag(
+            [&](int k, double x, double) { return k >= first && k <= last && x > 8 && x < 12 ? 35.0 : 50.0; });
+        const QualityReport report = planted::judge(log);
+        ASSERT_EQ(report.defects.size(), 1U) << first;
+        EXPECT_EQ(report.defects[0].runs.front().pass, first + 1);
+        EXPECT_EQ(report.defects[0].runs.back().pass, last + 1);
+        EXPECT_NEAR(report.defects[0].speed_mismatch, -0.3, 0.01) << first;
+    }
+}
+
+TEST(Defects, OfASmallDipOfSpeedAreAsSevereHoweverCleanTheLogIs) {
+    // 5 % slower: 1.67 times the threshold. Positions to a nanometre and to a micrometre.
+    for (const double step : {1e-6, 1e-3}) {
+        planted::PlantedLog log =
+            plane_zigzag([](int k, double x, double) { return k == 11 && x > 8 && x < 12 ? 47.5 : 50.0; });
+        for (auto* columns : {&log.commanded, &log.measured}) {
+            for (std::vector<double>& axis : *columns) {
+                for (double& p : axis) p = step * std::round(p / step);
+            }
+        }
+        const QualityReport report = planted::judge(log);
+        ASSERT_EQ(report.defects.size(), 1U) << step;
+        EXPECT_NEAR(report.defects[0].score, 0.05 / 0.03, 0.1) << step;
+        EXPECT_EQ(report.defects[0].severity, 1) << step;
+    }
+}
+
 
 TEST(Defects, LoseAtMostAllOfTheirSpeed) {
     // The neighbours of this pass are slow where it is fast: three times as fast is +200 %, and nothing is −200 %.

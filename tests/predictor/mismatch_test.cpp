@@ -102,5 +102,13 @@ TEST(Relief, OfAWideFilletIsNone) {
     }
 }
 
+TEST(Thresholds, OfTheAccelerationIsWhatAChangeOfSpeedByItsThresholdShows) {
+    // Passes at an even 50 mm/s accelerate by nothing. 3 % of that at once are 1.5 mm/s · 1.875 / 21 ms.
+    const test::MadeSurface made = test::flat_zigzag(9, length, apart, 50, {});
+    const Thresholds thresholds = measure_thresholds(made.surface, made.signals(), ThresholdRule{});
+    EXPECT_NEAR(thresholds.of[index_of(Quantity::speed)], 0.03F, 1e-4F);
+    EXPECT_NEAR(thresholds.of[index_of(Quantity::acceleration)], 1.5F * 1.875F / 0.021F, 4);
+}
+
 }  // namespace
 }  // namespace clsurf::mismatch_test
