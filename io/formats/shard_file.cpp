@@ -64,7 +64,7 @@ std::string shard_json(const ShardFindings& findings, const ShardNumber& shard, 
     json["options"] = origin.options;
     json["settings"] = settings;
     json["points"] = {findings.points.first, findings.points.last};
-    json["compared"] = findings.compared;
+    json["compared"] = {findings.compared.compared, findings.compared.away_from_ends};
     json["candidates"] = findings.starts;
     // As their bits: the merged report must not depend on how numbers are written.
     Json scallops = Json::array();
@@ -95,7 +95,8 @@ ShardFindings read_shard(const std::string& path, const SurveyOrigin& origin, co
         if (json.at("settings").get<std::string>() != settings)
             fail("was judged with " + json.at("settings").get<std::string>() + ", not with " + settings);
         findings.points = {json.at("points").at(0).get<PointIndex>(), json.at("points").at(1).get<PointIndex>()};
-        findings.compared = json.at("compared").get<PointIndex>();
+        findings.compared.compared = json.at("compared").at(0).get<PointIndex>();
+        findings.compared.away_from_ends = json.at("compared").at(1).get<PointIndex>();
         findings.starts = json.at("candidates").get<std::vector<PointIndex>>();
         for (const auto& bits : json.at("scallop_bits"))
             findings.scallops.push_back(std::bit_cast<double>(bits.get<std::uint64_t>()));

@@ -20,7 +20,7 @@ struct ShardNumber {
 /// What is found in a shard.
 struct ShardFindings {
     PointRange points;
-    PointIndex compared = 0;         ///< count_compared()
+    ComparedPoints compared;         ///< count_compared()
     std::vector<PointIndex> starts;  ///< find_starts()
     std::vector<double> scallops;    ///< [mm] scallop_heights(), where the tool is known
     MotionSizes motion;

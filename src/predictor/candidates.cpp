@@ -4,7 +4,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <numeric>
 
 #include "core/block.h"
 #include "core/block_portions.h"
@@ -94,17 +93,22 @@ std::size_t pass_of(const Passes& passes, PointIndex point) {
     return static_cast<std::size_t>(after - passes.begin()) - 1;
 }
 
-PointIndex count_compared(const ClSurface& surface, const Signals& signals, const PointRange& points) {
-    std::vector<PointIndex> of_block(static_cast<std::size_t>((points.last + block_points) / block_points));
+ComparedPoints count_compared(const ClSurface& surface, const Signals& signals, const PointRange& points) {
+    std::vector<ComparedPoints> of_block(static_cast<std::size_t>((points.last + block_points) / block_points));
     for_each_block(points, [&](PointIndex first, PointIndex last) {
-        PointIndex& mine = of_block[static_cast<std::size_t>(first / block_points)];
+        ComparedPoints& mine = of_block[static_cast<std::size_t>(first / block_points)];
         for (PointIndex i = first; i < last; ++i) {
-            if (signals.without_heights(i).zone != Zone::outside && surface.neighbours.has(Side::left, i) &&
-                surface.neighbours.has(Side::right, i))
-                ++mine;
+            if (signals.without_heights(i).zone == Zone::outside) continue;
+            ++mine.away_from_ends;
+            if (surface.neighbours.has(Side::left, i) && surface.neighbours.has(Side::right, i)) ++mine.compared;
         }
     });
-    return std::accumulate(of_block.begin(), of_block.end(), PointIndex{0});
+    ComparedPoints all;
+    for (const ComparedPoints& block : of_block) {
+        all.away_from_ends += block.away_from_ends;
+        all.compared += block.compared;
+    }
+    return all;
 }
 
 namespace {

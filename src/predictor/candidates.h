@@ -28,8 +28,8 @@ struct DefectCandidate {
 /// The pass that holds a point. O(log passes).
 [[nodiscard]] std::size_t pass_of(const Passes& passes, PointIndex point);
 
-/// Points of cut passes that have a neighbour on both sides and lie away from the ends, among `points`. O(points).
-[[nodiscard]] PointIndex count_compared(const ClSurface& surface, const Signals& signals, const PointRange& points);
+/// Those among `points` that can be judged. O(points).
+[[nodiscard]] ComparedPoints count_compared(const ClSurface& surface, const Signals& signals, const PointRange& points);
 
 /// Some candidates, in the order of their points. They stay where they were found: each is 150 bytes, and
 /// a bad part has a million.

@@ -21,6 +21,12 @@ struct Compared {
     Eigen::Vector3f acceleration;
 };
 
+/// Points of cut passes.
+struct ComparedPoints {
+    PointIndex away_from_ends = 0;  ///< of their passes, as far as those are judged
+    PointIndex compared = 0;        ///< of these, with a neighbour on both sides
+};
+
 /// The signals at a location, linear between the points. Heights are counted along `normal`: normals of
 /// walls that lean by less than 0.75° turn round with the feed.
 [[nodiscard]] Compared compared_at(const Signals& signals, const PathLocation& at, const Eigen::Vector3f& normal);

@@ -21,10 +21,15 @@ void judge_passes(QualityReport& report) {
         report.judgement.refuse("No pass has an adjacent pass, so nothing could be compared.");
     } else if (report.coverage() < least_coverage) {
         const double percent = std::floor(1000 * report.coverage()) / 10;  // never rounded up to what is enough
-        report.judgement.refuse(
-            fmt::format("Only {:.1f} % of {} cutting points could be compared with the passes on both sides. A verdict "
-                        "needs {:.0f} %.",
-                        percent, report.points, 100 * least_coverage));
+        const auto share = [&](PointIndex points) {
+            return 100.0 * static_cast<double>(points) / static_cast<double>(report.points);
+        };
+        report.judgement.refuse(fmt::format(
+            "Only {:.1f} % of {} cutting points could be compared with the passes on both sides: {:.1f} % lie near "
+            "the ends of passes, which are not judged, and {:.1f} % have no adjacent pass on one side or on "
+            "both. A verdict needs {:.0f} %.",
+            percent, report.points, share(report.points - report.away_from_ends),
+            share(report.away_from_ends - report.compared), 100 * least_coverage));
     }
 }
 

@@ -71,7 +71,7 @@ struct Defect {
 
 /// What was found in the shards of a log before the defects are built.
 struct FoundInShards {
-    PointIndex compared = 0;         ///< count_compared() of all points
+    ComparedPoints points;           ///< count_compared() of all points
     std::vector<PointIndex> starts;  ///< find_starts() of all points, in order
     std::vector<double> scallops;    ///< [mm] scallop_heights() of all points (machined/as_machined_report.h)
     ForgetBlocks forget;             ///< positions and signals that are derived when they are read
@@ -89,14 +89,15 @@ struct QualityReport {
     std::vector<Defect> defects;   ///< in falling order of score
     std::vector<Defect> expected;  ///< at outermost passes: what a part's border always shows
     Thresholds thresholds;
-    PointIndex points = 0;         ///< of cut passes
-    PointIndex compared = 0;       ///< of them, with a neighbour on both sides and away from the ends
-    PointIndex not_finishing = 0;  ///< cutting points of pockets, drilling, single contours: left out
-    std::int64_t passes = 0;       ///< cut passes
-    double step_over = 0;          ///< [mm]
-    bool has_lag = false;          ///< measured positions were there
-    Judgement judgement;           ///< whether the data allow a verdict
-    std::string note;              ///< the windows
+    PointIndex points = 0;          ///< of cut passes
+    PointIndex away_from_ends = 0;  ///< of them, away from the ends of their passes
+    PointIndex compared = 0;        ///< of these, with a neighbour on both sides
+    PointIndex not_finishing = 0;   ///< cutting points of pockets, drilling, single contours: left out
+    std::int64_t passes = 0;        ///< cut passes
+    double step_over = 0;           ///< [mm]
+    bool has_lag = false;           ///< measured positions were there
+    Judgement judgement;            ///< whether the data allow a verdict
+    std::string note;               ///< the windows
 
     [[nodiscard]] double coverage() const {
         return points > 0 ? static_cast<double>(compared) / static_cast<double>(points) : 0;

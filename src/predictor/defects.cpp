@@ -411,7 +411,10 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
     report.passes = builder.cut_passes();
     report.points = cutting_points(surface.passes);
     report.not_finishing = surface.not_finishing;
-    report.compared = rules.found ? rules.found->compared : count_compared(surface, signals, {0, signals.size() - 1});
+    const ComparedPoints compared =
+        rules.found ? rules.found->points : count_compared(surface, signals, {0, signals.size() - 1});
+    report.away_from_ends = compared.away_from_ends;
+    report.compared = compared.compared;
     for (const std::string& reason : signals.unfit) report.judgement.refuse(reason);
     judge_coverage(report.thresholds.usual_speed * period, report);
 

@@ -40,6 +40,7 @@ constexpr float least_chord_share =
 constexpr PointIndex longest_reach = 4096;
 constexpr PointIndex lead = 16;       ///< points that it may come before: logs that were put together
 constexpr float farthest_lag = 2.0F;  ///< step-overs; farther, the paths have nothing to do with each other
+constexpr double end_step_overs = 2;  ///< that are not judged at the ends of passes, at least
 constexpr float slowest = 1e-3F;      ///< [mm/s]; slower, the feed has no direction
 
 int window_points(double seconds, double period, int least) {
@@ -138,6 +139,7 @@ public:
           path_(path),
           measured_(measured),
           estimate_(estimate),
+          usual_speed_(usual_speed),
           out_(out),
           speed_(speed_filter(usual_speed, quantum, path.period)),
           acceleration_(acceleration_filter(usual_speed, quantum, path.period)),
@@ -147,9 +149,9 @@ public:
 
     /// `scatter` [mm]: position_noise().
     void note_noise(double quantum, double scatter, Signals& signals) const {
+        signals.speed_step_response = static_cast<float>(acceleration_.filter().speed_step_response());
         if (estimate_ != nullptr) {
             signals.speed_noise = static_cast<float>(scatter_deviations * estimate_->sigma(1));
-        signals.speed_step_response = static_cast<float>(acceleration_.filter().speed_step_response());
             signals.acceleration_noise = static_cast<float>(scatter_deviations * estimate_->sigma(2));
             return;
         }
@@ -172,6 +174,11 @@ public:
             signals.acceleration_note = fmt::format("acceleration by a Kalman smoother{}", of);
         }
         signals.height_note = note("heights", static_cast<int>(2 * smoother_.reach() + 1));
+    }
+
+    /// How far [mm] from an end, at the usual speed, derivatives are taken over a window that lies evenly round them.
+    [[nodiscard]] double window_reach() const {
+        return 0.5 * acceleration_.filter().points * path_.period * usual_speed_;
     }
 
     void derive_motion(PointRange piece, PointIndex first, PointIndex last) const {
@@ -308,6 +315,7 @@ private:
     const Trajectory& path_;
     const Trajectory* measured_;
     const MotionEstimate* estimate_;
+    double usual_speed_;  ///< [mm/s]
     SamplesInWork out_;
     Differentiator speed_, acceleration_;
     Smoother smoother_;
@@ -346,8 +354,7 @@ float quantum_of_axes(const Trajectory& role) {
 
 double usual_end_zone(double step_over) {
     constexpr double least = 1.0;  // [mm]
-    constexpr double step_overs = 2;
-    return std::max(least, step_overs * step_over);
+    return std::max(least, end_step_overs * step_over);
 }
 
 namespace {
@@ -392,6 +399,10 @@ SignalFacts facts_of(const ClSurface& surface, const Trajectory& path, const Tra
     facts.scatter = position_noise(path, pieces);
     facts.unfit = reasons_against(path);
     return facts;
+}
+
+EndZone end_zone_of(const Deriver& deriver, double usual, double step_over) {
+    return {usual, std::min(usual, std::max(end_step_overs * step_over, deriver.window_reach()))};
 }
 
 /// All of signals that concerns the whole log.
@@ -441,7 +452,9 @@ Signals derive_signals(const ClSurface& surface, const Trajectory& path, const T
         deriver.derive_motion(piece, first, last);
     });
     const ArcLength arc_length(surface.positions);
-    ZoneMarker(surface.passes, parts, arc_length, end_zone, path.period, samples).mark({0, path.count - 1});
+    ZoneMarker(surface.passes, parts, arc_length, end_zone_of(deriver, end_zone, surface.step_over), path.period,
+               samples)
+        .mark({0, path.count - 1});
     for_each_section(path.count, parts, [&](PointRange piece, PointIndex first, PointIndex last) {
         deriver.derive_heights(piece, first, last);
     });
@@ -475,7 +488,8 @@ Signals derive_when_read(const ClSurface& surface, const Trajectory& path, const
     const SamplesInWork samples(signals.samples.data(), signals.motion.get(), signals.zones.get());
     work->deriver.emplace(surface, work->path, work->measured ? &*work->measured : nullptr, nullptr, facts.usual_speed,
                           facts.path_quantum, samples);
-    work->marker.emplace(surface.passes, work->pieces, *signals.arc_length, end_zone, path.period, samples);
+    work->marker.emplace(surface.passes, work->pieces, *signals.arc_length,
+                         end_zone_of(*work->deriver, end_zone, surface.step_over), path.period, samples);
     note_facts(*work->deriver, facts, signals);
     return signals;
 }

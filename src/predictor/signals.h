@@ -73,7 +73,7 @@ struct SignalFacts {
 };
 
 /// How much [mm] of the ends of passes is not judged by default: what the tool does there, it does on
-/// every pass.
+/// every pass. Of passes shorter than ten times this a tenth, but at least two step-overs and half the window of the acceleration.
 [[nodiscard]] double usual_end_zone(double step_over);
 
 /// `path` is what `surface` was gathered from; `measured` the feedback or actual positions, or nullptr.

@@ -9,17 +9,18 @@ namespace {
 constexpr double longest_ramp = 20.0;   ///< [mm] 100 mm/s are reached over 17 mm at 300 mm/s²
 constexpr double rise_seconds = 0.005;  ///< in which the speed of a ramp rises …
 constexpr float least_rise = 0.005F;    ///< … by this share at least
+constexpr double end_share = 0.1;       ///< of the length of a pass that is left out at either end, at most
 constexpr double sum_rounding = 1;      ///< [mm] of arc lengths that are added up from other points
 
 }  // namespace
 
 ZoneMarker::ZoneMarker(const Passes& passes, const std::vector<PointRange>& pieces, const ArcLength& arc_length,
-                       double end_zone, double period, SamplesInWork samples)
+                       const EndZone& end_zone, double period, SamplesInWork samples)
     : passes_(passes),
       pieces_(pieces),
       arc_length_(arc_length),
       end_zone_(end_zone),
-      reach_(2 * end_zone + longest_ramp),
+      reach_(2 * end_zone.usual + longest_ramp),
       stride_(std::max<PointIndex>(1, std::lround(std::min(rise_seconds / period, 1e6)))),
       samples_(samples) {}
 
@@ -38,31 +39,38 @@ void ZoneMarker::mark(const PointRange& points) const {
     for (; piece != pieces_.end() && piece->first <= points.last; ++piece) {
         if (piece->last < points.first) continue;
         if (piece->first >= points.first || !arc_length_.at_least(piece->first, points.first, reach))
-            mark_end(piece->first, piece->size(), +1, points);
+            mark_end(piece->first, piece->size(), end_zone_of(*piece), +1, points);
         if (piece->last <= points.last || !arc_length_.at_least(points.last, piece->last, reach))
-            mark_end(piece->last, piece->size(), -1, points);
+            mark_end(piece->last, piece->size(), end_zone_of(*piece), -1, points);
     }
 }
 
-void ZoneMarker::mark_end(PointIndex end, PointIndex count, int direction, const PointRange& points) const {
+double ZoneMarker::end_zone_of(const PointRange& piece) const {
+    if (arc_length_.at_least(piece.first, piece.last, end_zone_.usual / end_share)) return end_zone_.usual;
+    const double length = arc_length_.to(piece.last) - arc_length_.to(piece.first);
+    return std::clamp(end_share * length, end_zone_.shortest, end_zone_.usual);
+}
+
+void ZoneMarker::mark_end(PointIndex end, PointIndex count, double zone_length, int direction,
+                          const PointRange& points) const {
     double gone = 0;
     float before = 0;
     bool ramp = true;
     for (PointIndex k = 0; k < count; ++k) {
         const PointIndex i = end + direction * k;
         if (direction > 0 ? i > points.last : i < points.first) return;
-        ramp = ramp && gone < end_zone_ + longest_ramp;
+        ramp = ramp && gone < zone_length + longest_ramp;
         if (gone > reach_) return;
         if (i >= points.first && i <= points.last) {
             Zone& zone = samples_[i].zone;
-            if (gone < end_zone_)
+            if (gone < zone_length)
                 zone = Zone::outside;
             else if (zone != Zone::outside)
                 zone = std::min(zone, ramp ? Zone::ramp : Zone::near_end);
         }
         if (k % stride_ == 0) {
             const float speed = samples_.speed(i);
-            if (gone >= end_zone_ && !(speed > (1 + least_rise) * before)) ramp = false;
+            if (gone >= zone_length && !(speed > (1 + least_rise) * before)) ramp = false;
             before = speed;
         }
         if (k + 1 < count) gone += arc_length_.step(direction > 0 ? i : i - 1);

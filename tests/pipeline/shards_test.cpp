@@ -174,7 +174,7 @@ TEST_F(Shards, AShardReadsItsOwnPartOfTheLogAndThePassesBesideIt) {
     for (const int number : {1, 10, 20}) {
         const Surveyed fresh(log);
         const ShardFindings found = fresh.judge({number, 20});
-        EXPECT_GT(found.compared, 0);
+        EXPECT_GT(found.compared.compared, 0);
         // A twentieth and, in whole blocks on either side, the passes that it is compared with, and those beside them.
         EXPECT_LE(fresh.surface.positions.fill->filled(), fresh.survey.points / 20 + 8 * block_points);
         const std::size_t touched = resident_bytes(log);
@@ -200,8 +200,9 @@ TEST_F(Shards, WhatLiesElsewhereInTheLogDoesNotMatter) {
     }
     const Surveyed damaged(folder->write("damaged.biip", bytes));
     const ShardFindings a = good.judge({10, 20}), b = damaged.judge({10, 20});
-    EXPECT_FALSE(a.starts.empty() && a.compared == 0);
-    EXPECT_EQ(a.compared, b.compared);
+    EXPECT_FALSE(a.starts.empty() && a.compared.compared == 0);
+    EXPECT_EQ(a.compared.compared, b.compared.compared);
+    EXPECT_EQ(a.compared.away_from_ends, b.compared.away_from_ends);
     EXPECT_EQ(a.starts, b.starts);
     EXPECT_EQ(a.scallops, b.scallops);
 }

@@ -404,12 +404,13 @@ TEST(Defects, AreListedByHowFarTheyStandOut) {
     ASSERT_EQ(report.defects.size(), 2U);
     EXPECT_EQ(report.defects[0].quantity, Quantity::speed);
     EXPECT_EQ(report.defects[1].quantity, Quantity::lag);
-    EXPECT_NEAR(report.defects[0].score, 0.4 / report.thresholds.of[index_of(Quantity::speed)], 0.3);
     EXPECT_GT(report.defects[0].score, report.defects[1].score);
+    EXPECT_NEAR(report.defects[0].score, 0.4 / report.thresholds.of[index_of(Quantity::speed)], 0.3);
     EXPECT_LT(report.defects[0].depth, report.defects[1].depth);
     EXPECT_NEAR(report.defects[0].speed_mismatch, -0.4, 0.02);
     EXPECT_NEAR(report.defects[0].speed_jump, -20, 1);
 }
+
 TEST(Defects, NearTheBorderAreOfThePassesAtFault) {
     // Passes 0 to 23 of the zigzag: one, or two side by side, 30 % slower; numbers of passes count from 1.
     for (const auto& [first, last] : {std::pair(1, 1), std::pair(2, 2), std::pair(2, 3), std::pair(3, 4),
@@ -441,7 +442,6 @@ TEST(Defects, OfASmallDipOfSpeedAreAsSevereHoweverCleanTheLogIs) {
     }
 }
 
-
 TEST(Defects, LoseAtMostAllOfTheirSpeed) {
     // The neighbours of this pass are slow where it is fast: three times as fast is +200 %, and nothing is −200 %.
     const planted::PlantedLog log = plane_zigzag([](int k, double x, double) {
@@ -466,6 +466,11 @@ TEST(Defects, AreNotJudgedWherePassesHaveNoNeighbours) {
     const QualityReport report = planted::judge(log);
     EXPECT_LT(report.coverage(), least_coverage);
     EXPECT_FALSE(report.judgement.judged());
+    // Of the 480 records of a pass 20 lie within 1 mm of one end and 19 of the other. The rest has a neighbour on one side only.
+    ASSERT_EQ(report.judgement.reasons.size(), 1U);
+    const std::string& reason = report.judgement.reasons.front();
+    EXPECT_NE(reason.find("8.1 % lie near the ends of passes"), std::string::npos) << reason;
+    EXPECT_NE(reason.find("91.9 % have no adjacent pass on one side"), std::string::npos) << reason;
 }
 
 }  // namespace

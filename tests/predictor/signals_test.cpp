@@ -101,6 +101,28 @@ TEST(Signals, SpeedAndAccelerationAreThoseOfTheArcLength) {
     });
 }
 
+TEST(Signals, OfShortPassesATenthIsLeftOutAtEitherEnd) {
+    for (const auto& [passes_length, left_out] : {std::pair(3.0, 0.3), std::pair(30.0, 1.0)}) {
+        const MadeSurface made = test::flat_zigzag(9, passes_length, 0.05, 5, {});
+        const Signals s = made.signals();
+        for (PointIndex i = made.passes[4].first; i <= made.passes[4].last; ++i) {
+            const double x = made.surface.positions.absolute(i).x(), to_end = std::min(x, passes_length - x);
+            if (std::abs(to_end - left_out) < 0.02) continue;
+            EXPECT_EQ(s[i].zone == Zone::outside, to_end < left_out) << x << " of " << passes_length;
+        }
+    }
+}
+
+TEST(Signals, OfShortPassesTwoStepOversAreLeftOutAtLeast) {
+    const MadeSurface made = test::flat_zigzag(9, 3.0, 0.4, 5, {});
+    const Signals s = made.signals();
+    for (PointIndex i = made.passes[4].first; i <= made.passes[4].last; ++i) {
+        const double x = made.surface.positions.absolute(i).x(), to_end = std::min(x, 3.0 - x);
+        if (std::abs(to_end - 0.8) < 0.02) continue;
+        EXPECT_EQ(s[i].zone == Zone::outside, to_end < 0.8) << x;
+    }
+}
+
 TEST(Mismatch, OfASlowerPassIsWhatItIsSlower) {
     // Pass 4 runs at 45 mm/s, all others at 50.
     const MadeSurface made = test::zigzag_of_speeds({50, 50, 50, 50, 45, 50, 50, 50, 50}, 30, 0.4);
