@@ -55,10 +55,20 @@ viz::MapPanel panel_of(const Shown& shown, const RenderOptions& options, std::st
     return panel;
 }
 
+namespace {
+
+/// A picture without defects of a run that was not judged would look like one of a good part.
+void note_judgement(const QualityReport& report, std::string_view which, viz::MapTexts& texts) {
+    if (!report.judgement.judged())
+        texts.notes.insert(texts.notes.begin(), fmt::format("{}not judged: clsurf check says why", which));
+}
+
 /// Reports name contact points where the tool is known; a map has tool tips.
 void note_axes(const Shown& shown, std::vector<std::string>& notes) {
     if (shown.part.tool && !shown.relief) notes.emplace_back("axes: positions of the tool tip");
 }
+
+}  // namespace
 
 viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, const RenderOptions& options,
                        const std::vector<std::string>& range_notes) {
@@ -85,6 +95,8 @@ viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, c
                                   ? "no defects"
                                   : fmt::format("{} defects, 1 the worst", shown.defects.outlines.size()));
     if (options.defects) note_axes(shown, texts.notes);
+    if (options.defects) note_judgement(shown.defects.report, "", texts);
+    if (options.defects && before) note_judgement(before->defects.report, "before: ", texts);
     texts.notes.insert(texts.notes.end(), range_notes.begin(), range_notes.end());
     return texts;
 }
@@ -98,10 +110,13 @@ viz::Image draw_defect_map(const Shown& shown, const RenderOptions& options) {
     viz::MapTexts texts;
     texts.frame = common_work_system(shown.part.program.motions);
     texts.title = io::headline_of(shown.defects.report);
+    if (!shown.defects.report.judgement.judged() && !shown.defects.report.defects.empty())
+        texts.title = "Not judged: " + texts.title;
     texts.subtitle = fmt::format("{} · {} · {} · {}", count, file_name(options.part.program), run_name(shown, options),
                                  viz::counts_of(shown.surface));
     texts.notes = {"coloured: the sections at fault", "darker: farther above the threshold; 1: the farthest"};
     note_axes(shown, texts.notes);
+    note_judgement(shown.defects.report, "", texts);
     if (options.programmed) texts.notes.emplace_back("thin lines: the programmed path");
     return viz::draw_map({panel}, viz::placed_map({panel}, options.shown.look), {}, texts, options.shown.look);
 }

@@ -20,6 +20,9 @@ clsurf_cli_test(NAME not_judged_in_sarif SETUP "${short_passes}" ARGS check part
 clsurf_cli_test(NAME not_judged_on_the_page
   SETUP "${short_passes} && $CLSURF report part.nc run.biip -o page.html 2> /dev/null && grep -q 'class=.alarm. role=.alert.><b>Not judged' page.html && (! grep -q 'speed nan' page.html)"
   ARGS check part.nc run.biip EXIT 5 FILE page.html)
+clsurf_cli_test(NAME not_judged_in_the_picture
+  SETUP "${short_passes} && $CLSURF render part.nc run.biip --defects -o map.svg -q && grep -q 'not judged: clsurf check says why' map.svg"
+  ARGS render part.nc run.biip --defects -o map.png FILE map.png)
 clsurf_cli_test(NAME judged_in_json ARGS check ${part} ${run} --tool none --json STDOUT "\"judged\": true" "\"not_judged_reasons\": ..,")
 
 # ---- order: what stands farthest out comes first ----
