@@ -13,13 +13,11 @@ namespace {
 constexpr double compared_places = 20'000;
 constexpr double clear_lead = 2.0;  ///< of the run that drifted over the next one
 
-/// The middle one of those that are known; NaN where fewer than three are.
-float middle_of(std::vector<float>& values) {
+/// The median of those that are known; NaN where fewer than three are.
+float median_of_known(std::vector<float>& values) {
     std::erase_if(values, [](float v) { return !(v == v); });
     if (values.size() < 3) return std::numeric_limits<float>::quiet_NaN();
-    const float upper = median(values);
-    if (values.size() % 2 == 1) return upper;
-    return 0.5F * (upper + kth_smallest(values, values.size() / 2 - 1));
+    return midpoint_median(values);
 }
 
 }  // namespace
@@ -61,7 +59,7 @@ std::vector<RunDeparture> DriftFinder::departures() const {
             const auto value_of = [&](std::size_t run) { return run == 0 ? 0.0F : runs_[run - 1][q][k]; };
             here.clear();
             for (std::size_t run = 0; run < all.size(); ++run) here.push_back(value_of(run));
-            const float usual = middle_of(here);
+            const float usual = median_of_known(here);
             if (!(usual == usual)) continue;
             for (std::size_t run = 0; run < all.size(); ++run) {
                 const double departure = value_of(run) - usual;

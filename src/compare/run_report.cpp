@@ -15,9 +15,6 @@ constexpr double sampled_by_arc_length = 200'000;  ///< by arc length, of percen
 constexpr std::size_t most_kept = 1000;            ///< sections of a quantity
 constexpr double end_share = 0.1;                  ///< of the path, from which a drift is estimated
 
-/// The middle value of some.
-double middle(std::vector<float> values) { return median(values); }
-
 bool worse(const RunDifferenceSection& x, const RunDifferenceSection& y) { return x.score > y.score; }
 
 /// The worst sections first, no more than `most_kept`; memory stays bounded on runs that differ everywhere.
@@ -68,8 +65,10 @@ public:
         summary.over /= summary.arc_length;
         const auto tenth = static_cast<std::ptrdiff_t>(end_share * static_cast<double>(sampled.size())) + 1;
         if (tenth <= static_cast<std::ptrdiff_t>(sampled.size())) {
-            summary.begin = middle({sampled.begin(), sampled.begin() + tenth});
-            summary.end = middle({sampled.end() - tenth, sampled.end()});
+            std::vector<float> begin(sampled.begin(), sampled.begin() + tenth);
+            std::vector<float> end(sampled.end() - tenth, sampled.end());
+            summary.begin = median(begin);
+            summary.end = median(end);
         }
         if (sampled.empty()) return summary;
         for (float& value : sampled) value = std::abs(value);

@@ -23,6 +23,14 @@ template <typename Values>
     return kth_smallest(values, std::size(values) / 2);
 }
 
+/// The median as NumPy has it: of an even number the mean of the two in the middle.
+template <typename Values>
+[[nodiscard]] auto midpoint_median(Values&& values) {
+    const std::size_t half = std::size(values) / 2;
+    const auto upper = kth_smallest(values, half);
+    return std::size(values) % 2 == 1 ? upper : (upper + kth_smallest(values, half - 1)) / 2;
+}
+
 /// The value that a share (0 … 1) of the others lies below, the next lower one.
 template <typename Values>
 [[nodiscard]] auto quantile_below(Values& values, double share) {

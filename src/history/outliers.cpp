@@ -10,14 +10,8 @@
 namespace clsurf {
 namespace {
 
-constexpr double mad_of_sigma = 0.6745;
+constexpr double mad_of_sigma = 0.6745;  ///< as in the published score; 1 / deviation_of_mad has another fifth digit
 constexpr double sigma_of_mean_deviation = 1.253314;
-
-double true_median(std::vector<double> values) {
-    const std::size_t half = values.size() / 2;
-    const double upper = kth_smallest(values, half);
-    return values.size() % 2 == 1 ? upper : (upper + kth_smallest(values, half - 1)) / 2;
-}
 
 /// The runs of each program, by its content.
 std::map<std::string, std::vector<std::size_t>> by_program(std::span<const RunRecord> runs) {
@@ -34,13 +28,13 @@ std::vector<double> modified_z_scores(std::span<const double> values) {
     std::vector<double> known;
     std::ranges::copy_if(values, std::back_inserter(known), [](double v) { return std::isfinite(v); });
     if (known.empty()) return {};
-    const double middle = true_median(known);
+    const double middle = midpoint_median(std::vector(known));  // the order stays: it decides how the mean is rounded
     double mean = 0;
     for (double& value : known) {
         value = std::abs(value - middle);
         mean += value / static_cast<double>(known.size());
     }
-    const double mad = true_median(known);
+    const double mad = midpoint_median(known);
     if (!(mean > 0)) return {};
     std::vector<double> scores;
     for (const double value : values)
@@ -61,7 +55,7 @@ std::vector<RunOutlier> find_outliers(std::span<const RunRecord> runs) {
                 if (!(std::abs(scores[k]) > outlier_score)) continue;
                 std::vector<double> known;
                 std::ranges::copy_if(values, std::back_inserter(known), [](double v) { return std::isfinite(v); });
-                outliers.push_back({members[k], &quantity, values[k], true_median(known), scores[k]});
+                outliers.push_back({members[k], &quantity, values[k], midpoint_median(known), scores[k]});
             }
         }
     }

@@ -7,20 +7,12 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/statistics.h"
 
 namespace clsurf {
 namespace {
 
 constexpr double least_p = 0.05;
-
-double middle(std::vector<double> values) {
-    if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-    const std::size_t half = values.size() / 2;
-    std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(half));
-    const double upper = values[half];
-    if (values.size() % 2 == 1) return upper;
-    return (upper + *std::max_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(half))) / 2;
-}
 
 /// From 1; equal values share their mean rank.
 std::vector<double> ranks_of(std::span<const double> values) {
@@ -53,8 +45,9 @@ std::vector<TrendGroup> groups_of(const std::vector<TrendPoint>& points) {
         if (std::isfinite(point.value)) of_group.push_back(point.value);
     }
     std::vector<TrendGroup> groups;
-    for (const auto& [name, known] : values) {
-        if (!known.empty()) groups.push_back({name, known.size(), middle(known), *std::ranges::max_element(known)});
+    for (auto& [name, known] : values) {
+        if (known.empty()) continue;
+        groups.push_back({name, known.size(), midpoint_median(known), *std::ranges::max_element(known)});
     }
     std::ranges::stable_sort(groups, std::ranges::greater{}, &TrendGroup::median);
     return groups;
@@ -89,8 +82,8 @@ std::optional<TrendChange> find_change(std::span<const double> values) {
     if (!(change.p < least_p)) return std::nullopt;
     change.first = first;
     const auto split = values.begin() + static_cast<std::ptrdiff_t>(first);
-    change.before = middle({values.begin(), split});
-    change.after = middle({split, values.end()});
+    change.before = midpoint_median(std::vector(values.begin(), split));
+    change.after = midpoint_median(std::vector(split, values.end()));
     return change;
 }
 

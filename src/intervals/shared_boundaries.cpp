@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/statistics.h"
+
 namespace clsurf {
 namespace {
 
@@ -37,12 +39,6 @@ PointIndex moved(const ProgrammedPass& pass, const Positions& p, PointIndex boun
         at += step;
     }
     return *at;
-}
-
-/// The median; of an even number the mean of both in the middle, so that both directions of travel have the same.
-double middle_of(std::vector<double>& values) {
-    std::sort(values.begin(), values.end());
-    return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
 }
 
 }  // namespace
@@ -122,7 +118,8 @@ PassBoundaries share_boundaries(const ProgrammedSurface& programmed, const std::
             }
             std::vector<double> offsets = adjacent.around(own[b]).offsets;
             offsets.push_back(0);
-            shared[k].push_back(moved(passes[k], p, own[b], middle_of(offsets)));
+            // The mean of both in the middle, so that both directions of travel have the same.
+            shared[k].push_back(moved(passes[k], p, own[b], midpoint_median(offsets)));
         }
     }
     std::sort(missing.begin(), missing.end());

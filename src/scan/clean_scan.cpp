@@ -12,13 +12,6 @@ namespace {
 
 constexpr std::size_t width = 5;
 
-/// The middle of some values, of an even number the mean of both. Sorts them: they are few.
-double middle(std::span<double> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t n = values.size();
-    return n % 2 != 0 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
-
 /// Siegel's repeated median of the slopes between points.
 double median_slope(std::span<const ScanPoint> points) {
     std::array<double, width> of_point{};
@@ -29,9 +22,9 @@ double median_slope(std::span<const ScanPoint> points) {
         for (const ScanPoint& b : points) {
             if (b.x != a.x) slopes[n++] = (b.z - a.z) / (b.x - a.x);
         }
-        if (n > 0) of_point[count++] = middle(std::span(slopes).first(n));
+        if (n > 0) of_point[count++] = midpoint_median(std::span(slopes).first(n));
     }
-    return count > 0 ? middle(std::span(of_point).first(count)) : 0;
+    return count > 0 ? midpoint_median(std::span(of_point).first(count)) : 0;
 }
 
 /// How far each point lies above the running median.
@@ -43,7 +36,7 @@ std::vector<double> heights_above_median(std::span<const ScanPoint> points) {
         const double slope = median_slope(around);
         std::array<double, width> moved{};
         for (std::size_t k = 0; k < width; ++k) moved[k] = around[k].z - slope * (around[k].x - points[i].x);
-        heights[i] = points[i].z - middle(moved);
+        heights[i] = points[i].z - midpoint_median(moved);
     }
     return heights;
 }

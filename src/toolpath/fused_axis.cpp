@@ -206,10 +206,8 @@ Backlash measure_backlash(const Differences& both, const std::vector<std::vector
         }
     }
     if (sizes.empty()) return {};
-    std::vector<double> copy = sizes;
-    const double size = nearest_quantile(copy, 0.5);
-    for (double& x : copy) x = std::abs(x - size);
-    const double scatter = std::max(1.4826 * nearest_quantile(copy, 0.5), sigma);
+    const auto [size, deviation] = robust_spread(sizes);
+    const double scatter = std::max(deviation, sigma);
     if (std::abs(size) < sure_backlash * scatter / std::sqrt(static_cast<double>(sizes.size()))) return {};
     return {size, transit_backlash * std::abs(size) + transit_sigmas * sigma};
 }
