@@ -4,30 +4,26 @@
 #include <cmath>
 
 #include "core/block.h"
+#include "log/jump_rule.h"
 
 namespace clsurf {
 namespace {
 
 constexpr double gap = 1.5;               ///< periods between two records that are no longer consecutive
-constexpr double impossible = 1e5;        ///< [mm/s² or deg/s²] what no feed axis does: 10 g
-constexpr double least_jump = 0.05;       ///< [mm or deg]
-constexpr double jump_factor = 3;         ///< times longer than the steps beside it
 constexpr PointIndex piece_size = 32768;  ///< records of a piece
 
-/// Marks where a channel jumps, as no axis moves: a counter that begins again at its end, a record that is wrong. The rule is
-/// that of `log.jump` (log/health_pass.cpp). `at(i)`: the value of a record.
+/// Marks where a channel jumps. `at(i)`: the value of a record.
 template <typename At>
 void mark_jumps(PointIndex first, std::span<char> joined, PointIndex records, double period, At&& at) {
-    const double limit = std::max(least_jump, impossible * period * period);
+    const double limit = longest_step(period);
     const auto step = [&](PointIndex i) { return i > 0 && i < records ? at(i) - at(i - 1) : 0.0; };
     for (std::size_t k = 0; k < joined.size(); ++k) {
         const PointIndex i = first + static_cast<PointIndex>(k);
         const double here = step(i);
         if (!(std::abs(here) > limit)) continue;
-        const double before = std::abs(step(i - 1)), next = step(i + 1);
-        const bool comes_back = here * next < -0.5 * std::abs(here * next);
-        if (std::abs(here) > jump_factor * before && (comes_back || std::abs(here) > jump_factor * std::abs(next)))
-            joined[k] = 0;
+        const double length = std::abs(here), next = step(i + 1);
+        const bool spike = comes_back(here * next, length, std::abs(next));
+        if (is_jump(std::abs(step(i - 1)), length, std::abs(next), spike)) joined[k] = 0;
     }
 }
 

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "core/geometry.h"
+#include "log/jump_rule.h"
 
 namespace clsurf {
 namespace {
 
 constexpr double lost_share = 0.5;   ///< of a period, that a clock's step is longer or shorter
-constexpr double impossible = 1e5;   ///< [mm/s²] as log.jump has it
 constexpr double beyond_limit = 20;  ///< times the limit of acceleration
 constexpr double slack = 0.02;       ///< share of a limit that motion at the limit may be over it
 constexpr double long_step = 1.6;    ///< times the steps beside it
@@ -78,7 +78,7 @@ StepClock judge_steps(const Log& log, const ClockRules& rules, PointIndex begin,
     const double square_of_period = log.period * log.period;
     const double kept = (1 + slack) * rules.acceleration * square_of_period + 4 * rules.resolution;
     const double allowed = 2 * rules.acceleration * square_of_period + 4 * rules.resolution;
-    const double jump = std::max(impossible, beyond_limit * rules.acceleration) * square_of_period;
+    const double jump = std::max(impossible_acceleration, beyond_limit * rules.acceleration) * square_of_period;
     const auto step = [&](std::size_t i) { return Vec3(x[i] - x[i - 1], y[i] - y[i - 1], z[i] - z[i - 1]); };
     for (std::size_t i = 2; i < n; ++i) {
         // Most records are clean, and this is the cheapest proof of it.

@@ -11,15 +11,13 @@
 
 #include "core/block.h"
 #include "core/counted.h"
+#include "log/jump_rule.h"
 
 namespace clsurf {
 namespace {
 
 constexpr double gap_periods = 1.5;                  ///< a longer step in time lost records
 constexpr double jitter_share = 0.05;                ///< of a period, rms; less is not worth a word
-constexpr double impossible = 1e5;                   ///< [mm/s²] 10 g: what no feed axis does
-constexpr double least_jump = 0.05;                  ///< [mm]
-constexpr double jump_factor = 3.0;                  ///< times longer than the steps beside it
 constexpr double heading_chord = 0.5;                ///< [mm] over which the heading is taken
 constexpr double least_turn = 0.05;                  ///< [rad] less is noise and fine chords of a curve
 constexpr double stuck_arc_length = 50.0;            ///< [mm] at least, on one line
@@ -219,8 +217,7 @@ private:
         }
     }
 
-    /// A jump is a step longer than any machine's acceleration allows, beside short ones; one that
-    /// comes back with the next record is a spike and counts once.
+    /// A jump that comes back with the next record is a spike and counts once.
     void look_at_steps(const Meanings::Axes& axes) {
         const double limit_squared = limits_.jump * limits_.jump;
         for (PointIndex i = std::max<PointIndex>(1, begin_); i < end_; ++i) {
@@ -229,13 +226,13 @@ private:
             const double length = here.norm();
             const Vec3 next = step(axes, i + 1);
             const double last_length = step(axes, i - 1).norm();
-            const bool comes_back = here.dot(next) < -0.5 * length * next.norm();
-            if (!(length > jump_factor * last_length) || !(length > jump_factor * next.norm() || comes_back)) continue;
+            const bool spike = comes_back(here.dot(next), length, next.norm());
+            if (!is_jump(last_length, length, next.norm(), spike)) continue;
             std::string role = log_.channels[*axes[0]].name;
             role.resize(role.find('.'));
             warn("log.jump", i,
                  fmt::format("the position {} jumps by {:.3f} mm in one period; the step before it is {:.3f} mm{}",
-                             role, length, last_length, comes_back ? ", the next one comes back" : ""));
+                             role, length, last_length, spike ? ", the next one comes back" : ""));
         }
     }
 
@@ -392,7 +389,7 @@ private:
 
 RecordFindings check_records(const Log& log, double period, LineNumber program_lines) {
     const Limits limits{
-        period, std::max(least_jump, impossible * period * period),
+        period, longest_step(period),
         program_lines > 0 ? static_cast<double>(program_lines) : std::numeric_limits<double>::infinity()};
     const Meanings meanings(log);
     std::vector<BlockSummary> summaries(static_cast<std::size_t>((log.records + block_points - 1) / block_points));
