@@ -4,22 +4,14 @@
 
 #include <fmt/format.h>
 
+#include "core/utf8.h"
+
 namespace clsurf {
 
 std::size_t printable_bytes(std::string_view text, std::size_t at) {
-    const auto byte = [&](std::size_t k) { return static_cast<std::uint8_t>(text[k]); };
-    const std::uint8_t first = byte(at);
-    if (first < 0x80) return first >= 0x20 && first != 0x7f ? 1 : 0;
-    const std::size_t size = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-    if (first < 0xc2 || first > 0xf4 || at + size > text.size()) return 0;
-    for (std::size_t k = 1; k < size; ++k) {
-        if ((byte(at + k) & 0xc0) != 0x80) return 0;
-    }
-    const std::uint8_t second = byte(at + 1);
-    const bool overlong = (first == 0xe0 && second < 0xa0) || (first == 0xf0 && second < 0x90);
-    const bool no_character = (first == 0xed && second >= 0xa0) || (first == 0xf4 && second >= 0x90);
-    const bool control = first == 0xc2 && second < 0xa0;
-    return overlong || no_character || control ? 0 : size;
+    const CodePoint c = first_code_point(text.substr(at));
+    const bool control = c.value < 0x20 || (c.value >= 0x7f && c.value < 0xa0);
+    return control ? 0 : c.size;
 }
 
 std::string printable(std::string_view text) {
