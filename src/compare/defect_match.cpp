@@ -1,11 +1,10 @@
 #include "compare/defect_match.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
 #include <map>
 #include <unordered_map>
+
+#include "core/cell_grid.h"
 
 namespace clsurf {
 namespace {
@@ -33,53 +32,41 @@ std::vector<Vec3> samples_of(const Defect& defect, const Positions& positions, d
 }
 
 /// Places of many defects in cells as large as the reach.
-class Grid {
+class DefectPlaces {
 public:
-    explicit Grid(double reach) : reach_(reach) {}
+    explicit DefectPlaces(double reach) : grid_(reach) {}
 
-    void add(const Vec3& place, std::size_t defect) { cells_[key(cell_of(place))].push_back({place, defect}); }
+    void add(const Vec3& place, std::size_t defect) { cells_[grid_.key(place)].push_back({place, defect}); }
 
     /// Calls f(defect) for each place within the reach.
     template <typename F>
     void near(const Vec3& place, F&& f) const {
-        const Cell at = cell_of(place);
-        for (int k = 0; k < 27; ++k) {
-            const auto found = cells_.find(key({at[0] + k % 3 - 1, at[1] + k / 3 % 3 - 1, at[2] + k / 9 - 1}));
-            if (found == cells_.end()) continue;
+        grid_.for_each_near(place, [&](CellGrid::Key key) {
+            const auto found = cells_.find(key);
+            if (found == cells_.end()) return;
             for (const Entry& entry : found->second) {
-                if ((entry.place - place).norm() <= reach_) f(entry.defect);
+                if ((entry.place - place).norm() <= grid_.side()) f(entry.defect);
             }
-        }
+        });
     }
 
 private:
-    using Cell = std::array<std::int64_t, 3>;
     struct Entry {
         Vec3 place;
         std::size_t defect;
     };
-    [[nodiscard]] Cell cell_of(const Vec3& place) const {
-        const auto along = [&](double c) { return static_cast<std::int64_t>(std::floor(c / reach_)); };
-        return {along(place.x()), along(place.y()), along(place.z())};
-    }
-    /// 21 bits an axis; what falls together is told apart by distance.
-    [[nodiscard]] static std::uint64_t key(const Cell& cell) {
-        constexpr std::uint64_t mask = (1U << 21) - 1;
-        const auto bits = [](std::int64_t c) { return static_cast<std::uint64_t>(c) & mask; };
-        return bits(cell[0]) << 42 | bits(cell[1]) << 21 | bits(cell[2]);
-    }
 
-    double reach_;
-    std::unordered_map<std::uint64_t, std::vector<Entry>> cells_;
+    CellGrid grid_;
+    std::unordered_map<CellGrid::Key, std::vector<Entry>> cells_;
 };
 
-/// How much of a defect lies on each defect of the grid, in samples. Each sample counts once for each.
-std::map<std::size_t, std::size_t> overlaps(const std::vector<Vec3>& samples, const Grid& grid) {
+/// How much of a defect lies on each of the other defects, in samples. Each sample counts once for each.
+std::map<std::size_t, std::size_t> overlaps(const std::vector<Vec3>& samples, const DefectPlaces& others) {
     std::map<std::size_t, std::size_t> counts;
     std::vector<std::size_t> here;
     for (const Vec3& place : samples) {
         here.clear();
-        grid.near(place, [&](std::size_t defect) { here.push_back(defect); });
+        others.near(place, [&](std::size_t defect) { here.push_back(defect); });
         std::sort(here.begin(), here.end());
         here.erase(std::unique(here.begin(), here.end()), here.end());
         for (const std::size_t defect : here) ++counts[defect];
@@ -103,12 +90,12 @@ std::size_t DefectMatch::fresh() const { return before_of.size() - remaining(); 
 DefectMatch match_defects(const LocatedDefects& before, const LocatedDefects& after) {
     const double reach = reach_of(before, after);
     const std::vector<Defect>& old = *before.defects;
-    Grid grid(reach);
+    DefectPlaces places(reach);
     std::vector<std::size_t> sizes;
     for (std::size_t i = 0; i < old.size(); ++i) {
         const std::vector<Vec3> samples = samples_of(old[i], *before.positions, reach);
         sizes.push_back(samples.size());
-        for (const Vec3& place : samples) grid.add(place, i);
+        for (const Vec3& place : samples) places.add(place, i);
     }
     DefectMatch match;
     std::vector<bool> found(old.size(), false);
@@ -116,7 +103,7 @@ DefectMatch match_defects(const LocatedDefects& before, const LocatedDefects& af
         const std::vector<Vec3> samples = samples_of(defect, *after.positions, reach);
         std::optional<std::size_t> best;
         double most = 0;
-        for (const auto& [i, count] : overlaps(samples, grid)) {
+        for (const auto& [i, count] : overlaps(samples, places)) {
             if (is_height(old[i]) != is_height(defect) || old[i].systematic != defect.systematic) continue;
             const auto shorter = static_cast<double>(std::min(sizes[i], samples.size()));
             const double share = std::min(1.0, static_cast<double>(count) / shorter);
