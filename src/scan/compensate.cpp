@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "scan/append_tips.h"
 
 namespace clsurf {
 namespace {
@@ -114,14 +115,7 @@ PassTips pass_tips(const Program& program) {
         constexpr double tolerance = 1e-6;  // mm
         if (std::abs(end.y - pass.y) > tolerance) fail(k, "the pass leaves its plane: Y changes");
         if (is_arc(motions.kind[k])) fail(k, "the pass has an arc: lines and splines can be corrected");
-        if (const Curve* curve = motions.curve_of(i)) {
-            constexpr int divided = 32;
-            for (int n = 1; n < divided; ++n) {
-                const Vec3 at = curve->span->at(static_cast<double>(n) / divided);
-                tips.emplace_back(at.x(), at.z());
-            }
-        }
-        tips.emplace_back(end.x, end.z);
+        append_tips(motions, i, tips);
     }
     const Place place = Place::of_file(program.main().name());
     if (tips.size() < 2) throw InputError(place, "has no pass at feed", hint);

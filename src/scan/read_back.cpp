@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "scan/append_tips.h"
 
 namespace clsurf {
 namespace {
@@ -33,8 +34,6 @@ double greatest_distance(std::span<const Vec2> places, std::span<const Vec2> cho
     return greatest;
 }
 
-Vec2 in_plane(const Xyz& at) { return {at.x, at.z}; }
-
 }  // namespace
 
 ReadBack read_back(const Program& program, const CutPath& path) {
@@ -44,20 +43,12 @@ ReadBack read_back(const Program& program, const CutPath& path) {
     for (std::int64_t i = 0; i < motions.size(); ++i) {
         const auto k = static_cast<std::size_t>(i);
         if (!is_cut(motions.kind[k])) continue;
-        const Vec2 end = in_plane(motions.end[k]);
         if (chords.empty()) {  // the approach
-            chords.push_back(end);
+            chords.emplace_back(motions.end[k].x, motions.end[k].z);
             continue;
         }
         ++result.motions;
-        if (const Curve* curve = motions.curve_of(i)) {
-            constexpr int divided = 32;
-            for (int n = 1; n < divided; ++n) {
-                const Vec3 at = curve->span->at(static_cast<double>(n) / divided);
-                chords.emplace_back(at.x(), at.z());
-            }
-        }
-        chords.push_back(end);
+        append_tips(motions, i, chords);
     }
     if (chords.size() < 2) throw InputError(Place::of_file(program.main().name()), "does not move at feed");
     result.deviation = std::max(greatest_distance(path.samples(), chords), greatest_distance(chords, path.samples()));
