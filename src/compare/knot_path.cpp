@@ -1,20 +1,15 @@
 #include "compare/knot_path.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+
+#include "mapping/walk_window.h"
 
 namespace clsurf {
 namespace {
 
 // Lengths in mm.
-constexpr float spacing = 0.005F;            ///< of knots at least: coarser than the noise of axes that stand
-constexpr float window_margin = 0.05F;       ///< arc length that the window always has
-constexpr float window_of_chord = 2.0F;      ///< arc length per chord: corners are cut, the chord is shorter
-constexpr float window_of_distance = 10.0F;  ///< arc length per distance: a projection jumps over a cut corner
-constexpr float farthest = 0.5F;             ///< distance beyond which the window grows no more
-constexpr float arc_length_penalty = 0.02F;  ///< mm of distance per mm that arc length and chord differ
-constexpr float same_place = 1e-6F;          ///< of a chord
+constexpr float spacing = 0.005F;    ///< of knots at least: coarser than the noise of axes that stand
+constexpr float same_place = 1e-6F;  ///< of a chord
 constexpr float same_spot = 1e-6F;
 
 }  // namespace
@@ -49,22 +44,15 @@ PathProjection KnotPath::projection(std::int64_t knot, const Eigen::Vector3f& p,
 
 PathProjection KnotPath::advance(const PathProjection& from, const Eigen::Vector3f& p, float chord) const {
     PathProjection best = from;
-    float best_cost = std::numeric_limits<float>::infinity();
-    float nearest = best_cost;
+    WalkWindow<float> window(chord);
     float arc_length = 0;  // from the projection to the start of the chord in turn; negative on its own
     for (std::int64_t k = from.knot; k + 1 < size(); ++k) {
         const float length = (at(point(k + 1)) - at(point(k))).norm();
         if (k == from.knot) arc_length = -from.fraction * length;
         const PathProjection here = projection(k, p, k == from.knot ? from.fraction : 0.0F);
-        const float cost = here.distance + arc_length_penalty * std::abs(arc_length + here.fraction * length - chord);
-        nearest = std::min(nearest, here.distance);
-        if (cost < best_cost) {
-            best_cost = cost;
-            best = here;
-        }
+        if (window.is_better(here.distance, arc_length + here.fraction * length)) best = here;
         arc_length += length;
-        if (arc_length > window_margin + window_of_chord * chord + window_of_distance * std::min(nearest, farthest))
-            break;
+        if (window.ends_before(arc_length)) break;
     }
     // The end of a chord is the start of the next, where pauses are found.
     if (best.fraction == 1.0F && best.knot + 2 < size()) best = {best.knot + 1, 0.0F, best.distance};

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/column.h"
+#include "mapping/walk_window.h"
 #include "toolpath/toolpath.h"
 
 namespace clsurf {
@@ -21,15 +22,14 @@ public:
     explicit PathWalk(const Toolpath& path);
 
     /// The projection of `p` at or after `from`, on no motion beyond `last`, for a tool that moved by `chord` [mm].
-    /// Looks as far ahead as the tool can have gone. Where several projections are equally near (out and back on
-    /// the same line), the one whose arc length fits the chord.
     [[nodiscard]] WalkState advance(const WalkState& from, const Vec3& p, double chord, std::int64_t last) const;
     /// As above, to the end of the program.
     [[nodiscard]] WalkState advance(const WalkState& from, const Vec3& p, double chord) const {
         return advance(from, p, chord, path_.size() - 1);
     }
 
-    static constexpr double lost_distance = 0.5;  ///< [mm] a walk that is farther off is lost
+    /// [mm] A walk that is farther off is lost.
+    static constexpr double lost_distance = WalkWindow<double>::lost_distance;
 
 private:
     [[nodiscard]] double length(std::int64_t m) const { return length_[static_cast<std::size_t>(m)]; }
