@@ -1,9 +1,6 @@
 #include "cli/controller_command.h"
 
-#include <fcntl.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
@@ -16,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/child_process.h"
 #include "core/error.h"
 
 namespace clsurf::cli {
@@ -23,28 +21,9 @@ namespace {
 
 constexpr double usual_timeout = 3600;  // s
 
-std::string quoted_for_shell(const std::string& text) {
-    std::string quoted = "'";
-    for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return quoted + "'";
-}
-
 void replace_all(std::string& text, std::string_view word, const std::string& by) {
     for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + by.size()))
         text.replace(at, word.size(), by);
-}
-
-/// In the child: a group of its own, so that all of it can be killed, and gone with this program.
-[[noreturn]] void become(const std::string& command, const std::filesystem::path& output) {
-    ::setpgid(0, 0);
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    const int file = ::open(output.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
-    const int nothing = ::open("/dev/null", O_RDONLY);
-    ::dup2(nothing, STDIN_FILENO);
-    ::dup2(file, STDOUT_FILENO);
-    ::dup2(file, STDERR_FILENO);
-    ::execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
-    ::_exit(127);
 }
 
 /// The child's status; nullopt: it took too long and was killed.
@@ -111,9 +90,9 @@ std::string ControllerCommand::run(const std::filesystem::path& program, const s
     const std::filesystem::path output = log.string() + ".output";
     std::error_code none;
     std::filesystem::remove(log, none);
-    const pid_t child = ::fork();
-    if (child < 0) throw SystemError(std::string("cannot start the controller: ") + std::strerror(errno));
-    if (child == 0) become(command, output);
+    const pid_t child =
+        start_child({.file = "/bin/sh", .words = {"sh", "-c", command}, .output = output.string(), .own_group = true},
+                    "the controller");
     const std::optional<int> status = wait_for(child, timeout_);
     const std::string printed = last_line(output);
     std::filesystem::remove(output, none);

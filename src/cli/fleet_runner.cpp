@@ -1,15 +1,10 @@
 #include "cli/fleet_runner.h"
 
-#include <fcntl.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -17,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/child_process.h"
 #include "cli/command_line.h"
 #include "cli/controller_command.h"
 #include "cli/run_recorder.h"
@@ -33,25 +29,6 @@ using FleetClock = std::chrono::steady_clock;
 
 bool is_packed(const std::string& name) {
     return name.ends_with(".xz") || name.ends_with(".gz") || name.ends_with(".zst");
-}
-
-/// In the child: the unit's command, within its memory, gone with this program.
-[[noreturn]] void become(std::vector<std::string> words, std::uint64_t memory, const std::filesystem::path& output) {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (memory > 0) {
-        const rlimit limit{memory, memory};
-        ::setrlimit(RLIMIT_DATA, &limit);
-    }
-    const int file = ::open(output.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
-    const int nothing = ::open("/dev/null", O_RDONLY);
-    ::dup2(nothing, STDIN_FILENO);
-    ::dup2(file, STDOUT_FILENO);
-    ::dup2(file, STDERR_FILENO);
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    ::execv("/proc/self/exe", arguments.data());
-    ::_exit(127);
 }
 
 /// The first error that a unit printed, else its last line.
@@ -202,9 +179,8 @@ private:
         const std::vector<std::string> own = words_of_unit(units_[run.number], rules_.database);
         words.insert(words.end(), own.begin(), own.end());
         const std::filesystem::path output = folder_.path() / fmt::format("{}", run.number);
-        const pid_t child = ::fork();
-        if (child < 0) throw SystemError(std::string("cannot start a process: ") + std::strerror(errno));
-        if (child == 0) become(std::move(words), rules_.memory > 0 ? run.reserve : 0, output);
+        const std::uint64_t memory = rules_.memory > 0 ? run.reserve : 0;
+        const pid_t child = start_child({"/proc/self/exe", std::move(words), output.string(), memory}, "a process");
         children_[child] = {run, output};
     }
 

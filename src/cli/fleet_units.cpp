@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/checked_run.h"
+#include "cli/child_process.h"
 #include "cli/command_line.h"
 #include "cli/config.h"
 #include "cli/help.h"
@@ -127,17 +128,6 @@ std::vector<std::string> words_of_unit(const FleetUnit& unit, const std::string&
     std::vector<std::string> words = unit.words;
     words.insert(words.end(), {"--", database, "add", unit.program, unit.log});
     return words;
-}
-
-std::string shell_word(const std::string& word) {
-    const bool plain =
-        !word.empty() &&
-        word.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./:=,+@%-") ==
-            std::string::npos;
-    if (plain) return word;
-    std::string quoted = "'";
-    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return quoted + "'";
 }
 
 std::string task_lines(const std::vector<FleetUnit>& units, const std::string& folder) {

@@ -25,9 +25,6 @@ void declare_unit(po::options_description& options);
 /// The words after `clsurf history` that judge and record a unit.
 [[nodiscard]] std::vector<std::string> words_of_unit(const FleetUnit& unit, const std::string& database);
 
-/// One word for a POSIX shell; quoted where it needs to be.
-[[nodiscard]] std::string shell_word(const std::string& word);
-
 /// Commands that do the same on any machine that sees the files, one a line: each makes a database of its own in `folder`.
 [[nodiscard]] std::string task_lines(const std::vector<FleetUnit>& units, const std::string& folder);
 
