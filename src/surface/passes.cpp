@@ -17,16 +17,6 @@ constexpr float vertical_slope = 0.02F;       ///< horizontal per vertical arc l
 constexpr float vertical_tolerance = 0.005F;  ///< [mm]
 constexpr float least_approach = 0.1F;        ///< [mm]; a shorter vertical piece is left alone
 
-/// Appends a piece; joins it with the one before when it is of the same kind.
-void append(Passes& passes, Pass piece) {
-    if (piece.size() <= 0) return;
-    if (!passes.empty() && passes.back().kind == piece.kind) {
-        passes.back().last = piece.last;
-        return;
-    }
-    passes.push_back(piece);
-}
-
 /// Points of [from, to] in steps of `direction` that only move along z, counted from `from`.
 PointIndex vertical_points(const Positions& p, PointIndex from, PointIndex to, int direction) {
     const Eigen::Vector3f start = p[from];
@@ -44,18 +34,27 @@ PointIndex vertical_points(const Positions& p, PointIndex from, PointIndex to, i
 void append_run(Passes& passes, const Positions& p, Pass run) {
     const PointIndex down = vertical_points(p, run.first, run.last, +1);
     if (down > 0 && down == run.size() - 1) {  // nothing but vertical: drilling
-        append(passes, {run.first, run.last, PassKind::rapid});
+        append_pass(passes, {run.first, run.last, PassKind::rapid});
         return;
     }
-    append(passes, {run.first, run.first + down - 1, PassKind::rapid});
+    append_pass(passes, {run.first, run.first + down - 1, PassKind::rapid});
     run.first += down;
     if (run.size() <= 0) return;
     const PointIndex up = vertical_points(p, run.last, run.first, -1);
-    append(passes, {run.first, run.last - up, PassKind::cut});
-    append(passes, {run.last - up + 1, run.last, PassKind::rapid});
+    append_pass(passes, {run.first, run.last - up, PassKind::cut});
+    append_pass(passes, {run.last - up + 1, run.last, PassKind::rapid});
 }
 
 }  // namespace
+
+void append_pass(Passes& passes, Pass piece) {
+    if (piece.size() <= 0) return;
+    if (!passes.empty() && passes.back().kind == piece.kind) {
+        passes.back().last = piece.last;
+        return;
+    }
+    passes.push_back(piece);
+}
 
 Passes find_runs(const Positions& positions, const LineMap& lines) {
     const PointIndex count = positions.size();
@@ -70,20 +69,20 @@ Passes find_runs(const Positions& positions, const LineMap& lines) {
             for (std::size_t k = 0; k < n; ++k) {
                 const PointIndex i = begin + static_cast<PointIndex>(k);
                 const bool cuts = kinds[k] == PointKind::cut && positions[i].allFinite();
-                append(mine, {i, i, cuts ? PassKind::cut : PassKind::rapid});
+                append_pass(mine, {i, i, cuts ? PassKind::cut : PassKind::rapid});
             }
         }
     });
     Passes joined;
     for (const Passes& block : of_block) {
-        for (const Pass& piece : block) append(joined, piece);
+        for (const Pass& piece : block) append_pass(joined, piece);
     }
     Passes runs;
     for (const Pass& piece : joined) {
         if (piece.kind == PassKind::cut) {
             append_run(runs, positions, piece);
         } else {
-            append(runs, piece);
+            append_pass(runs, piece);
         }
     }
     return runs;
@@ -111,7 +110,7 @@ void append_cleaned(Passes& passes, const ArcLength& arc_length, const Passes& p
         if (piece.kind == PassKind::cut && between && arc_length.to(piece.last) - arc_length.to(piece.first) < least) {
             piece.kind = PassKind::link;
         }
-        append(passes, piece);
+        append_pass(passes, piece);
     }
 }
 
@@ -157,7 +156,7 @@ Passes find_passes(const Positions& positions, const ArcLength& lengths, const P
     Passes passes;
     for (const Pass& run : runs) {
         if (run.kind != PassKind::cut) {
-            append(passes, run);
+            append_pass(passes, run);
             continue;
         }
         const auto parts = static_cast<std::size_t>((run.size() + block_points - 1) / block_points);
@@ -171,15 +170,15 @@ Passes find_passes(const Positions& positions, const ArcLength& lengths, const P
                 chords.advance();
                 const bool back = turns_back(positions, chords, arc_length);
                 if (back == before) continue;
-                append(mine, {begin, i - 1, before ? PassKind::link : PassKind::cut});
+                append_pass(mine, {begin, i - 1, before ? PassKind::link : PassKind::cut});
                 begin = i;
                 before = back;
             }
-            append(mine, {begin, run.first + last - 1, before ? PassKind::link : PassKind::cut});
+            append_pass(mine, {begin, run.first + last - 1, before ? PassKind::link : PassKind::cut});
         });
         Passes pieces;
         for (const Passes& part : of_part) {
-            for (const Pass& piece : part) append(pieces, piece);
+            for (const Pass& piece : part) append_pass(pieces, piece);
         }
         append_cleaned(passes, lengths, pieces, shortest_pass * step_over);
     }

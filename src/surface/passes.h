@@ -35,6 +35,9 @@ struct Pass {
 /// All pieces in order; together they cover every point of the trajectory exactly once.
 using Passes = Column<Pass>;
 
+/// Appends a piece, unless it is empty; joins it with the one before when it is of the same kind.
+void append_pass(Passes& passes, Pass piece);
+
 /// How many points cut. O(passes).
 [[nodiscard]] inline PointIndex cutting_points(std::span<const Pass> passes) {
     PointIndex points = 0;

@@ -112,29 +112,22 @@ void stitch_runs(ClSurface& surface, const Passes& runs, const ArcLength& arc_le
 Passes without_other_cutting(const ClSurface& surface, const Passes& runs, PointIndex& left_out) {
     const std::vector<bool> finishing = find_finishing_passes(surface);
     Passes rest;
-    const auto append = [&](Pass piece) {
-        if (piece.size() <= 0) return;
-        if (!rest.empty() && rest.back().kind == piece.kind)
-            rest.back().last = piece.last;
-        else
-            rest.push_back(piece);
-    };
     std::size_t k = 0;
     for (const Pass& run : runs) {
         if (run.kind != PassKind::cut) {
-            append(run);
+            append_pass(rest, run);
             continue;
         }
         PointIndex next = run.first;
         for (; k < surface.passes.size() && surface.passes[k].first <= run.last; ++k) {
             const Pass& pass = surface.passes[k];
             if (pass.kind != PassKind::cut || pass.last < run.first || finishing[k]) continue;
-            append({next, pass.first - 1, PassKind::cut});
-            append({pass.first, pass.last, PassKind::other});
+            append_pass(rest, {next, pass.first - 1, PassKind::cut});
+            append_pass(rest, {pass.first, pass.last, PassKind::other});
             left_out += pass.size();
             next = pass.last + 1;
         }
-        append({next, run.last, PassKind::cut});
+        append_pass(rest, {next, run.last, PassKind::cut});
     }
     return rest;
 }
