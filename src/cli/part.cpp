@@ -103,6 +103,7 @@ PartRules rules_of(const PartOptions& options) {
     if (!options.machine.empty()) io::use_machine(options.machine, rules);
     rules.use_line_channel = options.use_line_channel;
     rules.accept_foreign = options.force;
+    rules.accept_unknown_tips = options.accept_unknown_tips;
     rules.derivative = options.derivative;
     return rules;
 }

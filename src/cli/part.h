@@ -21,6 +21,7 @@ struct PartOptions {
     std::string machine;       ///< machine file with the kinematics; empty: three axes
     bool use_line_channel = true;
     bool force = false;  ///< go on with a log that does not belong to the program
+    bool accept_unknown_tips = false;  ///< see PartRules
     ToolChoice tool;
     DerivativeMethod derivative = DerivativeMethod::savgol;
     std::optional<io::Source> log_source = std::nullopt;  ///< what was followed; nullopt: the file `log`

@@ -1,40 +1,8 @@
 #include "pipeline/as_machined_part.h"
 
-#include "core/error.h"
 #include "pipeline/judge.h"
-#include "surface/stitch.h"
 
 namespace clsurf {
-
-AsMachinedSurface ToolRun::as_machined(const CuttingTool& tool, const QualityReport& report) const {
-    return {surface,
-            read.signals,
-            path.role,
-            read.swept(path),
-            read.pieces,
-            tool,
-            ProgrammedMarks(surface, read.signals, report)};
-}
-
-AsMachinedSurface ToolRun::as_commanded(const CuttingTool& tool) const {
-    return {surface, read.signals, path.role, path, read.pieces, tool};
-}
-
-std::unique_ptr<const UprightPart> upright_part(const Log& log, const Trajectory& path, const LineMap& lines,
-                                                std::optional<Role> wanted, const CuttingTool& tool) {
-    if (!tilts(log, path)) return nullptr;
-    if (tool.kind != ToolKind::ball) {
-        throw UsageError(
-            to_text(tool) +
-                " is tilted: the contact of a tool that is not a ball depends on its axis, and only tools along z are supported",
-            "a ball-end tool may be tilted: --tool ball:D");
-    }
-    auto upright = std::make_unique<UprightPart>();
-    upright->path = upright_ball(log, path, tool.radius);
-    upright->surface = stitch(gather(upright->path), lines);
-    upright->read = signals_along(log, upright->path, upright->surface, wanted);
-    return upright;
-}
 
 AsMachinedPart::AsMachinedPart(const Part& part, const ClSurface& surface, std::optional<Role> role,
                                const CuttingTool& tool, const QualityReport* report)

@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "pipeline/as_machined_part.h"
 #include "pipeline/contacts.h"
+#include "pipeline/tool_run.h"
 #include "predictor/axis_delay.h"
 #include "predictor/quality_fields.h"
 

@@ -16,8 +16,12 @@ namespace clsurf {
 namespace {
 
 /// Of a five-axis log without the machine's kinematics: these may be all that is missing.
-void ask_for_kinematics(LineMap& lines) {
+void ask_for_kinematics(bool accept_unknown_tips, LineMap& lines) {
     ProgramMatch match = lines.match();
+    if (accept_unknown_tips) {
+        match.foreign.clear();
+        return lines.set_match(std::move(match));
+    }
     constexpr double most_off = 0.5;  // known to be the run of this program, its points still lie elsewhere
     if (match.foreign.empty() && match.off > most_off)
         match.foreign = fmt::format("{:.0f} % of its points lie off their lines", 100 * match.off);
@@ -92,7 +96,8 @@ Part assemble(Program program, Log log, const PartRules& rules) {
     }
     const Trajectory mapped = reconstruct_like(part.log, mapping_role(part.log, role), part.path);
     LineMap lines = map_lines(mapped, part.log, part.program, rules.use_line_channel, part.diagnostics, rules.identity);
-    if (kinematics == nullptr && part.diagnostics.count("path.rotary") > 0) ask_for_kinematics(lines);
+    if (kinematics == nullptr && part.diagnostics.count("path.rotary") > 0)
+        ask_for_kinematics(rules.accept_unknown_tips, lines);
     refuse_foreign(lines.match(), part.program, part.log, rules.accept_foreign, part.diagnostics);
     part.lines = std::make_shared<const LineMap>(std::move(lines));
     return part;
@@ -105,7 +110,7 @@ void exchange_log(Part& part, Log log, const PartRules& rules) {
     Trajectory path = reconstruct(log, part.path.role, part.path.pose(), part.path.kinematics);
     const Trajectory mapped = reconstruct_like(log, mapping_role(log, path.role), path);
     LineMap lines = map_lines(mapped, log, part.program, rules.use_line_channel, diagnostics, rules.identity);
-    if (diagnostics.count("path.rotary") > 0) ask_for_kinematics(lines);
+    if (diagnostics.count("path.rotary") > 0) ask_for_kinematics(rules.accept_unknown_tips, lines);
     part.log = std::move(log);
     part.path = std::move(path);
     part.lines = std::make_shared<const LineMap>(std::move(lines));

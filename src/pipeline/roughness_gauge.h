@@ -8,7 +8,7 @@
 
 #include "machined/part_roughness.h"
 #include "machined/tool.h"
-#include "pipeline/as_machined_part.h"
+#include "pipeline/tool_run.h"
 
 namespace clsurf {
 

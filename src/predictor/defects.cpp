@@ -388,6 +388,22 @@ ForgetBlocks forget_with(ArcLength& arc_length, const std::optional<FoundInShard
     };
 }
 
+/// The defects of all families that none of an earlier family explains. `of_family`: two vectors for each.
+std::vector<Built> unexplained(std::span<std::vector<Built>> of_family, double period) {
+    std::vector<Built> all;
+    const PointIndex room = std::lround(std::min(effect_seconds / period, 1e6));
+    for (std::size_t family = 0; family < of_family.size(); family += 2) {
+        Explanations before;
+        for (const Built& built : all) before.add(built.defect.runs, room);
+        for (std::vector<Built>& built_there : of_family.subspan(family, 2)) {
+            for (Built& built : built_there) {
+                if (!before.explain(built.core)) all.push_back(std::move(built));
+            }
+        }
+    }
+    return all;
+}
+
 }  // namespace
 
 int QualityReport::worst_severity() const {
@@ -434,18 +450,7 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
     for_each_alone_or_at_once(of_family.size(), forget, [&](std::size_t k) {
         of_family[k] = FamilyBuilder(families[k / 2], k % 2 == 1, smallest, border, builder).build(candidates);
     });
-    std::vector<Built> all;
-    const PointIndex room = std::lround(std::min(effect_seconds / period, 1e6));
-    for (std::size_t family = 0; family < families.size(); ++family) {
-        Explanations before;
-        for (const Built& built : all) before.add(built.defect.runs, room);
-        for (std::size_t k = 2 * family; k < 2 * family + 2; ++k) {
-            for (Built& built : of_family[k]) {
-                if (!before.explain(built.core)) all.push_back(std::move(built));
-            }
-        }
-    }
-    for (Built& built : all) {
+    for (Built& built : unexplained(of_family, period)) {
         if (!built.listed) continue;
         if (built.expected) built.defect.cause = Cause::pass_end;
         (built.expected ? report.expected : report.defects).push_back(std::move(built.defect));
