@@ -356,8 +356,7 @@ std::string page_summary(const ReportPage& page) {
     for (const PagePercentiles& row : page.percentiles) {
         if (row.field == "speed_mismatch" && std::isfinite(row.of_magnitude[2]))
             text += fact("Speed mismatch",
-                         fmt::format("{:.{}f} mm/min", row.of_magnitude[2], row.of_magnitude[2] < 10 ? 2 : 0),
-                         "p99");
+                         fmt::format("{:.{}f} mm/min", row.of_magnitude[2], row.of_magnitude[2] < 10 ? 2 : 0), "p99");
     }
     if (page.quality.as_machined != nullptr && !page.quality.as_machined->roughness.patches.empty()) {
         text += fact("Roughness", fmt::format("Rz {:.2f} µm", page.quality.as_machined->roughness.rz * um_per_mm),

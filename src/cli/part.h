@@ -20,7 +20,7 @@ struct PartOptions {
     FramePoses poses;          ///< --work-offset
     std::string machine;       ///< machine file with the kinematics; empty: three axes
     bool use_line_channel = true;
-    bool force = false;  ///< go on with a log that does not belong to the program
+    bool force = false;                ///< go on with a log that does not belong to the program
     bool accept_unknown_tips = false;  ///< see PartRules
     ToolChoice tool;
     DerivativeMethod derivative = DerivativeMethod::savgol;
