@@ -27,11 +27,13 @@ constexpr RepairMaskRules slow_as_well{.slow = 0.9};                 ///< a draf
 constexpr std::size_t most_mixed = 2;                                ///< drafts of which regions are given back …
 constexpr int mixing_rounds = 3;                                     ///< … so many times …
 constexpr int most_mixing_rounds = 6;                                ///< … or more, while the run is refused
-constexpr double share_of_drafts = 0.35;  ///< of all runs, that points alone may take; the others seek feeds
-constexpr std::size_t most_fed = 5;       ///< drafts that feeds are sought for
-constexpr double most_behind = 0.2;       ///< the best, by score, after the first rounds: others are not repaired on
-constexpr double small_share = 0.3;       ///< of the time, for a feed reduction that begins with the cheap defects …
-constexpr double large_share = 0.65;      ///< … and for one that takes all it can
+constexpr std::size_t most_sections_alone = 24;  ///< that are tried one by one where nothing else is accepted
+constexpr double share_of_drafts = 0.35;         ///< of all runs, that points alone may take; the others seek feeds
+constexpr double most_time_to_regain = 0.01;     ///< a share, by motions that get their old points back
+constexpr std::size_t most_fed = 5;              ///< drafts that feeds are sought for
+constexpr double most_behind = 0.2;   ///< the best, by score, after the first rounds: others are not repaired on
+constexpr double small_share = 0.3;   ///< of the time, for a feed reduction that begins with the cheap defects …
+constexpr double large_share = 0.65;  ///< … and for one that takes all it can
 constexpr int first_rounds = 2, more_rounds = 8;
 constexpr std::size_t most_listed = 8;                    ///< accepted finalists, where all are listed
 constexpr std::array<double, 2> other_steps{0.85, 0.55};  ///< that feed reductions are tried with as well …
@@ -211,6 +213,14 @@ private:
             if (evaluator_.has_time(share_of_drafts))
                 propose(drafter.draft(drafts[k]->draft->lines, in_worst_need_), narrow);
         }
+        if (!evaluator_.best()->evaluation.accepted) {
+            std::vector<TriedProposal> all = drafts;
+            all.insert(all.end(), mixed.begin(), mixed.end());
+            all.insert(all.end(), narrow.begin(), narrow.end());
+            sort(all);
+            for (std::size_t k = 0; k < std::min(most_mixed, all.size()); ++k)
+                combine_sections(drafter, *all[k], mixed);
+        }
         sort(mixed);
         // In turn: what saves most time may be worth more, with feeds, than what is better without.
         std::vector<TriedProposal> order;
@@ -292,10 +302,56 @@ private:
         }
     }
 
-    /// The best accepted one first, then by score.
+    /// Each section of a draft alone; then those that are better alone are taken together, the best first, as long as the
+    /// score falls.
+    void combine_sections(const Drafter& drafter, const Proposal& from, std::vector<TriedProposal>& drafts) {
+        const std::vector<std::uint8_t>& needed = from.draft->needed;
+        std::vector<std::pair<std::size_t, std::size_t>>
+            sections;  // of motions, from the first one up to the second one
+        for (std::size_t i = 0; i < needed.size(); ++i) {
+            if (needed[i] == 0) continue;
+            if (i > 0 && needed[i - 1] != 0)
+                sections.back().second = i + 1;
+            else
+                sections.emplace_back(i, i + 1);
+        }
+        if (sections.size() < 2 || sections.size() > most_sections_alone) return;
+        const auto with = [&](std::vector<std::uint8_t> motions, const std::pair<std::size_t, std::size_t>& section) {
+            std::fill(motions.begin() + static_cast<std::ptrdiff_t>(section.first),
+                      motions.begin() + static_cast<std::ptrdiff_t>(section.second), std::uint8_t{1});
+            return motions;
+        };
+        const RunMeasures before = evaluator_.before().measures();
+        double best = objective(before, before, 1, rules_.more_time);
+        std::vector<std::pair<double, std::size_t>> better;
+        for (std::size_t k = 0; k < sections.size() && evaluator_.has_time(share_of_drafts); ++k) {
+            const TriedProposal alone = propose(
+                drafter.draft(from.draft->lines, with(std::vector<std::uint8_t>(needed.size(), 0), sections[k])),
+                drafts);
+            if (alone && !is_late(*alone) && evaluator_.score(*alone) < best)
+                better.emplace_back(evaluator_.score(*alone), k);
+        }
+        std::sort(better.begin(), better.end());
+        std::vector<std::uint8_t> taken(needed.size(), 0);
+        for (const auto& [score, k] : better) {
+            if (!evaluator_.has_time(share_of_drafts)) return;
+            std::vector<std::uint8_t> more = with(taken, sections[k]);
+            const TriedProposal together = propose(drafter.draft(from.draft->lines, more), drafts);
+            if (!together || is_late(*together) || !(evaluator_.score(*together) < best)) continue;
+            best = evaluator_.score(*together);
+            taken = std::move(more);
+        }
+    }
+
+    /// Whether a draft takes so long that neither old points nor lower feeds would help.
+    [[nodiscard]] bool is_late(const Proposal& draft) const {
+        return draft.run.duration > evaluator_.before().duration * (1 + rules_.more_time + most_time_to_regain);
+    }
+
+    /// The best accepted one first, then by score. Last those that are late, which the score does not count.
     void sort(std::vector<TriedProposal>& drafts) const {
         std::stable_sort(drafts.begin(), drafts.end(), [&](const TriedProposal& a, const TriedProposal& b) {
-            return evaluator_.score(*a) < evaluator_.score(*b);
+            return is_late(*a) != is_late(*b) ? is_late(*b) : evaluator_.score(*a) < evaluator_.score(*b);
         });
         const auto accepted = std::find_if(drafts.begin(), drafts.end(),
                                            [](const TriedProposal& tried) { return tried->evaluation.accepted; });
