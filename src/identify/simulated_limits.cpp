@@ -161,10 +161,11 @@ private:
 /// Lower bounds of limits that the machine has.
 std::vector<const IdentifiedParameter*> searched_limits(const Identification& result) {
     std::vector<const IdentifiedParameter*> limits;
+    if (result.machine.kinematics.has_rotary()) return limits;  // simulations of five axes take too long
     for (const IdentifiedParameter& p : result.parameters) {
         const std::optional<double> now = planning_value(result.machine, p.name, p.axis);
         const bool unlimited = p.axis == "path" && now >= no_path_limit;
-        const bool held_in_rapids_alone = p.name == "max_speed" && (p.axis == "path" || p.axis >= "x");
+        const bool held_in_rapids_alone = p.name == "max_speed";
         if (p.reached == false && p.value > 0 && now > 0.0 && !unlimited && !held_in_rapids_alone) limits.push_back(&p);
     }
     return limits;
