@@ -25,7 +25,7 @@ struct Words {
     std::array<std::uint16_t, most_codes> g_column;
     std::array<std::int32_t, most_codes> m;
 
-    static constexpr std::uint32_t bit(char letter) { return 1u << (letter - 'A'); }
+    static constexpr std::uint32_t bit(char letter) { return 1u << (static_cast<unsigned>(letter - 'A') & 31u); }
     static constexpr std::uint32_t xyz = 7u << ('X' - 'A');
     [[nodiscard]] bool given(char letter) const { return (has & bit(letter)) != 0; }
     [[nodiscard]] double of(char letter) const { return value[static_cast<std::size_t>(letter - 'A')]; }
