@@ -92,7 +92,11 @@ test('the card of a defect stays until it is closed', async () => {
     const card = page.locator('.card');
     const rank = Number((await card.locator('h2').textContent()).match(/\d+$/)[0]);
     const defect = defects[rank - 1];
-    assert.ok((await card.textContent()).includes(`${defect.depth_um.toFixed(1)} µm${defect.shape === 'none' ? '' : ` ${defect.shape}`}`));
+    assert.ok(
+        (await card.textContent()).includes(
+            `${defect.depth_um.toFixed(1)} µm${defect.shape === 'none' ? '' : ` ${defect.shape}`}`,
+        ),
+    );
     await page.click('.program .row >> nth=3');
     assert.ok(await card.isVisible());
     // Nothing in its head is cut off or wrapped.
