@@ -11,7 +11,8 @@ namespace clsurf {
 /// Simulates every value of every rule and keeps the one that explains the speed along the path best. Values that the
 /// runs cannot tell apart are listed in `unidentified`, and the rule keeps its value. The score is the Bayesian
 /// information criterion of Laplace-distributed differences of speed, one every 32 records. All candidates have the
-/// same number of free values. Long runs beyond 2·10^5 records in all are left out. O(records) per candidate.
+/// same number of free values. Accelerations and jerks that are lower bounds are searched between the passes over all rules
+/// (simulated_limits.h). Long runs beyond 2·10^5 records in all are left out. O(records) per candidate.
 void identify_rules(std::span<const RecordedRun> runs, Identification& result);
 
 }  // namespace clsurf

@@ -21,6 +21,7 @@ namespace {
 
 constexpr PointIndex sample_every = 32;  // records
 
+/// Puts the explanations by residuals into the candidates.
 void score(const std::vector<std::vector<float>>& residuals, const RuleScores& scores,
            std::span<RuleCandidate> candidates) {
     const std::vector<Explanation> found = compare(residuals, scores);
@@ -117,23 +118,27 @@ RuleScores::RuleScores(std::span<const RecordedRun> runs) {
 }
 
 std::vector<float> RuleScores::residuals(const Machine& machine) {
-    prepare({&machine, 1});
     const Machine asked = merging_alike(machine);
-    return std::find_if(scored_.begin(), scored_.end(),
-                        [&](const Scored& scored) { return plan_alike(scored.machine, asked); })
-        ->residuals;
-}
-
-bool RuleScores::is_known(const Machine& machine) const {
-    return std::any_of(scored_.begin(), scored_.end(),
-                       [&](const Scored& scored) { return plan_alike(scored.machine, machine); });
+    simulate_unknown({&asked, 1});
+    return scored_[index_of_scored(asked)].residuals;
 }
 
 void RuleScores::prepare(std::span<const Machine> machines) {
+    std::vector<Machine> asked;
+    for (const Machine& machine : machines) asked.push_back(merging_alike(machine));
+    simulate_unknown(asked);
+}
+
+std::size_t RuleScores::index_of_scored(const Machine& machine) const {
+    const auto found = std::find_if(scored_.begin(), scored_.end(),
+                                    [&](const Scored& scored) { return plan_alike(scored.machine, machine); });
+    return static_cast<std::size_t>(found - scored_.begin());
+}
+
+void RuleScores::simulate_unknown(std::span<const Machine> machines) {
     const std::size_t first = scored_.size();
     for (const Machine& machine : machines) {
-        const Machine asked = merging_alike(machine);
-        if (!is_known(asked)) scored_.push_back({asked, {}});
+        if (index_of_scored(machine) == scored_.size()) scored_.push_back({machine, {}});
     }
     const std::size_t runs = runs_.size();
     std::vector<Residuals> found((scored_.size() - first) * runs);

@@ -68,7 +68,10 @@ private:
         float usual_speed = 0;
     };
     [[nodiscard]] static Residuals simulated(const RecordedRun& run, const Machine& machine);
-    [[nodiscard]] bool is_known(const Machine& machine) const;
+    /// Of machines that merging_alike() has returned.
+    void simulate_unknown(std::span<const Machine> machines);
+    /// Of one that plans alike; the number of all: there is none.
+    [[nodiscard]] std::size_t index_of_scored(const Machine& machine) const;
     [[nodiscard]] Machine merging_alike(const Machine& machine);
 
     std::vector<Scored> scored_;
@@ -86,7 +89,7 @@ struct Explanation {
 /// A difference of scores that tells two machines apart: "very strong" evidence (Kass and Raftery 1995).
 inline constexpr double decisive = 10;
 
-/// Explanations by residuals, over the samples that any of them has.
+/// How well machines explain the runs, by their residuals, over the samples that any of these has.
 [[nodiscard]] std::vector<Explanation> compare(const std::vector<std::vector<float>>& residuals,
                                                const RuleScores& scores);
 

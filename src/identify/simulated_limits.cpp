@@ -33,7 +33,7 @@ public:
     LimitSlice(RuleScores& scores, const Machine& machine, std::string key, std::string of)
         : scores_(scores), machine_(machine), key_(std::move(key)), of_(std::move(of)) {}
 
-    /// The value that explains the runs best; `now`, that of the machine, where it is nearly as good. `lowest`: the least value
+    /// The value that explains the runs best, or `now`, that of the machine, if it is nearly as good. `lowest`: the least value
     /// that the motion allows.
     [[nodiscard]] double best(double lowest, double now, double least_gain) const {
         const double greatest = highest_tried(lowest, now);
@@ -48,7 +48,7 @@ public:
         return !as_good(now, best) && (is <= (1 - least_gain) * was || scores_.explains(is)) ? best : now;
     }
 
-    /// The values around the best one that the runs do not tell from it.
+    /// The values around the best one that the runs cannot distinguish from it.
     [[nodiscard]] SimulatedLimit interval(double lowest, double best) const {
         SimulatedLimit found{key_, of_, best, {}, {}, scores_.explains(mean_error(best))};
         const double greatest = highest_tried(lowest, best);
@@ -88,7 +88,7 @@ private:
     [[nodiscard]] bool as_good(double value, double better) const { return excess(value, better) <= 0; }
     [[nodiscard]] bool alike(double one, double other) const { return as_good(one, other) && as_good(other, one); }
 
-    /// Whether the runs do not tell a value from those beside it.
+    /// Whether the runs cannot distinguish a value from those beside it.
     [[nodiscard]] bool is_flat_about(double now) const {
         return mean_error(now) <= scores_.resolution() || (alike(below(now), now) && alike(above(now), now));
     }
@@ -110,7 +110,7 @@ private:
         return std::minmax({from, to});
     }
 
-    /// Where the neighbours of `now` tell nothing.
+    /// The same, if the values beside `now` are equally good and show no direction.
     [[nodiscard]] std::pair<double, double> bracket_of_grid(double lowest, double greatest, double now) const {
         std::vector<double> values{now};
         for (std::size_t k = 0; k < grid; ++k)
@@ -131,7 +131,7 @@ private:
         return now * std::exp(share);
     }
 
-    /// Where values begin to be less good than the best one, towards `worse`, which is.
+    /// Where values begin to explain the runs less well than the best one, on the way to `worse`, which does.
     [[nodiscard]] double end_between(double worse, double best) const {
         const auto beyond = [&](double share) {
             const double value = worse > best ? best * (1 + share) : best / (1 + share);
@@ -161,7 +161,7 @@ private:
 /// Lower bounds of limits that the machine has.
 std::vector<const IdentifiedParameter*> searched_limits(const Identification& result) {
     std::vector<const IdentifiedParameter*> limits;
-    if (result.machine.kinematics.has_rotary()) return limits;  // simulations of five axes take too long
+    if (result.machine.kinematics.has_rotary()) return limits;
     for (const IdentifiedParameter& p : result.parameters) {
         const std::optional<double> now = planning_value(result.machine, p.name, p.axis);
         const bool unlimited = p.axis == "path" && now >= no_path_limit;

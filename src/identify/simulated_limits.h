@@ -10,8 +10,8 @@
 
 namespace clsurf {
 
-/// Searches each limit that `result` has as a lower bound, again until none changes, and puts the values that explain the runs
-/// best into its machine. Another value must lower the mean error of the speed by the share `least_gain`, unless the
+/// Searches each acceleration and jerk that `result` has as a lower bound, again until none changes, and puts the values that
+/// explain the runs best into its machine. Nothing is searched on five axes: their simulations take too long. Another value must lower the mean error of the speed by the share `least_gain`, unless the
 /// machine explains the runs with it. O(records) for each of some 20 values of a limit that the runs depend on, and for 3 of
 /// any other.
 void search_limits(double least_gain, RuleScores& scores, Identification& result);

@@ -37,16 +37,17 @@ double draw_normal(std::mt19937_64& random) {
     return sum;
 }
 
-/// Which of `size` alternatives machine number `turn` of `count` gets: each of them in turn, or, where there are more than
-/// machines, as many from all over the list.
-std::size_t alternative(std::size_t turn, std::size_t count, std::size_t size) {
-    return count >= size ? turn % size : (2 * (turn % count) + 1) * size / (2 * count);
-}
-
-/// A number of the machine's own among so many.
+/// Whose turn it is among so many machines.
 struct Turn {
     std::size_t number, count;
 };
+
+/// Which of `size` alternatives a machine gets: each of them in turn, or, if there are more alternatives than machines, some
+/// from all over the list.
+std::size_t alternative(Turn turn, std::size_t size) {
+    const auto [number, count] = turn;
+    return count >= size ? number % size : (2 * (number % count) + 1) * size / (2 * count);
+}
 
 void draw(const ParameterUncertainty& known, double speed_error, Turn turn, std::mt19937_64& random, Machine& machine) {
     const double normal = draw_normal(random);
@@ -54,8 +55,7 @@ void draw(const ParameterUncertainty& known, double speed_error, Turn turn, std:
     if (!value) return;
     const double now = *value;
     const auto set = [&](double drawn) { set_planning_value(machine, known.key, known.of, drawn); };
-    if (!known.alternatives.empty())
-        return set(known.alternatives[alternative(turn.number, turn.count, known.alternatives.size())]);
+    if (!known.alternatives.empty()) return set(known.alternatives[alternative(turn, known.alternatives.size())]);
     if (known.lower_bound > 0 && known.lower_bound < now) {
         const double share = 0.5 * std::erfc(-normal / std::sqrt(2.0));
         set(known.lower_bound * std::pow(now / known.lower_bound, share));

@@ -2,27 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "core/units.h"
 
 namespace clsurf {
 namespace {
 
-/// A value that plans the motion, in the unit of the machine file.
+/// A value that plans the motion: one of both, and the unit of the machine file in ours.
 struct PlanningValue {
-    std::function<double()> get;
-    std::function<void(double)> set;
+    double* real = nullptr;
+    int* whole = nullptr;
+    double unit = 1;
 };
 
-PlanningValue scaled(double& value, double unit) {
-    return {[&value, unit] { return value / unit; }, [&value, unit](double given) { value = given * unit; }};
-}
+PlanningValue scaled(double& value, double unit) { return {.real = &value, .unit = unit}; }
 
-PlanningValue whole(int& value) {
-    return {[&value] { return static_cast<double>(value); },
-            [&value](double given) { value = static_cast<int>(std::lround(given)); }};
-}
+PlanningValue whole(int& value) { return {.whole = &value}; }
 
 std::optional<PlanningValue> axis_value(MachineAxis& axis, std::string_view key, double unit) {
     if (key == "max_speed") return scaled(axis.max_speed, unit / seconds_per_minute);
@@ -68,11 +63,16 @@ std::optional<double> planning_value(const Machine& machine, std::string_view ke
     Machine copy = machine;
     const std::optional<PlanningValue> value = value_of(copy, key, of);
     if (!value) return std::nullopt;
-    return value->get();
+    return value->real != nullptr ? *value->real / value->unit : static_cast<double>(*value->whole);
 }
 
 void set_planning_value(Machine& machine, std::string_view key, std::string_view of, double value) {
-    if (const std::optional<PlanningValue> known = value_of(machine, key, of)) known->set(value);
+    const std::optional<PlanningValue> known = value_of(machine, key, of);
+    if (!known) return;
+    if (known->real != nullptr)
+        *known->real = value * known->unit;
+    else
+        *known->whole = static_cast<int>(std::lround(value));
 }
 
 bool is_planning_value(std::string_view key, std::string_view of) {

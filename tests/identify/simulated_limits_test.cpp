@@ -31,20 +31,29 @@ Part waves_on(const Machine& machine, double height = 0.8) {
     return assemble(program, simulate_to_log(program, machine, Vec3::Zero()).log);
 }
 
-IdentifiedParameter lower_bound(const char* name, const char* axis, double value) {
-    return {name, axis, value, "mm/s²", {}, false, "", value};
+struct Searched {
+    Identification result;
+    std::vector<SimulatedLimit> limits;
+};
+
+/// What simulations tell of the acceleration of an axis or of the path, of which the motion shows `bound` [mm/s²].
+Searched searched(const Part& part, const Machine& known, const char* of, double bound) {
+    const RecordedRun run(part);
+    RuleScores scores({&run, 1});
+    Searched found;
+    found.result.machine = known;
+    found.result.parameters = {{"max_acceleration", of, bound, "mm/s²", {}, false, "", bound}};
+    search_limits(0, scores, found.result);
+    found.limits = limit_intervals(scores, found.result);
+    state_limits(found.limits, found.result);
+    return found;
 }
 
 /// The acceleration of an axis, of a machine that is known to have `now`.
 IdentifiedParameter found_from(const Part& part, const char* axis, double now) {
-    const RecordedRun run(part);
-    RuleScores scores({&run, 1});
-    Identification result;
-    result.machine = overlapping();
-    set_planning_value(result.machine, "max_acceleration", axis, now);
-    result.parameters = {lower_bound("max_acceleration", axis, 300)};
-    search_limits(0, scores, result);
-    state_limits(limit_intervals(scores, result), result);
+    Machine known = overlapping();
+    set_planning_value(known, "max_acceleration", axis, now);
+    const Identification result = searched(part, known, axis, 300).result;
     EXPECT_DOUBLE_EQ(*planning_value(result.machine, "max_acceleration", axis), result.parameters.front().value);
     return result.parameters.front();
 }
@@ -64,20 +73,13 @@ TEST(SimulatedLimits, AccelerationsOfBlocksThatOverlapAreFound) {
 
 // The axes are slower than the path.
 TEST(SimulatedLimits, ALimitThatIsOnlyBoundedFromBelowKeepsItsValue) {
-    const Part part = waves_on(overlapping());
-    const RecordedRun run(part);
-    RuleScores scores({&run, 1});
-    Identification result;
-    result.machine = overlapping();
-    result.machine.path.max_acceleration = 50'000;
-    result.parameters = {lower_bound("max_acceleration", "path", 300)};
-    search_limits(0, scores, result);
-    const std::vector<SimulatedLimit> limits = limit_intervals(scores, result);
+    Machine known = overlapping();
+    known.path.max_acceleration = 50'000;
+    const auto& [result, limits] = searched(waves_on(overlapping()), known, "path", 300);
     ASSERT_EQ(limits.size(), 1U);
     EXPECT_TRUE(limits[0].explains);
     EXPECT_FALSE(limits[0].highest);
     ASSERT_TRUE(limits[0].lowest);
-    state_limits(limits, result);
     EXPECT_DOUBLE_EQ(result.machine.path.max_acceleration, 50'000);
     EXPECT_GT(result.parameters[0].value, 300) << "with less the simulation would be slower";
     EXPECT_EQ(result.parameters[0].reached, false);
@@ -85,15 +87,9 @@ TEST(SimulatedLimits, ALimitThatIsOnlyBoundedFromBelowKeepsItsValue) {
 }
 
 TEST(SimulatedLimits, AModelThatDoesNotExplainTheRunGivesNoStandardError) {
-    const Part part = waves_on(overlapping());
-    const RecordedRun run(part);
-    RuleScores scores({&run, 1});
-    Identification result;
-    result.machine = overlapping();
-    result.machine.controller.trapezoid.arc_blends = true;
-    result.parameters = {lower_bound("max_acceleration", "x", 500)};
-    search_limits(0, scores, result);
-    state_limits(limit_intervals(scores, result), result);
+    Machine known = overlapping();
+    known.controller.trapezoid.arc_blends = true;
+    const Identification result = searched(waves_on(overlapping()), known, "x", 500).result;
     EXPECT_FALSE(result.parameters[0].standard_error);
     EXPECT_EQ(result.parameters[0].reached, false);
 }
