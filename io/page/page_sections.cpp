@@ -223,12 +223,10 @@ std::string defect_list_section(const ReportPage& page) {
     std::string rows;
     for (std::size_t i = 0; i < std::min(defects_in_table, report.defects.size()); ++i) {
         const Defect& d = report.defects[i];
-        const std::string_view shape = shape_of(d);
         rows += fmt::format(
-            "<tr data-defect=\"{}\"><td>{}</td><td><span class=\"severity s{}\">{}</span> {}</td><td>{}</td><td>{:.1f}</td><td>{:.1f}{}{}</td>{}<td>{:+.1f}</td><td>{:.1f}</td><td>{:.2f} {:.2f} {:.2f}</td><td>{}</td></tr>\n",
+            "<tr data-defect=\"{}\"><td>{}</td><td><span class=\"severity s{}\">{}</span> {}</td><td>{}</td><td>{:.1f}</td><td>{}</td>{}<td>{:+.1f}</td><td>{:.1f}</td><td>{:.2f} {:.2f} {:.2f}</td><td>{}</td></tr>\n",
             i + 1, i + 1, d.severity, d.severity, name_of_severity(d.severity),
-            html(sentence_of(d)) + accepted_note(page, i), d.score, d.depth * um_per_mm, shape == "none" ? "" : " ",
-            shape == "none" ? "" : shape,
+            html(sentence_of(d)) + accepted_note(page, i), d.score, depth_text(d, ""),
             as_machined ? fmt::format("<td>{}</td>", um_text(page.quality.as_machined->marks[i].depth)) : "",
             100 * d.speed_mismatch, d.length, d.place.position().x(), d.place.position().y(), d.place.position().z(),
             html(defect_lines(d)));

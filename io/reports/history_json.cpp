@@ -3,7 +3,9 @@
 #include <cmath>
 #include <map>
 
+#include "core/units.h"
 #include "io/reports/history_report.h"
+#include "io/reports/quality_words.h"
 
 namespace clsurf::io {
 namespace {
@@ -60,10 +62,7 @@ Json defect_object(const RecordedDefect& d) {
             {"severity", d.severity},
             {"score", number(d.score, 2)},
             {"depth_um", number(d.depth_um, 3)},
-            {"shape", d.systematic        ? "alternating"
-                      : d.depth_um < 0.05 ? "none"
-                      : d.pit             ? "pit"
-                                          : "bulge"},
+            {"shape", shape_of(d.systematic, d.depth_um / um_per_mm, d.pit)},
             {"systematic", d.systematic},
             {"speed_jump_percent", number(d.speed_jump_percent, 1)},
             {"length_mm", number(d.length_mm, 3)},

@@ -157,16 +157,17 @@ std::string place_text(const CutterPlace& place) {
     return fmt::format("{} X {:.2f} Y {:.2f} Z {:.2f} mm", place_word(place), at.x(), at.y(), at.z());
 }
 
-std::string_view shape_of(const Defect& defect) {
-    if (defect.systematic) return "alternating";
-    if (defect.depth < least_shown_depth) return "none";
-    return defect.pit ? "pit" : "bulge";
+std::string_view shape_of(bool systematic, double depth, bool pit) {
+    if (systematic) return "alternating";
+    if (depth < least_shown_depth) return "none";
+    return pit ? "pit" : "bulge";
 }
 
-std::string depth_text(const Defect& defect) {
+std::string_view shape_of(const Defect& defect) { return shape_of(defect.systematic, defect.depth, defect.pit); }
+
+std::string depth_text(const Defect& defect, std::string_view unit) {
     const std::string_view shape = shape_of(defect);
-    return fmt::format("{:.1f} µm{}{}", defect.depth * um_per_mm, shape == "none" ? "" : " ",
-                       shape == "none" ? "" : shape);
+    return fmt::format("{:.1f}{}{}", defect.depth * um_per_mm, unit, shape == "none" ? "" : fmt::format(" {}", shape));
 }
 
 std::string sentence_of(const Defect& d) {

@@ -19,8 +19,10 @@ namespace clsurf::io {
 
 /// "pit", "bulge", "alternating", or "none" where the depth is below 0.05 µm.
 [[nodiscard]] std::string_view shape_of(const Defect& defect);
-/// "8.0 µm bulge", or "0.0 µm".
-[[nodiscard]] std::string depth_text(const Defect& defect);
+/// The same of its values. `depth` [mm].
+[[nodiscard]] std::string_view shape_of(bool systematic, double depth, bool pit);
+/// "8.0 µm bulge", or "0.0 µm". `unit`: what follows the number.
+[[nodiscard]] std::string depth_text(const Defect& defect, std::string_view unit = " µm");
 
 /// What is wrong, as a sentence without its full stop: "Pass 14 runs 82 % slower than its neighbours over 3.4 mm".
 [[nodiscard]] std::string sentence_of(const Defect& defect);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/fleet_runner.h"
+#include "core/counted.h"
 #include "core/parallel.h"
 #include "history/memory_plan.h"
 #include "io/history/history_database.h"
@@ -40,8 +41,8 @@ ExitCode merge(const po::variables_map& values, const std::string& database) {
     if (read_json(values))
         write_to_stdout(io::merge_json({parts.size(), taken, runs}));
     else
-        write_answer(fmt::format("{} run{} of {} database{} taken into {}, which has {} now\n", taken,
-                                 taken == 1 ? "" : "s", parts.size(), parts.size() == 1 ? "" : "s", database, runs),
+        write_answer(fmt::format("{} of {} taken into {}, which has {} now\n", counted(taken, "run"),
+                                 counted(parts.size(), "database"), database, runs),
                      values);
     return ExitCode::done;
 }
