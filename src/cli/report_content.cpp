@@ -193,8 +193,8 @@ io::ReportPage report_page_of(const ReportLog& shown, const std::vector<ReportLo
         page.change->match =
             match_defects({&before.quality.report.defects, &before.surface.positions, before.surface.step_over},
                           {&shown.quality.report.defects, &shown.surface.positions, shown.surface.step_over});
-        page.change->roughness =
-            roughness_change(before.part, before.surface, shown.part, shown.surface, options.measured);
+        page.change->roughness = roughness_change(before.part, before.surface, shown.part, shown.surface,
+                                                  options.measured, &before.quality.report);
     }
     page.colour_maps = page_colour_maps();
     for (const Field& field : shown.fields) page.field_maps.push_back(viz::usual_colour_map_name(field.info));

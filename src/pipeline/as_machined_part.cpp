@@ -15,7 +15,7 @@ AsMachinedPart::AsMachinedPart(const Part& part, const ClSurface& surface, std::
     }
     if (upright_) read_ = {};
     const ToolRun run = upright_ ? upright_->run() : ToolRun{part.path, surface, read_};
-    as_machined_.emplace(run.as_machined(tool, *report));
+    as_machined_.emplace(run.as_machined(tool, report));
 }
 
 }  // namespace clsurf

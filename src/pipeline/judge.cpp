@@ -19,7 +19,7 @@ void measure_as_machined_surface(const Part& part, const ClSurface& surface, std
     const CuttingTool tool = *part.tool;
     const std::unique_ptr<const UprightPart> upright = upright_part(part.log, part.path, *part.lines, measured, tool);
     const ToolRun run = upright ? upright->run() : ToolRun{part.path, surface, read};
-    const AsMachinedSurface measured_surface = run.as_machined(tool, quality.report);
+    const AsMachinedSurface measured_surface = run.as_machined(tool, &quality.report);
     std::optional<AsMachinedSurface> commanded;
     if (run.has_both()) commanded.emplace(run.as_commanded(tool));
     quality.as_machined =

@@ -29,7 +29,7 @@ struct PartRules {
     std::shared_ptr<const Kinematics> kinematics;  ///< of a machine with rotary axes; nullptr: three axes
     bool use_line_channel = true;                  ///< false: lines are found by geometry alone
     bool accept_foreign = false;                   ///< a log of another program is a warning, not an error
-    bool accept_unknown_tips = false;  ///< neither, where rotary axes turn and no kinematics say where the tips are
+    bool accept_unknown_tips = false;  ///< nor is one whose rotary axes turn, without kinematics that give the tips
     ProgramIdentity identity = ProgramIdentity::unknown;  ///< what hashes say (io/formats/program_identity.h)
     std::optional<CuttingTool> tool;
     std::vector<StatedLimit> limits;         ///< of the machine; empty: none are stated

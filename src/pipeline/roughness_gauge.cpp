@@ -33,8 +33,7 @@ RoughnessGauge::Swept RoughnessGauge::sweep(const GaugedRun& run) const {
 }
 
 AsMachinedSurface RoughnessGauge::as_machined(const Swept& swept) const {
-    const QualityReport none;
-    return swept.run().as_machined(tool_, swept.of.report != nullptr ? *swept.of.report : none);
+    return swept.run().as_machined(tool_, swept.of.report);
 }
 
 PartRoughness RoughnessGauge::measure(const AsMachinedSurface& measured, const ToolRun& run) const {
@@ -54,10 +53,15 @@ std::optional<RoughnessChange> roughness_change(const GaugedRun& before, const G
 }
 
 std::optional<RoughnessChange> roughness_change(const Part& before, const ClSurface& surface_before, const Part& after,
-                                                const ClSurface& surface_after, std::optional<Role> role) {
+                                                const ClSurface& surface_after, std::optional<Role> role,
+                                                const QualityReport* report_before) {
     if (!after.tool || before.tool != after.tool) return std::nullopt;
-    const QualityReport report = find_defects(before, surface_before, signals_of(before, surface_before, role));
-    return roughness_change({before.log, before.path, *before.lines, surface_before, &report},
+    QualityReport found;
+    if (report_before == nullptr) {
+        found = find_defects(before, surface_before, signals_of(before, surface_before, role));
+        report_before = &found;
+    }
+    return roughness_change({before.log, before.path, *before.lines, surface_before, report_before},
                             {after.log, after.path, *after.lines, surface_after}, *after.tool, role);
 }
 

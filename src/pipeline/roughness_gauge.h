@@ -68,9 +68,11 @@ struct RoughnessChange {
                                                               const CuttingTool& tool,
                                                               std::optional<Role> role = std::nullopt);
 
-/// The same of parts. Nothing also where the tool is not known, or is not the same.
+/// The same of parts. Nothing also where the tool is not known, or is not the same. `report_before`: the defects of the first
+/// one; nullptr: they are looked for.
 [[nodiscard]] std::optional<RoughnessChange> roughness_change(const Part& before, const ClSurface& surface_before,
                                                               const Part& after, const ClSurface& surface_after,
-                                                              std::optional<Role> role = std::nullopt);
+                                                              std::optional<Role> role = std::nullopt,
+                                                              const QualityReport* report_before = nullptr);
 
 }  // namespace clsurf

@@ -71,8 +71,7 @@ QualityRules rules_of_shards(std::vector<ShardFindings> shards, const Survey& su
                     : fmt::format("points {} … {} are in none of the shards", next, shard.points.first - 1));
         }
         next = shard.points.last + 1;
-        found.points.away_from_ends += shard.compared.away_from_ends;
-        found.points.compared += shard.compared.compared;
+        found.points += shard.compared;
         found.starts.insert(found.starts.end(), shard.starts.begin(), shard.starts.end());
         found.scallops.insert(found.scallops.end(), shard.scallops.begin(), shard.scallops.end());
     }

@@ -5,14 +5,14 @@
 
 namespace clsurf {
 
-AsMachinedSurface ToolRun::as_machined(const CuttingTool& tool, const QualityReport& report) const {
+AsMachinedSurface ToolRun::as_machined(const CuttingTool& tool, const QualityReport* report) const {
     return {surface,
             read.signals,
             path.role,
             read.swept(path),
             read.pieces,
             tool,
-            ProgrammedMarks(surface, read.signals, report)};
+            report != nullptr ? ProgrammedMarks(surface, read.signals, *report) : ProgrammedMarks()};
 }
 
 AsMachinedSurface ToolRun::as_commanded(const CuttingTool& tool) const {

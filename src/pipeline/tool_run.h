@@ -17,9 +17,9 @@ struct ToolRun {
     const ClSurface& surface;
     const PartSignals& read;
 
-    /// Swept along the measured positions, where there are such; the marks of the program that `report` has are no form.
-    /// Refers to what this refers to.
-    [[nodiscard]] AsMachinedSurface as_machined(const CuttingTool& tool, const QualityReport& report) const;
+    /// Swept along the measured positions, where there are such. The programmed marks of `report` are no form; nullptr: all of
+    /// the program is form. Refers to what this refers to.
+    [[nodiscard]] AsMachinedSurface as_machined(const CuttingTool& tool, const QualityReport* report) const;
     /// Whether the log has commanded positions besides those that are measured.
     [[nodiscard]] bool has_both() const { return path.role == Role::commanded && read.measured.has_value(); }
     /// Swept along the path itself.
