@@ -139,16 +139,15 @@ private:
         return run;
     }
 
-    /// The parameters that the run has when it is recorded. If the log cannot be read, or has some that are not allowed, the
-    /// run fails by itself, with --param alone.
+    /// Adds the parameters of the log, as the run has them when it is recorded.
     void add_log_parameters(RunRecord& run, const FleetUnit& unit) const {
         if (run.log_sha256.empty()) return;
         const po::variables_map values = values_of(unit);
         const RunRecorder recorder(rules_.database, values);
         try {
             run.parameters = recorder.parameters_with(io::parameters_of_log(unit.log, read_log_options(values)));
-        } catch (const InputError&) { run.parameters = recorder.parameters(); } catch (const UsageError&) {
-            run.parameters = recorder.parameters();
+        } catch (const InputError&) {  // it cannot be read: the run fails by itself, with --param alone
+        } catch (const UsageError&) {  // it has some that are not allowed: the same
         }
     }
 

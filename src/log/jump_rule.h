@@ -1,6 +1,7 @@
 #pragma once
-// When a logged position jumps, as no axis moves: a counter that begins again at its end, a record that is wrong. Its step is
-// longer than any acceleration allows and much longer than the steps beside it; or the next step comes back (a spike).
+// When a logged position jumps in a way that no axis moves: a counter starts again at its end, or a record is wrong. The step is
+// longer than any acceleration allows and much longer than the step before it. It is also much longer than the step after it,
+// unless that one goes back (a spike).
 
 #include <algorithm>
 

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "core/block.h"
 #include "toolpath/toolpath_summary.h"
 
 namespace clsurf {
@@ -23,22 +21,6 @@ struct LogScale {
 constexpr std::array units{LogScale{"inch", 25.4}, LogScale{"m", 1000}, LogScale{"µm", 0.001}};
 
 }  // namespace
-
-Box3 box_of(const Trajectory& path) {
-    std::vector<Box3> boxes(static_cast<std::size_t>((path.count + block_points - 1) / block_points));
-    for_each_block(path.count, [&](PointIndex first, PointIndex last) {
-        std::vector<double> x(static_cast<std::size_t>(last - first)), y(x.size()), z(x.size());
-        path.read(first, x, y, z);
-        Box3& box = boxes[static_cast<std::size_t>(first / block_points)];
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            const Vec3 p(x[i], y[i], z[i]);
-            if (p.allFinite()) box.extend(p);
-        }
-    });
-    Box3 all;
-    for (const Box3& box : boxes) all.extend(box);
-    return all;
-}
 
 std::optional<LogUnit> other_unit(const Trajectory& path, const Program& program) {
     const Box3 cut = summarise(program.motions).bounds;

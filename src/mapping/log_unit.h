@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 
-#include "core/geometry.h"
 #include "program/program.h"
 #include "toolpath/trajectory.h"
 
@@ -19,8 +18,5 @@ struct LogUnit {
 /// Nothing unless the path extends over 1/25.4, 1/1000 or 1000 of the program's path on both of its longer axes, within a
 /// tenth. O(points + motions), parallel.
 [[nodiscard]] std::optional<LogUnit> other_unit(const Trajectory& path, const Program& program);
-
-/// All finite positions of a path [mm]. O(points), parallel.
-[[nodiscard]] Box3 box_of(const Trajectory& path);
 
 }  // namespace clsurf

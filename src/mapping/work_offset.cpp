@@ -10,11 +10,9 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
-#include "core/block.h"
 #include "core/statistics.h"
 #include "core/units.h"
 #include "mapping/allowed_motions.h"
-#include "mapping/log_unit.h"
 #include "mapping/motion_grid.h"
 #include "mapping/path_profile.h"
 #include "program/frame_placement.h"

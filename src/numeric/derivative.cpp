@@ -97,7 +97,7 @@ double DerivativeFilter::step_response() const {
 
 double DerivativeFilter::speed_step_response() const {
     const std::vector<double> weights = derivative_weights(points, order, derivative, points / 2);
-    // A way of one record's length a record, from each of the points on.
+    // Positions that rest and then move by 1 from record to record, beginning at each of the points.
     double most = 0, sum = 0, response = 0;
     for (std::size_t k = weights.size(); k-- > 0;) {
         response += sum;

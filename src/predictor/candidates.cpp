@@ -104,10 +104,7 @@ ComparedPoints count_compared(const ClSurface& surface, const Signals& signals, 
         }
     });
     ComparedPoints all;
-    for (const ComparedPoints& block : of_block) {
-        all.away_from_ends += block.away_from_ends;
-        all.compared += block.compared;
-    }
+    for (const ComparedPoints& block : of_block) all += block;
     return all;
 }
 

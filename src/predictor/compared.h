@@ -25,6 +25,12 @@ struct Compared {
 struct ComparedPoints {
     PointIndex away_from_ends = 0;  ///< of their passes, as far as those are judged
     PointIndex compared = 0;        ///< of these, with a neighbour on both sides
+
+    ComparedPoints& operator+=(const ComparedPoints& other) {
+        away_from_ends += other.away_from_ends;
+        compared += other.compared;
+        return *this;
+    }
 };
 
 /// The signals at a location, linear between the points. Heights are counted along `normal`: normals of

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/not_finite.h"
+#include "core/statistics.h"
 #include "predictor/compared.h"
 #include "surface/path_location.h"
 
@@ -53,11 +54,7 @@ std::vector<PathLocation> places_beside(const ClSurface& surface, const Signals&
 
 float median_known(std::vector<float> values) {
     std::erase_if(values, [](float v) { return !(v == v); });
-    if (values.empty()) return missing<float>;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    if (values.size() % 2 == 1) return *middle;
-    return 0.5F * (*middle + *std::max_element(values.begin(), middle));
+    return values.empty() ? missing<float> : midpoint_median(values);
 }
 
 using HeightOf = DefectProfile::HeightOf;

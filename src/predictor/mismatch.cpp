@@ -21,8 +21,7 @@ constexpr std::size_t sampled_points = 50'000;
 constexpr float along_or_against = 0.866F;  ///< cos 30°: neighbours run along with the feed or against it
 constexpr float round_a_corner = 0.5F;      ///< cos 60°: straight across a corner they have turned more than that
 constexpr float slack_step_overs = 0.5F;    ///< along the feed between the ends of passes that end side by side
-
-constexpr float clear_of_scatter = 3;  ///< of the motions of the passes around a place near a border
+constexpr float clear_of_scatter = 3;       ///< of the motions of the passes around a place near a border
 
 /// What is compared, where there is nothing.
 Compared no_pass() {
@@ -286,7 +285,7 @@ Comparison Comparer::compare_with(Peers peers, const PathLocation& here, int asi
     auto& count = others.count;
     const auto collect = [&](Side side, int most) {
         const auto s = static_cast<std::size_t>(side);
-        bool against = false;  // as in a zigzag: the next pass of this way is the second one
+        bool against = false;  // as in a zigzag: the next pass with this direction is the second one
         count[s] = 0;
         PathLocation& adjacent_place = side == Side::left ? result.beside_left : result.beside_right;
         adjacent_place = for_each_beside(here, side, most, along_or_against, [&](const PathLocation& at, int passes) {

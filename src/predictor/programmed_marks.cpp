@@ -79,7 +79,7 @@ private:
         return range != at_fault_.end() && range->first <= point;
     }
 
-    /// On the nearest passes of one side that are not at fault, the nearest first.
+    /// Places on the nearest passes of one side that have no mark there, the nearest pass first.
     [[nodiscard]] std::vector<Eigen::Vector3f> clean_places(PointIndex point, const Eigen::Vector3f& feed,
                                                             Side side) const {
         std::vector<Eigen::Vector3f> places;

@@ -21,7 +21,6 @@ public:
     /// point without a pass on both sides has no offset. O(points of these defects).
     ProgrammedMarks(const ClSurface& surface, const Signals& signals, const QualityReport& report);
 
-    [[nodiscard]] bool empty() const { return runs_.empty(); }
     /// How far a point lies above the adjacent passes [mm], as a vector along the normal; zero where no mark is.
     [[nodiscard]] Vec3 at(PointIndex point) const;
     /// Takes the offsets off one axis of positions [mm] from a point on.

@@ -13,10 +13,10 @@ namespace {
 
 constexpr std::size_t most_values = 10;   ///< around a place
 constexpr std::size_t fewest_values = 2;  ///< for a median
-constexpr std::size_t fewest_clean = 3;   ///< reliefs, of which one that a fault beside them alters is outvoted
+constexpr std::size_t fewest_clean = 3;   ///< reliefs that outvote one of them that an adjacent fault has changed
 constexpr std::size_t beside_border = 2;  ///< passes on one side, of which the outermost has no relief
-constexpr float shape_left = 0.35F;       ///< of a relief: more is left of it beside it where it is the part's own
-constexpr float shape_beside = 0.6F;      ///< of the largest relief around: a smaller one lies beside an edge
+constexpr float shape_left = 0.35F;       ///< share of a relief: if more remains in the sum, it is the part's own shape
+constexpr float shape_beside = 0.6F;      ///< share of the largest relief around: a smaller relief lies beside an edge
 constexpr float nearer_to_border =
     1.33F;  ///< times the opposite relief of the pass towards the border: up to that the fault is that one's
 

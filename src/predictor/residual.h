@@ -1,6 +1,6 @@
 #pragma once
-// Residuals: what a pass should have by the passes beside it. Near the border of a part, of an island or of a step in
-// the outline there are few passes on one side, or none.
+// Residuals: the value that a pass should have, judged by the passes beside it. Near the border of a part, of an island or
+// of a step in the outline, one side has few passes or none.
 
 #include <span>
 

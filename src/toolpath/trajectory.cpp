@@ -321,4 +321,20 @@ void note_rotary(const Log& log, Role role, Diagnostics& diagnostics) {
          "give the kinematics with --machine FILE"});
 }
 
+Box3 box_of(const Trajectory& path) {
+    std::vector<Box3> boxes(static_cast<std::size_t>((path.count + block_points - 1) / block_points));
+    for_each_block(path.count, [&](PointIndex first, PointIndex last) {
+        std::vector<double> x(static_cast<std::size_t>(last - first)), y(x.size()), z(x.size());
+        path.read(first, x, y, z);
+        Box3& box = boxes[static_cast<std::size_t>(first / block_points)];
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            const Vec3 p(x[i], y[i], z[i]);
+            if (p.allFinite()) box.extend(p);
+        }
+    });
+    Box3 all;
+    for (const Box3& box : boxes) all.extend(box);
+    return all;
+}
+
 }  // namespace clsurf

@@ -46,6 +46,9 @@ struct Trajectory {
 [[nodiscard]] Trajectory reconstruct(const Log& log, Role role, const Eigen::Isometry3d& pose,
                                      std::shared_ptr<const Kinematics> kinematics = nullptr);
 
+/// The box of all finite positions [mm]. O(points), parallel.
+[[nodiscard]] Box3 box_of(const Trajectory& path);
+
 /// In place of the tips of a ball of that radius [mm] those that it would have with its axis along z and the same
 /// centre: tip + radius (axis − z). The ball cuts the same, and what knows upright tools knows it. `like`
 /// has kinematics. O(points), parallel.
