@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/block.h"
+#include "core/point_ranges.h"
 #include "viz/defect_marks.h"
 #include "viz/map_axes.h"
 #include "viz/map_margin.h"
@@ -68,12 +69,7 @@ Beyond paint(Detail& detail, const ColourScale& scale, double per_inside, const 
 /// 1 at vertices in one of the ranges, which rise.
 Column<float> paleness_of(const Column<PointIndex>& points, const std::vector<PointRange>& ranges) {
     Column<float> pale(points.size());
-    for (std::size_t v = 0; v < points.size(); ++v) {
-        const auto after =
-            std::upper_bound(ranges.begin(), ranges.end(), points[v],
-                             [](PointIndex point, const PointRange& range) { return point < range.first; });
-        pale[v] = after != ranges.begin() && points[v] <= std::prev(after)->last ? 1.0F : 0.0F;
-    }
+    for (std::size_t v = 0; v < points.size(); ++v) pale[v] = any_has(ranges, points[v]) ? 1.0F : 0.0F;
     return pale;
 }
 

@@ -76,14 +76,13 @@ AdjacentBoundaries::Places AdjacentBoundaries::around(PointIndex point) const {
     const Eigen::Vector3f feed = feed_at(surface.positions, point);
     Places places;
     for (const Side side : sides) {
-        PathLocation before{point, 0}, at = beside(surface, before, feed, side);
-        for (int k = 0; k < passes_on_a_side && at.exists(); ++k) {
-            ++places.passes;
+        int passes = 0;
+        const auto here = [&](const PathLocation&) { return feed; };
+        walk_aside(surface, {point, 0}, side, here, [&](const PathLocation& at, const PathLocation&) {
             if (const double offset = offset_from(at, feed); std::isfinite(offset)) places.offsets.push_back(offset);
-            const PathLocation next = beyond(surface, before, at, feed);
-            before = at;
-            at = next;
-        }
+            return ++passes < passes_on_a_side;
+        });
+        places.passes += passes;
     }
     return places;
 }

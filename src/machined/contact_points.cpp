@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/not_finite.h"
+#include "core/point_ranges.h"
 #include "log/quantum.h"
 #include "machined/contact.h"
 
@@ -82,11 +83,7 @@ Vec3 ContactPoints::normal(PointIndex point) const {
 }
 
 const Pass* ContactPoints::pass_of(PointIndex point) const {
-    const auto after = std::upper_bound(surface_.passes.begin(), surface_.passes.end(), point,
-                                        [](PointIndex i, const Pass& pass) { return i < pass.first; });
-    if (after == surface_.passes.begin()) return nullptr;
-    const Pass& pass = *std::prev(after);
-    return point <= pass.last ? &pass : nullptr;
+    return any_has(surface_.passes, point) ? &*range_at(surface_.passes, point) : nullptr;
 }
 
 /// The first point that lies `distance` [mm] along the path from another, < 0 before it, or the last one within a range.

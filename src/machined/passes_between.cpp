@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "core/point_ranges.h"
+
 namespace clsurf {
 namespace {
 
@@ -92,9 +94,7 @@ PassesBetween::PassesBetween(const ClSurface& surface, const Signals& signals, c
 void PassesBetween::smooth_into(PointRange points, std::vector<Eigen::Vector3f>& smoothed) const {
     const Positions& p = surface_.positions;
     smoothed.reserve(static_cast<std::size_t>(points.size()));
-    auto piece = std::upper_bound(pieces_.begin(), pieces_.end(), points.first,
-                                  [](PointIndex i, const PointRange& range) { return i < range.first; });
-    if (piece != pieces_.begin()) --piece;
+    auto piece = range_at(pieces_, points.first);
     std::vector<double> samples, values[3];
     for (PointIndex first = points.first; first <= points.last;) {
         while (piece != pieces_.end() && piece->last < first) ++piece;
@@ -124,13 +124,11 @@ void PassesBetween::smooth_into(PointRange points, std::vector<Eigen::Vector3f>&
 Vec3 PassesBetween::smooth(PointIndex point) const {
     const Positions& p = surface_.positions;
     if (smoother_ == nullptr) return p.absolute(point) - marks_.at(point);
-    const auto run =
-        std::upper_bound(runs_.begin(), runs_.end(), point, [](PointIndex i, const Run& r) { return i < r.first; });
-    if (run != runs_.begin()) {
-        const Run& r = *std::prev(run);
-        const PointIndex off = point - r.first;
-        if (off < static_cast<PointIndex>(r.at.size()))
-            return r.at[static_cast<std::size_t>(off)].cast<double>() + p.origin;
+    const auto run = range_at(runs_, point);
+    if (run != runs_.end() && run->first <= point) {
+        const PointIndex off = point - run->first;
+        if (off < static_cast<PointIndex>(run->at.size()))
+            return run->at[static_cast<std::size_t>(off)].cast<double>() + p.origin;
     }
     std::vector<Eigen::Vector3f> one;
     smooth_into({point, point}, one);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/block.h"
+#include "core/point_ranges.h"
 #include "machined/contact.h"
 #include "machined/cutter_touch.h"
 
@@ -119,11 +120,7 @@ private:
         return {pieces_[tip.piece].first, pieces_[tip.piece].last};
     }
 
-    [[nodiscard]] PointIndex first_point_of_piece(PointIndex point) const {
-        return std::prev(std::upper_bound(pieces_.begin(), pieces_.end(), point,
-                                          [](PointIndex i, const Pass& pass) { return i < pass.first; }))
-            ->first;
-    }
+    [[nodiscard]] PointIndex first_point_of_piece(PointIndex point) const { return range_at(pieces_, point)->first; }
 
     /// The longer of the two steps beside the point whose cutter is nearest [mm].
     [[nodiscard]] double most_between_points(const NearestTip& tip) const {
@@ -222,10 +219,7 @@ private:
     [[nodiscard]] std::vector<NearestTip> nearest_tips_between(PointIndex first, PointIndex end) const {
         std::vector<NearestTip> tips;
         std::vector<double> axes[3], turned[3];
-        auto piece = std::upper_bound(pieces_.begin(), pieces_.end(), first,
-                                      [](PointIndex i, const Pass& pass) { return i < pass.first; });
-        if (piece != pieces_.begin()) --piece;
-        for (; piece != pieces_.end() && piece->first < end; ++piece) {
+        for (auto piece = range_at(pieces_, first); piece != pieces_.end() && piece->first < end; ++piece) {
             const PointIndex from = std::max(first, piece->first);
             const PointIndex to = std::min(end - 1, piece->last);
             if (from > to || !is_asked(*piece)) continue;

@@ -17,14 +17,12 @@ constexpr std::size_t passes_beside_a_fault = 3;  ///< on both sides, where one 
 /// The points beside a place on the passes of one side, the adjacent one first.
 std::vector<PointIndex> points_aside(const DefectSurroundings& around, PointIndex point, Side side) {
     std::vector<PointIndex> points;
-    PathLocation before{point, 0};
-    PathLocation at = beside(around.surface, before, around.signals.feed(point), side);
-    while (at.exists() && points.size() < passes_that_tell_lag && around.signals[at.nearest()].zone != Zone::outside) {
+    const auto feed = [&](const PathLocation& at) { return around.signals.feed(at.nearest()); };
+    walk_aside(around.surface, {point, 0}, side, feed, [&](const PathLocation& at, const PathLocation&) {
+        if (around.signals[at.nearest()].zone == Zone::outside) return false;
         points.push_back(at.nearest());
-        const PathLocation next = beyond(around.surface, before, at, around.signals.feed(at.nearest()));
-        before = at;
-        at = next;
-    }
+        return points.size() < passes_that_tell_lag;
+    });
     return points;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/block.h"
 #include "core/block_portions.h"
+#include "core/point_ranges.h"
 #include "predictor/bend.h"
 #include "predictor/oblique_alignment.h"
 #include "predictor/sites.h"
@@ -86,12 +87,6 @@ std::size_t lower_bound_near(const std::vector<PointIndex>& points, std::size_t 
 }
 
 }  // namespace
-
-std::size_t pass_of(const Passes& passes, PointIndex point) {
-    const auto after = std::upper_bound(passes.begin(), passes.end(), point,
-                                        [](PointIndex p, const Pass& pass) { return p < pass.first; });
-    return static_cast<std::size_t>(after - passes.begin()) - 1;
-}
 
 ComparedPoints count_compared(const ClSurface& surface, const Signals& signals, const PointRange& points) {
     std::vector<ComparedPoints> of_block(static_cast<std::size_t>((points.last + block_points) / block_points));
@@ -198,12 +193,10 @@ private:
     /// [mm] to the nearer end of what is judged of the pass there.
     [[nodiscard]] double arc_length_to_end(PointIndex point) const {
         const std::vector<PointRange>& pieces = signals_.pieces;
-        const auto after = std::upper_bound(pieces.begin(), pieces.end(), point,
-                                            [](PointIndex p, const PointRange& r) { return p < r.first; });
-        if (after == pieces.begin()) return 0;
-        const PointRange& piece = *(after - 1);
+        const auto piece = range_at(pieces, point);
+        if (piece == pieces.end() || piece->first > point) return 0;
         const double here = arc_length_.to(point);
-        return std::min(here - arc_length_.to(piece.first), arc_length_.to(piece.last) - here);
+        return std::min(here - arc_length_.to(piece->first), arc_length_.to(piece->last) - here);
     }
 
     /// Compares where passes begin or end. Beside one that goes on, and where there is no pass on one side, a

@@ -25,9 +25,6 @@ struct DefectCandidate {
     [[nodiscard]] bool expected(Quantity q) const { return border || bends(q); }
 };
 
-/// The pass that holds a point. O(log passes).
-[[nodiscard]] std::size_t pass_of(const Passes& passes, PointIndex point);
-
 /// Those among `points` that can be judged. O(points).
 [[nodiscard]] ComparedPoints count_compared(const ClSurface& surface, const Signals& signals, const PointRange& points);
 

@@ -42,13 +42,11 @@ PointRange with_room(const PointRange& section, const ClSurface& surface, double
 std::vector<PathLocation> places_beside(const ClSurface& surface, const Signals& signals, PointIndex i, Side side,
                                         int most) {
     std::vector<PathLocation> places;
-    PathLocation before{i, 0};
-    PathLocation at = beside(surface, before, signals.feed(i), side);
-    while (at.exists() && static_cast<int>(places.size()) < most) {
+    const auto feed = [&](const PathLocation& at) { return signals.feed(at.nearest()); };
+    walk_aside(surface, {i, 0}, side, feed, [&](const PathLocation& at, const PathLocation&) {
         places.push_back(at);
-        const PathLocation next = beyond(surface, before, at, signals.feed(at.nearest()));
-        before = std::exchange(at, next);
-    }
+        return static_cast<int>(places.size()) < most;
+    });
     return places;
 }
 

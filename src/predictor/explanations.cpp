@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/point_ranges.h"
+
 namespace clsurf {
 
 void Explanations::add(const std::vector<DefectRun>& runs, PointIndex room) {
@@ -20,9 +22,8 @@ void Explanations::sort() {
 bool Explanations::explain(std::span<const DefectCandidate* const> sites) {
     sort();
     const auto inside = [&](const DefectCandidate* s) {
-        const auto after = std::upper_bound(sections_.begin(), sections_.end(), s->point,
-                                            [](PointIndex p, const Section& section) { return p < section.first; });
-        return after != sections_.begin() && (after - 1)->farthest >= s->point;
+        const auto section = range_at(sections_, s->point);
+        return section != sections_.end() && section->first <= s->point && s->point <= section->farthest;
     };
     return 2 * std::count_if(sites.begin(), sites.end(), inside) >= static_cast<std::ptrdiff_t>(sites.size());
 }

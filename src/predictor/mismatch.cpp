@@ -11,6 +11,7 @@
 #include "core/block.h"
 #include "core/not_finite.h"
 #include "core/statistics.h"
+#include "predictor/judged_beside.h"
 #include "predictor/oblique_alignment.h"
 #include "predictor/residual.h"
 
@@ -18,10 +19,9 @@ namespace clsurf {
 namespace {
 
 constexpr std::size_t sampled_points = 50'000;
-constexpr float along_or_against = 0.866F;  ///< cos 30°: neighbours run along with the feed or against it
-constexpr float round_a_corner = 0.5F;      ///< cos 60°: straight across a corner they have turned more than that
-constexpr float slack_step_overs = 0.5F;    ///< along the feed between the ends of passes that end side by side
-constexpr float clear_of_scatter = 3;       ///< of the motions of the passes around a place near a border
+constexpr float round_a_corner = 0.5F;    ///< cos 60°: straight across a corner they have turned more than that
+constexpr float slack_step_overs = 0.5F;  ///< along the feed between the ends of passes that end side by side
+constexpr float clear_of_scatter = 3;     ///< of the motions of the passes around a place near a border
 
 /// What is compared, where there is nothing.
 Compared no_pass() {
@@ -188,33 +188,15 @@ float fill_residuals(const Compared& mine, const PassesBeside& others, float lea
 
 }  // namespace
 
-template <typename F>
-PathLocation Comparer::for_each_beside(const PathLocation& from, Side side, int aside, float least_cosine,
-                                       F&& f) const {
-    PathLocation before = from;
-    PathLocation at = beside(surface_, before, signals_.feed(before.nearest()), side);
-    const PathLocation adjacent = at;
-    for (int passes = 1; passes <= aside && at.exists(); ++passes) {
-        const Eigen::Vector3f feed = signals_.feed(at.nearest());
-        const bool runs_along = std::abs(feed.dot(signals_.feed(before.nearest()))) > least_cosine;
-        if (signals_[at.nearest()].zone == Zone::outside || !runs_along) break;
-        f(at, passes);
-        if (passes == aside) break;
-        const PathLocation next = beyond(surface_, before, at, feed);
-        before = at;
-        at = next;
-    }
-    return adjacent;
-}
-
 void Comparer::compare_obliquely_around(const PathLocation& here, Comparison& comparison) const {
     constexpr int aside = 3;
     std::array<Beside, 2 * aside> places;
     std::size_t count = 0;
     for (const Side side : {Side::left, Side::right}) {
-        (void)for_each_beside(here, side, aside, round_a_corner, [&](const PathLocation& at, int passes) {
-            places[count++] = {at, side == Side::left ? passes : -passes};
-        });
+        for_each_judged_beside(surface_, signals_, here, side, aside, round_a_corner,
+                               [&](const PathLocation& at, int passes) {
+                                   places[count++] = {at, side == Side::left ? passes : -passes};
+                               });
     }
     const std::optional<ObliqueComparison> oblique =
         compare_obliquely(surface_, signals_, here, std::span(places).first(count));
@@ -262,11 +244,13 @@ Comparison Comparer::compare_at_end(const PathLocation& here) const {
     // What the others do not, it does by itself.
     std::array<float, quantities> others{};
     for (const Side side : {Side::left, Side::right}) {
-        (void)for_each_beside(here, side, passes_aside, along_or_against, [&](const PathLocation& at, int) {
-            if (runs_against(signals_, point, at)) return;
-            const std::array<float, quantities> there = change_nearby(at.nearest(), reference);
-            for (std::size_t q = 0; q < quantities; ++q) others[q] = std::max(others[q], there[q]);
-        });
+        for_each_judged_beside(surface_, signals_, here, side, passes_aside, along_or_against,
+                               [&](const PathLocation& at, int) {
+                                   if (runs_against(signals_, point, at)) return;
+                                   const std::array<float, quantities> there = change_nearby(at.nearest(), reference);
+                                   for (std::size_t q = 0; q < quantities; ++q)
+                                       others[q] = std::max(others[q], there[q]);
+                               });
     }
     for (std::size_t q = 0; q < quantities; ++q) result.slack[q] = std::min(result.slack[q], others[q]);
     return result;
@@ -288,13 +272,14 @@ Comparison Comparer::compare_with(Peers peers, const PathLocation& here, int asi
         bool against = false;  // as in a zigzag: the next pass with this direction is the second one
         count[s] = 0;
         PathLocation& adjacent_place = side == Side::left ? result.beside_left : result.beside_right;
-        adjacent_place = for_each_beside(here, side, most, along_or_against, [&](const PathLocation& at, int passes) {
-            if (passes == 1) against = runs_against(signals_, point, at);
-            if ((passes == 1 || (passes == 2 && against)) && signals_[at.nearest()].zone == Zone::ramp)
-                result.ramp = true;
-            if (peers == Peers::same_direction && runs_against(signals_, point, at)) return;
-            others.of[s][static_cast<std::size_t>(count[s]++)] = compared_at(signals_, at, normal);
-        });
+        adjacent_place = for_each_judged_beside(
+            surface_, signals_, here, side, most, along_or_against, [&](const PathLocation& at, int passes) {
+                if (passes == 1) against = runs_against(signals_, point, at);
+                if ((passes == 1 || (passes == 2 && against)) && signals_[at.nearest()].zone == Zone::ramp)
+                    result.ramp = true;
+                if (peers == Peers::same_direction && runs_against(signals_, point, at)) return;
+                others.of[s][static_cast<std::size_t>(count[s]++)] = compared_at(signals_, at, normal);
+            });
     };
     constexpr std::array sides{Side::left, Side::right};
     for (const Side side : sides) collect(side, aside);

@@ -60,11 +60,6 @@ private:
     /// How much each quantity changes along the pass within half a step-over; speeds over `reference`.
     [[nodiscard]] std::array<float, quantities> change_nearby(PointIndex point, float reference) const;
 
-    /// f(location, passes away: from 1) for the passes on one side, at most `aside`, as long as each turns
-    /// by less than the angle of that cosine from the one before. Returns the place on the adjacent pass.
-    template <typename F>
-    PathLocation for_each_beside(const PathLocation& from, Side side, int aside, float least_cosine, F&& f) const;
-
     const ClSurface& surface_;
     const Signals& signals_;
     float least_speed_;

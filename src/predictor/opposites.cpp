@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/point_ranges.h"
 #include "predictor/defect_core.h"
 
 namespace clsurf {
@@ -97,12 +98,7 @@ private:
         for (const SignedRun& run : runs_) {
             if (run.above != above) others.push_back({core_[run.first]->point, core_[run.end - 1]->point});
         }
-        const auto touches = [&](const PathLocation& at) {
-            if (!at.exists()) return false;
-            const auto after = std::upper_bound(others.begin(), others.end(), at.nearest(),
-                                                [](PointIndex p, const PointRange& r) { return p < r.first; });
-            return after != others.begin() && (after - 1)->last >= at.nearest();
-        };
+        const auto touches = [&](const PathLocation& at) { return at.exists() && any_has(others, at.nearest()); };
         return std::all_of(runs_.begin(), runs_.end(), [&](const SignedRun& run) {
             if (run.above != above) return true;
             const Comparison& c = core_[run.strongest]->comparison;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/point_ranges.h"
 #include "predictor/candidates.h"
 
 namespace clsurf {
@@ -27,11 +28,7 @@ public:
 
     [[nodiscard]] const std::vector<PointRange>& ranges() const { return ranges_; }
 
-    [[nodiscard]] bool holds(PointIndex i) const {
-        const auto after = std::upper_bound(ranges_.begin(), ranges_.end(), i,
-                                            [](PointIndex p, const PointRange& r) { return p < r.first; });
-        return after != ranges_.begin() && i <= (after - 1)->last;
-    }
+    [[nodiscard]] bool holds(PointIndex i) const { return any_has(ranges_, i); }
 
     /// Points of a range, evenly spaced along it, the first and the last one among them.
     [[nodiscard]] std::vector<PointIndex> samples(const PointRange& range) const {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/point_ranges.h"
 #include "predictor/candidates.h"
 #include "surface/path_location.h"
 
@@ -73,28 +74,22 @@ public:
     }
 
 private:
-    [[nodiscard]] bool is_at_fault(PointIndex point) const {
-        const auto range = std::lower_bound(at_fault_.begin(), at_fault_.end(), point,
-                                            [](const PointRange& r, PointIndex i) { return r.last < i; });
-        return range != at_fault_.end() && range->first <= point;
-    }
+    [[nodiscard]] bool is_at_fault(PointIndex point) const { return any_has(at_fault_, point); }
 
     /// Places on the nearest passes of one side that have no mark there, the nearest pass first.
     [[nodiscard]] std::vector<Eigen::Vector3f> clean_places(PointIndex point, const Eigen::Vector3f& feed,
                                                             Side side) const {
         std::vector<Eigen::Vector3f> places;
-        PathLocation before{point, 0};
-        PathLocation at = beside(surface_, before, feed, side);
-        for (int passes = 0; passes < farthest_pass && at.exists() && places.size() < clean_aside; ++passes) {
-            if (signals_[at.nearest()].zone == Zone::outside) break;
+        int passes = 0;
+        const auto here = [&](const PathLocation&) { return feed; };
+        walk_aside(surface_, {point, 0}, side, here, [&](const PathLocation& at, const PathLocation&) {
+            if (signals_[at.nearest()].zone == Zone::outside) return false;
             if (!is_at_fault(at.nearest()))
                 places.push_back(position_at(surface_.positions, at));
             else if (!places.empty())
-                break;
-            const PathLocation next = beyond(surface_, before, at, feed);
-            before = at;
-            at = next;
-        }
+                return false;
+            return ++passes < farthest_pass && places.size() < clean_aside;
+        });
         return places;
     }
 

@@ -11,6 +11,7 @@
 
 #include "core/block.h"
 #include "core/not_finite.h"
+#include "core/point_ranges.h"
 #include "core/statistics.h"
 #include "log/health.h"
 #include "log/placeholder.h"
@@ -114,10 +115,7 @@ private:
 /// f(piece, first, last) for the sections of pieces inside a block, last inclusive.
 template <typename F>
 void for_each_piece(const std::vector<PointRange>& pieces, PointIndex begin, PointIndex end, F&& f) {
-    auto piece = std::upper_bound(pieces.begin(), pieces.end(), begin,
-                                  [](PointIndex p, const PointRange& r) { return p < r.first; });
-    if (piece != pieces.begin()) --piece;
-    for (; piece != pieces.end() && piece->first < end; ++piece) {
+    for (auto piece = range_at(pieces, begin); piece != pieces.end() && piece->first < end; ++piece) {
         const PointIndex first = std::max(begin, piece->first);
         const PointIndex last = std::min(end - 1, piece->last);
         if (first <= last) f(*piece, first, last);

@@ -9,13 +9,13 @@
 #include "core/block_portions.h"
 #include "core/not_finite.h"
 #include "core/parallel.h"
+#include "predictor/judged_beside.h"
 #include "predictor/median_of.h"
 
 namespace clsurf {
 namespace {
 
 constexpr int lag_passes_aside = 8;     ///< looked at on each side: a fault on every second pass must be wider to count
-constexpr float same_line = 0.866F;     ///< cos 30°: neighbours run along with the feed or against it
 constexpr float one_sided_bend = 1.5F;  ///< as far again to the place as from ring to ring of the passes on one side
 constexpr float alternates = 0.5F;      ///< of the threshold
 constexpr std::size_t fewest_of_a_kind = 2;  ///< passes of each direction, for a median
@@ -43,13 +43,14 @@ public:
         float slack_of_others = 0;
         for (const Side side : {Side::left, Side::right}) {
             Directions& mine = sides[static_cast<std::size_t>(side)];
-            walk(here, side, [&](const PathLocation& at) {
+            const auto read = [&](const PathLocation& at, int) {
                 const float lag = compared_at(signals_, at, normal).lag;
                 if (!(lag == lag)) return;
                 const bool against = signals_.feed(at.nearest()).dot(signals_.feed(point)) < 0;
                 (against ? mine.other : mine.own).add(lag);
                 if (!against) slack_of_others = std::max(slack_of_others, change_nearby(at.nearest()));
-            });
+            };
+            for_each_judged_beside(surface_, signals_, here, side, lag_passes_aside, along_or_against, read);
         }
         const float lag = compared_at(signals_, here, normal).lag;
         const float usual = balanced_median(sides[0].own, sides[1].own);
@@ -104,22 +105,6 @@ private:
         const bool one_sided = left.count == 0 || right.count == 0;
         const float bend = std::abs(ring(0, near) - ring(near, 2 * near)) * (one_sided ? one_sided_bend : 1);
         return bend == bend ? bend : 0;
-    }
-
-    template <typename F>
-    void walk(const PathLocation& from, Side side, F&& f) const {
-        PathLocation before = from;
-        PathLocation at = beside(surface_, before, signals_.feed(before.nearest()), side);
-        for (int passes = 1; at.exists(); ++passes) {
-            const Eigen::Vector3f feed = signals_.feed(at.nearest());
-            const bool in_line = std::abs(feed.dot(signals_.feed(before.nearest()))) > same_line;
-            if (signals_[at.nearest()].zone == Zone::outside || !in_line) return;
-            f(at);
-            if (passes == lag_passes_aside) return;
-            const PathLocation next = beyond(surface_, before, at, feed);
-            before = at;
-            at = next;
-        }
     }
 
     /// How much the lag changes along its pass within `shift_step_overs`.

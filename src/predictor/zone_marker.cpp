@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/point_ranges.h"
+
 namespace clsurf {
 namespace {
 
@@ -25,18 +27,13 @@ ZoneMarker::ZoneMarker(const Passes& passes, const std::vector<PointRange>& piec
       samples_(samples) {}
 
 void ZoneMarker::mark(const PointRange& points) const {
-    const auto behind = [](PointIndex p, const auto& range) { return p < range.first; };
-    auto pass = std::upper_bound(passes_.begin(), passes_.end(), points.first, behind);
-    if (pass != passes_.begin()) --pass;
-    for (; pass != passes_.end() && pass->first <= points.last; ++pass) {
+    for (auto pass = range_at(passes_, points.first); pass != passes_.end() && pass->first <= points.last; ++pass) {
         const Zone zone = pass->kind == PassKind::cut ? Zone::inner : Zone::outside;
         for (PointIndex i = std::max(points.first, pass->first); i <= std::min(points.last, pass->last); ++i)
             samples_[i].zone = zone;
     }
     const double reach = reach_ + sum_rounding;
-    auto piece = std::upper_bound(pieces_.begin(), pieces_.end(), points.first, behind);
-    if (piece != pieces_.begin()) --piece;
-    for (; piece != pieces_.end() && piece->first <= points.last; ++piece) {
+    for (auto piece = range_at(pieces_, points.first); piece != pieces_.end() && piece->first <= points.last; ++piece) {
         if (piece->last < points.first) continue;
         if (piece->first >= points.first || !arc_length_.at_least(piece->first, points.first, reach))
             mark_end(piece->first, piece->size(), end_zone_of(*piece), +1, points);

@@ -51,12 +51,6 @@ struct Beside {
     std::unordered_map<std::size_t, PointIndex> of_pass;  ///< neighbours by pass
 };
 
-std::size_t pass_at(const Passes& passes, PointIndex point) {
-    const auto after = std::upper_bound(passes.begin(), passes.end(), point,
-                                        [](PointIndex i, const Pass& pass) { return i < pass.first; });
-    return static_cast<std::size_t>(after - passes.begin()) - 1;
-}
-
 /// The height changes all along the pass, as on a helix, and not in one place, where a level is left for the next.
 bool climbs_all_along(const Positions& positions, const Pass& pass) {
     if (pass.size() <= turn_parts) return false;
@@ -83,7 +77,7 @@ Beside look_beside(const ClSurface& surface, const Pass& pass) {
     const auto count = [&](Counter& counter, PointIndex neighbour) {
         if (neighbour < counter.range.first || neighbour > counter.range.last) {
             if (counter.points > 0) found.of_pass[counter.pass] += counter.points;
-            const std::size_t other = pass_at(surface.passes, neighbour);
+            const std::size_t other = pass_of(surface.passes, neighbour);
             counter = {{surface.passes[other].first, surface.passes[other].last}, other, 0};
         }
         ++counter.points;

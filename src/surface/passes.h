@@ -13,6 +13,7 @@
 
 #include "core/column.h"
 #include "core/point.h"
+#include "core/point_ranges.h"
 #include "mapping/line_map.h"
 #include "toolpath/arc_length.h"
 #include "toolpath/positions.h"
@@ -37,6 +38,11 @@ using Passes = Column<Pass>;
 
 /// Appends a piece, unless it is empty; joins it with the one before when it is of the same kind.
 void append_pass(Passes& passes, Pass piece);
+
+/// The number of the piece that has a point. O(log passes).
+[[nodiscard]] inline std::size_t pass_of(const Passes& passes, PointIndex point) {
+    return static_cast<std::size_t>(range_at(passes, point) - passes.begin());
+}
 
 /// How many points cut. O(passes).
 [[nodiscard]] inline PointIndex cutting_points(std::span<const Pass> passes) {

@@ -5,6 +5,7 @@
 // 0.3 mm/s.
 
 #include <cmath>
+#include <utility>
 
 #include "surface/cl_surface.h"
 
@@ -39,5 +40,20 @@ template <typename T>
 /// feed, which turns round on every other pass of a zigzag.
 [[nodiscard]] PathLocation beyond(const ClSurface& surface, const PathLocation& before, const PathLocation& from,
                                   const Eigen::Vector3f& feed);
+
+/// f(at, before) for the places on the passes on one side of `from`, the adjacent pass first, as long as f returns true.
+/// `before`: the place on the pass before. `feed`(place): the direction of travel there. Returns the place on the adjacent
+/// pass.
+template <typename FeedAt, typename F>
+PathLocation walk_aside(const ClSurface& surface, const PathLocation& from, Side side, FeedAt&& feed, F&& f) {
+    PathLocation before = from;
+    const PathLocation adjacent = beside(surface, from, feed(from), side);
+    PathLocation at = adjacent;
+    while (at.exists() && f(at, before)) {
+        const PathLocation next = beyond(surface, before, at, feed(at));
+        before = std::exchange(at, next);
+    }
+    return adjacent;
+}
 
 }  // namespace clsurf

@@ -4,6 +4,8 @@
 #include <limits>
 #include <set>
 
+#include "core/point_ranges.h"
+
 namespace clsurf {
 namespace {
 
@@ -14,12 +16,6 @@ constexpr int passes_aside = 4;
 
 using PassNumbers = std::set<std::size_t>;
 
-std::size_t number_of(const Passes& passes, PointIndex point) {
-    const auto after = std::upper_bound(passes.begin(), passes.end(), point,
-                                        [](PointIndex i, const Pass& pass) { return i < pass.first; });
-    return static_cast<std::size_t>(after - passes.begin()) - 1;
-}
-
 /// Adds the passes beside a pass. Neighbours stay on one pass for long.
 void add_beside(const ClSurface& surface, const Pass& pass, PassNumbers& found) {
     for (const Side side : {Side::left, Side::right}) {
@@ -28,7 +24,7 @@ void add_beside(const ClSurface& surface, const Pass& pass, PassNumbers& found) 
             if (!surface.neighbours.has(side, i)) continue;
             const PointIndex n = surface.neighbours.neighbour(side, i);
             if (n >= known.first && n <= known.last) continue;
-            const std::size_t number = number_of(surface.passes, n);
+            const std::size_t number = pass_of(surface.passes, n);
             known = {surface.passes[number].first, surface.passes[number].last};
             found.insert(number);
         }
@@ -36,7 +32,7 @@ void add_beside(const ClSurface& surface, const Pass& pass, PassNumbers& found) 
 }
 
 PassNumbers passes_of(const ClSurface& surface, const PointRange& own) {
-    const std::size_t first = number_of(surface.passes, own.first), last = number_of(surface.passes, own.last);
+    const std::size_t first = pass_of(surface.passes, own.first), last = pass_of(surface.passes, own.last);
     PassNumbers all;
     const std::size_t end = std::min(surface.passes.size() - 1, last + passes_along);
     for (std::size_t k = first - std::min(first, passes_along); k <= end; ++k) all.insert(k);
@@ -110,10 +106,9 @@ private:
 
     /// −1: it is not in the part.
     [[nodiscard]] PointIndex place_of(PointIndex point) const {
-        const auto after = std::upper_bound(part_.ranges.begin(), part_.ranges.end(), point,
-                                            [](PointIndex i, const PointRange& range) { return i < range.first; });
-        if (after == part_.ranges.begin() || (after - 1)->last < point) return -1;
-        return begin_[static_cast<std::size_t>(after - part_.ranges.begin() - 1)] + point - (after - 1)->first;
+        if (!any_has(part_.ranges, point)) return -1;
+        const auto range = range_at(part_.ranges, point);
+        return begin_[static_cast<std::size_t>(range - part_.ranges.begin())] + point - range->first;
     }
 
     const ClSurface& whole_;
