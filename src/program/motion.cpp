@@ -41,4 +41,23 @@ void Motions::drop_front(std::int64_t count) {
     for (Curve& curve : curves) curve.motion -= count;
 }
 
+void Motions::truncate(std::int64_t count) {
+    const auto n = static_cast<std::size_t>(count);
+    const auto cut = [n](auto& column) {
+        if (!column.empty()) column.resize(n);
+    };
+    cut(kind);
+    cut(end);
+    cut(feed);
+    cut(line);
+    cut(rotary);
+    cut(tool_axis);
+    cut(file);
+    cut(call);
+    cut(frame);
+    for (std::int64_t& from : programmed_from) from = std::min(from, count);
+    while (!arcs.empty() && arcs.back().motion >= count) arcs.pop_back();
+    while (!curves.empty() && curves.back().motion >= count) curves.pop_back();
+}
+
 }  // namespace clsurf

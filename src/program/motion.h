@@ -91,6 +91,8 @@ struct Motions {
 
     /// Without the first motions; their calls stay. O(motions that stay).
     void drop_front(std::int64_t count);
+    /// Keeps the first motions only; all calls and frames stay. O(1), and O(log arcs).
+    void truncate(std::int64_t count);
 };
 
 }  // namespace clsurf

@@ -26,6 +26,17 @@ TEST(RefusedWords, SplinesOfOtherDialects) {
     expect_error("G0 X0 Y0\nINVCW X1\n", "siemens", "2:1: error: INVCW is not known in siemens", "involutes");
 }
 
+TEST(RefusedWords, DwellsThatNoLogHasRoomFor) {
+    expect_error("G0 X0 Y0\nG4 P1000000000\n", "linuxcnc", "2", "the longest is 86400 s");
+    expect_error("G0 X0 Y0 Z0\nG82 Z-1 R1 P1e9 F60\n", "linuxcnc", "2", "the longest is 86400 s");
+    EXPECT_EQ(motions(parse("G4 P86400\n", "linuxcnc")).size(), 1u);
+}
+
+TEST(RefusedWords, OperationsWithoutAResult) {
+    expect_error("G0 Y0\nG1 X[[0-2]**0.5] F60\n", "linuxcnc", "2", "is not defined");
+    expect_error("G0 Y0\nG1 X[10**400] F60\n", "linuxcnc", "2", "too large");
+}
+
 TEST(RefusedWords, UnknownCodesBesideAxes) {
     for (const char* dialect : {"fanuc", "siemens", "linuxcnc"})
         expect_error("G0 X0 Y0\nG999 X1\n", dialect, "2:1: error: G999 is not known in " + std::string(dialect),

@@ -143,6 +143,19 @@ TEST(LatheCycles, FinishInPassesBesideTheProfile) {
     EXPECT_EQ(Rows(all.end() - 4, all.end()), (Rows{"rapid 20 0 0", "feed 20 0 -5", "feed 24 0 -5", "feed 30 0 -10"}));
 }
 
+// The motions of the profile are taken away again, with their frames.
+TEST(LatheCycles, MotionsAfterACycleHaveTheirOwnFrame) {
+    const Program p =
+        parse(turned + "G54 G0 X50 Z6\nG55 G0 X40 Z6\nG71 Q100 X32 Z3 I4 R1\nG54 G0 X50 Z6\nG55 G0 X40\n", "linuxcnc");
+    const Motions& m = p.motions;
+    const std::int64_t last = m.size() - 1;
+    ASSERT_EQ(m.frame.size(), m.kind.size());
+    EXPECT_EQ(m.frame[static_cast<std::size_t>(last)], m.frame[2]) << "G55";
+    EXPECT_EQ(m.frame[static_cast<std::size_t>(last - 1)], m.frame[1]) << "G54";
+    EXPECT_EQ(m.frame[static_cast<std::size_t>(last - 2)], m.frame[2]) << "of the cycle";
+    EXPECT_NE(m.frame[1], m.frame[2]);
+}
+
 TEST(LatheCycles, SayWhatTheyDoNotCut) {
     const Program p =
         parse("G18 F60\no1 sub\nG0 X20 Z0\nG1 Z-5\nX18\nZ-10\nX30\no1 endsub\nG71 Q1 X32 Z2 I1\n", "linuxcnc");

@@ -190,6 +190,11 @@ TEST(SiemensCycles, PeckByDegression) {
                     "rapid 0 0 5"}));
 }
 
+TEST(SiemensCycles, AHoleThatTakesTooManyPecksIsRefused) {
+    EXPECT_NE(error_of("G0 X0 Y0 Z5 F60\nCYCLE83(5,0,1,-30,,,0.00001,0,0,0,1,0)\n", "siemens").find("too many pecks"),
+              std::string::npos);
+}
+
 TEST(SiemensCycles, FollowPatternsAndReportPockets) {
     EXPECT_EQ(rows("G0 X0 Y0 Z5 F60\nMCALL CYCLE81(5,0,1,-2)\nHOLES1(10,0,90,1,2,2)\nMCALL\n"),
               (Rows{"rapid 0 0 5", "rapid 10 1 5", "rapid 10 1 1", "feed 10 1 -2", "rapid 10 1 5", "rapid 10 3 5",

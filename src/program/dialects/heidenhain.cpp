@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/not_finite.h"
+#include "program/dialects/heidenhain_codes.h"
 #include "program/dialects/known_dialects.h"
 #include "program/interpret/interpreter_state.h"
 
@@ -20,6 +21,17 @@ namespace {
 constexpr std::uint32_t ijk = Words::bit('I') | Words::bit('J') | Words::bit('K');
 
 }  // namespace
+
+bool machine_position(Interpreter& in, int code, const Block&) {
+    in.this_block_.machine_coordinates = code == 91;
+    if (code == 92) in.note(Severity::warning, "program.unknown-word", "M92: the machine's second zero is not known");
+    return true;
+}
+
+bool tool_centre_point(Interpreter& in, int code, const Block&) {
+    in.control_tool_centre_point(code == 128, fmt::format("M{}", code));
+    return true;
+}
 
 /// G54, G28, G73, G72: each replaces its own earlier one; the one that was first stays outermost.
 void Interpreter::set_heidenhain_frame(std::size_t kind, const ProgramFrame& frame) {
@@ -339,15 +351,6 @@ bool cycle(Interpreter& in, const CodeWord& w) {
     return known && not_carried_out(in, w, "cycle");
 }
 
-bool machine_position(Interpreter& in, int code, const Block&) {
-    in.this_block_.machine_coordinates = code == 91;
-    if (code == 92) in.note(Severity::warning, "program.unknown-word", "M92: the machine's second zero is not known");
-    return true;
-}
-bool tool_centre_point(Interpreter& in, int code, const Block&) {
-    in.control_tool_centre_point(code == 128, fmt::format("M{}", code));
-    return true;
-}
 constexpr auto m_codes = std::to_array<MRule>(
     {{91, machine_position}, {92, machine_position}, {128, tool_centre_point}, {129, tool_centre_point}});
 

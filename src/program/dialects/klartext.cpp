@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "program/dialects/heidenhain_codes.h"
 #include "program/interpret/interpreter_state.h"
 
 namespace clsurf {
@@ -311,15 +312,6 @@ bool carry_out(Interpreter& in, const Statement& statement) {
             line.start + 1);
 }
 
-bool machine_position(Interpreter& in, int code, const Block&) {
-    in.this_block_.machine_coordinates = code == 91;
-    if (code == 92) in.note(Severity::warning, "program.unknown-word", "M92: the machine's second zero is not known");
-    return true;
-}
-bool tool_centre_point(Interpreter& in, int code, const Block&) {
-    in.control_tool_centre_point(code == 128, fmt::format("M{}", code));
-    return true;
-}
 bool cycle_after_block(Interpreter& in, int code, const Block&) {
     note_cycle(in, fmt::format("M{}", code), 0);
     return true;

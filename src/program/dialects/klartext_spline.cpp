@@ -74,7 +74,9 @@ SplineWords read_words(Line& line) {
         } else if (letter == 'F') {
             words.feed = line.value();
         } else if (letter == 'M') {
-            words.m.push_back(static_cast<int>(line.value()));
+            const double code = line.value();
+            if (!(code >= 0 && code < 1e4)) throw ReadError{"no such M function", column, {}};
+            words.m.push_back(static_cast<int>(code));
         } else if (is_letter(letter)) {
             --line.c.at;
             const std::size_t axis = axis_of(letter);

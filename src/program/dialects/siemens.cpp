@@ -120,14 +120,6 @@ bool count_lengths_in_mm(Interpreter& in, const CodeWord&) {
     in.state_.unit_mm = 1;
     return true;
 }
-bool count_in_inches(Interpreter& in, const CodeWord&) {
-    in.state_.count_in(mm_per_inch);
-    return true;
-}
-bool count_in_mm(Interpreter& in, const CodeWord&) {
-    in.state_.count_in(1);
-    return true;
-}
 bool count_in_machine(Interpreter& in, const CodeWord&) {
     in.this_block_.machine_coordinates = true;
     return true;

@@ -18,6 +18,7 @@ constexpr double lead_share = 50;  ///< deeper: depth / 50, at most 7 mm
 constexpr double most_lead_mm = 7;
 constexpr int most_holes = 100'000;
 constexpr std::size_t most_drill_pecks = 1'000'000;
+constexpr double whole_depth = 1e-9;  ///< [mm] above the bottom, at most
 
 /// Places of a cycle's parameters.
 constexpr std::size_t rtp = 0, rfp = 1, sdis = 2, dp = 3, dpr = 4, dtb = 5;
@@ -42,7 +43,7 @@ std::vector<double> strokes(double whole, double first, double damp) {
     std::vector<double> depths;  // of each stroke's end
     double left = whole;
     double step = std::min(first, whole);
-    while (left > 1e-9 && depths.size() < most_drill_pecks) {
+    while (left > whole_depth && depths.size() < most_drill_pecks) {
         if (damp > 0 && !depths.empty()) {
             step = step - damp > damp ? step - damp : damp;
             if (step == damp && left > damp && left <= 2 * damp) step = left / 2;
@@ -107,14 +108,17 @@ void Interpreter::drill_siemens(const std::string& name, const std::vector<doubl
                                                           : reference - first_absolute * unit;
         if (!(first > 0)) fail("CYCLE83: the first depth (FDEP, FDPR) lies above the reference plane");
         const double damp = value(7, 0) < 0 ? value(7, 0) : value(7, 0) * unit;
-        peck_siemens(reference, r, strokes(whole, first, damp), value(11, 0) == 0, seconds(value(9, 0)), rotary);
+        const std::vector<double> depths = strokes(whole, first, damp);
+        if (depths.size() == most_drill_pecks && whole - depths.back() > whole_depth)
+            fail("CYCLE83: too many pecks: FDEP, FDPR or DAM is too small");
+        peck_siemens(reference, r, depths, value(11, 0) == 0, seconds(value(9, 0)), rotary);
         go_to_level(MotionKind::rapid, clear, rotary);
         return;
     }
     const bool feeds_out = name == "CYCLE84" || name == "CYCLE840" || name == "CYCLE85" || name == "CYCLE89";
     if (name == "CYCLE85" && value(6, 0) > 0) state_.feed = value(6, 0);
     go_to_level(MotionKind::feed, bottom, rotary);
-    if (cycle_.p > 0) push(MotionKind::dwell, state_.position, state_.rotary, static_cast<float>(cycle_.p));
+    if (cycle_.p > 0) dwell(cycle_.p);
     if (name == "CYCLE85" && value(7, 0) > 0) state_.feed = value(7, 0);
     if (name == "CYCLE86") {
         Vec3 aside = Vec3::Zero();
@@ -139,14 +143,14 @@ void Interpreter::peck_siemens(double reference, double r, const std::vector<dou
     const double lead = whole <= shallow_mm ? shallow_lead_mm : std::min(whole / lead_share, most_lead_mm);
     for (std::size_t k = 0; k < depths.size(); ++k) {
         go_to_level(MotionKind::feed, reference - depths[k], rotary);
-        if (cycle_.p > 0) push(MotionKind::dwell, state_.position, state_.rotary, static_cast<float>(cycle_.p));
+        if (cycle_.p > 0) dwell(cycle_.p);
         if (k + 1 == depths.size()) return;
         if (breaks_chips) {
             go_to_level(MotionKind::feed, reference - depths[k] + chip_break_mm, rotary);
             continue;
         }
         go_to_level(MotionKind::rapid, r, rotary);
-        if (dwell_above > 0) push(MotionKind::dwell, state_.position, state_.rotary, static_cast<float>(dwell_above));
+        if (dwell_above > 0) dwell(dwell_above);
         go_to_level(MotionKind::rapid, reference - depths[k] + lead, rotary);
     }
 }

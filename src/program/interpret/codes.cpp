@@ -112,14 +112,6 @@ bool set_flag(Interpreter& in, const CodeWord&) {
     in.state_.*flag = value;
     return true;
 }
-bool count_in_inches(Interpreter& in, const CodeWord&) {
-    in.state_.count_in(mm_per_inch);
-    return true;
-}
-bool count_in_mm(Interpreter& in, const CodeWord&) {
-    in.state_.count_in(1);
-    return true;
-}
 bool dwell_in_seconds(Interpreter& in, const CodeWord& w) {
     in.dwell(is(w.block, 'P') ? w.block.words.of('P') : 0);
     return true;
@@ -267,6 +259,16 @@ static_assert(in_order(common_codes));
 
 }  // namespace
 
+bool count_in_inches(Interpreter& in, const CodeWord&) {
+    in.state_.count_in(mm_per_inch);
+    return true;
+}
+
+bool count_in_mm(Interpreter& in, const CodeWord&) {
+    in.state_.count_in(1);
+    return true;
+}
+
 void Interpreter::execute(Block& block) {
     this_block_.machine_coordinates = false;
     this_block_.motion_suppressed = false;
@@ -401,7 +403,9 @@ void Interpreter::apply_m(int code, const Block& block) {
 
 /// The axes stand for a time.
 void Interpreter::dwell(double seconds) {
+    constexpr double longest = 86'400;  // a day: a log has a record for each period of it
     if (seconds < 0) fail("negative dwell time");
+    if (!(seconds <= longest)) fail(fmt::format("a dwell of {:.3g} s: the longest is {:.0f} s", seconds, longest));
     push(MotionKind::dwell, tool_position(), state_.rotary, static_cast<float>(seconds));
 }
 

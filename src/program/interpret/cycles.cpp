@@ -141,14 +141,12 @@ void Interpreter::drill(const Stroke& stroke, double r, double bottom, double cl
     }
     for (const double depth : depths) {
         go_to_level(MotionKind::feed, depth, rotary);
-        if (stroke.dwells && cycle_.p > 0)
-            push(MotionKind::dwell, state_.position, state_.rotary, static_cast<float>(cycle_.p));
+        if (stroke.dwells && cycle_.p > 0) dwell(cycle_.p);
         if (!stroke.breaks_chips) go_to_level(MotionKind::rapid, r, rotary);
         go_to_level(MotionKind::rapid, depth + peck_clearance_mm, rotary);
     }
     go_to_level(MotionKind::feed, bottom, rotary);
-    if (stroke.dwells && (rs274 || cycle_.p > 0))
-        push(MotionKind::dwell, state_.position, state_.rotary, static_cast<float>(cycle_.p));
+    if (stroke.dwells && (rs274 || cycle_.p > 0)) dwell(cycle_.p);
     if (state_.cycle == 880 && rs274) {
         // The operator takes the tool out by hand: no motion of the program.
         event("stop", "G88");
@@ -198,7 +196,7 @@ void Interpreter::step_aside(const Vec3& by, const Vec3& rotary) {
 /// G76 of Fanuc: down with feed, aside, and out without touching.
 void Interpreter::bore_fine(double bottom, double clear, const Vec3& rotary) {
     go_to_level(MotionKind::feed, bottom, rotary);
-    if (cycle_.p > 0) push(MotionKind::dwell, state_.position, state_.rotary, static_cast<float>(cycle_.p));
+    if (cycle_.p > 0) dwell(cycle_.p);
     const Vec3 aside = edge_shift();
     step_aside(aside, rotary);
     go_to_level(MotionKind::rapid, clear, rotary);
@@ -212,7 +210,7 @@ void Interpreter::bore_back_shifted(double r, double top, double clear, const Ve
     go_to_level(MotionKind::rapid, r, rotary);
     step_aside(-aside, rotary);
     go_to_level(MotionKind::feed, top, rotary);
-    if (cycle_.p > 0) push(MotionKind::dwell, state_.position, state_.rotary, static_cast<float>(cycle_.p));
+    if (cycle_.p > 0) dwell(cycle_.p);
     step_aside(aside, rotary);
     go_to_level(MotionKind::rapid, clear, rotary);
     step_aside(-aside, rotary);

@@ -163,7 +163,7 @@ LineNumber Interpreter::find_block(double number, LineNumber line, int direction
     return found->second.find(number, line, direction);
 }
 
-/// Reads a subprogram's file once, whatever how often it is called.
+/// Reads a subprogram's file once, however often it is called.
 bool Interpreter::load(const std::string& name) {
     if (texts_.loaded.contains(name)) return true;
     std::optional<SourceText> text = options_.load ? options_.load(name) : std::nullopt;
@@ -244,7 +244,7 @@ void Interpreter::enter(std::size_t file, LineNumber line, int repeats, bool loc
 /// The call that the line makes which runs; a loop that calls again and again makes one.
 std::uint32_t Interpreter::call_from_here() {
     std::vector<Call>& calls = program_.motions.calls;
-    constexpr std::size_t most_calls = 1'000'000;  // of lines and ways to them; what more there is counts as its caller
+    constexpr std::size_t most_calls = 1'000'000;  // by line and caller; further calls count as their caller
     if (calls.size() >= most_calls) return calls_.running;
     const auto [found, is_new] =
         calls_.known.try_emplace({calls_.running, static_cast<std::uint32_t>(place_.file), place_.line},

@@ -353,4 +353,8 @@ public:
     bool ended_ = false;
 };
 
+/// Handlers that several dialects have: all numbers are inches, or millimetres (codes.cpp).
+bool count_in_inches(Interpreter& in, const CodeWord& w);
+bool count_in_mm(Interpreter& in, const CodeWord& w);
+
 }  // namespace clsurf

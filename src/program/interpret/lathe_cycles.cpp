@@ -131,7 +131,6 @@ Vec2 Interpreter::record_profile(const std::string& name, std::vector<Compensate
     const std::string_view current = place_.text;
     Motions& m = program_.motions;
     const auto first = static_cast<std::size_t>(m.size());
-    const std::size_t first_arc = m.arcs.size();
     const std::size_t first_event = program_.events.size();
     call(name, 1, true, {});
     const std::size_t depth = calls_.frames.size();
@@ -151,14 +150,7 @@ Vec2 Interpreter::record_profile(const std::string& name, std::vector<Compensate
         const Vec2 from = profile.empty() ? begin : profile.back().end;
         if (move.is_arc || (move.end - from).norm() > coincident) profile.push_back(move);
     }
-    m.kind.resize(first);
-    m.end.resize(first);
-    m.feed.resize(first);
-    m.line.resize(first);
-    if (!m.rotary.empty()) m.rotary.resize(first);
-    if (!m.file.empty()) m.file.resize(first);
-    if (!m.call.empty()) m.call.resize(first);
-    m.arcs.resize(first_arc);
+    m.truncate(static_cast<std::int64_t>(first));
     for (std::size_t i = first_event; i < program_.events.size(); ++i) program_.events[i].motion = m.size();
     state_ = state;
     block_ = block;

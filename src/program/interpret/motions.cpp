@@ -319,11 +319,11 @@ void Interpreter::refuse_turns(const Block& block) const {
 void Interpreter::flatten_arc(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end, const Vec3& rotary) {
     if (compensation_.path.on())
         fail("cutter compensation of an arc in a tilted or unevenly scaled frame is not supported");
-    // The frame may section the chords' error.
+    // The frame may stretch the chords' error.
     const Vec3 u = state_.frame.direction_to_work(Vec3::Unit((arc.axis + 1) % 3));
     const Vec3 v = state_.frame.direction_to_work(Vec3::Unit((arc.axis + 2) % 3));
-    const double section = std::max(1.0, std::hypot(u.norm(), v.norm()));
-    const std::vector<Vec3> chords = arc_chords(arc, clockwise, begin, end, arc_chord_error / section);
+    const double stretch = std::max(1.0, std::hypot(u.norm(), v.norm()));
+    const std::vector<Vec3> chords = arc_chords(arc, clockwise, begin, end, arc_chord_error / stretch);
     const Vec3 turned_from = state_.rotary;
     for (std::size_t k = 0; k < chords.size(); ++k) {
         const double part = static_cast<double>(k + 1) / static_cast<double>(chords.size());
@@ -344,7 +344,7 @@ void Interpreter::push_arc(Arc arc, bool clockwise, const Vec3& begin, const Vec
     push(clockwise ? MotionKind::cw : MotionKind::ccw, end, rotary, feed_for(arc_length(arc, clockwise, begin, end)));
 }
 
-/// A probing move cuts nothing and ends wherever it touches: noted, not a motion. It is taken to touch
+/// A probing move cuts nothing and ends where it touches. It becomes an event, not a motion. It is taken to touch
 /// at its end, and to stop a little before, as LinuxCNC's stand-alone interpreter has it.
 void Interpreter::probe(const Vec3& end, const Vec3& rotary) {
     const Vec3 displacement = end - state_.position;

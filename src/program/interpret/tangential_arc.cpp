@@ -1,4 +1,4 @@
-// Arcs that go on in the direction of the last motion, be it long forgotten.
+// Arcs that go on in the direction of the last motion, even if that is no longer in memory.
 
 #include <cmath>
 

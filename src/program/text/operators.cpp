@@ -55,19 +55,8 @@ double bitwise(Operator op, double a, double b, std::size_t column) {
     return static_cast<double>(op == Operator::bit_and ? x & y : op == Operator::bit_or ? x | y : x ^ y);
 }
 
-}  // namespace
-
-std::span<const OperatorRow> operator_table() { return table; }
-
-double apply_operator(Operator op, double a, double b, const TextRules& rules, std::size_t column) {
-    if (std::isnan(a) || std::isnan(b)) {
-        // A vacant variable equals only another; everywhere else it is 0.
-        const bool both = std::isnan(a) && std::isnan(b);
-        if (op == Operator::equal) return both ? 1 : 0;
-        if (op == Operator::unequal) return both ? 0 : 1;
-        a = std::isnan(a) ? 0 : a;
-        b = std::isnan(b) ? 0 : b;
-    }
+/// Of numbers. May be no number itself, or infinite.
+double result_of(Operator op, double a, double b, const TextRules& rules, std::size_t column) {
     switch (op) {
         case Operator::power: return std::pow(a, b);
         case Operator::multiply: return a * b;
@@ -104,6 +93,25 @@ double apply_operator(Operator op, double a, double b, const TextRules& rules, s
         case Operator::bit_xor: return bitwise(op, a, b, column);
     }
     return 0;
+}
+
+}  // namespace
+
+std::span<const OperatorRow> operator_table() { return table; }
+
+double apply_operator(Operator op, double a, double b, const TextRules& rules, std::size_t column) {
+    if (std::isnan(a) || std::isnan(b)) {
+        // A vacant variable equals only another; everywhere else it is 0.
+        const bool both = std::isnan(a) && std::isnan(b);
+        if (op == Operator::equal) return both ? 1 : 0;
+        if (op == Operator::unequal) return both ? 0 : 1;
+        a = std::isnan(a) ? 0 : a;
+        b = std::isnan(b) ? 0 : b;
+    }
+    const double result = result_of(op, a, b, rules, column);
+    // NaN would be a vacant variable from here on.
+    if (!std::isfinite(result)) throw ReadError{"the result of the operation is not defined, or too large", column, {}};
+    return result;
 }
 
 }  // namespace clsurf
