@@ -125,6 +125,10 @@ Condition condition_of(const RunFilter& filter) {
         const std::string behind_a_folder = "/" + filter.program;
         condition.values.insert(condition.values.end(), {filter.program, behind_a_folder, behind_a_folder});
     }
+    if (!filter.log_sha256.empty()) {
+        condition.sql += " AND log_sha256 = ?";
+        condition.values.push_back(filter.log_sha256);
+    }
     if (!filter.since.empty()) {
         condition.sql += " AND time >= ?";
         condition.values.push_back(filter.since);
@@ -172,7 +176,12 @@ std::vector<RunRecord> HistoryDatabase::runs(const RunFilter& filter) const {
     while (rows.step()) runs.push_back(read_run(rows));
     std::ranges::reverse(runs);
     const std::map<std::int64_t, RunRecord*> wanted = by_id(runs);
-    SqliteStatement parameters(*connection_, "SELECT run, name, value FROM parameters ORDER BY run, name");
+    SqliteStatement parameters(
+        *connection_,
+        fmt::format(
+            "SELECT run, name, value FROM parameters WHERE run IN (SELECT id FROM runs WHERE {}) ORDER BY run, name",
+            condition.sql));
+    for (const std::string& value : condition.values) parameters.bind(value);
     while (parameters.step()) {
         const auto run = wanted.find(parameters.integer(0));
         if (run != wanted.end()) run->second->parameters.push_back({parameters.text(1), parameters.text(2)});
@@ -242,7 +251,7 @@ HistoryWriter::HistoryWriter(const std::string& path)
 
 bool HistoryDatabase::has_verdict(const RunRecord& failed) const {
     if (failed.failure.empty()) return false;
-    for (const RunRecord& run : runs({.parameters = failed.parameters})) {
+    for (const RunRecord& run : runs({.log_sha256 = failed.log_sha256, .parameters = failed.parameters})) {
         if (supersedes(run, failed)) return true;
     }
     return false;

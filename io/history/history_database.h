@@ -19,7 +19,8 @@ class SqliteConnection;
 /// Which runs are read. Empty: all.
 struct RunFilter {
     std::optional<std::int64_t> id = {};
-    std::string program = {};                   ///< its name, with folders or without
+    std::string program = {};  ///< its name, with folders or without
+    std::string log_sha256 = {};
     std::vector<RunParameter> parameters = {};  ///< each of them
     std::string since = {};                     ///< UTC; not before that
     bool failed = false;                        ///< only those that could not be judged

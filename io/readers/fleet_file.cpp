@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "core/error.h"
 #include "core/file_name.h"
@@ -70,15 +71,21 @@ FolderContent read_folder(const std::string& folder) {
     std::error_code error;
     fs::recursive_directory_iterator at(folder, fs::directory_options::follow_directory_symlink, error);
     if (error) throw InputError(Place::of_file(folder), "cannot be read: " + error.message());
+    std::set<fs::path> folders{
+        fs::canonical(folder)};  // by their own names: links lead to some of them twice, or round
     for (; at != fs::recursive_directory_iterator(); at.increment(error)) {
-        if (error) throw InputError(Place::of_file(folder), "cannot be read: " + error.message());
+        std::error_code unknown;
+        if (at->is_directory(unknown) && !folders.insert(fs::canonical(at->path(), unknown)).second)
+            at.disable_recursion_pending();
         const std::string name = at->path().filename().string();
-        if (name.starts_with(".") || !at->is_regular_file(error)) continue;
+        if (name.starts_with(".") || !at->is_regular_file(unknown)) continue;
         if (is_named_like_a_log(name))
             content.logs.push_back(at->path());
         else if (is_named_like_a_program(name) && looks_like_program(map_file(at->path().string())))
             content.programs.push_back(at->path());
     }
+    // A folder that cannot be read ends the walk.
+    if (error) throw InputError(Place::of_file(folder), "cannot be read in full: " + error.message());
     std::ranges::sort(content.programs);
     std::ranges::sort(content.logs);
     return content;

@@ -25,6 +25,8 @@ clsurf_cli_test(NAME fleet_is_killed_and_goes_on
   ARGS fleet runs.toml -o shop.db EXIT 1 STDOUT "3 of the 3 were recorded already")
 clsurf_cli_test(NAME fleet_of_a_folder SETUP "mkdir -p november/programs november/logs; cp ${planted} november/programs/part.nc; cp @LOGS@/planted_loops.biip november/logs/part_monday.biip; cp @LOGS@/planted_loops.biip november/logs/other.biip; echo nothing > november/notes.txt"
   ARGS fleet november -o shop.db EXIT 1 STDOUT "2 runs in shop.db: 1 judged.* 1 failed" "other.biip: no program was found for this log")
+clsurf_cli_test(NAME fleet_of_a_folder_with_links SETUP "mkdir -p november/monday; cp ${planted} november/monday/part.nc; cp @LOGS@/planted_loops.biip november/monday/part_1.biip; ln -s monday november/latest; ln -s . november/loop"
+  ARGS fleet november -o shop.db STDOUT "^1 run in shop.db: 1 judged")
 clsurf_cli_test(NAME fleet_limits SETUP "${fleet_runs}; sed -i 's/nowhere/part_1/' runs.toml" ARGS fleet runs.toml -o shop.db --max-depth 1um EXIT 1 STDOUT "3 judged, 3 of them over their limits")
 clsurf_cli_test(NAME fleet_one_run SETUP "${fleet_runs}" ARGS fleet --program part.nc --log part_1.biip -o shop.db --param tool=D6 STDOUT "^1 run in shop.db: 1 judged")
 clsurf_cli_test(NAME fleet_within_little_memory SETUP "${fleet_runs}" ARGS fleet --program part.nc --log part_1.biip -o shop.db --memory 3M EXIT 1 STDOUT "0 judged.* 1 failed" "failed: part.nc part_1.biip: .*(memory|shared|signal)")
