@@ -210,7 +210,6 @@ void read_travel(const TomlFile& file, const toml::table& table, double factor, 
 void read_servo(const TomlFile& file, const toml::table& table, double period, double factor, ServoModel& servo) {
     file.allow(table, {"position_gain", "velocity_feedforward", "velocity_time_constant", "dead_time", "quantum",
                        "noise", "backlash", "friction"});
-    // A discrete loop with a gain of more than 1/period per step swings up.
     take(file, table, "position_gain", servo.position_gain, Low::above_zero, 1.0, 1 / period);
     take(file, table, "velocity_feedforward", servo.velocity_feedforward, Low::zero, 1.0, 2.0);
     take(file, table, "velocity_time_constant", servo.velocity_time_constant, Low::zero);
@@ -342,6 +341,21 @@ std::string quoted(const std::string& text) {
     return out.str();
 }
 
+/// A discrete loop whose gain is more than 1/period swings up. The gain may be one that the file does not give.
+void refuse_unstable_servos(const TomlFile& file, const Machine& machine) {
+    const double period = machine.controller.period;
+    const auto refuse = [&](std::string_view name, const MachineAxis& axis) {
+        if (axis.servo.position_gain * period > 1)
+            file.fail(fmt::format(
+                "axis '{}': with a position_gain of {} 1/s and a period of {} s the loop does not settle; give it a position_gain of at most {:.4g}",
+                name, axis.servo.position_gain, period, 1 / period));
+    };
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) refuse(axis_names[i], machine.axes[i]);
+    if (!machine.kinematics.has_rotary()) return;
+    refuse({&machine.kinematics.tilt.letter, 1}, machine.rotary[0]);
+    refuse({&machine.kinematics.rotation.letter, 1}, machine.rotary[1]);
+}
+
 Machine read_machine(const TomlFile& file) {
     const toml::table& root = file.root();
     file.allow(root, {"name", "controller", "path", "axis", "kinematics", "fidelity", "uncertainty"});
@@ -369,6 +383,7 @@ Machine read_machine(const TomlFile& file) {
         std::vector<std::string_view> seen;
         for (const toml::node& node : *axes) read_axis(file, *node.as_table(), seen, machine);
     }
+    refuse_unstable_servos(file, machine);
     if (const toml::table* table = file.section(root, "fidelity")) machine.fidelity = read_fidelity(file, *table);
     if (const toml::array* rows = file.tables(root, "uncertainty")) machine.uncertainty = read_uncertainty(file, *rows);
     return machine;

@@ -153,7 +153,7 @@ clsurf_cli_test(NAME convert_edge SETUP "$CLSURF convert @LOGS@/edge_300.json -o
 clsurf_cli_test(NAME info_of_compressed ARGS info @DATA@/logs/dome_loops.biip.xz STDOUT "18531 records")
 clsurf_cli_test(NAME info_of_compressed_program SETUP "gzip -c @DATA@/programs/dome_loops.nc > part.nc" ARGS info part.nc STDOUT "program, dialect")
 clsurf_cli_test(NAME compressed_cut SETUP "head -c 1000 @DATA@/logs/dome_loops.biip.xz > run.biip" ARGS info run.biip EXIT 3 STDERR "run.biip: byte 1000: error: the compressed data end here")
-clsurf_cli_test(NAME edge_damaged SETUP "sed '20s/:/;/' @LOGS@/edge_300.json > run.json" ARGS info run.json EXIT 3 STDERR "run.json:20:[0-9]*: error: no valid JSON")
+clsurf_cli_test(NAME edge_damaged SETUP "sed '20s/:/;/' @LOGS@/edge_300.json > run.json" ARGS info run.json EXIT 3 STDERR "run.json:20:[0-9]*: error: is not valid JSON")
 clsurf_cli_test(NAME trace_damaged SETUP "sed '8s/=/ /' @LOGS@/dome_loops.trace.xml > run.xml" ARGS info run.xml EXIT 3 STDERR "run.xml:8:[0-9]*: error: no valid XML")
 # Two runs in one log, a part of a run, a stop: said, and the lines are right with and without line numbers.
 set(one_run "awk 'BEGIN {print \"cmd.x,cmd.y,cmd.z,line\"} {print $2 \",\" $3 \",\" $4 \",\" $8}' @LOGS@/dome_loops.halsampler.txt > one.csv")
@@ -317,6 +317,8 @@ clsurf_cli_test(NAME machine_unknown_corner SETUP "printf '[controller]\\ncorner
   EXIT 3 STDERR "m.toml:2" "'stpo', which is not known" "did you mean 'stop'")
 clsurf_cli_test(NAME machine_loop_does_not_settle SETUP "printf '[[axis]]\\nname = \"x\"\\n[axis.servo]\\nposition_gain = 300\\nvelocity_time_constant = 0.004\\n' > m.toml"
   ARGS machine --check m.toml EXIT 3 STDERR "m.toml:3" "does not settle")
+clsurf_cli_test(NAME machine_gain_of_its_own_does_not_settle SETUP "printf '[controller]\\nperiod = 0.05\\n' > m.toml"
+  ARGS machine --check m.toml EXIT 3 STDERR "axis 'x': with a position_gain of 100 1/s and a period of 0.05 s the loop does not settle" "at most 20")
 clsurf_cli_test(NAME machine_missing_file ARGS machine --check nowhere.toml EXIT 3 STDERR "nowhere.toml: error: cannot open")
 clsurf_cli_test(NAME machine_needs_one ARGS machine EXIT 2 STDERR "one of --defaults and FILE")
 
