@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 namespace clsurf::io {
 namespace {
@@ -55,12 +56,13 @@ std::string dump_compact(const Json& json) { return json.dump(-1, ' ', false, Js
 Json parse_bounded(std::string_view text) {
     constexpr int most_levels = 64, most_keys = 10'000;
     bool beyond = false;
-    int keys = 0;
+    std::vector<int> keys;  // of the objects that are open
     Json value = Json::parse(
         text,
         [&](int level, Json::parse_event_t event, const Json&) {
-            if (event == Json::parse_event_t::key) ++keys;
-            beyond = beyond || level > most_levels || keys > most_keys;
+            if (event == Json::parse_event_t::object_start) keys.push_back(0);
+            if (event == Json::parse_event_t::object_end) keys.pop_back();
+            beyond = beyond || level > most_levels || (event == Json::parse_event_t::key && ++keys.back() > most_keys);
             return !beyond;
         },
         false);

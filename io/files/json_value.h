@@ -27,8 +27,8 @@ constexpr int schema_version = 2;
 [[nodiscard]] std::string dump_compact(const Json& json);
 
 /// A text as JSON; is_discarded() where it is malformed, nested deeper than 64 levels (writing and
-/// destroying values goes down their levels on the stack) or has more than 10,000 keys (each is
-/// looked for among those before it).
+/// destroying values goes down their levels on the stack) or has an object with more than 10,000 keys (each
+/// is looked for among those before it).
 [[nodiscard]] Json parse_bounded(std::string_view text);
 
 /// JSON has no NaN and no infinity.

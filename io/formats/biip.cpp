@@ -18,6 +18,7 @@
 #include "core/error.h"
 #include "io/files/crc32c.h"
 #include "io/files/json_value.h"
+#include "io/formats/owned_columns.h"
 
 namespace clsurf::io {
 namespace {
@@ -205,6 +206,7 @@ RecordFrame frame_biip(const Source& beginning, const LogOptions&) {
 Log open_biip(const Source& source, const LogOptions&) {
     refuse_damaged_signature(source);
     const Header header(source);
+    refuse_too_many_channels(header.channel_count(), Place::of_file(source.name));
     Log log;
     log.name = source.name;
     log.format = "biip";

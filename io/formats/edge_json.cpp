@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -97,8 +98,7 @@ public:
                 {Severity::warning,
                  "log.bad-event",
                  Place::of_file(log_.name),
-                 fmt::format("{} block or call events lack their cycle, line or level and are passed over",
-                             incomplete_),
+                 fmt::format("{} block or call events lack their cycle, line or level and are ignored", incomplete_),
                  {}});
         }
         return std::move(lines_);
@@ -190,16 +190,19 @@ Log open_edge(const Source& source, const LogOptions& options) {
     for (std::size_t i = 0; i < plans.size(); ++i) {
         if (plans[i].name.empty() || (i == cycle_column && map == nullptr)) continue;
         if (log.find(plans[i].name) != nullptr)
-            throw InputError(Place::of_file(source.name), "channel '" + plans[i].name + "' is there twice");
+            throw InputError(Place::of_file(source.name), "channel '" + plans[i].name + "' appears twice");
         for (double& value : recording.columns[i]) value = value * plans[i].scale + plans[i].bias;
         owned.add(plans[i].name, plans[i].unit, std::move(recording.columns[i]));
     }
     log.period = recording.cycle_ms * seconds_per_millisecond;
     settle_period(log, options, map);
     if (log.find("time") == nullptr && log.period > 0) {
-        std::vector<double> time(cycles.size());
-        for (std::size_t i = 0; i < time.size(); ++i) time[i] = (cycles[i] - cycles[0]) * log.period;
-        owned.add("time", "s", std::move(time));
+        const auto first = std::ranges::find_if(cycles, [](double cycle) { return std::isfinite(cycle); });
+        if (first != cycles.end()) {
+            std::vector<double> time(cycles.size());
+            for (std::size_t i = 0; i < time.size(); ++i) time[i] = (cycles[i] - *first) * log.period;
+            owned.add("time", "s", std::move(time));
+        }
     }
     add_event_lines(log, map);
     if (log.find("line") == nullptr) add_lines(log, owned, recording.events, cycles);

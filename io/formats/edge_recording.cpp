@@ -125,7 +125,7 @@ public:
         // "[json.exception.parse_error.101] parse error at line 3, column 5: syntax error while …"
         std::string what = error.what();
         if (const std::size_t colon = what.find(": "); colon != std::string::npos) what = what.substr(colon + 2);
-        throw InputError(place_of(source_, at), "no valid JSON: " + what.substr(0, 200));
+        throw InputError(place_of(source_, at), "is not valid JSON: " + what.substr(0, 200));
     }
 
     EdgeRecording recording;

@@ -77,7 +77,7 @@ double period_of(std::string_view line, const Source& source) {
     return static_cast<double>(nanoseconds) * seconds_per_nanosecond;
 }
 
-/// Till 2.9: before each value stands its name; the columns of the names are passed over.
+/// Till 2.9: before each value stands its name; the columns of the names are ignored.
 TextPlan plan_named_values(const Source& source, std::string_view rest, const Mapping* mapping) {
     TextPlan plan;
     plan.separator = ' ';

@@ -3,6 +3,7 @@
 // Used inside io only.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -18,7 +19,8 @@ struct LineEvent {
 
 /// Calls `visit(point, event)` for each point in order with the last event at or before it, nullptr
 /// before the first. Sorts `events`; of several at one moment the last one counts.
-/// `at(point)` must not fall; where it does (a clock that starts again) the search does too.
+/// Where `at(point)` falls (a clock that starts again, or jitters), the events are searched anew. A NaN has the event of the
+/// point before. O(points + events), and O(log events) for every fall.
 /// Returns how many events lie after the last point or before the first but for one.
 template <typename At, typename Visit>
 std::size_t for_each_event(std::vector<LineEvent>& events, PointIndex points, const At& at, const Visit& visit) {
@@ -29,8 +31,12 @@ std::size_t for_each_event(std::vector<LineEvent>& events, PointIndex points, co
     double before = 0;
     for (PointIndex i = 0; i < points; ++i) {
         const double now = at(i);
-        if (i > 0 && now < before) next = 0;
-        before = now;
+        if (i > 0 && now < before) {
+            const auto after = std::upper_bound(events.begin(), events.end(), now,
+                                                [](double t, const LineEvent& event) { return t < event.at; });
+            next = static_cast<std::size_t>(after - events.begin());
+        }
+        if (std::isfinite(now)) before = now;
         while (next < events.size() && events[next].at <= now) ++next;
         visit(i, next > 0 ? &events[next - 1] : nullptr);
         if (i == 0) first_used = next > 0 ? next - 1 : 0;

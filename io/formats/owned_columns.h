@@ -8,9 +8,20 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "core/error.h"
 #include "log/log.h"
 
 namespace clsurf::io {
+
+/// More than any log has. Each name is looked for among those before it, and each column of a text asks for hundreds of bytes.
+inline constexpr std::size_t most_channels = 4096;
+
+/// Throws InputError: there are more.
+inline void refuse_too_many_channels(std::size_t count, const Place& place) {
+    if (count > most_channels) throw InputError(place, fmt::format("more than {} channels", most_channels));
+}
 
 class OwnedColumns {
 public:

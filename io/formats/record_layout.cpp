@@ -86,7 +86,7 @@ Log open_layout(const Source& source, const LogOptions& options) {
     if (channels == nullptr) file.fail("no [[channel]]");
     for (const toml::node& node : *channels) {
         Channel channel = read_channel(file, *node.as_table(), *record_bytes);
-        if (log.find(channel.name) != nullptr) file.fail(node, "channel '" + channel.name + "' is there twice");
+        if (log.find(channel.name) != nullptr) file.fail(node, "channel '" + channel.name + "' appears twice");
         channel.values.first = source.bytes.data() + header_bytes + channel.values.stride;
         channel.values.stride = static_cast<std::size_t>(*record_bytes);
         channel.values.count = log.records;

@@ -109,7 +109,7 @@ public:
                 const XML_Error error = XML_GetErrorCode(parser_.get());
                 const bool cut = last && (error == XML_ERROR_NO_ELEMENTS || error == XML_ERROR_UNCLOSED_TOKEN ||
                                           error == XML_ERROR_PARTIAL_CHAR);
-                if (!cut || time.empty()) fail(fmt::format("no valid XML: {}", XML_ErrorString(error)));
+                if (!cut || time.empty()) fail(fmt::format("is not valid XML: {}", XML_ErrorString(error)));
                 diagnostics.add(
                     {Severity::warning,
                      "log.unclosed",
@@ -300,7 +300,7 @@ Log open_sinumerik_xml(const Source& source, const LogOptions& options) {
         const ColumnPlan& plan = plans[i];
         if (plan.name.empty()) continue;
         if (log.find(plan.name) != nullptr)
-            throw InputError(Place::of_file(source.name), "channel '" + plan.name + "' is there twice");
+            throw InputError(Place::of_file(source.name), "channel '" + plan.name + "' appears twice");
         axes_taken =
             axes_taken || (map == nullptr && plan.name.find('.') != std::string::npos && plan.name != columns[i].name);
         for (double& value : reader.signals[i].values) value = value * plan.scale + plan.bias;

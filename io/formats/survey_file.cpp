@@ -154,7 +154,7 @@ public:
     explicit SurveyReader(Source source) : source_(std::move(source)) {
         const SurveyBytes all = source_.bytes;
         if (all.size() < survey_head || std::memcmp(all.data(), survey_magic.data(), survey_magic.size()) != 0)
-            fail("is no survey of clsurf");
+            fail("is not a survey of clsurf");
         if (get<std::uint32_t>(8) != survey_layout || get<std::uint32_t>(12) != survey_sections) fail(other_version);
         text_at_ = survey_head + survey_sections * survey_entry;
         if (all.size() < text_at_) fail(cut);
@@ -230,7 +230,7 @@ private:
                 fail(fmt::format("is damaged: the checksum of section {} differs", k));
             }
         }
-        if (next != source_.bytes.size()) fail("is damaged: it goes on behind its last section");
+        if (next != source_.bytes.size()) fail("is damaged: there are bytes after its last section");
         if (column<std::uint32_t>(SurveySection::block_crcs).size() != blocks) fail(cut);
     }
 

@@ -99,6 +99,7 @@ std::optional<Mapping> mapping_of(const LogOptions& options) {
 
 std::vector<ColumnPlan> plan_columns(std::span<const SourceColumn> columns, const Mapping* mapping,
                                      const Place& place) {
+    refuse_too_many_channels(columns.size(), place);
     std::vector<ColumnPlan> plans(columns.size());
     if (mapping == nullptr) {
         std::unordered_set<std::string> taken;

@@ -226,7 +226,7 @@ std::vector<std::string> split(std::string_view line, char separator) {
     std::vector<std::string> fields;
     std::string_view field;
     std::size_t at = 0;
-    while (fields.size() <= most_columns && next_field(line, at, separator, field)) fields.emplace_back(field);
+    while (fields.size() <= most_channels && next_field(line, at, separator, field)) fields.emplace_back(field);
     return fields;
 }
 
@@ -286,10 +286,7 @@ std::string_view text_of(std::span<const std::byte> bytes) {
 }
 
 Log read_table(const Source& source, const TextPlan& plan, const char* format) {
-    if (plan.columns.size() > most_columns) {
-        throw InputError(Place::of_line(source.name, plan.first_data_line),
-                         fmt::format("more than {} columns", most_columns));
-    }
+    refuse_too_many_channels(plan.columns.size(), Place::of_line(source.name, plan.first_data_line));
     std::vector<Chunk> chunks = cut(source.text().substr(0, plan.data_end), plan.data_begin);
     parallel_for(static_cast<std::int64_t>(chunks.size()), 1, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t k = first; k < last; ++k) read_chunk(source, plan, chunks[static_cast<std::size_t>(k)]);
@@ -331,7 +328,7 @@ Log read_table(const Source& source, const TextPlan& plan, const char* format) {
         if (plan.columns[c].name.empty()) continue;
         if (log.find(plan.columns[c].name) != nullptr) {
             throw InputError(Place::of_line(source.name, plan.first_data_line),
-                             "channel '" + plan.columns[c].name + "' is there twice");
+                             "channel '" + plan.columns[c].name + "' appears twice");
         }
         std::vector<double> column;
         column.reserve(rows);

@@ -44,10 +44,8 @@ struct TextPlan {
 [[nodiscard]] bool is_comment(std::string_view line);
 /// Tab, semicolon or comma where the line has one, in this order; else a blank.
 [[nodiscard]] char detect_separator(std::string_view line);
-/// More columns than any log has: they would ask for hundreds of bytes for each byte of a header.
-constexpr std::size_t most_columns = 4096;
 
-/// The fields of a line, without blanks and quotes around them; at most most_columns + 1.
+/// The fields of a line, without blanks and quotes around them; at most most_channels + 1.
 [[nodiscard]] std::vector<std::string> split(std::string_view line, char separator);
 /// A number as text logs write it, or NaN: where the field is empty or says so, and where it is no
 /// number (`bad` is set).

@@ -129,24 +129,36 @@ std::size_t end_of_records(std::string_view text) {
     return std::string_view("EOF").starts_with(text.substr(line, end - line)) ? line : text.size();
 }
 
-/// Milliseconds since the first record of the file, in whichever form they are written. NaN: an empty or damaged cell.
-std::vector<double> times_of(const Channel& channel) {
+/// The times of a column as they are written. NaN: an empty or damaged cell.
+std::vector<double> written_times(const Channel& channel) {
     std::vector<double> t(static_cast<std::size_t>(channel.values.count));
     copy_block(channel.values, 0, t);
-    const auto first = std::ranges::find_if(t, [](double v) { return std::isfinite(v); });
-    if (first != t.end() && *first > least_file_time) {
-        const double origin = *first;
-        for (double& v : t) v = (v - origin) / file_time_per_millisecond;
-    }
     return t;
+}
+
+bool is_known(double time) { return std::isfinite(time); }
+
+/// Milliseconds are as they are. Columns of file times become milliseconds since the first time of all of these columns.
+void count_from_first(std::vector<std::vector<double>>& columns) {
+    const auto first_of = [](const std::vector<double>& times) {
+        const auto first = std::ranges::find_if(times, is_known);
+        return first == times.end() ? -std::numeric_limits<double>::infinity() : *first;
+    };
+    double origin = std::numeric_limits<double>::infinity();
+    for (const std::vector<double>& times : columns) {
+        if (first_of(times) > least_file_time) origin = std::min(origin, first_of(times));
+    }
+    for (std::vector<double>& times : columns) {
+        if (!(first_of(times) > least_file_time)) continue;
+        for (double& time : times) time = (time - origin) / file_time_per_millisecond;
+    }
 }
 
 /// The step of one record between the first two that have times; infinity: there are none.
 double first_step(const std::vector<double>& times) {
-    const auto known = [](double v) { return std::isfinite(v); };
-    const auto first = std::find_if(times.begin(), times.end(), known);
+    const auto first = std::find_if(times.begin(), times.end(), is_known);
     if (first == times.end()) return std::numeric_limits<double>::infinity();
-    const auto second = std::find_if(first + 1, times.end(), known);
+    const auto second = std::find_if(first + 1, times.end(), is_known);
     if (second == times.end()) return std::numeric_limits<double>::infinity();
     return (*second - *first) / static_cast<double>(second - first);
 }
@@ -179,10 +191,12 @@ TimeColumns read_times(const Source& source, const Header& header, const Log& re
     bool found = false;
     double least_step = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < header.time_column.size(); ++i) {
+        if (header.time_column[i] == i) times.of[i] = written_times(*read.find(header.plan.columns[i].name));
+    }
+    count_from_first(times.of);
+    for (std::size_t i = 0; i < header.time_column.size(); ++i) {
         if (header.time_column[i] != i) continue;
-        std::vector<double>& own = times.of[i];
-        own = times_of(*read.find(header.plan.columns[i].name));
-        const double step = first_step(own);
+        const double step = first_step(times.of[i]);
         if (!found || step < least_step) {
             found = true;
             times.fastest = i;

@@ -53,7 +53,7 @@ void read_rtu(const std::string& rest, ModbusAddress& address) {
     baud.resize(std::min(baud.size(), second));
     address.baud = whole_number(baud).value_or(0);
     if (std::find(bauds.begin(), bauds.end(), address.baud) == bauds.end())
-        fail(address.text, "'" + baud + "' is no baud rate of serial lines");
+        fail(address.text, "'" + baud + "' is not a baud rate of serial lines");
     const bool good = frame.size() == 3 && frame[0] == '8' && std::string("NEO").find(frame[1]) != std::string::npos &&
                       (frame[2] == '1' || frame[2] == '2');
     if (!good) fail(address.text, "'" + frame + "' is not 8N1, 8N2, 8E1 or 8O1");

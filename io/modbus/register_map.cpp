@@ -118,7 +118,7 @@ std::vector<RegisterChannel> read_register_map(const std::string& path) {
     for (const toml::node& node : *entries) {
         RegisterChannel channel = read_channel(file, path, *node.as_table(), slave);
         for (const RegisterChannel& other : channels) {
-            if (other.name == channel.name) file.fail(node, "channel '" + channel.name + "' is there twice");
+            if (other.name == channel.name) file.fail(node, "channel '" + channel.name + "' appears twice");
         }
         channels.push_back(std::move(channel));
     }

@@ -74,7 +74,7 @@ TEST(Edge, NamesLineAndColumnOfWhatIsNoJson) {
         FAIL();
     } catch (const InputError& error) {
         EXPECT_EQ(error.diagnostic().where.number, 4u);
-        EXPECT_NE(std::string(error.what()).find("no valid JSON"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("is not valid JSON"), std::string::npos);
     }
 }
 
@@ -82,6 +82,13 @@ TEST(Edge, LeavesOutRowsThatLackValues) {
     const Log log = open(header + "\"Payload\":[{\"HFData\":[[1,2],[2,1,1,1]]}]}");
     EXPECT_EQ(log.records, 1);
     EXPECT_EQ(log.diagnostics.count("log.ragged-row"), 1u);
+}
+
+TEST(Edge, CountsTimeFromTheFirstKnownCycle) {
+    const Log log = open(header + "\"Payload\":[{\"HFData\":[[null,1,1,1],[101,1,1,1],[103,1,1,1]]}]}");
+    EXPECT_TRUE(std::isnan(log.find("time")->values.at(0)));
+    EXPECT_DOUBLE_EQ(log.find("time")->values.at(1), 0);
+    EXPECT_DOUBLE_EQ(log.find("time")->values.at(2), 0.004);
 }
 
 TEST(Edge, RefusesWhatIsNoRecording) {

@@ -76,7 +76,7 @@ TEST(RegisterMap, RefusesWhatItCannotMeanWithItsLine) {
     const std::string good = channel("a1", holding + "5");
     EXPECT_EQ(error_of(good), "");
     EXPECT_NE(error_of("").find("no [[channel]]"), std::string::npos);
-    EXPECT_EQ(error_of(good + channel("a1", holding + "6")), "line 6: channel 'a1' is there twice");
+    EXPECT_EQ(error_of(good + channel("a1", holding + "6")), "line 6: channel 'a1' appears twice");
     EXPECT_EQ(error_of(channel("a1", "function = \"coil\"\ntype = \"u16\"\naddress = 1")),
               "line 3: 'function' is 'coil', not one of holding, input");
     EXPECT_EQ(error_of(channel("a1", "function = \"holding\"\ntype = \"u8\"\naddress = 1")),

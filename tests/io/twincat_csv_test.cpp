@@ -63,7 +63,7 @@ TEST(TwinCat, ADamagedTimeIsTheOnlyThingMissing) {
     EXPECT_DOUBLE_EQ(log.find("load")->values.at(1), 17) << "not earlier than the record before it";
     EXPECT_DOUBLE_EQ(log.find("load")->values.at(2), 18);
     EXPECT_EQ(log.diagnostics.count("log.bad-number"), 1u);
-    // Of the slow one: that sample is passed over, the next one counts.
+    // Of the slow one: that sample is ignored, the next one counts.
     log = open(with("2\t2\t18\n2\t1,7\t2\t\t\n", "2\t2#\t18\n2\t1,7\t2\t2\t19\n"));
     EXPECT_DOUBLE_EQ(log.find("load")->values.at(0), 17);
     EXPECT_DOUBLE_EQ(log.find("load")->values.at(1), 17);
@@ -93,6 +93,19 @@ TEST(TwinCat, UnderstandsFullTimestamps) {
         open("Name;a\nStarttime of export;1\n\nName;cmd.x\n\n132959733843760000;1,5\n132959733843780000;1,6\n");
     EXPECT_NEAR(log.period, 0.002, 1e-5);
     EXPECT_EQ(log.records, 2);
+}
+
+// Windows file times count 100 ns.
+TEST(TwinCat, FullTimestampsOfAllColumnsCountFromTheSameMoment) {
+    const Log log = open(
+        "Name;a\nStarttime of export;1\n\nName;cmd.x;Name;load\n\n132959733843760000;1;132959733843780000;7\n"
+        "132959733843770000;2;132959733843800000;8\n132959733843780000;3;;\n132959733843790000;4;;\n"
+        "132959733843800000;5;;\n");
+    const ChannelView& load = log.find("load")->values;
+    EXPECT_TRUE(std::isnan(load.at(1))) << "it begins 2 ms after the first record";
+    EXPECT_EQ(load.at(2), 7);
+    EXPECT_EQ(load.at(3), 7);
+    EXPECT_EQ(load.at(4), 8);
 }
 
 TEST(TwinCat, TakesAMappingByNameOrSymbol) {
