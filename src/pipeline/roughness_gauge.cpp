@@ -21,9 +21,11 @@ RoughnessGauge::RoughnessGauge(const GaugedRun& before, const CuttingTool& tool,
       places_(roughness_places(form_of_, swept_.run().read.signals)),
       roughness_(measure(form_of_, swept_.run())) {}
 
-PartRoughness RoughnessGauge::after(const GaugedRun& run) const {
-    const Swept swept = sweep(run);
-    return measure(as_machined(swept), swept.run());
+RoughnessChange RoughnessGauge::change_to(const GaugedRun& after) const {
+    const Swept swept = sweep(after);
+    RoughnessChange change{roughness_, measure(as_machined(swept), swept.run())};
+    keep_common_patches(change.before, change.after);
+    return change;
 }
 
 RoughnessGauge::Swept RoughnessGauge::sweep(const GaugedRun& run) const {
@@ -46,10 +48,7 @@ std::optional<RoughnessChange> roughness_change(const GaugedRun& before, const G
                                                 const CuttingTool& tool, std::optional<Role> role) {
     if (!can_gauge(before, tool) || !can_gauge(after, tool)) return std::nullopt;
     if (!role) role = common_measured_role(before.log, after.log).value_or(Role::commanded);
-    const RoughnessGauge gauge(before, tool, role);
-    RoughnessChange change{gauge.before(), gauge.after(after)};
-    keep_common_patches(change.before, change.after);
-    return change;
+    return RoughnessGauge(before, tool, role).change_to(after);
 }
 
 std::optional<RoughnessChange> roughness_change(const Part& before, const ClSurface& surface_before, const Part& after,

@@ -21,6 +21,14 @@ struct GaugedRun {
     const QualityReport* report = nullptr;  ///< whose programmed marks are no form; nullptr: all of the program is form
 };
 
+/// The roughness that two runs of a part leave.
+struct RoughnessChange {
+    PartRoughness before, after;
+
+    /// Whether both are known somewhere.
+    [[nodiscard]] bool is_known() const { return !before.patches.empty() && !after.patches.empty(); }
+};
+
 class RoughnessGauge {
 public:
     /// `before` must outlive it. The tool is swept along the role's positions (none: the most truthful ones of each log).
@@ -29,8 +37,9 @@ public:
     RoughnessGauge(const RoughnessGauge&) = delete;
     RoughnessGauge& operator=(const RoughnessGauge&) = delete;
     [[nodiscard]] const PartRoughness& before() const { return roughness_; }
-    /// Of another run of the part. O(points), parallel. Throws as the constructor does.
-    [[nodiscard]] PartRoughness after(const GaugedRun& run) const;
+    /// To another run of the part, of both at those places where both can be measured. O(points), parallel. Throws as the
+    /// constructor does.
+    [[nodiscard]] RoughnessChange change_to(const GaugedRun& after) const;
 
 private:
     /// A run with what a tool is swept along.
@@ -51,14 +60,6 @@ private:
     AsMachinedSurface form_of_;
     std::vector<RoughnessPlace> places_;
     PartRoughness roughness_;
-};
-
-/// The roughness that two runs of a part leave.
-struct RoughnessChange {
-    PartRoughness before, after;
-
-    /// Whether both are known somewhere.
-    [[nodiscard]] bool is_known() const { return !before.patches.empty() && !after.patches.empty(); }
 };
 
 /// Both at those places of the first where both can be measured: a log may hold a part of the program only. The positions are of

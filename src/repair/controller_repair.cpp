@@ -64,8 +64,10 @@ public:
         result.on_controller = judge_.run != nullptr;
         result.controller_runs = runs_;
         if (!after_judged_) return result;
-        if (gauge_) result.roughness_before = gauge_->before();
-        result.roughness_after = std::move(roughness_after_);
+        if (roughness_) {
+            result.roughness_before = std::move(roughness_->before);
+            result.roughness_after = std::move(roughness_->after);
+        }
         result.before = std::move(before_);
         result.after = std::move(after_);
         // Those of the runs that are shown, whether the candidate was taken or not.
@@ -77,17 +79,24 @@ public:
 private:
     [[nodiscard]] bool has_runs() const { return static_cast<int>(runs_.size()) < most_runs_; }
 
-    [[nodiscard]] RunMeasures measures_before() const {
-        return gauge_ ? with_roughness(before_.measures(), gauge_->before()) : before_.measures();
-    }
+    /// The measures of the program and of a run.
+    struct Comparison {
+        RunMeasures before, after;
+        std::optional<RoughnessChange> roughness{};  ///< where the tool is known
+    };
 
-    [[nodiscard]] RunMeasures measures_of(const JudgedRun& run) const {
-        return gauge_ ? with_roughness(run.measures(), gauge_->after(run.gauged())) : run.measures();
+    [[nodiscard]] Comparison compare(const JudgedRun& run) const {
+        Comparison result{before_.measures(), run.measures()};
+        if (!gauge_) return result;
+        result.roughness = gauge_->change_to(run.gauged());
+        result.before = with_roughness(result.before, result.roughness->before);
+        result.after = with_roughness(result.after, result.roughness->after);
+        return result;
     }
 
     /// `reason`: why a run is not better than that of the program; empty: it is.
-    [[nodiscard]] double gain_over_program(const RunMeasures& after, LineNumber lines, std::string& reason) const {
-        const RunMeasures before = measures_before();
+    [[nodiscard]] double gain_over_program(const Comparison& runs, LineNumber lines, std::string& reason) const {
+        const auto& [before, after, roughness] = runs;
         const double ratio = static_cast<double>(lines) / static_cast<double>(program_.main().line_count());
         const double gain = gain_of(before, after, ratio, rules_.more_time);
         reason = why_not_better(before, after, rules_.more_time);
@@ -124,8 +133,9 @@ private:
         logs_.push_back(round.run);
         ++most_runs_;
         ControllerRun run{.candidate = 0, .round = round.name};
-        run.measured = measures_of(after);
-        const double gain = gain_over_program(*run.measured, changed.main().line_count(), run.reason);
+        const Comparison runs = compare(after);
+        run.measured = runs.after;
+        const double gain = gain_over_program(runs, changed.main().line_count(), run.reason);
         run.accepted = run.reason.empty();
         runs_.push_back(run);
         if (!run.accepted || gain <= best_gain_) return;
@@ -210,11 +220,9 @@ private:
     /// Returns why it is not accepted.
     std::string take(const Finalist& finalist, const Optimized& found, JudgedRun after, ControllerRun& run,
                      Optimized& result) {
-        std::optional<PartRoughness> roughness;
-        if (gauge_) roughness = gauge_->after(after.gauged());
-        const RunMeasures measured = roughness ? with_roughness(after.measures(), *roughness) : after.measures();
+        Comparison runs = compare(after);
         std::string reason;
-        const double gain = gain_over_program(measured, finalist.evaluation.lines_after, reason);
+        const double gain = gain_over_program(runs, finalist.evaluation.lines_after, reason);
         if (reason.empty() && !best_round_.empty() && gain < best_gain_ + least_gain)
             reason =
                 fmt::format("it gains {:.1f} %, and {} gained {:.1f} %", 100 * gain, best_round_, 100 * best_gain_);
@@ -223,7 +231,7 @@ private:
         const bool better = run.accepted && (!result.evaluation.accepted || gain > best_gain_);
         if (!better && after_judged_) return reason;
         after_ = std::move(after);
-        roughness_after_ = std::move(roughness);
+        roughness_ = std::move(runs.roughness);
         after_judged_ = true;
         if (!better) return reason;
         best_gain_ = gain;
@@ -246,8 +254,8 @@ private:
     std::vector<ControllerLog> logs_;
     std::vector<ControllerRun> runs_;
     JudgedRun before_, after_;
-    std::optional<RoughnessGauge> gauge_;  ///< of before_, where the tool is known
-    std::optional<PartRoughness> roughness_after_;
+    std::optional<RoughnessGauge> gauge_;       ///< of before_, where the tool is known
+    std::optional<RoughnessChange> roughness_;  ///< to after_
     bool after_judged_ = false;
     int candidates_ = 0;
     int most_runs_ = 0;

@@ -37,7 +37,7 @@ constexpr double large_share = 0.65;  ///< … and for one that takes all it can
 constexpr int first_rounds = 2, more_rounds = 8;
 constexpr std::size_t most_listed = 8;                    ///< accepted finalists, where all are listed
 constexpr std::array<double, 2> other_steps{0.85, 0.55};  ///< that feed reductions are tried with as well …
-constexpr std::size_t most_cured_otherwise = 2;           ///< … for so many drafts
+constexpr std::size_t most_drafts_of_other_steps = 2;     ///< … for so many drafts
 
 /// The median feed of the cutting lines [mm/s].
 double usual_feed(const Program& program) {
@@ -80,8 +80,8 @@ public:
         Proposal& best = *choose(result);
         if (rules_.keeps_front) result.front = evaluator_.front(best.evaluation.accepted ? &best : nullptr);
         result.before = evaluator_.take_before();
-        result.roughness_before = evaluator_.roughness_before();
-        result.roughness_after = std::move(best.roughness);
+        result.roughness_before = best.roughness ? best.roughness->before : evaluator_.roughness_before();
+        if (best.roughness) result.roughness_after = std::move(best.roughness->after);
         result.evaluation = std::move(best.evaluation);
         result.text = std::move(best.text);
         result.after = std::move(best.run);
@@ -255,7 +255,7 @@ private:
         feeds.equalise_in_time(evaluator_.best());
         for (const Fed& each : fed) feeds.equalise_in_time(each.points);
         for (const double step : other_steps) {
-            for (std::size_t k = 0; k < std::min(fed.size(), most_cured_otherwise); ++k) {
+            for (std::size_t k = 0; k < std::min(fed.size(), most_drafts_of_other_steps); ++k) {
                 FeedReduction other{fed[k].points, small_share, step};
                 feeds.reduce_feeds(other, more_rounds);
             }
@@ -264,7 +264,7 @@ private:
         for (const Fed& each : fed) {
             FeedReduction other{each.points, large_share};
             feeds.reduce_feeds(other, more_rounds);
-            feeds.level(each.points);
+            feeds.equalise(each.points);
         }
         reduce_best(feeds);
         if (rules_.more_time <= 0) return;

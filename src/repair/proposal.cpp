@@ -6,7 +6,6 @@
 
 #include "core/parallel.h"
 #include "core/units.h"
-#include "pipeline/roughness_gauge.h"
 #include "program/dialects/dialect_rules.h"
 #include "repair/feeds/feed_equalisation.h"
 #include "repair/line_edit.h"
@@ -159,7 +158,7 @@ Deviation Evaluator::deviation_of(const Program& changed) const {
 
 /// Why a proposal cannot be taken; empty: it can.
 std::string Evaluator::objection(const Proposal& p) const {
-    return objection(p.evaluation, measures_before(), p.measures(), p.summary.limits_ok);
+    return objection(p.evaluation, measures_before(p), p.measures(), p.summary.limits_ok);
 }
 
 std::string Evaluator::objection(const Evaluation& e, const RunMeasures& before, const RunMeasures& after,
@@ -181,7 +180,7 @@ std::string Evaluator::objection(const Evaluation& e, const RunMeasures& before,
 }
 
 double Evaluator::score(const Proposal& p) const {
-    return objective(measures_before(), p.measures(), line_ratio(p.evaluation), more_time_);
+    return objective(measures_before(p), p.measures(), line_ratio(p.evaluation), more_time_);
 }
 
 void Evaluator::keep_finalist(const TriedProposal& proposal, std::vector<TriedProposal>& finalists) const {
@@ -212,18 +211,18 @@ bool Evaluator::comes_before(const Proposal& a, const Proposal& b) const {
 }
 
 RunMeasures Proposal::measures() const {
-    return roughness ? with_roughness(run.measures(), *roughness) : run.measures();
+    return roughness ? with_roughness(run.measures(), roughness->after) : run.measures();
 }
 
-RunMeasures Evaluator::measures_before() const {
-    return roughness_before_ ? with_roughness(before_.measures(), *roughness_before_) : before_.measures();
+RunMeasures Evaluator::measures_before(const Proposal& proposal) const {
+    return proposal.roughness ? with_roughness(before_.measures(), proposal.roughness->before) : before_.measures();
 }
 
 void Evaluator::measure_roughness(const CuttingTool& tool) {
     const RoughnessGauge gauge(before_.gauged(), tool);
     roughness_before_ = gauge.before();
     for (const TriedProposal& each : finalists()) {
-        each->roughness = gauge.after(each->run.gauged());
+        each->roughness = gauge.change_to(each->run.gauged());
         each->evaluation.reason = objection(*each);
         each->evaluation.accepted = each->evaluation.reason.empty();
     }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "machined/part_roughness.h"
+#include "pipeline/roughness_gauge.h"
 #include "repair/draft.h"
 #include "repair/judged_run.h"
 #include "repair/optimize_rules.h"
@@ -36,7 +37,7 @@ struct Proposal {
     std::string text;
     JudgedRun run;
     SimulationSummary summary;
-    std::optional<PartRoughness> roughness{};     ///< of a finalist, where the tool is known
+    std::optional<RoughnessChange> roughness{};   ///< from the program to a finalist, where the tool is known
     int number = 0;                               ///< in the order in which they were tried, from 1
     std::optional<std::size_t> found_by_check{};  ///< defects_by_check(), of a finalist
 
@@ -120,7 +121,8 @@ private:
     [[nodiscard]] double most_points() const;
     /// "candidate 14, best: 61 % less mismatch, 38.0 s".
     [[nodiscard]] std::string candidate_text() const;
-    [[nodiscard]] RunMeasures measures_before() const;
+    /// Of the program, with its roughness as far as it is compared with that of the proposal.
+    [[nodiscard]] RunMeasures measures_before(const Proposal& proposal) const;
     [[nodiscard]] std::string objection(const Proposal& proposal) const;
     [[nodiscard]] std::string objection(const Evaluation& evaluation, const RunMeasures& before,
                                         const RunMeasures& after, bool limits_ok) const;
