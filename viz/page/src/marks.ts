@@ -45,8 +45,8 @@ export function marksOf(
         for (const run of defect.neighbours) addRun(surface.range(...run.points), beside, 2);
         for (const run of defect.runs) addRun(surface.range(...run.points), accent, 2);
     }
-    const runs = state.line > 0 ? surface.runsOfLine(state.line) : [];
-    for (const run of runs.slice(0, mostRuns)) addRun(run, accent, 4);
+    const runs = state.line > 0 ? surface.runsOfLine(state.line, mostRuns) : [];
+    for (const run of runs) addRun(run, accent, 4);
 
     const addRing = (vertex: number, label: string, small: boolean) =>
         marks.rings.push({

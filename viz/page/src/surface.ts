@@ -102,9 +102,10 @@ export class Surface {
             (run + 1 < this.runPoints.length ? this.runPoints[run + 1] : this.info.records) - 1;
         return (this.runs.get(line) ?? []).map((run) => [this.runPoints[run], end(run)]);
     }
-    /** Vertices of every run of a line, as half-open ranges; where none of its points is kept, the nearest one. */
-    runsOfLine(line: number): [number, number][] {
-        return this.pointsOfLine(line).map(([first, last]) => {
+    /** Vertices of runs of a line, as half-open ranges; where none of its points is kept, the nearest one. */
+    runsOfLine(line: number, most = Infinity): [number, number][] {
+        const points = this.pointsOfLine(line);
+        return points.slice(0, most).map(([first, last]) => {
             const [begin, end] = this.range(first, last);
             const nearest = this.vertexOfPoint(first);
             return end > begin ? [begin, end] : [nearest, nearest + 1];

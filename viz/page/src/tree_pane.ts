@@ -7,6 +7,7 @@ import type { State, Store } from './store';
 import { Kind, type Surface } from './surface';
 
 const mostPasses = 1000;
+const mostDefects = 500;
 /** Below its neighbours, above them, or both in turn. */
 const shapeSigns: Record<string, string> = { pit: '▾ ', bulge: '▴ ', alternating: '± ' };
 
@@ -18,10 +19,15 @@ function sizeOf(defect: Defect): string {
     return `${shapeSigns[defect.shape] ?? ''}${defect.depth_um.toFixed(1)} µm`;
 }
 
+/** Below a list that is not whole. */
+function moreHint(more: number): HTMLElement {
+    return element('p', { class: 'hint' }, `${more} more: see the table of defects, or filter the list`);
+}
+
 export class TreePane {
     readonly element = element('nav', { class: 'tree', 'aria-label': 'contents' });
     private readonly passes = element('details', { class: 'passes' });
-    private readonly defectItems: HTMLElement[] = [];
+    private readonly defectList = element('div', { class: 'list' });
     private readonly defectCount = element('summary');
 
     constructor(
@@ -126,24 +132,6 @@ export class TreePane {
 
     private defects(): HTMLElement {
         const { defects } = this.manifest;
-        const list = element('div', { class: 'list' });
-        defects.slice(0, 500).forEach((defect, k) => {
-            const size = sizeOf(defect);
-            const button = element(
-                'button',
-                { class: 'item', 'data-choice': `defect-${k}`, title: defect.text },
-                element(
-                    'span',
-                    { class: `severity s${defect.severity}`, title: `severity ${defect.severity} of 4` },
-                    String(defect.id),
-                ),
-                element('span', {}, defect.cause.replace('_', ' ')),
-                element('small', {}, defect.change === 'new' ? `new ${size}` : size),
-            );
-            button.addEventListener('click', () => this.deeds.goToDefect(k));
-            this.defectItems.push(button);
-            list.append(button);
-        });
         this.filterDefects();
         const filters = element('details', { class: 'filter' }, element('summary', {}, 'Filter'));
         filters.append(new FilterBar(this.manifest, this.store, 'of the list').element);
@@ -151,7 +139,7 @@ export class TreePane {
             'details',
             { open: '' },
             this.defectCount,
-            ...(defects.length > 0 ? [filters, list] : [element('p', { class: 'hint' }, 'none')]),
+            ...(defects.length > 0 ? [filters, this.defectList] : [element('p', { class: 'hint' }, 'none')]),
         );
     }
 
@@ -160,7 +148,7 @@ export class TreePane {
         const { gone } = this.manifest;
         if (gone.length === 0) return [];
         const list = element('div', { class: 'list' });
-        gone.slice(0, 500).forEach((defect, k) => {
+        gone.slice(0, mostDefects).forEach((defect, k) => {
             const button = element(
                 'button',
                 { class: 'item', 'data-choice': `gone-${k}`, title: defect.text },
@@ -171,19 +159,37 @@ export class TreePane {
             button.addEventListener('click', () => this.deeds.goToGone(k));
             list.append(button);
         });
+        if (gone.length > mostDefects) list.append(moreHint(gone.length - mostDefects));
         return [element('details', {}, element('summary', {}, `Gone (${gone.length})`), list)];
+    }
+
+    private defectItem(defect: Defect, index: number): HTMLElement {
+        const size = sizeOf(defect);
+        const button = element(
+            'button',
+            { class: 'item', 'data-choice': `defect-${index}`, title: defect.text },
+            element(
+                'span',
+                { class: `severity s${defect.severity}`, title: `severity ${defect.severity} of 4` },
+                String(defect.id),
+            ),
+            element('span', {}, defect.cause.replace('_', ' ')),
+            element('small', {}, defect.change === 'new' ? `new ${size}` : size),
+        );
+        button.classList.toggle('accepted', this.store.state.accepted.get(defect.id)?.accepted === true);
+        button.addEventListener('click', () => this.deeds.goToDefect(index));
+        return button;
     }
 
     private filterDefects(): void {
         const { defects } = this.manifest;
-        const { state } = this.store;
-        this.defectItems.forEach((item, k) => {
-            item.hidden = !keeps(state, defects[k]);
-            item.classList.toggle('accepted', state.accepted.get(defects[k].id)?.accepted === true);
-        });
-        const kept = defects.filter((defect) => keeps(state, defect)).length;
+        const kept = [...defects.entries()].filter(([, defect]) => keeps(this.store.state, defect));
+        this.defectList.replaceChildren(
+            ...kept.slice(0, mostDefects).map(([index, defect]) => this.defectItem(defect, index)),
+            ...(kept.length > mostDefects ? [moreHint(kept.length - mostDefects)] : []),
+        );
         this.defectCount.textContent =
-            kept < defects.length ? `Defects (${kept} of ${defects.length})` : `Defects (${kept})`;
+            kept.length < defects.length ? `Defects (${kept.length} of ${defects.length})` : `Defects (${kept.length})`;
     }
 
     /** From which pass to which the surface is drawn. */
@@ -196,7 +202,7 @@ export class TreePane {
                 value: String(value),
                 'aria-label': `${name} pass drawn`,
             });
-        const [first, last] = this.store.state.passes ?? [1, count];
+        const [first, last] = (this.store.state.passes ?? [1, count]).map((n) => Math.min(n, count));
         const [from, to] = [box('first', first), box('last', last)];
         const change = () => {
             const [a, b] = [Number(from.value), Number(to.value)].map((n) =>

@@ -212,7 +212,8 @@ export class ViewPane {
     private shows(surface: Surface): ((vertex: number) => boolean) | null {
         const { kinds, passes } = this.store.state;
         if (kinds === everyKind && !passes) return null;
-        const [first, last] = passes ?? [1, surface.info.pass_count];
+        const count = surface.info.pass_count; // the other log may have fewer
+        const [first, last] = (passes ?? [1, count]).map((n) => Math.min(n, count));
         const from = passes ? surface.passes[2 * first - 2] : 0;
         const to = passes ? (surface.passes[2 * last - 1] ?? Infinity) : Infinity;
         return (i) => ((kinds >> surface.kind(i)) & 1) === 1 && surface.point[i] >= from && surface.point[i] <= to;
