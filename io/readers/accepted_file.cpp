@@ -30,7 +30,7 @@ Value take(const Json& json, const char* key, bool (Json::*is)() const noexcept,
 
 AcceptedDefect defect_of(const Json& json, std::size_t number, const std::string& path) {
     const std::string where = fmt::format("defect {} of the list", number);
-    if (!json.is_object()) reject(path, where + " is no object");
+    if (!json.is_object()) reject(path, where + " is not an object");
     AcceptedDefect defect;
     defect.fingerprint = take(json, "fingerprint", &Json::is_string, "a text", std::string(), path, where);
     if (defect.fingerprint.empty()) reject(path, where + " has no 'fingerprint'");
@@ -48,8 +48,8 @@ AcceptedDefect defect_of(const Json& json, std::size_t number, const std::string
 AcceptedFile read_accepted(const std::string& path) {
     const Source file = map_file(path);
     const Json json = parse_bounded(file.text());
-    if (json.is_discarded()) reject(path, "is no JSON, or is too large");
-    if (!json.is_object() || !json.contains("clsurf_accepted")) reject(path, "is no file of accepted defects");
+    if (json.is_discarded()) reject(path, "is not valid JSON, or is too large");
+    if (!json.is_object() || !json.contains("clsurf_accepted")) reject(path, "is not a file of accepted defects");
     if (json["clsurf_accepted"] != format_version)
         reject(path, fmt::format("'clsurf_accepted' is not {}: another version of this format", format_version));
     AcceptedFile accepted;
@@ -60,7 +60,7 @@ AcceptedFile read_accepted(const std::string& path) {
     for (const Json& entry : json["defects"]) {
         accepted.defects.push_back(defect_of(entry, accepted.defects.size() + 1, path));
         if (!seen.insert(accepted.defects.back().fingerprint).second)
-            reject(path, fmt::format("'{}' is there twice", accepted.defects.back().fingerprint));
+            reject(path, fmt::format("fingerprint '{}' appears twice", accepted.defects.back().fingerprint));
     }
     return accepted;
 }

@@ -61,23 +61,25 @@ private:
         defect.sections.push_back({0, lines[0].get<LineNumber>(), lines[1].get<LineNumber>()});
     }
 
+    [[nodiscard]] RecordedDefect recorded(const Value& of) const {
+        RecordedDefect defect;
+        defect.cause = value_of<std::string>(of, "cause", "");
+        if (defect.cause.empty()) fail();
+        defect.severity = value_of(of, "severity", 1);
+        defect.score = value_of(of, "score", 0.0);
+        defect.systematic = value_of(of, "systematic", false);
+        add_place(of, defect);
+        const auto lines = of.find("lines");
+        if (lines != of.end() && lines->is_array()) {
+            for (const Value& pair : *lines) add_section(pair, defect);
+        }
+        return defect;
+    }
+
     void add_json(const Value& report) {
         const auto list = report.find("defects");
         if (!report.is_object() || list == report.end() || !list->is_array()) fail();
-        for (const Value& object : *list) {
-            RecordedDefect defect;
-            defect.cause = value_of<std::string>(object, "cause", "");
-            if (defect.cause.empty()) fail();
-            defect.severity = value_of(object, "severity", 1);
-            defect.score = value_of(object, "score", 0.0);
-            defect.systematic = value_of(object, "systematic", false);
-            add_place(object, defect);
-            const auto lines = object.find("lines");
-            if (lines != object.end() && lines->is_array()) {
-                for (const Value& pair : *lines) add_section(pair, defect);
-            }
-            defects_.push_back(std::move(defect));
-        }
+        for (const Value& object : *list) defects_.push_back(recorded(object));
     }
 
     void add_sarif(const Value& run) {
@@ -92,18 +94,7 @@ private:
             const auto properties = result.find("properties");
             // Results without a severity are of limits of the machine, or that nothing was judged.
             if (properties == result.end() || !properties->is_object() || !properties->contains("severity")) continue;
-            RecordedDefect defect;
-            defect.cause = value_of<std::string>(*properties, "cause", "");
-            if (defect.cause.empty()) fail();
-            defect.severity = value_of(*properties, "severity", 1);
-            defect.score = value_of(*properties, "score", 0.0);
-            defect.systematic = value_of(*properties, "systematic", false);
-            add_place(*properties, defect);
-            const auto lines = properties->find("lines");
-            if (lines != properties->end() && lines->is_array()) {
-                for (const Value& pair : *lines) add_section(pair, defect);
-            }
-            defects_.push_back(std::move(defect));
+            defects_.push_back(recorded(*properties));
         }
     }
 
