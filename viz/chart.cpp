@@ -15,23 +15,6 @@ constexpr Rgb reference_colour{150, 150, 156};
 // Readable by the colour-blind (Okabe, Ito 2008).
 constexpr Rgb curve_colours[] = {{0, 90, 178}, {213, 94, 0}, {0, 130, 95}, {160, 70, 130}, {110, 85, 0}};
 
-/// Range of a curve with a little room; a flat curve gets some anyway.
-void fit(ChartFrame& frame, const Curve& curve) {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    for (const std::vector<double>* values : {&curve.values, &curve.reference}) {
-        for (const double v : *values) {
-            if (!std::isfinite(v)) continue;
-            low = std::min(low, v);
-            high = std::max(high, v);
-        }
-    }
-    if (!(low <= high)) low = high = 0;
-    const double room = high > low ? 0.05 * (high - low) : std::max(1.0, 0.05 * std::abs(high));
-    frame.y_low = low - (low >= 0 && low < room ? low : room);
-    frame.y_high = high + room;
-}
-
 /// A footnote broken at blanks into lines of at most `ems` times the height of its letters, four at most.
 std::vector<std::string> lines_of(const std::string& note, double ems) {
     constexpr double em_of_letter = 0.52;  // most letters are narrower
@@ -151,19 +134,6 @@ void add_cursor(Sheet& sheet, const ChartFrame& f, const ChartCursor& cursor, co
     sheet.texts.push_back(std::move(note));
 }
 
-void add_line(Sheet& sheet, const ChartFrame& f, std::span<const double> x, std::span<const double> values,
-              FlatLine line) {
-    for (const Vec2& p : thin_curve(x, values, f.x_low, f.x_high, static_cast<int>(f.rect.width))) {
-        if (std::isfinite(p.y())) {
-            line.points.push_back(f.at(p.x(), p.y()));
-        } else if (!line.points.empty()) {
-            sheet.lines.push_back(line);
-            line.points.clear();
-        }
-    }
-    if (!line.points.empty()) sheet.lines.push_back(std::move(line));
-}
-
 /// The curve over its reference, which is named beside it.
 void add_curve(Sheet& sheet, const ChartFrame& f, std::span<const double> x, const Curve& curve, const Rgb& colour,
                const FlatText& name) {
@@ -219,7 +189,10 @@ Image draw_chart(std::span<const double> x, const std::vector<Curve>& curves, co
                   std::max(1.0, each)};
         f.x_low = x.empty() ? 0 : x.front();
         f.x_high = x.empty() ? 1 : x.back();
-        fit(f, curves[k]);
+        ValueRange range;
+        range.widen(curves[k].values);
+        range.widen(curves[k].reference);
+        fit_y(f, range, 0.05);
         if (curves[k].classes.empty())
             add_grid(sheet, f, text, k + 1 == curves.size());
         else

@@ -1,9 +1,11 @@
 #include "viz/chart_frame.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
+#include "viz/chart.h"
 #include "viz/colour_map.h"
 
 namespace clsurf::viz {
@@ -20,6 +22,35 @@ std::vector<double> y_ticks(const ChartFrame& f, double text) {
 }
 
 }  // namespace
+
+void ValueRange::widen(std::span<const double> values) {
+    for (const double v : values) {
+        if (!std::isfinite(v)) continue;
+        low = std::min(low, v);
+        high = std::max(high, v);
+    }
+}
+
+void fit_y(ChartFrame& frame, ValueRange range, double room_share) {
+    auto [low, high] = range;
+    if (!(low <= high)) low = high = 0;
+    const double room = high > low ? room_share * (high - low) : std::max(1.0, 0.05 * std::abs(high));
+    frame.y_low = low - (low >= 0 && low < room ? low : room);
+    frame.y_high = high + room;
+}
+
+void add_line(Sheet& sheet, const ChartFrame& f, std::span<const double> x, std::span<const double> values,
+              FlatLine line) {
+    for (const Vec2& p : thin_curve(x, values, f.x_low, f.x_high, static_cast<int>(f.rect.width))) {
+        if (std::isfinite(p.y())) {
+            line.points.push_back(f.at(p.x(), p.y()));
+        } else if (!line.points.empty()) {
+            sheet.lines.push_back(line);
+            line.points.clear();
+        }
+    }
+    if (!line.points.empty()) sheet.lines.push_back(std::move(line));
+}
 
 void add_y_axis(Sheet& sheet, const ChartFrame& f, double text) {
     const std::vector<double> ys = y_ticks(f, text);

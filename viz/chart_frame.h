@@ -1,6 +1,9 @@
 #pragma once
 // ChartFrame: a rectangle of a sheet with two axes, its grid and its numbers.
 
+#include <limits>
+#include <span>
+
 #include "viz/canvas.h"
 
 namespace clsurf::viz {
@@ -19,6 +22,21 @@ struct ChartFrame {
         return {rect.x + u * rect.width, rect.y + v * rect.height};
     }
 };
+
+/// The range of values that a chart shows. What is not finite has no part in it.
+struct ValueRange {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    void widen(std::span<const double> values);
+};
+
+/// Fits the y axis to a range, with a share of it as room on both sides, but none below 0 for values that are not. A flat curve
+/// gets some anyway.
+void fit_y(ChartFrame& frame, ValueRange range, double room_share);
+
+/// A curve over x (rising), with gaps where it has no value; `line` is its look.
+void add_line(Sheet& sheet, const ChartFrame& frame, std::span<const double> x, std::span<const double> values,
+              FlatLine line);
 
 /// Grid lines at round values, numbers of a text size [px] at the left, and below where `x_labels` says so.
 void add_grid(Sheet& sheet, const ChartFrame& frame, double text, bool x_labels);

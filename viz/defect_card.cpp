@@ -24,24 +24,13 @@ double text_size(int width, int height) { return std::clamp(std::min(width * 0.4
 
 /// Fits the values of all curves and of the band, with a little room.
 void fit(ChartFrame& frame, const CardChart& chart) {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    const auto widen = [&](std::span<const double> values) {
-        for (const double v : values) {
-            if (!std::isfinite(v)) continue;
-            low = std::min(low, v);
-            high = std::max(high, v);
-        }
-    };
-    for (const CardCurve& curve : chart.curves) widen(curve.values);
-    widen(chart.band_low);
-    widen(chart.band_high);
-    if (!(low <= high)) low = high = 0;
-    const double room = high > low ? 0.07 * (high - low) : std::max(1.0, 0.05 * std::abs(high));
+    ValueRange range;
+    for (const CardCurve& curve : chart.curves) range.widen(curve.values);
+    range.widen(chart.band_low);
+    range.widen(chart.band_high);
     frame.x_low = chart.x.empty() ? 0 : chart.x.front();
     frame.x_high = chart.x.empty() ? 1 : chart.x.back();
-    frame.y_low = low - (low >= 0 && low < room ? low : room);
-    frame.y_high = high + room;
+    fit_y(frame, range, 0.07);
 }
 
 class CardDrawer {
@@ -57,16 +46,7 @@ public:
         add_grid(sheet_, frame, 0.9 * text_, true);
         const double scale = text_ / 18;
         for (const CardCurve& curve : chart.curves) {
-            FlatLine line{{}, curve.width * scale, curve.rgb, Level::line};
-            for (const Vec2& p :
-                 thin_curve(chart.x, curve.values, frame.x_low, frame.x_high, static_cast<int>(rect.width))) {
-                if (std::isfinite(p.y())) {
-                    line.points.push_back(frame.at(p.x(), p.y()));
-                    continue;
-                }
-                finish(line);
-            }
-            finish(line);
+            add_line(sheet_, frame, chart.x, curve.values, {{}, curve.width * scale, curve.rgb, Level::line});
             if (!chart.dots) continue;
             for (std::size_t i = 0; i < chart.x.size(); ++i) {
                 if (std::isfinite(curve.values[i]))
@@ -114,11 +94,6 @@ public:
     }
 
 private:
-    void finish(FlatLine& line) {
-        if (line.points.size() > 1) sheet_.lines.push_back(line);
-        line.points.clear();
-    }
-
     void dot(const Vec2& at, const Rgb& rgb, Level level) {
         const double r = 0.22 * text_;
         sheet_.lines.push_back({{at - Vec2(r, 0), at + Vec2(r, 0)}, 2 * r, rgb, level});

@@ -11,7 +11,11 @@ namespace {
 /// Surfaceless: VTK draws into a framebuffer object of its own.
 class EglContext final : public GlContext {
 public:
-    EglContext() {
+    EglContext()
+        : display_before_(eglGetCurrentDisplay()),
+          draw_before_(eglGetCurrentSurface(EGL_DRAW)),
+          read_before_(eglGetCurrentSurface(EGL_READ)),
+          context_before_(eglGetCurrentContext()) {
         const auto get_display =
             reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
         if (get_display != nullptr) display_ = get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
@@ -33,7 +37,9 @@ public:
     ~EglContext() override {
         eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         eglDestroyContext(display_, context_);
-        eglTerminate(display_);
+        // The display is not terminated: there is one in a process, which others may draw with.
+        if (context_before_ != EGL_NO_CONTEXT)
+            eglMakeCurrent(display_before_, draw_before_, read_before_, context_before_);
     }
     void make_current() override {
         set_gl_resolver([](const char* name) { return reinterpret_cast<GlFunction>(eglGetProcAddress(name)); });
@@ -52,6 +58,10 @@ private:
         return answer == nullptr ? std::string() : reinterpret_cast<const char*>(answer);
     }
 
+    /// Of a program that draws with EGL itself.
+    EGLDisplay display_before_;
+    EGLSurface draw_before_, read_before_;
+    EGLContext context_before_;
     EGLDisplay display_ = EGL_NO_DISPLAY;
     EGLContext context_ = EGL_NO_CONTEXT;
 };

@@ -51,7 +51,8 @@ private:
 GlWindow::GlWindow(const std::string& gl, int width, int height)
     : context_(make_gl_context(gl, context_size, context_size)),
       complaints_(vtkSmartPointer<Complaints>::New()),
-      complaints_before_(vtkOutputWindow::GetInstance()) {
+      complaints_before_(vtkOutputWindow::GetInstance()),
+      verbosity_before_(vtkLogger::GetCurrentVerbosityCutoff()) {
     if (context_->renderer().empty()) throw SystemError("OpenGL does not answer");
     give_resolver(window_.GetPointer());
     vtkOutputWindow::SetInstance(complaints_);
@@ -72,7 +73,7 @@ GlWindow::~GlWindow() {
     context_->make_current();
     window_->Finalize();
     vtkOutputWindow::SetInstance(complaints_before_);
-    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_INFO);
+    vtkLogger::SetStderrVerbosity(verbosity_before_);
 }
 
 Image GlWindow::render(int factor) {

@@ -33,6 +33,7 @@ private:
 
     std::unique_ptr<GlContext> context_;
     vtkSmartPointer<vtkOutputWindow> complaints_, complaints_before_;
+    vtkLogger::Verbosity verbosity_before_;
     vtkNew<vtkGenericOpenGLRenderWindow> window_;
 };
 

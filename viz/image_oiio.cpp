@@ -108,14 +108,14 @@ bool read(const char* path, void* context, std::uint8_t* (*take)(void*, int, int
         return false;
     }
     const std::size_t pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
-    const auto channels = static_cast<std::size_t>(spec.nchannels);
-    std::vector<std::uint8_t> raw(pixels * channels);
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, raw.data())) {
+    const int channels = spec.nchannels >= 3 ? 3 : 1;
+    std::vector<std::uint8_t> raw(pixels * static_cast<std::size_t>(channels));
+    if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, raw.data())) {
         report(context, input->geterror().c_str());
         return false;
     }
     for (std::size_t i = 0; i < pixels; ++i) {
-        for (std::size_t k = 0; k < 3; ++k) rgb[3 * i + k] = raw[i * channels + (channels >= 3 ? k : 0)];
+        for (std::size_t k = 0; k < 3; ++k) rgb[3 * i + k] = channels == 3 ? raw[3 * i + k] : raw[i];
     }
     return true;
 }

@@ -41,9 +41,13 @@ def installed(cmake, build, component, name, folder):
 
 
 def commit_time(source):
-    """[s] since 1970 as text; without a repository the earliest that a zip file can hold."""
-    done = subprocess.run(["git", "-C", source, "log", "-1", "--format=%ct"], capture_output=True, text=True)
-    return done.stdout.strip() or "315532800"
+    """[s] since 1970 as text; without a repository, or without git, the earliest that a zip file can hold."""
+    earliest = "315532800"
+    try:
+        done = subprocess.run(["git", "-C", source, "log", "-1", "--format=%ct"], capture_output=True, text=True)
+    except FileNotFoundError:
+        return earliest
+    return done.stdout.strip() or earliest
 
 
 def main(cmake, build, source, version, folder):
