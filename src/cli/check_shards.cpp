@@ -17,7 +17,7 @@ void declare_shards(po::options_description& options) {
                           "the verdict on the whole log from what was found in all of its shards");
     options.add_options()(
         "scratch", po::value<std::string>()->value_name("FOLDER"),
-        "with --merge: keep what the log takes in files in this folder, not in memory: 84 bytes a point");
+        "with --merge: keep the data of the log in files in this folder instead of in memory (84 bytes a point)");
 }
 
 ExitCode check_shard(PartOptions options, const ShardNumber& shard, const po::variables_map& values) {

@@ -113,7 +113,7 @@ Subcommand compare_subcommand() {
                 // clang-format off
                 options.add_options()
                     ("threshold", po::value<double>()->value_name("T"), "largest difference that is ignored, 0 … 1 (default: 1/255)")
-                    ("ignore-text", "words and numbers are not compared, so that a renamed log is no difference; PNG pictures of clsurf only")
+                    ("ignore-text", "ignore words and numbers in the pictures, so that another name of the log does not count as a difference; PNG pictures of clsurf only")
                     ("diff", po::value<std::string>()->value_name("OUT.png"), "a picture of the differences")
                     ("update", "replace the reference by A if they differ or B is missing");
                 // clang-format on

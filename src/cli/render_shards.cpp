@@ -30,11 +30,12 @@ namespace {
 void refuse_what_needs_the_whole(const RenderOptions& options, const po::variables_map& values) {
     for (const char* name :
          {"defects", "before", "programmed", "mark-point", "mark-line", "points", "lines", "passes", "follow"}) {
-        if (given(values, name)) throw UsageError(fmt::format("--{} needs the whole log, without --survey", name));
+        if (given(values, name)) throw UsageError(fmt::format("--{} needs the whole log: leave out --survey", name));
     }
     if (options.part.as_machined || options.part.role)
-        throw UsageError("--survey is of the positions that were surveyed, without --surface");
-    if (options.part.log.empty()) throw UsageError("a survey is of a log: clsurf render part.nc run.biip …");
+        throw UsageError("--surface does not go with --survey: the map shows the positions that were surveyed");
+    if (options.part.log.empty())
+        throw UsageError("--survey needs the log that was surveyed: clsurf render part.nc run.biip …");
 }
 
 /// The colour range, which must be known before the first shard is drawn.

@@ -43,7 +43,7 @@ void read_report_shards(const po::variables_map& values, ReportOptions& options)
         return;
     }
     for (const char* name : {"before", "follow"}) {
-        if (given(values, name)) throw UsageError(fmt::format("--{} needs the whole log, without --survey", name));
+        if (given(values, name)) throw UsageError(fmt::format("--{} needs the whole log: leave out --survey", name));
     }
     options.shards = read_shard_count(values);
     SurveyedLog log = read_surveyed_log(options.part, values);

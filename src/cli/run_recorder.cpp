@@ -51,7 +51,7 @@ void declare_recording(po::options_description& options) {
     options.add_options()
         ("param", po::value<std::vector<std::string>>()->value_name("NAME=VALUE"), "a parameter of the run, such as tool=D6R3; may be repeated")
         ("time", po::value<std::string>()->value_name("TIME"), "when the run was cut, such as 2026-11-24T07:30:00+01:00 (default: when the log was written)")
-        ("parameters", po::value<std::string>()->value_name("FILE"), "which parameters runs may have (TOML); kept in the history");
+        ("parameters", po::value<std::string>()->value_name("FILE"), "rules for the parameters of runs (TOML); the history keeps them");
     // clang-format on
 }
 

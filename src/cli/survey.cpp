@@ -55,7 +55,7 @@ Subcommand survey_subcommand() {
                 options.add_options()("output,o", po::value<std::string>()->value_name("FILE"), "the survey");
                 options.add_options()(
                     "scratch", po::value<std::string>()->value_name("FOLDER"),
-                    "keep what the log takes in files in this folder, not in memory: up to 32 bytes a point");
+                    "keep the data of the log in files in this folder instead of in memory (up to 32 bytes a point)");
                 declare_part(options);
             },
         .positional = {"PROGRAM", "LOG"},

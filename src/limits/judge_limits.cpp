@@ -129,11 +129,11 @@ bool is_stated(const Trajectory& path) {
 double pose_error(const Trajectory& path, const PathTolerance& tolerance) {
     if (is_stated(path)) return 0;
     const PointIndex count = path.count;
-    constexpr PointIndex sections = 32, section = 512;
+    constexpr PointIndex section_count = 32, section_length = 512;  // records
     Column<double> distances;
-    for (PointIndex s = 0; s < sections; ++s) {
-        const PointIndex first = std::max<PointIndex>(0, count - section) * s / (sections - 1);
-        for (const PathDeviation& at : tolerance.read({first, std::min(count, first + section) - 1})) {
+    for (PointIndex s = 0; s < section_count; ++s) {
+        const PointIndex first = std::max<PointIndex>(0, count - section_length) * s / (section_count - 1);
+        for (const PathDeviation& at : tolerance.read({first, std::min(count, first + section_length) - 1})) {
             if (std::isfinite(at.distance)) distances.push_back(at.distance);
         }
     }

@@ -9,8 +9,8 @@
 namespace clsurf {
 namespace {
 
-constexpr PointIndex sections = 64, section = 1600;
-constexpr double most_off = 0.5;  ///< [mm] more is another matter than a lead
+constexpr PointIndex section_count = 64, section_length = 1600;  // records
+constexpr double most_off = 0.5;                                 ///< [mm] more is another matter than a lead
 
 }  // namespace
 
@@ -18,9 +18,9 @@ PointIndex find_line_lead(const Trajectory& path, const Program& program, const 
     if (!lines.from_log() || path.count <= longest_line_lead || program.motions.size() == 0) return 0;
     const Toolpath toolpath(program.motions, path.at(0));
     std::array<double, longest_line_lead + 1> off{};
-    const PointIndex step = std::max<PointIndex>(section, path.count / sections);
+    const PointIndex step = std::max<PointIndex>(section_length, path.count / section_count);
     for (PointIndex first = longest_line_lead; first < path.count; first += step) {
-        const PointIndex end = std::min(path.count, first + section);
+        const PointIndex end = std::min(path.count, first + section_length);
         for (PointIndex point = first; point < end; ++point) {
             // Only where the line changes do leads differ.
             const std::int64_t now = lines.motion_at(point);

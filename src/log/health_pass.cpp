@@ -23,8 +23,8 @@ constexpr double least_turn = 0.05;                  ///< [rad] less is noise an
 constexpr double stuck_arc_length = 50.0;            ///< [mm] at least, on one line
 constexpr double stuck_turn = 3 * std::numbers::pi;  ///< [rad] to the left, and as much to the right
 
-constexpr PointIndex before = 2;      ///< records that a section looks back
-constexpr PointIndex section = 2048;  ///< records whose channels stay in the cache together
+constexpr PointIndex before = 2;             ///< records that a section looks back
+constexpr PointIndex section_length = 2048;  ///< records whose channels stay in the cache together
 
 bool is_position(const Channel& channel) {
     for (const Role role : {Role::commanded, Role::feedback, Role::actual}) {
@@ -147,9 +147,9 @@ public:
 
     BlockSummary run(PointIndex first, PointIndex last) {
         run_.first = first;
-        for (PointIndex begin = first; begin < last; begin += section) {
+        for (PointIndex begin = first; begin < last; begin += section_length) {
             begin_ = begin;
-            end_ = std::min(last, begin + section);
+            end_ = std::min(last, begin + section_length);
             window_ = std::max<PointIndex>(0, begin - before);
             const PointIndex window_end = std::min(log_.records, end_ + 1);
             for (std::size_t c = 0; c < values_.size(); ++c) {

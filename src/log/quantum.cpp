@@ -83,14 +83,14 @@ double last_place(ScalarType type, double size) {
 }  // namespace
 
 double resolution_of(const ChannelView& channel) {
-    constexpr PointIndex sections = 64, section = 256;
-    constexpr double exact = 1e-3;        // share of a step
-    std::vector<double> stored, changes;  // as they are stored, where the axis moves
+    constexpr PointIndex section_count = 64, section_length = 256;  // records
+    constexpr double exact = 1e-3;                                  // share of a step
+    std::vector<double> stored, changes;                            // as they are stored, where the axis moves
     double low = 0, high = 0;
-    std::vector<double> values(static_cast<std::size_t>(std::min(channel.count, section)));
-    for (PointIndex s = 0; s < sections && !values.empty(); ++s) {
+    std::vector<double> values(static_cast<std::size_t>(std::min(channel.count, section_length)));
+    for (PointIndex s = 0; s < section_count && !values.empty(); ++s) {
         const PointIndex room = channel.count - static_cast<PointIndex>(values.size());
-        copy_block(channel, room * s / (sections - 1), values);
+        copy_block(channel, room * s / (section_count - 1), values);
         for (std::size_t i = 1; i < values.size(); ++i) {
             const double value = (values[i] - channel.bias) / channel.scale;
             const double change = (values[i] - values[i - 1]) / channel.scale;

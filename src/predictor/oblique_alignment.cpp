@@ -82,7 +82,7 @@ private:
         return at.fraction == 0 ? a : a + at.fraction * (signals[at.point + 1].speed - a);
     }
 
-    /// Stations `spacing_` apart from one on, as long as the pass is judged.
+    /// Places `spacing_` apart from one on, as long as the pass is judged.
     void walk(const Positions& p, const Signals& signals, const PathLocation& from, int direction, std::size_t samples,
               std::vector<PathLocation>& out) const {
         out.push_back(from);

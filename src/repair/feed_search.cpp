@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array<double, 3> steps_between_passes{0.1, 0.05, 0.02};
 constexpr double feed_tolerance = 0.003;  ///< a motion this little too fast (a share) gets no feed
-constexpr int levelling_rounds = 3;       ///< with the time that there is
+constexpr int equalising_rounds = 3;      ///< with the time that there is
 constexpr double most_share = 0.65;  ///< of the time there is, that a round may reckon with: feeds hold whole lines
 constexpr double time_used = 0.95;   ///< of what is there: enough
 
@@ -46,12 +46,12 @@ std::vector<float> eased_targets(const Proposal& from, const Proposal& made, con
     return targets;
 }
 
-/// Whether a feed reduction left fewer defects about some of those that it was for and not about others; such become hopeless.
-bool gives_up_losses(const Proposal& from, const ReducedSpeeds& reduce_feeds, const Proposal& reduced,
+/// Whether a feed reduction removed defects near some of its causes but not near others. The others are added to `abandoned`.
+bool gives_up_losses(const Proposal& from, const ReducedSpeeds& speeds, const Proposal& reduced,
                      std::vector<Vec3>& abandoned) {
-    const std::vector<int> gains = gains_of(reduce_feeds, from.run, reduced.run);
+    const std::vector<int> gains = gains_of(speeds, from.run, reduced.run);
     std::set<std::size_t> tried;
-    for (const std::int32_t cause : reduce_feeds.causes) {
+    for (const std::int32_t cause : speeds.causes) {
         if (cause >= 0) tried.insert(static_cast<std::size_t>(cause));
     }
     std::size_t lost = 0;
@@ -68,7 +68,7 @@ bool gives_up_losses(const Proposal& from, const ReducedSpeeds& reduce_feeds, co
 FeedSearch::FeedSearch(Evaluator& evaluator, const Machine& machine)
     : evaluator_(evaluator), lag_power_(lag_power(machine)), ramp_(ramp_of(machine)) {}
 
-void FeedSearch::level(const TriedProposal& from) {
+void FeedSearch::equalise(const TriedProposal& from) {
     const FeedEqualiser equaliser(from->run);
     for (const double step : steps_between_passes) {
         if (!evaluator_.has_time()) return;
@@ -82,7 +82,7 @@ void FeedSearch::equalise_in_time(const TriedProposal& from) {
     const double there = evaluator_.longest() - from->run.duration;
     const FeedEqualiser equaliser(from->run);
     double budget = most_share * there;
-    for (int round = 0; round < levelling_rounds && budget > 0 && evaluator_.has_time(); ++round) {
+    for (int round = 0; round < equalising_rounds && budget > 0 && evaluator_.has_time(); ++round) {
         const std::vector<float> targets =
             lowered_targets(*from, equaliser.everywhere({0, equaliser.affordable_step(ramp_, budget), ramp_}));
         if (targets == from->targets) return;
@@ -107,8 +107,8 @@ void FeedSearch::reduce_feeds(FeedReduction& reduction, int rounds) {
         rules.budget = reduction.share * (evaluator_.longest() - from->run.duration);
         if (rules.budget <= 0) return;
         rules.abandoned = reduction.abandoned;
-        ReducedSpeeds reduce_feeds = reduced_speeds(from->run, rules);
-        std::vector<float> targets = lowered_targets(*from, reduce_feeds.speeds);
+        ReducedSpeeds speeds = reduced_speeds(from->run, rules);
+        std::vector<float> targets = lowered_targets(*from, speeds.speeds);
         if (targets == from->targets) {
             if (reduction.share == most_share) return;
             reduction.share = std::min(2 * reduction.share, most_share);
@@ -121,14 +121,13 @@ void FeedSearch::reduce_feeds(FeedReduction& reduction, int rounds) {
         last_from = from;
         last_targets = targets;
         std::vector<TriedProposal> attempts{evaluator_.propose(from->draft, targets)};
-        if (gives_up_losses(*from, reduce_feeds, *attempts.back(), rules.abandoned) && evaluator_.has_time()) {
-            reduce_feeds = reduced_speeds(from->run, rules);
-            targets = lowered_targets(*from, reduce_feeds.speeds);
+        if (gives_up_losses(*from, speeds, *attempts.back(), rules.abandoned) && evaluator_.has_time()) {
+            speeds = reduced_speeds(from->run, rules);
+            targets = lowered_targets(*from, speeds.speeds);
             if (targets != from->targets) attempts.push_back(evaluator_.propose(from->draft, targets));
         }
         if (evaluator_.has_time())
-            attempts.push_back(
-                evaluator_.propose(from->draft, eased_targets(*from, *attempts.back(), reduce_feeds.speeds)));
+            attempts.push_back(evaluator_.propose(from->draft, eased_targets(*from, *attempts.back(), speeds.speeds)));
         for (const TriedProposal& tried : attempts) {
             if (tried->run.duration <= evaluator_.longest() &&
                 evaluator_.score(*tried) < evaluator_.score(*reduction.from))

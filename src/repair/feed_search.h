@@ -30,7 +30,7 @@ public:
     void equalise_in_time(const TriedProposal& from);
 
     /// The same with steps that are fixed fractions of the speed.
-    void level(const TriedProposal& from);
+    void equalise(const TriedProposal& from);
 
     /// Slows down around remaining defects, round by round, as long as the time budget lasts. Each round is one feed
     /// reduction, the same only for the defects that it removed, and the last of these with feeds as high as its speeds

@@ -109,7 +109,7 @@ FeedEqualiser::FeedEqualiser(const JudgedRun& run)
     });
 }
 
-void FeedEqualiser::level(const EqualisationStep& step, FeedEqualisation& equalisation) const {
+void FeedEqualiser::equalise(const EqualisationStep& step, FeedEqualisation& equalisation) const {
     const Passes& passes = run_.surface.passes;
     std::vector<std::uint8_t> has_cause(passes.size(), 0);
     const auto look_for_cause = [&](std::size_t k) {
@@ -138,7 +138,7 @@ void FeedEqualiser::level(const EqualisationStep& step, FeedEqualisation& equali
 
 std::vector<float> FeedEqualiser::everywhere(const EqualisationStep& step) const {
     FeedEqualisation all{own_, std::vector<std::int32_t>(own_.size(), 0), std::vector<std::uint8_t>(own_.size(), 1)};
-    level(step, all);
+    equalise(step, all);
     return std::move(all.speeds);
 }
 
@@ -190,21 +190,27 @@ std::vector<float> equalised_feeds(const std::vector<float>& target, const std::
     const auto apart = static_cast<float>(1 + width);
     std::size_t first = 0;  // of the interval
     float low = 0, high = 0;
+    const auto close = [&](std::size_t end) {
+        if (low > 0)
+            std::fill(feeds.begin() + static_cast<std::ptrdiff_t>(first),
+                      feeds.begin() + static_cast<std::ptrdiff_t>(end), low);
+    };
     for (std::size_t i = 0; i < target.size(); ++i) {
         if (target[i] <= 0 || (!may_slow.empty() && may_slow[i] == 0)) {
+            close(i);
             low = 0;
             continue;
         }
         const bool joins = low > 0 && std::max(high, target[i]) <= apart * std::min(low, target[i]);
         if (!joins) {
+            close(i);
             first = i;
             low = high = target[i];
         }
         low = std::min(low, target[i]);
         high = std::max(high, target[i]);
-        std::fill(feeds.begin() + static_cast<std::ptrdiff_t>(first),
-                  feeds.begin() + static_cast<std::ptrdiff_t>(i) + 1, low);
     }
+    close(target.size());
     return feeds;
 }
 

@@ -45,7 +45,7 @@ public:
     /// cause: if all start with one, speeds are equalised everywhere. Before and after a lowered place a pass follows
     /// the ramp, so the next pass is equalised with the real motion of the machine. Two sweeps, forward and backward,
     /// over the passes with a cause or next to one.
-    void level(const EqualisationStep& step, FeedEqualisation& equalisation) const;
+    void equalise(const EqualisationStep& step, FeedEqualisation& equalisation) const;
 
     /// The highest speeds that are equal everywhere.
     [[nodiscard]] std::vector<float> everywhere(const EqualisationStep& step) const;

@@ -62,9 +62,9 @@ public:
     ReducedSpeeds speeds() {
         const std::vector<std::int32_t> order = by_cost();
         std::size_t paid = 0, too_many = order.size() + 1;
-        ReducedSpeeds best = level({});
+        ReducedSpeeds best = reduced({});
         for (std::size_t many = order.size(); paid + 1 < too_many; many = (paid + too_many) / 2) {
-            ReducedSpeeds reduction = level(std::span(order).first(many));
+            ReducedSpeeds reduction = reduced(std::span(order).first(many));
             const bool holds = equaliser_.lost(reduction.speeds) <= rules_.budget;
             (holds ? paid : too_many) = many;
             if (holds) best = std::move(reduction);
@@ -94,10 +94,10 @@ private:
 
     /// … and whether it is equalised: a lag step lies beside other slow places, which may cost much more than it does.
     [[nodiscard]] double cost_alone(std::int32_t k) {
-        const double cost = equaliser_.lost(level({&k, 1}).speeds);
+        const double cost = equaliser_.lost(reduced({&k, 1}).speeds);
         if (run_.report.defects[static_cast<std::size_t>(k)].quantity != Quantity::lag) return cost;
         equalised_[static_cast<std::size_t>(k)] = 0;
-        const double slowed = equaliser_.lost(level({&k, 1}).speeds);
+        const double slowed = equaliser_.lost(reduced({&k, 1}).speeds);
         if (cost >= most_equalised * slowed) return slowed;
         equalised_[static_cast<std::size_t>(k)] = 1;
         return cost;
@@ -110,7 +110,7 @@ private:
     }
 
     /// The speeds for some of the defects.
-    [[nodiscard]] ReducedSpeeds level(std::span<const std::int32_t> taken) const {
+    [[nodiscard]] ReducedSpeeds reduced(std::span<const std::int32_t> taken) const {
         const std::size_t n = equaliser_.own().size();
         FeedEqualisation equalisation{equaliser_.own(), std::vector<std::int32_t>(n, -1),
                                       std::vector<std::uint8_t>(n, 0)};
@@ -121,7 +121,7 @@ private:
             }
             if (defect.quantity == Quantity::lag) slow_for_lag(defect, equalisation.speeds);
         }
-        equaliser_.level({rules_.step, 0, rules_.ramp}, equalisation);
+        equaliser_.equalise({rules_.step, 0, rules_.ramp}, equalisation);
         return {std::move(equalisation.speeds), std::move(equalisation.causes)};
     }
 

@@ -1,7 +1,7 @@
 #pragma once
-// Stations: aligned places on adjacent passes. A phase runs along every pass, and there is a aligned point at each
-// whole number. The phase of a place is that of the adjacent place on a pass that was programmed earlier.
-// Points at aligned points are therefore aligned with those of the neighbours.
+// Aligned points: places on adjacent passes that lie side by side. A phase runs along every pass, and an aligned point lies at
+// each whole number. The phase of a place is that of the adjacent place on the pass that was programmed earlier, so that the
+// aligned points of neighbours lie side by side.
 
 #include <cstdint>
 #include <vector>
@@ -20,16 +20,16 @@ struct Phases {
 [[nodiscard]] Phases run_phases(const ProgrammedSurface& programmed, double spacing);
 
 inline constexpr double nearest_aligned_point =
-    0.35;  ///< of a line: a aligned point nearer to a fixed point is left out
+    0.35;  ///< of a line: an aligned point nearer to a fixed point is left out
 
-/// A aligned point on a section of a pass.
+/// An aligned point on a section of a pass.
 struct AlignedPoint {
     double arc_length = 0;    ///< [mm] from where the section begins
     std::int64_t number = 0;  ///< its phase in quarters
     double part = 0;          ///< [mm] of arc length in a quarter
 };
 
-/// Stations between two points of the surface, from a margin after the first one to a margin before the last one, which
+/// Aligned points between two points of the surface, from a margin after the first one to a margin before the last one, which
 /// is `length` [mm] of arc length away. Where passes fan out, halves and quarters of a phase are aligned points too.
 /// O(points).
 [[nodiscard]] std::vector<AlignedPoint> aligned_points_between(const ProgrammedSurface& programmed,

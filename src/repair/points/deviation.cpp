@@ -142,11 +142,11 @@ void compare(const Course& from, const Course& to, double step, const Take& take
 }
 
 /// Whether a repair may put other motions in its place: distances along it are compared, not its words.
-bool is_plain(const Course& arc_length, std::int64_t i) {
-    const Motions& motions = arc_length.path.motions();
+bool is_plain(const Course& course, std::int64_t i) {
+    const Motions& motions = course.path.motions();
     const auto k = static_cast<std::size_t>(i);
     const bool turns = !motions.rotary.empty() && i > 0 && !(motions.rotary[k] == motions.rotary[k - 1]);
-    const bool turns_on_the_way = arc_length.orientation != nullptr && arc_length.path.length(i) > 0;
+    const bool turns_on_the_way = course.orientation != nullptr && course.path.length(i) > 0;
     const bool repaired = motions.kind[k] == MotionKind::feed || motions.kind[k] == MotionKind::spline;
     return repaired && (!turns || turns_on_the_way);
 }

@@ -112,11 +112,11 @@ private:
     [[nodiscard]] std::vector<std::uint8_t> creases_of(const ProgrammedPass& pass) const {
         const std::size_t n = pass.ends.size();
         const double reach = 0.5 * lines_.spacing;
-        const OldSegment arc_length = old_segment(pass, 0, n - 1);
+        const OldSegment old = old_segment(pass, 0, n - 1);
         std::vector<std::uint8_t> creases(n, 0);
         for (std::size_t k = 1; k + 1 < n; ++k) {
-            const Vec3 before = arc_length.points[k] - arc_length.at(arc_length.arc_length[k] - reach),
-                       after = arc_length.at(arc_length.arc_length[k] + reach) - arc_length.points[k];
+            const Vec3 before = old.points[k] - old.at(old.arc_length[k] - reach),
+                       after = old.at(old.arc_length[k] + reach) - old.points[k];
             creases[k] = before.dot(after) < std::cos(corner_angle_) * before.norm() * after.norm() ? 1 : 0;
         }
         return creases;

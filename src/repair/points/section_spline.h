@@ -15,8 +15,8 @@ inline constexpr double spline_knot_step = 0.001;  ///< [mm] knots are multiples
 
 /// The cubic B-spline nearest to the smooth curve in the sense of least squares over its arc length (Piegl and Tiller,
 /// The NURBS Book, 1997, section 9.4.1), from the first old point to the last. All weights are 1. Spans are halved until
-/// none leaves the curve by more than three times the chord error, or the old lines, or these it, by more than lines may. nullopt:
-/// that takes spans shorter than the spacing of points. O(points · rounds).
+/// two conditions hold: no span is farther than three chord errors from the curve, and the spline and the old lines are nowhere
+/// farther apart than lines may be. nullopt: this needs spans shorter than the spacing of points. O(points · rounds).
 [[nodiscard]] std::optional<Nurbs> section_spline(const OldSegment& old, const SmoothCurve& curve,
                                                   const LineRules& rules);
 

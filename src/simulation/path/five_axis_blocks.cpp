@@ -114,18 +114,18 @@ void FiveAxisBlocks::forget_caps() {
 double FiveAxisBlocks::part_at(std::size_t block, const Vec3& p, double from) const {
     const PathElement& e = elements_[block];
     if (!(e.length > 0)) return 1;
-    double axis_path = 0;
+    double arc_length = 0;
     if (e.arc) {
         const Vec3 off = p - e.centre;
         const double full = 2 * std::numbers::pi / e.rate;
-        axis_path = std::atan2(off.dot(e.second), off.dot(e.first)) / e.rate;
-        axis_path += full * std::round((from * e.length - axis_path) / full);
+        arc_length = std::atan2(off.dot(e.second), off.dot(e.first)) / e.rate;
+        arc_length += full * std::round((from * e.length - arc_length) / full);
     } else if (e.spline) {
-        axis_path = e.spline->arc_length_to(e.spline->nearest(p, e.spline->at_arc_length(from * e.length)).t);
+        arc_length = e.spline->arc_length_to(e.spline->nearest(p, e.spline->at_arc_length(from * e.length)).t);
     } else {
-        axis_path = (p - e.begin).dot(e.direction);
+        arc_length = (p - e.begin).dot(e.direction);
     }
-    return std::clamp(axis_path / e.length, from, 1.0);
+    return std::clamp(arc_length / e.length, from, 1.0);
 }
 
 double FiveAxisBlocks::turn_of(std::size_t i) const {

@@ -90,8 +90,8 @@ private:
         const ToolAxisPath& axis_path = blocks_->axis_path(block);
         const double least = machine_->controller.chord_tolerance;
         const double allowed = std::max(element.tolerance, least);
-        const int count =
-            std::clamp(std::max(chords_of_tip(element, allowed), chords_of_angles(axis_path)), 1, most_chords);
+        const double chords = std::max(chords_of_tip(element, allowed), chords_of_angles(axis_path));
+        const int count = static_cast<int>(std::clamp<double>(chords, 1, most_chords));
         if (chords_.empty()) begin_ = joined(tip_, angles_);
         for (int k = 1; k <= count; ++k) {
             const double part = static_cast<double>(k) / count;
@@ -117,21 +117,21 @@ private:
         return both;
     }
 
-    static int chords_of_tip(const PathElement& element, double tolerance) {
+    /// How many are needed; may be more than an int holds.
+    static double chords_of_tip(const PathElement& element, double tolerance) {
         if (element.straight()) return 1;
         if (element.spline) {
             // Chords are equally long, and the sharpest bend decides.
             double bend = 0;
             for (int k = 0; k <= places_of_spline; ++k)
                 bend = std::max(bend, element.second_derivative(element.length * k / places_of_spline).norm());
-            return static_cast<int>(std::ceil(element.length * std::sqrt(bend / (8 * chords_off * tolerance)))) + 1;
+            return std::ceil(element.length * std::sqrt(bend / (8 * chords_off * tolerance))) + 1;
         }
         // The sagitta of a chord that turns by t is its length times t/8.
-        return static_cast<int>(
-            std::ceil(std::sqrt(element.turning() * element.length / (8 * chords_off * tolerance))));
+        return std::ceil(std::sqrt(element.turning() * element.length / (8 * chords_off * tolerance)));
     }
 
-    [[nodiscard]] int chords_of_angles(const ToolAxisPath& axis_path) const {
+    [[nodiscard]] double chords_of_angles(const ToolAxisPath& axis_path) const {
         const RotaryAngles from = axis_path.at(0), to = axis_path.at(1);
         double off = 0;
         for (int k = 1; k < judged_parts; ++k) {
@@ -140,7 +140,7 @@ private:
             off = std::max({off, std::abs(angles.tilt - from.tilt - part * (to.tilt - from.tilt)),
                             std::abs(angles.rotation - from.rotation - part * (to.rotation - from.rotation))});
         }
-        return static_cast<int>(std::ceil(std::sqrt(off / (chords_off * machine_->kinematics.axis_tolerance))));
+        return std::ceil(std::sqrt(off / (chords_off * machine_->kinematics.axis_tolerance)));
     }
 
     void run_chords() {

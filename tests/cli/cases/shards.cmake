@@ -112,7 +112,7 @@ set(map_args render @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip -
 clsurf_cli_test(NAME shards_map_without_a_range SETUP "${shards_made}" ARGS ${map_args} --survey run.survey --color speed EXIT 2 STDERR "the range of 'speed' depends on all points of the log.*--range MIN,MAX, in mm/min")
 clsurf_cli_test(NAME shards_map_of_a_field_of_the_whole SETUP "${shards_made}" ARGS ${map_args} --survey run.survey --color speed_mismatch EXIT 2 STDERR "'speed_mismatch' is a field of the whole log, not of a shard")
 clsurf_cli_test(NAME shards_map_of_classes SETUP "${shards_made}" ARGS ${map_args} --survey run.survey --color line EXIT 2 STDERR "'line' has classes")
-clsurf_cli_test(NAME shards_map_with_marks SETUP "${shards_made}" ARGS ${map_args} --survey run.survey --mark-point 7 EXIT 2 STDERR "--mark-point needs the whole log, without --survey")
+clsurf_cli_test(NAME shards_map_with_marks SETUP "${shards_made}" ARGS ${map_args} --survey run.survey --mark-point 7 EXIT 2 STDERR "--mark-point needs the whole log: leave out --survey")
 clsurf_cli_test(NAME shards_map_without_a_survey ARGS ${map_args} --shards 3 EXIT 2 STDERR "--shards goes with --survey")
 clsurf_cli_test(NAME shards_map_of_no_shards SETUP "${shards_made}" ARGS ${map_args} --survey run.survey --shards 0 EXIT 2 STDERR "--shards: 0 is not 1")
 
@@ -128,7 +128,7 @@ clsurf_cli_test(NAME shards_page AFTER shards_say_what_they_read
   SETUP "cp @AFTER@/run.survey .; mkdir files; ${page_of} -o whole.html; grep -q 'of 44[^0-9]*930 points are in this page' whole.html; ${page_of} --survey run.survey --shards 1 --scratch files -o one.html; cmp whole.html one.html; ${page_of} --survey run.survey -o shards.html; ${split_page} whole.html shards.html whole.png shards.png"
   ARGS compare whole.png shards.png --threshold 0.008 STDOUT "^equal: ")
 set(page_args report @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip -o page.html)
-clsurf_cli_test(NAME shards_page_before AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${page_args} --survey run.survey --before @LOGS@/planted_loops.biip EXIT 2 STDERR "--before needs the whole log, without --survey")
+clsurf_cli_test(NAME shards_page_before AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${page_args} --survey run.survey --before @LOGS@/planted_loops.biip EXIT 2 STDERR "--before needs the whole log: leave out --survey")
 clsurf_cli_test(NAME shards_page_without_a_survey ARGS ${page_args} --shards 3 EXIT 2 STDERR "--shards goes with --survey")
 clsurf_cli_test(NAME shards_page_with_one_missing AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${page_args} --survey run.survey --merge shard2.json EXIT 2 STDERR "points 0 … [0-9]+ are in none of the shards")
 
