@@ -34,12 +34,6 @@ std::string parameters_of(const RunRecord& run) {
     return text;
 }
 
-std::string verdict_of(const RunRecord& run) {
-    if (!run.failure.empty()) return "failed";
-    if (!run.judged) return "not judged";
-    return run.within_budget ? "within budget" : "over budget";
-}
-
 /// Programs by how often they ran; their place is their colour.
 std::vector<std::string> programs_of(std::span<const RunRecord> runs) {
     std::map<std::string, std::size_t> count;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.h"
 #include "core/file_name.h"
 #include "predictor/severity.h"
 
@@ -30,12 +31,8 @@ std::string number_text(double value, int decimals) {
     return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-";
 }
 
-std::string verdict_of_run(const RunRecord& run) {
-    if (!run.failure.empty()) return "failed";
-    if (!run.judged) return "not judged";
-    if (!run.within_budget) return "over budget";
-    return run.defects == 0 ? "no defects" : std::string(name_of_severity(run.worst_severity));
-}
+/// The program; the log, if none was found for it.
+std::string shown_name(const RunRecord& run) { return file_name(run.program.empty() ? run.log : run.program); }
 
 std::string with_unit(double value, std::string_view unit) {
     return fmt::format("{:.4g}{}{}", value, unit.empty() ? "" : " ", unit);
@@ -98,16 +95,29 @@ std::string text_of(const DefectFilter& filter) {
     return text;
 }
 
+std::string verdict_of(const RunRecord& run) {
+    if (!run.failure.empty()) return "failed";
+    if (!run.judged) return "not judged";
+    if (!run.within_budget) return "over budget";
+    return run.defects == 0 ? "no defects" : std::string(name_of_severity(run.worst_severity));
+}
+
 std::string trend_text(const ReportedTrend& r) {
     const std::string_view unit = r.quantity->unit;
     const std::string of = text_of(r.filter);
-    const std::size_t runs = r.trend->points.size();
-    std::string text = fmt::format("{}{}{} over {} {}: ", r.quantity->label, of.empty() ? "" : ", ", of, runs,
-                                   runs == 1 ? "run" : "runs");
+    const std::vector<TrendPoint>& points = r.trend->points;
+    const auto runs = static_cast<std::size_t>(
+        std::ranges::count_if(points, [](const TrendPoint& point) { return std::isfinite(point.value); }));
+    std::string text =
+        fmt::format("{}{}{} over {}: ", r.quantity->label, of.empty() ? "" : ", ", of, counted(runs, "run"));
     const TrendPoint* last = latest(*r.trend);
     if (last == nullptr) return text + "no run has a value.\n";
-    text +=
-        fmt::format("{} in run {} ({}), the latest.\n", with_unit(last->value, unit), last->run, minute_of(last->time));
+    text += fmt::format("{} in run {} ({}), the latest{}.\n", with_unit(last->value, unit), last->run,
+                        minute_of(last->time), last == &points.back() ? "" : " with a value");
+    if (runs < points.size())
+        text +=
+            fmt::format("{} no value: failed, or not judged.\n",
+                        points.size() - runs == 1 ? "1 run has" : fmt::format("{} runs have", points.size() - runs));
     if (r.trend->change) {
         const TrendChange& c = *r.trend->change;
         const TrendPoint& since = r.trend->points[c.first];
@@ -130,8 +140,7 @@ std::string trend_text(const ReportedTrend& r) {
 std::string history_text(std::span<const RunRecord> runs) {
     if (runs.empty()) return "no runs\n";
     std::size_t widest = 7;
-    for (const RunRecord& run : runs)
-        widest = std::max(widest, std::min<std::size_t>(28, file_name(run.program).size()));
+    for (const RunRecord& run : runs) widest = std::max(widest, std::min<std::size_t>(28, shown_name(run).size()));
     std::string text =
         fmt::format("{:>5} {:<16} {:<{}} {:>7} {:>7} {:>8} {:>6} {:>9} {:<11} {}\n", "run", "time (UTC)", "program",
                     widest, "defects", "worst", "deepest", "Ra", "mismatch", "verdict", "parameters");
@@ -139,9 +148,9 @@ std::string history_text(std::span<const RunRecord> runs) {
                         "[µm]", "[µm]", "p99 [%]");
     for (const RunRecord& run : runs) {
         std::string row = fmt::format("{:>5} {:<16} {:<{}} {:>7} {:>7.1f} {:>8.1f} {:>6} {:>9} {:<11} {}", run.id,
-                                      minute_of(run.time), file_name(run.program).substr(0, 28), widest, run.defects,
+                                      minute_of(run.time), shown_name(run).substr(0, 28), widest, run.defects,
                                       run.worst_score, run.deepest_um, number_text(run.ra_um, 2),
-                                      number_text(run.speed_percent.p99, 1), verdict_of_run(run), parameters_text(run));
+                                      number_text(run.speed_percent.p99, 1), verdict_of(run), parameters_text(run));
         row.erase(row.find_last_not_of(' ') + 1);
         text += row + "\n";
     }
@@ -163,7 +172,7 @@ std::string run_text(const RunRecord& run) {
     fact("recorded", fmt::format("{} by clsurf {}", minute_of(run.recorded), run.version));
     fact("duration",
          std::isfinite(run.duration_s) ? fmt::format("{:.1f} s, {} passes", run.duration_s, run.passes) : "");
-    fact("verdict", verdict_of_run(run));
+    fact("verdict", verdict_of(run));
     fact("", run.not_judged_reasons);
     fact("", run.failure);
     fact("settings", run.settings);

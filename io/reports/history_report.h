@@ -27,6 +27,9 @@ struct ReportedTrend {
 [[nodiscard]] std::string trend_text(const ReportedTrend& reported);
 [[nodiscard]] std::string trend_json(const ReportedTrend& reported);
 
+/// "failed", "not judged", "over budget", "no defects", or its worst severity: "visible".
+[[nodiscard]] std::string verdict_of(const RunRecord& run);
+
 /// One row a run. Runs are in the order of their times.
 [[nodiscard]] std::string history_text(std::span<const RunRecord> runs);
 [[nodiscard]] std::string history_json(std::span<const RunRecord> runs);

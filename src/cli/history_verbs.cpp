@@ -50,6 +50,15 @@ void answer(const HistoryCall& call, const std::string& text, const std::string&
         write_answer(text, call.values);
 }
 
+/// Without a verdict there are no defects, and nothing to compare.
+void refuse_unjudged(const RunRecord& run, const std::string& path) {
+    if (run.judged) return;
+    throw InputError(Place::of_file(path),
+                     run.failure.empty() ? fmt::format("run {} was not judged: {}", run.id, run.not_judged_reasons)
+                                         : fmt::format("run {} failed: {}", run.id, run.failure),
+                     "choose runs with a verdict: `clsurf history DB against N --run M`");
+}
+
 /// The run that `against` names; `run` is what it is compared with.
 std::int64_t reference_of(const std::string& word, const std::vector<RunRecord>& runs, const RunRecord& run,
                           const std::string& path) {
@@ -121,6 +130,7 @@ ExitCode compare_with_run(const HistoryCall& call) {
     const std::int64_t id = call.values.count("run") > 0 ? call.values["run"].as<long long>() : runs.back().id;
     const RunRecord run = read_run(history, id);
     const RunRecord reference = read_run(history, reference_of(call.arguments[0], runs, run, call.database));
+    for (const RunRecord* each : {&run, &reference}) refuse_unjudged(*each, call.database);
     Diagnostics diagnostics;
     if (reference.program_sha256 != run.program_sha256)
         diagnostics.add({Severity::warning,

@@ -25,6 +25,7 @@ struct HistoryQuantity {
     std::string_view unit;   ///< "µm"; empty: none
     /// Of the whole run; NaN: not known.
     double (*of_run)(const RunRecord& run);
+    double least_deviation;  ///< a run that differs from the usual one by 3.5 times that may be worth a look
     /// Of some of its defects, none of which may be there; nullptr: it is of the whole run only.
     double (*of_defects)(std::span<const RecordedDefect> defects);
 };

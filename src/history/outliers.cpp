@@ -24,7 +24,7 @@ std::map<std::string, std::vector<std::size_t>> by_program(std::span<const RunRe
 
 }  // namespace
 
-std::vector<double> modified_z_scores(std::span<const double> values) {
+std::vector<double> modified_z_scores(std::span<const double> values, double least_deviation) {
     std::vector<double> known;
     std::ranges::copy_if(values, std::back_inserter(known), [](double v) { return std::isfinite(v); });
     if (known.empty()) return {};
@@ -36,10 +36,9 @@ std::vector<double> modified_z_scores(std::span<const double> values) {
     }
     const double mad = midpoint_median(known);
     if (!(mean > 0)) return {};
+    const double sigma = std::max(mad > 0 ? mad / mad_of_sigma : sigma_of_mean_deviation * mean, least_deviation);
     std::vector<double> scores;
-    for (const double value : values)
-        scores.push_back(mad > 0 ? mad_of_sigma * (value - middle) / mad
-                                 : (value - middle) / (sigma_of_mean_deviation * mean));
+    for (const double value : values) scores.push_back((value - middle) / sigma);
     return scores;
 }
 
@@ -50,7 +49,7 @@ std::vector<RunOutlier> find_outliers(std::span<const RunRecord> runs) {
         for (const HistoryQuantity& quantity : history_quantities()) {
             std::vector<double> values;
             for (const std::size_t i : members) values.push_back(quantity.of_run(runs[i]));
-            const std::vector<double> scores = modified_z_scores(values);
+            const std::vector<double> scores = modified_z_scores(values, quantity.least_deviation);
             for (std::size_t k = 0; k < scores.size(); ++k) {
                 if (!(std::abs(scores[k]) > outlier_score)) continue;
                 std::vector<double> known;

@@ -23,8 +23,9 @@ struct RunOutlier {
 constexpr double outlier_score = 3.5;
 constexpr std::size_t least_runs_for_outliers = 5;  ///< of a program; fewer tell nothing
 
-/// The modified z-score of each value; empty: all values are equal, or there are none. NaN is left as it is. O(n).
-[[nodiscard]] std::vector<double> modified_z_scores(std::span<const double> values);
+/// The modified z-score of each value; empty: all values are equal, or there are none. NaN is left as it is.
+/// `least_deviation`: the standard deviation is taken to be at least that, so that rounding is no outlier. O(n).
+[[nodiscard]] std::vector<double> modified_z_scores(std::span<const double> values, double least_deviation = 0);
 
 /// The farthest first. Judged runs only. O(runs · quantities).
 [[nodiscard]] std::vector<RunOutlier> find_outliers(std::span<const RunRecord> runs);
