@@ -1,11 +1,14 @@
 // clsurf export: per-point columns as CSV, BIIP, VTK.
 
+#include <fmt/format.h>
+
 #include "cli/export_columns.h"
 #include "cli/export_shards.h"
 #include "cli/help.h"
 #include "cli/output_format.h"
 #include "cli/part.h"
 #include "io/files/atomic_file.h"
+#include "io/formats/log_format.h"
 #include "io/reports/export_table.h"
 #include "mapping/line_agreement.h"
 #include "viz/export_vtk.h"
@@ -34,6 +37,32 @@ ExitCode list_columns(const po::variables_map& values, const Part& part, StageCl
     return ExitCode::done;
 }
 
+std::vector<std::string> names_of(const po::variables_map& values) {
+    std::vector<std::string> names =
+        split_names(given(values, "columns") ? values["columns"].as<std::string>() : "point,time,line,x,y,z,speed");
+    if (names.empty()) throw UsageError("--columns: no names");
+    return names;
+}
+
+bool has_positions(const Log& log) {
+    return log.has(Role::commanded) || log.has(Role::feedback) || log.has(Role::actual);
+}
+
+/// Of slow signals (`clsurf record`), which have no positions.
+ExitCode write_channels(const Log& log, const std::string& output, std::string_view format,
+                        const po::variables_map& values) {
+    print(log.diagnostics, values);
+    const std::vector<io::ExportColumn> columns =
+        exported_channels(given(values, "columns") ? names_of(values) : std::vector<std::string>(), log);
+    if (format == "csv")
+        io::write_csv(output, columns);
+    else if (format == "biip")
+        io::write_biip_table(output, columns, log.period, "{}");
+    else
+        throw UsageError(fmt::format("{} has no positions, which VTK files need", log.name), "-o FILE.csv");
+    return ExitCode::done;
+}
+
 ExitCode run_export(const po::variables_map& values) {
     if (values.count("merge") > 0) return merge_pieces(values);
     if (values.count("list") > 0) {
@@ -45,15 +74,18 @@ ExitCode run_export(const po::variables_map& values) {
     }
     if (values.count("json") > 0) throw UsageError("--json is a form of --list", "add --list");
     const std::string output = required(values, "output");
-    const std::vector<std::string> names =
-        split_names(values.count("columns") > 0 ? values["columns"].as<std::string>() : "point,time,line,x,y,z,speed");
-    if (names.empty()) throw UsageError("--columns: no names");
+    const std::vector<std::string> names = names_of(values);
+    const PartOptions options = read_part_or_log_options(values);
     if (const std::optional<ShardNumber> shard = read_shard_number(values))
-        return write_shard(read_part_or_log_options(values), *shard, names, values);
+        return write_shard(options, *shard, names, values);
     if (given(values, "survey")) throw UsageError("--survey goes with --shard");
     const std::string_view format = output_format(output, table_formats()).name;
+    if (options.program.empty()) {
+        const Log log = io::open_log(options.log, options.log_options);
+        if (!has_positions(log)) return write_channels(log, output, format, values);
+    }
     StageClock clock(read_common(values), 5);
-    const Part part = load_part(read_part_or_log_options(values), clock);
+    const Part part = load_part(options, clock);
     print(part.diagnostics, values);
     clock.begin("stitch the surface");
     const ClSurface surface = stitch(part);

@@ -7,6 +7,9 @@
 #include <span>
 #include <string_view>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "core/block.h"
 #include "core/error.h"
 #include "mapping/line_agreement.h"
@@ -110,6 +113,35 @@ std::vector<io::ExportColumn> exported_columns(const std::vector<std::string>& n
     if (fields.empty()) return columns;
     std::vector<Field> computed = fields_of(part, surface).get_all(fields);
     for (std::size_t i = 0; i < places.size(); ++i) columns[places[i]] = column_of(std::move(computed[i]));
+    return columns;
+}
+
+std::vector<io::ExportColumn> exported_channels(const std::vector<std::string>& names, const Log& log) {
+    std::vector<std::string> known{"time"};
+    for (const Channel& channel : log.channels)
+        if (channel.name != "time") known.push_back(channel.name);
+    std::vector<io::ExportColumn> columns;
+    for (const std::string& name : names.empty() ? known : names) {
+        io::ExportColumn column;
+        column.name = name;
+        const auto count = static_cast<std::size_t>(log.records);
+        if (name == "point") {
+            column.counts.resize(count);
+            std::iota(column.counts.begin(), column.counts.end(), 0U);
+        } else if (name == "time") {
+            column.unit = "s";
+            column.exact.resize(count);
+            for (std::size_t i = 0; i < count; ++i) column.exact[i] = log.time_of(static_cast<PointIndex>(i));
+        } else if (const Channel* channel = log.find(name)) {
+            column.unit = channel->unit;
+            column.exact.resize(count);
+            copy_block(channel->values, 0, column.exact);
+        } else {
+            throw UsageError(fmt::format("--columns: '{}' is no channel of {}, which has no positions", name, log.name),
+                             fmt::format("one of point, {}", fmt::join(known, ", ")));
+        }
+        columns.push_back(std::move(column));
+    }
     return columns;
 }
 

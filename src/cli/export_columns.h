@@ -16,6 +16,9 @@ namespace clsurf::cli {
 [[nodiscard]] std::vector<io::ExportColumn> exported_columns(const std::vector<std::string>& names, const Part& part,
                                                              const ClSurface& surface);
 
+/// Columns of a log without positions: point, time, or a channel. None: time and all channels. Throws UsageError: another name.
+[[nodiscard]] std::vector<io::ExportColumn> exported_channels(const std::vector<std::string>& names, const Log& log);
+
 /// The same at some points of a part whose surface is read in parts; fields are those of positions and channels, since
 /// others look at the whole log. `part`: the points and what lies about them; `points`: of the whole log.
 [[nodiscard]] std::vector<io::ExportColumn> exported_columns(const std::vector<std::string>& names, const Part& part,

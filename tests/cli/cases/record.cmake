@@ -3,7 +3,7 @@ set(registers "printf '[[channel]]\\nname = \"load\"\\nfunction = \"input\"\\nad
 clsurf_cli_test(NAME record_without_an_address SETUP "${registers}" ARGS record --map registers.toml -o run.biip EXIT 2 STDERR "modbus")
 clsurf_cli_test(NAME record_without_a_map ARGS record --modbus tcp:127.0.0.1:1 -o run.biip EXIT 2 STDERR "map")
 clsurf_cli_test(NAME record_wrong_address SETUP "${registers}" ARGS record --modbus plc:502 --map registers.toml -o run.biip EXIT 2 STDERR "--modbus: 'plc:502': is neither tcp:HOST:PORT nor rtu:DEVICE,BAUD" "hint: for example tcp:192.168.0.10:502")
-clsurf_cli_test(NAME record_wrong_baud SETUP "${registers}" ARGS record --modbus rtu:/dev/ttyS0,9601 --map registers.toml -o run.biip EXIT 2 STDERR "'9601' is no baud rate")
+clsurf_cli_test(NAME record_wrong_baud SETUP "${registers}" ARGS record --modbus rtu:/dev/ttyS0,9601 --map registers.toml -o run.biip EXIT 2 STDERR "'9601' is not a baud rate")
 clsurf_cli_test(NAME record_wrong_rate SETUP "${registers}" ARGS record --modbus tcp:127.0.0.1:1 --map registers.toml --rate 0 -o run.biip EXIT 2 STDERR "--rate must be between 0.000277778 and 1000")
 clsurf_cli_test(NAME record_wrong_timeout SETUP "${registers}" ARGS record --modbus tcp:127.0.0.1:1 --map registers.toml --timeout 0 -o run.biip EXIT 2 STDERR "--timeout must be between 0.001 and 3600")
 clsurf_cli_test(NAME record_wrong_ending SETUP "${registers}" ARGS record --modbus tcp:127.0.0.1:1 --map registers.toml -o run.csv EXIT 2 STDERR "'run.csv' must end in .biip")
@@ -22,3 +22,10 @@ clsurf_cli_test(NAME join_nothing_in_common SETUP "$CLSURF export ${run} -o slow
 add_test(NAME cli.record COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/cli/record_test
   ${PROJECT_BINARY_DIR}/tests/cli/record $<TARGET_FILE:clsurf> $<TARGET_FILE:clsurf_modbus_server> ${PROJECT_SOURCE_DIR}/data ${PROJECT_BINARY_DIR}/samples)
 set_tests_properties(cli.record PROPERTIES TIMEOUT 120)
+
+# What `record` writes has no positions.
+set(slow_signals "printf 'time [s],spindle.load [Nm]\\n0,1.5\\n0.1,2.5\\n0.2,\\n' > slow.csv")
+clsurf_cli_test(NAME export_slow_signals SETUP "${slow_signals}" ARGS export slow.csv -o out.csv FILE out.csv)
+clsurf_cli_test(NAME export_slow_signals_are_the_same SETUP "${slow_signals}; $CLSURF export slow.csv -o out.csv --columns time,spindle.load -q; printf 'time [s],spindle.load [Nm]\\n0,1.5\\n0.1,2.5\\n0.2,\\n' | cmp - out.csv" ARGS --version)
+clsurf_cli_test(NAME export_slow_signals_without_positions SETUP "${slow_signals}" ARGS export slow.csv -o out.csv --columns time,x EXIT 2 STDERR "'x' is no channel of slow.csv, which has no positions" "hint: one of point, time, spindle.load" NO_FILE out.csv)
+clsurf_cli_test(NAME export_slow_signals_as_vtk SETUP "${slow_signals}" ARGS export slow.csv -o out.vtp EXIT 2 STDERR "has no positions, which VTK files need" NO_FILE out.vtp)
