@@ -75,10 +75,31 @@ def test_defects_are_a_table_of_the_same_numbers(uneven, uneven_report):
         assert values == [defect.get(column) for defect in expected]
 
 
-def test_a_part_without_defects_has_an_empty_table():
-    program, log = files("transition_g61.nc")
-    expected = check_json(program, log, "--tool", "none")["defects"]
-    assert len(clsurf.Part(program, log, tool="none").defects()) == len(expected)
+@pytest.fixture
+def clean_plane(tmp_path):
+    """A zigzag on a plane, and its simulated log."""
+    program, log = tmp_path / "plane.nc", tmp_path / "plane.biip"
+    passes = [f"G1 Y{0.3 * k:.1f}\nG1 X{0 if k % 2 else 30}" for k in range(16)]
+    program.write_text("\n".join(["G0 X0 Y0 Z5", "G1 Z0 F1200", *passes, "G0 Z5", "M2", ""]))
+    subprocess.run([PROGRAM, "simulate", program, "-o", log, "-q"], check=True)
+    return program, log
+
+
+def test_a_part_without_defects_has_an_empty_table(clean_plane, uneven_report):
+    frame = clsurf.Part(*clean_plane, tool="none").defects()
+    assert len(frame) == 0
+    always = set.intersection(*(set(defect) for defect in uneven_report["defects"]))
+    assert set(frame.reset_index().columns) == always - {"contact_mm", "formed_um", "formed_note"}
+
+
+def test_a_log_that_cannot_be_judged_warns(tmp_path, clean_plane):
+    program, log = clean_plane
+    slow = tmp_path / "slow.csv"
+    part = clsurf.Part(program, log, tool="none")
+    rows = np.column_stack([part.field(f"cmd.{axis}")[::32] for axis in "xyz"])
+    np.savetxt(slow, rows, delimiter=",", header="cmd.x,cmd.y,cmd.z", comments="")
+    with pytest.warns(UserWarning, match="not judged: A record comes every 32 ms"):
+        clsurf.Part(program, slow, tool="none", period=0.032).defects()
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -15,6 +16,13 @@ if TYPE_CHECKING:
     import pandas
 
 Path = Union[str, "os.PathLike[str]"]
+
+# Keys that every defect has: the columns of a table without rows.
+_DEFECT_KEYS = (
+    "id rank score severity cause quantity systematic text bounds_mm area_mm2 length_mm depth_um depth_scallops shape "
+    "speed_jump_mm_min speed_jump_percent acceleration_jump_mm_s2 point position_mm tip_mm passes lines points "
+    "neighbours fingerprint accepted"
+).split()
 
 
 class Picture:
@@ -224,13 +232,18 @@ class Part:
         """The defects that `clsurf check` lists, most conspicuous first.
 
         Columns are the keys of a defect there: `severity` (1 trace … 4 reject), `cause`, `depth_um`,
-        `speed_jump_mm_min`, `length_mm`, `lines` ([first, last] of each pass) …. The index is `id`. Needs pandas.
+        `speed_jump_mm_min`, `length_mm`, `lines` ([first, last] of each pass) …. The index is `id`. Without defects
+        there are no rows. Warns (UserWarning) where the log could not be judged. Needs pandas.
         """
         import pandas
 
         report = self.check()
-        frame = pandas.DataFrame(report["defects"])
-        return frame.set_index("id") if len(frame) else frame
+        summary = report["summary"]
+        if not summary["judged"]:
+            warnings.warn("not judged: " + " ".join(summary["not_judged_reasons"]), stacklevel=2)
+        defects = report["defects"]
+        frame = pandas.DataFrame(defects) if defects else pandas.DataFrame(columns=_DEFECT_KEYS)
+        return frame.set_index("id")
 
     def query(
         self,
