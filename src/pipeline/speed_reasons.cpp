@@ -138,6 +138,10 @@ SpeedReasons speed_reasons(const Part& part, PointIndex point, double speed) {
     add(blocks.short_blocks());
     add(blocks.corner());
     add(nearest_limit(part, point));
+    if (result.reasons.empty())
+        result.reasons.push_back(part.log.find("override") == nullptr
+                                     ? "nothing in program and log explains it: a ramp, a feed override or a feed hold?"
+                                     : "nothing in program and log explains it: a ramp or a feed hold?");
     return result;
 }
 

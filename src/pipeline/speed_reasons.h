@@ -11,11 +11,12 @@ namespace clsurf {
 
 struct SpeedReasons {
     double programmed_feed = 0;        ///< [mm/s]; NaN: none is known
-    std::vector<std::string> reasons;  ///< the surest first; empty: as fast as programmed, or nothing explains it
+    std::vector<std::string> reasons;  ///< the surest first; empty: as fast as programmed
 };
 
 /// "limited by the jerk" (a simulated log says so), "acceleration of Z at 98 % of its limit" (the part knows its machine),
-/// "blocks of 0.02 mm", "a corner of 35° in line 12", "feed override 50 %". `speed` at the point [mm/s]; none is given for
+/// "blocks of 0.02 mm", "a corner of 35° in line 12", "feed override 50 %"; if there are none of these, that nothing explains
+/// it. `speed` at the point [mm/s]; none is given for
 /// 95 % of the programmed feed or more. O(blocks nearby).
 [[nodiscard]] SpeedReasons speed_reasons(const Part& part, PointIndex point, double speed);
 /// "634 of F3000 mm/min: blocks of 0.02 mm; …"; empty without reasons. `speed` at the point [mm/s].

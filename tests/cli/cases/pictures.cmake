@@ -44,6 +44,8 @@ clsurf_cli_test(NAME render_channel_that_is_not_there ARGS render ${bottle} -o m
 # Why it is slow, in words.
 clsurf_cli_test(NAME query_says_why_it_is_slow ARGS query ${bottle} --line 1200 STDOUT "slow: [0-9]+ of F3000 mm/min: blocks of 0[.]02 mm")
 clsurf_cli_test(NAME query_json_says_why ARGS query ${bottle} --line 1200 --json STDOUT "\"feed_mm_min\": 3000" "\"slow_because\": .*blocks of 0[.]02 mm")
+clsurf_cli_test(NAME query_says_that_nothing_explains_it ARGS query @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip --line 2267
+  STDOUT "slow: 2[0-9]+ of F[0-9]+ mm/min: nothing in program and log explains it: a ramp, a feed override or a feed hold")
 clsurf_cli_test(NAME query_at_the_feed_gives_no_reason ARGS query ${bottle} --point 5200 NO_STDOUT "slow:")
 clsurf_cli_test(NAME query_names_the_limit_of_a_simulated_log
   SETUP "$CLSURF simulate @DATA@/programs/bottle_uneven.nc --machine @DATA@/machines/three_axis_mill.toml -o run.biip"
