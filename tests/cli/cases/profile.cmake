@@ -11,6 +11,7 @@ clsurf_cli_test(NAME profile_of_a_scan
 clsurf_cli_test(NAME profile_of_a_ball
   SETUP "${scanned} make .; ${judged} --window 40 --tool-offset 3 > ../r.json; ${scanned} check cut.nc ../r.json --radius 3; rm cut.nc"
   ARGS profile scan.csv --z 1 --x 0 --window 40 --tool-offset 3 --join blend -o cut.nc STDOUT "path of a ball of radius 3 mm")
+clsurf_cli_test(NAME profile_of_two_columns_of_any_name SETUP "awk 'BEGIN { print \"pos;height\"; for (i = 0; i < 100; ++i) printf \"%g;%g\\n\", i / 10, 1 }' > scan.csv" ARGS profile scan.csv -o c.nc FILE c.nc)
 clsurf_cli_test(NAME profile_of_distances
   SETUP "${scanned} make .; $CLSURF profile laser.txt --x way --z distance --distance 120 --sensor-offset 35 --window 40 -o cut.nc --json > ../r.json; ${scanned} check cut.nc ../r.json --outliers 0"
   ARGS profile laser.txt --x 1 --z 2 --distance 120 --sensor-offset 35 --window 40 --degree 5 --dialect klartext -o c.h FILE c.h STDOUT "X 0 to 149.9 mm" "0 points rejected")
