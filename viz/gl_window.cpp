@@ -1,6 +1,5 @@
 #include "viz/gl_window.h"
 
-#include <vtkLogger.h>
 #include <vtkUnsignedCharArray.h>
 
 #include "core/error.h"

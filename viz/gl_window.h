@@ -5,6 +5,7 @@
 #include <string>
 
 #include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkOutputWindow.h>
 #include <vtkSmartPointer.h>
