@@ -161,6 +161,29 @@ TEST(FanucCycles, CrossAtTheLevelWhereTheyAre) {
                     "rapid 2 0 2", "rapid 3 0 2", "rapid 3 0 2", "feed 3 0 -1", "rapid 3 0 10"}));
 }
 
+/// What cuts.
+Rows cuts(const std::string& text) {
+    Rows all = rows(text);
+    std::erase_if(all, [](const std::string& row) { return !row.starts_with("feed"); });
+    return all;
+}
+
+// A row of holes: R and Z stay at the heights that were given.
+TEST(FanucCycles, KeepTheirHeightsFromG90ToG91AndBack) {
+    EXPECT_EQ(cuts("G90 G0 X0 Y0 Z10\nG99 G81 X0 Y0 Z-10. R2. F100\nG91 X10. K2\nG80\n"),
+              (Rows{"feed 0 0 -10", "feed 10 0 -10", "feed 20 0 -10"}));
+    EXPECT_EQ(rows("G90 G0 X0 Y0 Z10\nG99 G81 X0 Y0 Z-10. R2. F100\nG91 X10. K2\nG80\n")[5], "rapid 10 0 2");
+    // From 10: R at 2, the bottom 12 below it.
+    EXPECT_EQ(cuts("G90 G0 X0 Y0 Z10\nG91 G99 G81 X5 Z-12 R-8 F100\nG90 X20\nG80\n"),
+              (Rows{"feed 5 0 -10", "feed 20 0 -10"}));
+}
+
+// The bolt circle of Fanuc's manual: the angles 30°, then two increments of 120° about the same pole.
+TEST(FanucPolar, AnAngleAloneTurnsAboutTheSamePole) {
+    EXPECT_EQ(cuts("G90 G0 X0 Y0 Z0\nG17 G90 G16\nG81 X100. Y30. Z-20. R-5. F200.\nG91 Y120.\nG91 Y120.\nG15 G80\n"),
+              (Rows{"feed 86.6025 50 -20", "feed -86.6025 50 -20", "feed 0 -100 -20"}));
+}
+
 TEST(FanucCycles, BoreFineAndFromBehind) {
     // G76: aside by Q along X, out, back. G87: aside, to R below, back, up to Z.
     EXPECT_EQ(rows("G0 X0 Y0 Z10\nG98 G76 X1 R2 Z-5 Q0.5 F60\n"),

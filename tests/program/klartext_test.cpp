@@ -12,6 +12,10 @@ Program program_of(const std::string& text) { return parse(text, "klartext"); }
 Rows rows(const std::string& text) { return motions(program_of(text)); }
 std::string error(const std::string& text) { return error_of(text, "klartext"); }
 
+TEST(KlartextQ, ArcTangentNeedsNoBrackets) {
+    EXPECT_EQ(rows("L X+0 Y+0 Z+0 R0 FMAX\nQ1 = 1\nQ4 = ATAN Q1\nL X+Q4 F100\n"), (Rows{"rapid 0 0 0", "feed 45 0 0"}));
+}
+
 TEST(Klartext, ReadsLinesWithFeedsThatStay) {
     const Program p = program_of(
         "0 BEGIN PGM PART MM\n1 BLK FORM 0.1 Z X+0 Y+0 Z-20\n2 BLK FORM 0.2 X+100 Y+100 Z+0\n"

@@ -190,6 +190,14 @@ TEST(SiemensCycles, PeckByDegression) {
                     "rapid 0 0 5"}));
 }
 
+TEST(SiemensVariables, ArraysAreSetWhereTheyAreDefined) {
+    const std::string use = "G90 G0 X0 Y0 Z0\nG1 F60 X=A[2] Y=B[1,0]\n";
+    const Rows expected{"rapid 0 0 0", "feed 3.5 3 0"};
+    EXPECT_EQ(rows("DEF REAL A[3]=SET(1.5,2.5,3.5)\nDEF REAL B[2,2]=SET(1,2,3,4)\n" + use), expected);
+    EXPECT_EQ(rows("DEF REAL A[3]=(1.5,2.5,3.5), B[2,2]=(1,2,3)\n" + use), expected);
+    EXPECT_NE(error_of("DEF REAL A[2]=SET(1,2,3)\n" + use, "siemens").find("fewer elements"), std::string::npos);
+}
+
 TEST(SiemensCycles, AHoleThatTakesTooManyPecksIsRefused) {
     EXPECT_NE(error_of("G0 X0 Y0 Z5 F60\nCYCLE83(5,0,1,-30,,,0.00001,0,0,0,1,0)\n", "siemens").find("too many pecks"),
               std::string::npos);

@@ -185,6 +185,7 @@ bool end_polar(Interpreter& in, const CodeWord&) {
 bool start_polar(Interpreter& in, const CodeWord&) {
     in.frames_.polar.on = true;
     in.frames_.polar.radius = in.frames_.polar.angle = 0;
+    in.frames_.polar.pole = Vec3::Zero();
     in.event("polar", "G16");
     return true;
 }
@@ -371,7 +372,8 @@ bool call_modal_macro(Interpreter& in) {
     return true;
 }
 
-/// G16: the first axis of the plane is the radius, the second the angle.
+/// G16: the first axis of the plane is the radius, the second the angle. The pole is the zero of the work, or where the tool is
+/// if the radius is an increment. (Fanuc, Operator's Manual, "Polar coordinate command".)
 void move_about_pole(Interpreter& in, const Block& block, Vec3& end) {
     const ModalState& state = in.state_;
     const Vec3 from = end.array().isNaN().select(0.0, end);
@@ -380,9 +382,11 @@ void move_about_pole(Interpreter& in, const Block& block, Vec3& end) {
     const char angle = "XYZ"[(state.plane_axis + 2) % 3];
     if (!block.words.given(radius) && !block.words.given(angle)) return;
     PolarState& polar = in.frames_.polar;
-    if (block.words.given(radius)) polar.radius = block.words.of(radius) * state.unit_mm;
+    if (block.words.given(radius)) {
+        polar.radius = block.words.of(radius) * state.unit_mm;
+        polar.pole = state.incremental ? from : Vec3(Vec3::Zero());
+    }
     if (block.words.given(angle)) polar.angle = block.words.of(angle) + (state.incremental ? polar.angle : 0.0);
-    polar.pole = state.incremental ? from : Vec3(Vec3::Zero());
     in.put_at_pole(end);
 }
 

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "program/dialects/known_dialects.h"
 #include "program/interpret/interpreter_state.h"
@@ -392,6 +394,22 @@ void Interpreter::contour_tolerance(const Block& block) {
         set_path_mode("path-mode", fmt::format("CTOL={:g}", *value), {BlockEnd::rounded, contour_tolerance_});
 }
 
+/// The values in brackets of DEF REAL A[2,3]=SET(1,2,3,…): the last index runs fastest. `sizes` stands behind "[".
+void Interpreter::set_elements(const std::string& name, Cursor sizes, Cursor& c) {
+    std::vector<std::int64_t> size, index;
+    do { size.push_back(std::lround(evaluate(sizes, variables_, rules_->text))); } while (sizes.take(','));
+    index.resize(size.size());
+    if (!c.take('(')) throw ReadError{"expected '(' after SET", c.column(), {}};
+    do {
+        if (index[0] >= size[0]) throw ReadError{"'" + name + "' has fewer elements", c.column(), {}};
+        variables_.set(fmt::format("{}[{}]", name, fmt::join(index, ",")), evaluate(c, variables_, rules_->text));
+        std::size_t k = index.size();
+        while (--k > 0 && ++index[k] >= size[k]) index[k] = 0;
+        if (k == 0) ++index[0];
+    } while (c.take(','));
+    if (!c.take(')')) throw ReadError{"SET is not closed", c.column(), {}};
+}
+
 /// DEF REAL a, b=5: names that exist from here on.
 void Interpreter::siemens_definition(const std::string& definition) {
     Cursor c{definition, 0};
@@ -406,11 +424,14 @@ void Interpreter::siemens_definition(const std::string& definition) {
         c.skip_blanks();
         c.at += name.size();
         double value = 0;
-        if (c.take('[')) {  // an array: its elements are 0
-            while (!c.done() && !c.take(']')) ++c.at;
-        }
+        Cursor sizes = c;
+        const bool array = c.take('[');  // its elements are 0
+        while (array && !c.done() && !c.take(']')) ++c.at;
         if (c.take('=')) {
-            if (c.peek() == '"') {
+            if (array && (c.take_word("SET") || c.peek() == '(')) {
+                sizes.take('[');
+                set_elements(name, sizes, c);
+            } else if (c.peek() == '"') {
                 const std::size_t end = definition.find('"', c.at + 1);
                 c.at = end == std::string::npos ? definition.size() : end + 1;
             } else {

@@ -89,8 +89,13 @@ void Interpreter::cycle(const Block& block) {
     const Vec3 position = here.array().isNaN().select(0.0, here);
     // Increments of R count from where the first cycle began, whichever level the tool is at now.
     if (std::isnan(cycle_.initial)) cycle_.initial = position[c];
-    const double r = cycle_.r * unit + (state_.incremental ? cycle_.initial : 0.0);
-    const double bottom = cycle_.z * unit + (state_.incremental ? r : 0.0);
+    // Under G91, increments. Fanuc keeps the heights as they were given, whether G90 or G91 holds at the next hole.
+    if (rs274 || block.words.given('R') || std::isnan(cycle_.r_height))
+        cycle_.r_height = cycle_.r * unit + (state_.incremental ? cycle_.initial : 0.0);
+    const double r = cycle_.r_height;
+    if (rs274 || block.words.given("XYZ"[c]) || std::isnan(cycle_.bottom))
+        cycle_.bottom = cycle_.z * unit + (state_.incremental ? r : 0.0);
+    const double bottom = cycle_.bottom;
     if (r < bottom && (rs274 || !from_below))
         fail(fmt::format("the cycle's R ({:g}) is below its bottom ({:g})", r, bottom));
     const int repeats = cycle_repeats(block, rules_->cycles.repeats_by_k && !from_below);

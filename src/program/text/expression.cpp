@@ -151,11 +151,14 @@ private:
         return key;
     }
 
-    /// RS274 and Fanuc write ATAN[a]/[b] (Fanuc also ATAN[a,b]), Siemens ATAN2(a, b).
+    /// RS274 and Fanuc write ATAN[a]/[b] (Fanuc also ATAN[a,b]), Siemens ATAN2(a, b), Klartext ATAN Q1.
     double arc_tangent(std::size_t column) {
         const char open = c_.peek();
         const char close = open == '(' ? ')' : ']';
-        if (open != '[' && open != '(') throw ReadError{"expected '[' after ATAN", column, {}};
+        if (open != '[' && open != '(') {
+            if (rules_.divided_arc_tangent) throw ReadError{"expected '[' after ATAN", column, {}};
+            return std::atan(value()) * deg_per_rad;
+        }
         c_.take(open);
         const double a = expression(0);
         if (c_.take(',')) {
