@@ -107,6 +107,45 @@ CurveJet BezierCurve::moving_jet(double t) const {
 
 Vec3 BezierCurve::tangent(double t) const { return moving_jet(t).first.normalized(); }
 
+std::optional<std::pair<double, double>> BezierCurve::sharp_turn(double within) const {
+    constexpr double may_hide_one = 0.5;  // cosine of the turn between two places of the table
+    constexpr int halvings = 60;
+    if (!(length() > within)) return std::nullopt;
+    const auto speed = [&](double t) { return jet(t).first.squaredNorm(); };
+    Vec3 before = tangent(0);
+    for (std::size_t piece = 1; piece < knots_.size(); ++piece) {
+        const Vec3 after = tangent(stepped(piece));
+        const bool looks = before.dot(after) < may_hide_one;
+        before = after;
+        if (!looks) continue;
+        // The direction turns fastest where the derivative is least.
+        double low = stepped(piece - 1), high = stepped(piece);
+        for (int k = 0; k < halvings; ++k) {
+            const double third = (high - low) / 3;
+            if (speed(low + third) < speed(high - third))
+                high -= third;
+            else
+                low += third;
+        }
+        const double place = 0.5 * (low + high), here = arc_length_to(place);
+        const double from = at_arc_length(here - 0.5 * within), to = at_arc_length(here + 0.5 * within);
+        if (here > within && length() - here > within && tangent(from).dot(tangent(to)) < 0) return std::pair(from, to);
+    }
+    return std::nullopt;
+}
+
+std::pair<BezierCurve, BezierCurve> BezierCurve::split_at(double t) const {
+    std::vector<Weighted> first, second(points_.size());
+    Scheme scheme(points_);
+    while (scheme.count > 0) {
+        const auto last = static_cast<std::size_t>(scheme.count) - 1;
+        first.push_back(scheme.h[0]);
+        second[last] = scheme.h[last];
+        scheme.reduce(t, scheme.count - 1);
+    }
+    return {BezierCurve(origin_, std::move(first)), BezierCurve(origin_, std::move(second))};
+}
+
 /// Arc length from one place to another, by Gauss's rule with 5 points.
 double BezierCurve::gauss(double from, double to) const {
     static constexpr std::array<double, 5> node{0, -0.5384693101056831, 0.5384693101056831, -0.9061798459386640,

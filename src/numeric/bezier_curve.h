@@ -5,7 +5,9 @@
 // form without an error. Arc lengths are known to 1 part in 10¹⁰.
 
 #include <functional>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/geometry.h"
@@ -49,6 +51,11 @@ public:
     [[nodiscard]] double arc_length_to(double t) const;                       ///< [mm]
     /// Where the way from the begin is `arc_length` [mm], clipped to [0, 1].
     [[nodiscard]] double at_arc_length(double arc_length) const;
+    /// The first section of this arc length [mm] inside the curve over which the direction turns by more than 90°, as at a cusp: from
+    /// and to which t; nullopt: there is none.
+    [[nodiscard]] std::optional<std::pair<double, double>> sharp_turn(double within) const;
+    /// The parts up to t and from t on.
+    [[nodiscard]] std::pair<BezierCurve, BezierCurve> split_at(double t) const;
     /// How far the direction turns on the whole, summed up [rad].
     [[nodiscard]] double turning() const;
 

@@ -29,6 +29,36 @@ BezierCurve random_curve(std::mt19937& random) {
     return random() % 2 == 0 ? BezierCurve(points, weights) : BezierCurve(points);
 }
 
+// The control polygon crosses itself: the derivative is zero at t = 1/2, where x is 5 and y 7.5.
+TEST(BezierCurve, ACuspIsASharpTurn) {
+    const BezierCurve cusp(std::vector<Vec3>{{0, 0, 0}, {10, 10, 0}, {0, 10, 0}, {10, 0, 0}});
+    const auto turn = cusp.sharp_turn(0.001);
+    ASSERT_TRUE(turn);
+    EXPECT_LT(turn->first, 0.5);
+    EXPECT_GT(turn->second, 0.5);
+    EXPECT_NEAR(cusp.arc_length_to(turn->second) - cusp.arc_length_to(turn->first), 0.001, 1e-6);
+    EXPECT_NEAR((cusp.at(turn->first) - Vec3(5, 7.5, 0)).norm(), 0.0005, 1e-6);
+}
+
+TEST(BezierCurve, RoundCurvesHaveNoSharpTurn) {
+    EXPECT_FALSE(quarter().sharp_turn(0.001));
+    // A loop of some tenths of a millimetre turns as far, but not within a micrometre.
+    EXPECT_FALSE(BezierCurve(std::vector<Vec3>{{0, 0, 0}, {11, 10, 0}, {-1, 10, 0}, {10, 0, 0}}).sharp_turn(0.001));
+}
+
+TEST(BezierCurve, PartsLieOnTheWhole) {
+    std::mt19937 random(7);
+    for (int k = 0; k < 20; ++k) {
+        const BezierCurve whole = random_curve(random);
+        const auto [first, second] = whole.split_at(0.3);
+        for (const double t : {0.0, 0.2, 0.7, 1.0}) {
+            EXPECT_NEAR((first.at(t) - whole.at(0.3 * t)).norm(), 0, 1e-9);
+            EXPECT_NEAR((second.at(t) - whole.at(0.3 + 0.7 * t)).norm(), 0, 1e-9);
+        }
+        EXPECT_NEAR(first.length() + second.length(), whole.length(), 1e-6);
+    }
+}
+
 TEST(BezierCurve, AQuarterOfACircle) {
     const BezierCurve arc = quarter();
     EXPECT_NEAR(arc.length(), 5 * std::numbers::pi, 1e-9);

@@ -14,6 +14,7 @@ namespace clsurf {
 namespace {
 
 constexpr double reversal_angle = 179.0 * std::numbers::pi / 180;
+constexpr double cusp_length = 0.001;  ///< [mm] a curve that turns by more than 90° within it has a corner there
 
 }  // namespace
 
@@ -88,6 +89,10 @@ bool BlockStream::read(PathElement& element) {
         place.source = std::string(text.line(line));
         throw InputError(place, what, hint);
     };
+    if (!parts_.empty()) {
+        take_part(element);
+        return true;
+    }
     while (at_a_motion()) {
         const std::int64_t m = next_motion_++;
         const auto i = static_cast<std::size_t>(m);
@@ -105,12 +110,11 @@ bool BlockStream::read(PathElement& element) {
         const Xyz& to = motions.end[i];
         const Vec3 end(to.x == to.x ? to.x : at_.x(), to.y == to.y ? to.y : at_.y(), to.z == to.z ? to.z : at_.z());
         const Curve* curve = kind == MotionKind::spline ? motions.curve_of(m) : nullptr;
-        if (curve == nullptr)
-            element = element_of(kind, is_arc(kind) ? motions.arc_of(m) : nullptr, at_, end);
-        else if (curve->span->at(0).hasNaN())
-            element = element_of(std::make_shared<const BezierCurve>(curve->span->with_unknown_at(at_)));
-        else
-            element = element_of(curve->span);
+        std::shared_ptr<const BezierCurve> span;
+        if (curve != nullptr)
+            span = curve->span->at(0).hasNaN() ? std::make_shared<const BezierCurve>(curve->span->with_unknown_at(at_))
+                                               : curve->span;
+        element = span ? element_of(span) : element_of(kind, is_arc(kind) ? motions.arc_of(m) : nullptr, at_, end);
         if (!(element.length > 0)) continue;
         element.line = motions.line[i];
         element.block = blocks_++;
@@ -125,9 +129,36 @@ bool BlockStream::read(PathElement& element) {
                 fail(m, "a feed motion without a feed greater than 0");
         }
         at_ = end;
+        if (span && divide(element)) take_part(element);
         return true;
     }
     return false;
+}
+
+/// A curve with a cusp ends there and begins again behind it: the tool turns round as at a corner.
+bool BlockStream::divide(const PathElement& whole) {
+    std::shared_ptr<const BezierCurve> rest = whole.spline;
+    while (const auto cusp = rest->sharp_turn(cusp_length)) {
+        const auto [from, to] = *cusp;
+        parts_.push_back(element_of(std::make_shared<const BezierCurve>(rest->split_at(from).first)));
+        rest = std::make_shared<const BezierCurve>(rest->split_at(to).second);
+        const PathElement across = element_of(MotionKind::feed, nullptr, parts_.back().end, rest->at(0));
+        if (across.length > 0) parts_.push_back(across);
+    }
+    if (parts_.empty()) return false;
+    parts_.push_back(element_of(rest));
+    for (PathElement& part : parts_) {
+        part.take_block(whole);
+        part.stops = whole.stops;
+    }
+    std::ranges::reverse(parts_);
+    return true;
+}
+
+void BlockStream::take_part(PathElement& element) {
+    element = parts_.back();
+    parts_.pop_back();
+    at_ = element.end;
 }
 
 void BlockStream::take_dwell() {

@@ -2,6 +2,8 @@
 // BlockStream: the motions of a program as path elements, in sections between two exact stops. Each stage that
 // shapes the path before PathStream reads its elements from such a source and is one itself.
 
+#include <vector>
+
 #include "core/geometry.h"
 #include "machine/machine.h"
 #include "program/event_cursor.h"
@@ -51,6 +53,8 @@ public:
 
 private:
     [[nodiscard]] bool read(PathElement& element);
+    [[nodiscard]] bool divide(const PathElement& whole);
+    void take_part(PathElement& element);
     [[nodiscard]] bool at_a_motion();
     [[nodiscard]] bool turns(const Motions& motions, std::size_t motion);
     [[nodiscard]] bool stops_between(const PathElement& before, const PathElement& after) const;
@@ -66,10 +70,11 @@ private:
     std::int64_t blocks_ = 0;
     Xyz rotary_;  ///< of the last motion [rad]
     Stops section_ends_;
-    double tolerance_ = 0;          ///< in force; 0: exact path
-    double merging_tolerance_ = 0;  ///< in force
-    bool stops_ = false;            ///< at the end of every block
-    bool waiting_ = false;          ///< an element is read that begins the next section
+    double tolerance_ = 0;            ///< in force; 0: exact path
+    double merging_tolerance_ = 0;    ///< in force
+    bool stops_ = false;              ///< at the end of every block
+    std::vector<PathElement> parts_;  ///< of a curve with cusps, those that are still to come; the next one last
+    bool waiting_ = false;            ///< an element is read that begins the next section
     PathElement waiting_element_, last_;
     bool begun_ = false;  ///< last_ is of this section
     bool closed_ = true;

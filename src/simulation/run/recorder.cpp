@@ -119,22 +119,39 @@ SimulationSummary Recorder::finish() {
     s.max_jerk = twist_ * (rate_ * rate_ * rate_);
     s.max_tangential_acceleration = speed_change_ * rate_;
     s.max_tangential_jerk = second_change_ * (rate_ * rate_);
-    s.limits_ok =
-        s.max_speed <= machine_->path.max_speed * limit_tolerance &&
-        s.max_tangential_acceleration <= machine_->path.max_acceleration * limit_tolerance &&
-        (!limits_tangential_jerk(*machine_) || s.max_tangential_jerk <= machine_->path.max_jerk * limit_tolerance);
+    judge_limits();
+    return std::move(s);
+}
+
+/// Whether all limits were kept, and by how much they were not.
+void Recorder::judge_limits() {
+    SimulationSummary& s = summary_;
+    double worst = limit_tolerance;
+    std::string exceeded;
+    const auto judge = [&](double value, double limit, const std::string& what) {
+        if (limit <= 0 || value <= worst * limit) return;
+        worst = value / limit;
+        exceeded = what;
+    };
+    judge(s.max_speed, machine_->path.max_speed, "speed of the path");
+    judge(s.max_tangential_acceleration, machine_->path.max_acceleration, "tangential acceleration of the path");
+    if (limits_tangential_jerk(*machine_))
+        judge(s.max_tangential_jerk, machine_->path.max_jerk, "tangential jerk of the path");
     const std::array<const Vec3*, 4> greatest{nullptr, &s.max_axis_speed, &s.max_acceleration, &s.max_jerk};
     // At a corner that is not rounded the speeds of the axes step, which is no excess.
     const int highest_order = machine_->controller.corner == CornerMode::junction ? 1 : 3;
     for (const LimitTableRow& row : limit_table) {
         if (row.of_axis == nullptr || row.order > highest_order) continue;
         for (std::size_t i = 0; i < machine_->axes.size(); ++i) {
-            const double limit = machine_->axes[i].*row.of_axis;  // 0: none
-            const double value = (*greatest[static_cast<std::size_t>(row.order)])[static_cast<Eigen::Index>(i)];
-            s.limits_ok = s.limits_ok && (limit <= 0 || value <= limit * limit_tolerance);
+            judge((*greatest[static_cast<std::size_t>(row.order)])[static_cast<Eigen::Index>(i)],
+                  machine_->axes[i].*row.of_axis, fmt::format("{} of {}", row.name, axis_names[i]));
         }
     }
-    return std::move(s);
+    s.limits_ok = exceeded.empty();
+    if (s.limits_ok) return;
+    s.diagnostics.add({Severity::warning, "motion.limits", Place::of_file(program_->main().name()),
+                       fmt::format("the {} reaches {:.3g} times its limit", exceeded, worst),
+                       "`clsurf check PROGRAM LOG --machine FILE` names the line"});
 }
 
 }  // namespace clsurf

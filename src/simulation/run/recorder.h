@@ -35,6 +35,7 @@ private:
     void follow();
     void measure();
     void watch_travel(const Vec3& position, LineNumber line);
+    void judge_limits();
 
     const Program* program_;
     const Machine* machine_;

@@ -25,3 +25,7 @@ clsurf_cli_test(NAME spline_by_the_trapezoidal_planner
 # On five axes with the angles at rest.
 clsurf_cli_test(NAME spline_on_a_five_axis_machine
   ARGS simulate @DATA@/programs/trident.nc --machine @DATA@/machines/five_axis_trunnion.toml -o run.biip STDOUT "points, 1[.]")
+
+# A cubic whose control polygon crosses itself has a cusp: the axes stop there, and no limit is exceeded.
+clsurf_cli_test(NAME spline_with_a_cusp SETUP "printf 'G0 X0 Y0 Z0\\nG64 P0.01\\nG1 X-5 F3000\\nX0\\nG5 I10 J10 P-10 Q10 X10 Y0\\nG1 X15\\nM2\\n' > cusp.ngc"
+  ARGS simulate cusp.ngc --dialect linuxcnc -o run.biip --json STDOUT "\"limits_ok\": true")
