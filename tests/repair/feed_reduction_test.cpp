@@ -159,7 +159,7 @@ TEST(FeedEqualisation, LeavesOtherSlowPlacesBesideALoweredOne) {
             equalisation.causes[k] = 0;
             equalisation.equalised[k] = equalised;
         }
-        equaliser.level({.share = 0.1}, equalisation);
+        equaliser.equalise({.share = 0.1}, equalisation);
         return equaliser.lost(equalisation.speeds);
     };
     // 2 mm at 45 instead of 50 mm/s
