@@ -28,8 +28,8 @@ struct CycleState {
     double r = 0, z = 0, q = 0;  ///< sticky words, as programmed
     /// R and bottom where they were programmed [mm]; NaN: not yet. RS274 counts the words again in each block instead.
     double r_height = std::numeric_limits<double>::quiet_NaN(), bottom = std::numeric_limits<double>::quiet_NaN();
-    Vec3 ijk = Vec3::Zero();     ///< of G87: the way aside, and the height to bore to, as programmed
-    double p = 0;                ///< dwell [s]
+    Vec3 ijk = Vec3::Zero();  ///< of G87: the way aside, and the height to bore to, as programmed
+    double p = 0;             ///< dwell [s]
     double initial = std::numeric_limits<double>::quiet_NaN();  ///< level where the cycle began [mm]
 };
 
@@ -298,7 +298,7 @@ public:
     void choose_branch(const Control& control, const Statement& statement);
     [[nodiscard]] bool branch_taken(const Control& branch) const;
     void siemens_definition(const std::string& definition);
-    void set_elements(const std::string& name, Cursor sizes, Cursor& c);                    ///< DEF
+    void set_elements(const std::string& name, Cursor sizes, Cursor& c);       ///< DEF
     void call_by_number(const Block& block, int least_repeats, bool counted);  ///< M98 P L
     void return_to_block(const Block& block);                                  ///< M99 P
     void call(const std::string& name, int repeats, bool locals, const std::vector<double>& arguments);
