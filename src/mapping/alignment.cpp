@@ -93,16 +93,7 @@ public:
         }
     }
 
-    /// A record stands for the period that begins with it: its line is the one in which the tool is
-    /// at the period's end. (The kernel wrote the record when it planned that way.)
-    LineMap take(const Program& program) {
-        for (std::size_t i = 1; i < motion_.size(); ++i) {
-            if (motion_[i] == LineMap::no_motion || motion_[i - 1] == LineMap::no_motion) continue;
-            motion_[i - 1] = motion_[i];
-            confidence_[i - 1] = confidence_[i];
-        }
-        return {std::move(motion_), std::move(confidence_), program};
-    }
+    LineMap take(const Program& program) { return {std::move(motion_), std::move(confidence_), program}; }
 
 private:
     static Vec3 first_position(const Trajectory& log) {
@@ -147,6 +138,8 @@ private:
     /// retract, the way back to where a run is resumed), from the first point that is back on it; `now`
     /// is the last point that was looked at. O(log(now − off)) searches.
     std::optional<Rejoined> rejoin(PointIndex off, PointIndex now, std::int64_t from) {
+        // The first motion begins where the log does: that its first points lie on it proves nothing.
+        if (from == 0) off = 0;
         if (const std::optional<WalkState> state = search(off, from)) return Rejoined{off, *state};
         const std::optional<WalkState> state = search(now, from);
         if (!state) return std::nullopt;

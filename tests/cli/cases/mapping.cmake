@@ -107,3 +107,10 @@ set(waterlines "(printf 'G21 G90 G17\\nG0 X0 Y0 Z5\\nG1 Z0 F600\\nF3000\\n' && s
   "$CLSURF simulate part.nc -o run.biip > /dev/null")
 list(JOIN waterlines " && " waterlines)
 clsurf_cli_test(NAME waterlines_are_finishing_passes SETUP "${waterlines}" ARGS check part.nc run.biip --json STDOUT "\"not_finishing_percent\": 0[.]0," "\"judged\": true")
+
+# A point has the line on which it lies: those of the simulation, also in every twentieth record, and from the middle on.
+set(simulated_lines "$CLSURF simulate @DATA@/programs/planted_zigzag.nc -o run.biip -q; $CLSURF export @DATA@/programs/planted_zigzag.nc run.biip --columns line,cmd.x,cmd.y,cmd.z -o all.csv -q")
+set(lines_differ "$CLSURF export @DATA@/programs/planted_zigzag.nc part.csv --period 0.001 --ignore-lines --columns line -o found.csv -q; cut -d, -f1 part.csv | paste -d, - found.csv | awk -F, 'NR > 1 && $1 != $2 { n++ } END { print n + 0, NR; exit !(n < 0.002 * NR) }'")
+clsurf_cli_test(NAME lines_by_geometry_are_those_of_the_simulation SETUP "${simulated_lines} && mv all.csv part.csv && ${lines_differ}" ARGS --version)
+clsurf_cli_test(NAME lines_by_geometry_of_few_records SETUP "${simulated_lines} && awk 'NR == 1 || NR % 20 == 0' all.csv > part.csv && ${lines_differ}" ARGS --version)
+clsurf_cli_test(NAME lines_by_geometry_from_the_middle_on SETUP "${simulated_lines} && awk 'NR == 1 || NR > 9000' all.csv > part.csv && ${lines_differ}" ARGS --version)
