@@ -45,7 +45,7 @@ class ColumnFinder {
 public:
     ColumnFinder(const Source& source, const TextHead& head) : source_(source), head_(head) {}
 
-    /// x and z, or x, y and z. Of two columns, one that has another name is the one that is missing.
+    /// x and z, or x, y and z. The other one of two columns is x, whatever its name is.
     [[nodiscard]] std::vector<ReadColumn> find(const MeasuredColumns& wanted) const {
         std::vector<ReadColumn> found;
         if (!wanted.empty()) {
@@ -58,9 +58,9 @@ public:
         const std::optional<std::size_t> z = named("z") ? named("z") : named("height");
         if (!x || !z) {
             if (said_by_comment()) return by_count();
-            if (head_.columns.size() != 2) fail("no columns are named x and z");
-            const std::size_t along = x ? *x : z ? 1 - *z : 0;
-            return {column(along), column(1 - along)};
+            // A second column of another name may be depths.
+            if (head_.columns.size() != 2 || !z) fail("no columns are named x and z");
+            return {column(1 - *z), column(*z)};
         }
         found.push_back(column(*x));
         if (y) found.push_back(column(*y));

@@ -36,8 +36,8 @@ void read_fit(const po::variables_map& values, FitRules& fit) {
 void declare_profile_options(po::options_description& options) {
     // clang-format off
     options.add_options()
-        ("x", po::value<std::string>()->value_name("COLUMN"), "column of x, by name or number from 0 (default: x, or the first of two)")
-        ("z", po::value<std::string>()->value_name("COLUMN"), "column of z, or of distances (default: z, or the second of two)")
+        ("x", po::value<std::string>()->value_name("COLUMN"), "column of x, by name or number from 0 (default: x, the other one of two, or the first without names)")
+        ("z", po::value<std::string>()->value_name("COLUMN"), "column of z, or of distances (default: z, height, or the second without names)")
         ("distance", po::value<double>()->value_name("REFERENCE"), "the column of z has distances, measured down from this height [mm]: z = REFERENCE - distance")
         ("sensor-offset", po::value<double>()->value_name("MM")->default_value(0, "0"), "how far along X the sensor is ahead of the place that is recorded [mm]; it is added to x")
         ("outliers", po::value<double>()->value_name("FACTOR")->default_value(5, "5"), "points that are more than FACTOR times the scatter away from the running median of five are rejected; 0: none is")

@@ -28,7 +28,7 @@ TEST(RefusedWords, SplinesOfOtherDialects) {
 
 TEST(RefusedWords, DwellsThatNoLogHasRoomFor) {
     expect_error("G0 X0 Y0\nG4 P1000000000\n", "linuxcnc", "2", "the longest is 86400 s");
-    expect_error("G0 X0 Y0 Z0\nG82 Z-1 R1 P1e9 F60\n", "linuxcnc", "2", "the longest is 86400 s");
+    expect_error("G0 X0 Y0 Z0\nG82 Z-1 R1 P1000000000 F60\n", "linuxcnc", "2", "the longest is 86400 s");
     EXPECT_EQ(motions(parse("G4 P86400\n", "linuxcnc")).size(), 1u);
 }
 

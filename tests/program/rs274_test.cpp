@@ -149,11 +149,12 @@ TEST(LatheCycles, MotionsAfterACycleHaveTheirOwnFrame) {
         parse(turned + "G54 G0 X50 Z6\nG55 G0 X40 Z6\nG71 Q100 X32 Z3 I4 R1\nG54 G0 X50 Z6\nG55 G0 X40\n", "linuxcnc");
     const Motions& m = p.motions;
     const std::int64_t last = m.size() - 1;
-    ASSERT_EQ(m.frame.size(), m.kind.size());
-    EXPECT_EQ(m.frame[static_cast<std::size_t>(last)], m.frame[2]) << "G55";
-    EXPECT_EQ(m.frame[static_cast<std::size_t>(last - 1)], m.frame[1]) << "G54";
-    EXPECT_EQ(m.frame[static_cast<std::size_t>(last - 2)], m.frame[2]) << "of the cycle";
-    EXPECT_NE(m.frame[1], m.frame[2]);
+    EXPECT_EQ(m.frame_of(1).system, 1);
+    EXPECT_EQ(m.frame_of(2).system, 2);
+    EXPECT_EQ(m.frame_of(last - 2).system, 2) << "of the cycle";
+    EXPECT_EQ(m.frame_of(last - 1).system, 1);
+    EXPECT_EQ(m.frame_of(last).system, 2);
+    EXPECT_EQ(m.frame.size(), m.kind.size());
 }
 
 TEST(LatheCycles, SayWhatTheyDoNotCut) {
