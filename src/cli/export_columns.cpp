@@ -136,6 +136,12 @@ std::vector<io::ExportColumn> exported_channels(const std::vector<std::string>& 
             column.unit = channel->unit;
             column.exact.resize(count);
             copy_block(channel->values, 0, column.exact);
+            if (channel->values.type == ScalarType::f32) {  // no more digits than it has
+                column.values.resize(count);
+                std::ranges::transform(column.exact, column.values.begin(),
+                                       [](double v) { return static_cast<float>(v); });
+                column.exact = {};
+            }
         } else {
             throw UsageError(fmt::format("--columns: '{}' is no channel of {}, which has no positions", name, log.name),
                              fmt::format("one of point, {}", fmt::join(known, ", ")));

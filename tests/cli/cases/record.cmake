@@ -24,8 +24,8 @@ add_test(NAME cli.record COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/cli/record_tes
 set_tests_properties(cli.record PROPERTIES TIMEOUT 120)
 
 # What `record` writes has no positions.
-set(slow_signals "printf 'time [s],spindle.load [Nm]\\n0,1.5\\n0.1,2.5\\n0.2,\\n' > slow.csv")
-clsurf_cli_test(NAME export_slow_signals SETUP "${slow_signals}" ARGS export slow.csv -o out.csv FILE out.csv)
-clsurf_cli_test(NAME export_slow_signals_are_the_same SETUP "${slow_signals}; $CLSURF export slow.csv -o out.csv --columns time,spindle.load -q; printf 'time [s],spindle.load [Nm]\\n0,1.5\\n0.1,2.5\\n0.2,\\n' | cmp - out.csv" ARGS --version)
-clsurf_cli_test(NAME export_slow_signals_without_positions SETUP "${slow_signals}" ARGS export slow.csv -o out.csv --columns time,x EXIT 2 STDERR "'x' is no channel of slow.csv, which has no positions" "hint: one of point, time, spindle.load" NO_FILE out.csv)
-clsurf_cli_test(NAME export_slow_signals_as_vtk SETUP "${slow_signals}" ARGS export slow.csv -o out.vtp EXIT 2 STDERR "has no positions, which VTK files need" NO_FILE out.vtp)
+set(slow_signals "$CLSURF export ${run} -o slow.biip --columns time,speed,acceleration -q")
+clsurf_cli_test(NAME export_slow_signals SETUP "${slow_signals}; $CLSURF export slow.biip -o out.csv; $CLSURF export ${run} -o same.csv --columns time,speed,acceleration -q; head -n 1 out.csv | grep -q '^time .s.,speed .mm/min.,acceleration' && cut -d, -f2 out.csv > a; cut -d, -f2 same.csv > b; cmp a b" ARGS --version)
+clsurf_cli_test(NAME export_slow_signals_chosen SETUP "${slow_signals}" ARGS export slow.biip -o out.biip --columns point,acceleration FILE out.biip)
+clsurf_cli_test(NAME export_slow_signals_without_positions SETUP "${slow_signals}" ARGS export slow.biip -o out.csv --columns time,x EXIT 2 STDERR "'x' is no channel of slow.biip, which has no positions" "hint: one of point, time, speed, acceleration" NO_FILE out.csv)
+clsurf_cli_test(NAME export_slow_signals_as_vtk SETUP "${slow_signals}" ARGS export slow.biip -o out.vtp EXIT 2 STDERR "has no positions, which VTK files need" NO_FILE out.vtp)
