@@ -40,7 +40,7 @@ void declare_profile_options(po::options_description& options) {
         ("z", po::value<std::string>()->value_name("COLUMN"), "column of z, or of distances (default: z, height, or the second without names)")
         ("distance", po::value<double>()->value_name("REFERENCE"), "the column of z has distances, measured down from this height [mm]: z = REFERENCE - distance")
         ("sensor-offset", po::value<double>()->value_name("MM")->default_value(0, "0"), "how far along X the sensor is ahead of the place that is recorded [mm]; it is added to x")
-        ("outliers", po::value<double>()->value_name("FACTOR")->default_value(5, "5"), "points that are more than FACTOR times the scatter away from the running median of five are rejected; 0: none is")
+        ("outliers", po::value<double>()->value_name("FACTOR")->default_value(5, "5"), "points that are more than FACTOR times the scatter away from the running median of nine places are rejected; 0: none is")
         ("degree", po::value<int>()->value_name("N")->default_value(3), "degree of the polynomials, 1 to 9")
         ("window", po::value<int>()->value_name("POINTS")->default_value(10), "scanned points of a window")
         ("join", po::value<std::string>()->value_name("c1|blend|none"), "how windows meet (default: c1): c1, one fit with continuous slope; blend, windows that overlap by half and pass into each other; none, each for itself, with jumps")

@@ -10,33 +10,58 @@
 namespace clsurf {
 namespace {
 
-constexpr std::size_t width = 5;
+constexpr std::size_t width = 9;    ///< places of the running median
+constexpr std::size_t around = 10;  ///< places on each side that tell the scatter there
 
-/// Siegel's repeated median of the slopes between points.
-double median_slope(std::span<const ScanPoint> points) {
-    std::array<double, width> of_point{};
-    std::size_t count = 0;
-    for (const ScanPoint& a : points) {
+/// Points of the same x.
+struct ScannedPlace {
+    ScanPoint middle;  ///< its z is the median of theirs
+    std::size_t first = 0, end = 0;
+};
+
+std::vector<ScannedPlace> places_of(std::span<const ScanPoint> points) {
+    std::vector<ScannedPlace> places;
+    std::vector<double> heights;
+    for (std::size_t i = 0; i < points.size();) {
+        ScannedPlace place{{points[i].x, 0}, i, i};
+        heights.clear();
+        for (; place.end < points.size() && points[place.end].x == points[i].x; ++place.end)
+            heights.push_back(points[place.end].z);
+        place.middle.z = midpoint_median(heights);
+        places.push_back(place);
+        i = place.end;
+    }
+    return places;
+}
+
+/// Siegel's repeated median of the slopes between places.
+double median_slope(std::span<const ScannedPlace> places) {
+    std::array<double, width> of_place{};
+    for (std::size_t i = 0; i < places.size(); ++i) {
         std::array<double, width> slopes{};
         std::size_t n = 0;
-        for (const ScanPoint& b : points) {
-            if (b.x != a.x) slopes[n++] = (b.z - a.z) / (b.x - a.x);
+        const ScanPoint& a = places[i].middle;
+        for (std::size_t k = 0; k < places.size(); ++k) {
+            const ScanPoint& b = places[k].middle;
+            if (k != i) slopes[n++] = (b.z - a.z) / (b.x - a.x);
         }
-        if (n > 0) of_point[count++] = midpoint_median(std::span(slopes).first(n));
+        of_place[i] = midpoint_median(std::span(slopes).first(n));
     }
-    return count > 0 ? midpoint_median(std::span(of_point).first(count)) : 0;
+    return midpoint_median(of_place);
 }
 
 /// How far each point lies above the running median.
-std::vector<double> heights_above_median(std::span<const ScanPoint> points) {
+std::vector<double> heights_above_median(std::span<const ScanPoint> points, std::span<const ScannedPlace> places) {
     std::vector<double> heights(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const std::size_t first = std::min(i < width / 2 ? 0 : i - width / 2, points.size() - width);
-        const std::span<const ScanPoint> around = points.subspan(first, width);
-        const double slope = median_slope(around);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const std::size_t first = std::min(i < width / 2 ? 0 : i - width / 2, places.size() - width);
+        const std::span<const ScannedPlace> window = places.subspan(first, width);
+        const double slope = median_slope(window);
         std::array<double, width> moved{};
-        for (std::size_t k = 0; k < width; ++k) moved[k] = around[k].z - slope * (around[k].x - points[i].x);
-        heights[i] = points[i].z - midpoint_median(moved);
+        for (std::size_t k = 0; k < width; ++k)
+            moved[k] = window[k].middle.z - slope * (window[k].middle.x - places[i].middle.x);
+        const double median_here = midpoint_median(moved);
+        for (std::size_t k = places[i].first; k < places[i].end; ++k) heights[k] = points[k].z - median_here;
     }
     return heights;
 }
@@ -78,25 +103,27 @@ void average_same_places(std::span<const ScanPoint> points, CleanScan& scan) {
 CleanScan clean_scan(std::span<const ScanPoint> points, double threshold) {
     CleanScan scan;
     std::vector<ScanPoint> kept;
-    if (points.size() < width) {
+    const std::vector<ScannedPlace> places = places_of(points);
+    if (places.size() < width) {
         kept.assign(points.begin(), points.end());
-    } else {
-        const std::vector<double> heights = heights_above_median(points);
-        std::vector<double> all = heights;
-        scan.scatter = scatter_of(all);
-        const double least = std::max(scan.scatter, resolution_of(points));
-        constexpr std::size_t around = 10;  // points on each side
-        std::vector<double> local;
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            bool outlier = threshold > 0 && std::abs(heights[i]) > threshold * least;
+        average_same_places(kept, scan);
+        return scan;
+    }
+    const std::vector<double> heights = heights_above_median(points, places);
+    std::vector<double> all = heights;
+    scan.scatter = scatter_of(all);
+    const double least = std::max(scan.scatter, resolution_of(points));
+    const auto at = [&](std::size_t point) { return heights.begin() + static_cast<std::ptrdiff_t>(point); };
+    std::vector<double> local;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        for (std::size_t k = places[i].first; k < places[i].end; ++k) {
+            bool outlier = threshold > 0 && std::abs(heights[k]) > threshold * least;
             if (outlier) {
-                const std::size_t first = i < around ? 0 : i - around;
-                const std::size_t end = std::min(points.size(), i + around + 1);
-                local.assign(heights.begin() + static_cast<std::ptrdiff_t>(first),
-                             heights.begin() + static_cast<std::ptrdiff_t>(end));
-                outlier = std::abs(heights[i]) > threshold * scatter_of(local);
+                local.assign(at(places[i < around ? 0 : i - around].first),
+                             at(places[std::min(places.size() - 1, i + around)].end));
+                outlier = std::abs(heights[k]) > threshold * scatter_of(local);
             }
-            (outlier ? scan.rejected : kept).push_back(points[i]);
+            (outlier ? scan.rejected : kept).push_back(points[k]);
         }
     }
     average_same_places(kept, scan);

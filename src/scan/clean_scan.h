@@ -1,8 +1,10 @@
 #pragma once
 // A scan that can be fitted: outliers rejected, places that were scanned more than once made one.
 //
-// A point is an outlier where it lies far from the running median of five points, which are its two neighbours on each
-// side and itself, along the median slope of the five (Siegel 1982). At the ends they are the first and the last five.
+// A point is an outlier where it lies far from the running median of nine places, which are the four next ones on each
+// side and its own, along the median slope of the nine (Siegel 1982). At the ends they are the first and the last nine.
+// Up to three places in a row may be wrong: of eight slopes to others, five are right. The height of a place is the median
+// of all points there.
 
 #include <cstddef>
 #include <span>
@@ -23,7 +25,7 @@ struct CleanScan {
     double scatter = 0;  ///< [mm] standard deviation about the running median, from the median absolute one
 };
 
-/// `points` in rising x. `threshold`: multiples of the scatter, that of the whole scan or that of the 21 points around,
+/// `points` in rising x. `threshold`: multiples of the scatter, that of the whole scan or that of the 21 places around,
 /// whichever is greater, so that a tight curve is no outlier; 0: none is rejected. O(points).
 [[nodiscard]] CleanScan clean_scan(std::span<const ScanPoint> points, double threshold);
 

@@ -32,6 +32,27 @@ TEST(CleanScan, PlantedOutliersAreFoundAlsoAtTheEndsAndInPairs) {
     EXPECT_EQ(clean_scan(points, 0).x.size(), points.size()) << "0: none is rejected";
 }
 
+/// SciPy's siegelslopes of nine places at a time rejects the same ones of such a scan.
+TEST(CleanScan, ThreePlacesInARowAreFoundAndTheirNeighboursKept) {
+    std::vector<ScanPoint> points = wave(1000, 0.01);
+    for (const std::size_t i : {300U, 500U, 501U, 502U}) points[i].z += 0.8;
+    const CleanScan scan = clean_scan(points, 5);
+    ASSERT_EQ(scan.rejected.size(), 4U);
+    EXPECT_EQ(scan.rejected[0].x, points[300].x);
+    for (std::size_t k = 1; k < 4; ++k) EXPECT_EQ(scan.rejected[k].x, points[499 + k].x);
+}
+
+TEST(CleanScan, OutliersAreFoundWhereEachPlaceIsScannedTwice) {
+    std::vector<ScanPoint> points;
+    for (const ScanPoint& p : wave(1000, 0.01)) points.insert(points.end(), 2, p);
+    points[1401].z += 0.8;                                       // one of the two
+    for (std::size_t i = 600; i < 606; ++i) points[i].z += 0.8;  // both, three places
+    const CleanScan scan = clean_scan(points, 5);
+    ASSERT_EQ(scan.rejected.size(), 7U);
+    EXPECT_EQ(scan.rejected[6].z, points[1401].z);
+    EXPECT_EQ(scan.x.size(), 997U) << "the other point of that place is kept";
+}
+
 TEST(CleanScan, OfNormalScatterHardlyAnyIsRejected) {
     const std::vector<ScanPoint> points = wave(100000, 0.01);
     const CleanScan scan = clean_scan(points, 5);
