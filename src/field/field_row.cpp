@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::array<std::string_view, needs::kinds> need_names{
     "position",       "velocity",           "acceleration", "jerk", "commanded positions", "measured positions",
-    "velocity sigma", "acceleration sigma", "jerk sigma",   "time", "position sigma"};
+    "velocity sigma", "acceleration sigma", "jerk sigma",   "time", "position sigma",      "curvature"};
 
 std::size_t index_of(unsigned need) { return static_cast<std::size_t>(std::countr_zero(need)); }
 

@@ -22,7 +22,8 @@ inline constexpr unsigned time = 512;  ///< since the first record
 inline constexpr unsigned derivatives = velocity | acceleration | jerk;
 inline constexpr unsigned position_sigma = 1024;
 inline constexpr unsigned sigmas = velocity_sigma | acceleration_sigma | jerk_sigma | position_sigma;
-inline constexpr int kinds = 11;
+inline constexpr unsigned curvature = 2048;  ///< of the path, by its geometry (path_curvature.h); NaN: not known
+inline constexpr int kinds = 12;
 }  // namespace needs
 
 /// What the positions, and all that is derived of them, are those of.
@@ -50,7 +51,7 @@ public:
     [[nodiscard]] const Vector& vector(unsigned need) const;
     /// The component along the row's axis; of a rotary axis its only one.
     [[nodiscard]] const double* component(unsigned need) const;
-    /// A standard deviation, or the time.
+    /// A standard deviation, the time, or the curvature.
     [[nodiscard]] const double* scalar(unsigned need) const;
 
     void set(unsigned need, const Vector& columns);
@@ -103,7 +104,7 @@ void component(const FieldBlock& block, float* out) {
     for (std::size_t i = 0; i < block.count(); ++i) out[i] = static_cast<float>(values[i]);
 }
 
-/// A kernel that gives a standard deviation, or the time.
+/// A kernel that gives a standard deviation, the time, or the curvature.
 template <unsigned need>
 void scalar(const FieldBlock& block, float* out) {
     const double* const values = block.scalar(need);

@@ -39,11 +39,6 @@ double normal(const Vector& velocity, const Vector& acceleration, std::size_t i)
     return v > slowest_for_direction ? cross_norm(velocity, acceleration, i) / v
                                      : std::numeric_limits<double>::quiet_NaN();
 }
-double curvature(const Vector& velocity, const Vector& acceleration, std::size_t i) {
-    const double v = norm(velocity, i);
-    return v > slowest_for_direction ? cross_norm(velocity, acceleration, i) / (v * v * v)
-                                     : std::numeric_limits<double>::quiet_NaN();
-}
 
 double following_error(const Vector& commanded, const Vector& measured, std::size_t i) {
     double sum = 0;
@@ -164,8 +159,8 @@ constexpr auto table = std::to_array<FieldRow>({
      3},
     lower({"normal_acceleration", "Acceleration across the path", unit::mm_s2, up, 0, tip,
            needs::velocity | needs::acceleration, kernel::each<normal, needs::velocity, needs::acceleration>}),
-    {"curvature", "Curvature of the path", unit::per_mm, up, 0, tip, needs::velocity | needs::acceleration,
-     kernel::each<curvature, needs::velocity, needs::acceleration>},
+    {"curvature", "Curvature of the path", unit::per_mm, up, 0, tip, needs::curvature,
+     kernel::scalar<needs::curvature>},
     lower({"following_error",
            "Following error",
            unit::um,

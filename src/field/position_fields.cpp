@@ -8,6 +8,7 @@
 
 #include "core/block.h"
 #include "core/error.h"
+#include "field/path_curvature.h"
 #include "numeric/derivative.h"
 #include "surface/smoothing_segments.h"
 #include "toolpath/tool_axes.h"
@@ -64,6 +65,7 @@ struct Plan {
     const MotionEstimate* estimate = nullptr;
     PointIndex count = 0;  ///< of the log
     std::optional<Samples> samples, commanded, measured;
+    std::optional<PathCurvature> curvature;
     std::array<std::optional<Differentiator>, 3> derivatives;
     PointIndex reach = 0;
 
@@ -130,6 +132,7 @@ void complete(Plan& plan, const Trajectory& path, double coarsest_period) {
         filter.emplace(derivative_filter(d, plan.log->period, coarsest_period));
         plan.reach = std::max(plan.reach, filter->reach());
     }
+    if ((plan.needs & needs::curvature) != 0) plan.curvature.emplace(*plan.log, path);
     if ((plan.needs & needs::error) == 0) return;
     const auto positions = [&](Role role) {
         return plan.subject == FieldSubject::tool_axis ? Samples(tool_axes(*plan.log, role, path))
@@ -237,6 +240,11 @@ private:
             fill(needs::position_sigma,
                  {position_sigmas_[0].data(), position_sigmas_[1].data(), position_sigmas_[2].data()});
         }
+        if (plan_.curvature) {
+            curvature_.resize(count_);
+            plan_.curvature->compute(piece, first_, curvature_);
+            fill(needs::curvature, {curvature_.data()});
+        }
         if ((plan_.needs & needs::time) == 0) return;
         time_.resize(count_);
         for (std::size_t i = 0; i < count_; ++i) time_[i] = plan_.log->time_of(first_ + static_cast<PointIndex>(i));
@@ -252,7 +260,7 @@ private:
     std::array<Columns, 3> derived_;  ///< by derivative − 1
     std::array<Columns, 4> estimated_;
     MotionEstimate::Scratch scratch_;
-    std::vector<double> time_;
+    std::vector<double> time_, curvature_;
 };
 
 /// `origin`: the point of the first value.

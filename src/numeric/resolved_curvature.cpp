@@ -12,6 +12,7 @@ namespace clsurf {
 namespace {
 
 constexpr double resolved = 0.1;                ///< standard error over curvature
+constexpr double unknown = 0.5;                 ///< standard error over curvature that tells nothing
 constexpr std::size_t most_points = 31;         ///< of a section that are fitted; more would only take longer
 constexpr double much_shorter = 0.5;            ///< a section, than one that ends where it resolved a curvature
 constexpr double growth = std::numbers::sqrt2;  ///< of the sections from one try to the next
@@ -108,7 +109,8 @@ std::vector<Section> bounds_of(const std::vector<std::size_t>& open, const std::
 
 }  // namespace
 
-std::vector<double> resolved_curvatures(std::span<const Vec3> points, double step, double least) {
+std::vector<double> resolved_curvatures(std::span<const Vec3> points, double step, double least,
+                                        Unresolved unresolved) {
     const std::size_t n = points.size();
     std::vector<double> result(n, 0);
     if (n < 3) return result;
@@ -139,7 +141,9 @@ std::vector<double> resolved_curvatures(std::span<const Vec3> points, double ste
             }
             const Estimate estimate = path.fit(section, open[k]);
             if (is_resolved(estimate) || !can_grow) {
-                result[open[k]] = estimate.curvature;
+                const bool known = unresolved == Unresolved::best ||
+                                   estimate.standard_error <= unknown * std::max(estimate.curvature, least);
+                result[open[k]] = known ? estimate.curvature : std::numeric_limits<double>::quiet_NaN();
                 resolved_over[open[k]] = reach;
             } else {
                 still_open.push_back(open[k]);

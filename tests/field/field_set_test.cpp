@@ -98,6 +98,32 @@ TEST(FieldSet, KnowsTheSpeedAndAccelerationOfACircle) {
     }
 }
 
+TEST(FieldSet, CurvatureIsThatOfThePathWhereTheToolHardlyMoves) {
+    // The circle from rest to 50 mm/s and back to rest, at positions of 0.1 µm: 0.05 1/mm all along it.
+    std::vector<double> columns[3];
+    constexpr PointIndex count = 2000;
+    double way = 0;
+    for (PointIndex i = 0; i < count; ++i) {
+        const double share = static_cast<double>(i) / (count - 1);
+        way += speed * std::sin(share * M_PI) * std::sin(share * M_PI) * period;
+        columns[0].push_back(std::round(radius * std::cos(way / radius) * 1e4) / 1e4);
+        columns[1].push_back(std::round(radius * std::sin(way / radius) * 1e4) / 1e4);
+        columns[2].push_back(0);
+    }
+    Log log;
+    log.period = period;
+    log.records = count;
+    for (std::size_t k = 0; k < 3; ++k)
+        log.channels.push_back({std::string("cmd.") + "xyz"[k], "mm",
+                                ChannelView{reinterpret_cast<const std::byte*>(columns[k].data()), 8, count,
+                                            ScalarType::f64, false, 1, 0}});
+    Passes passes;
+    passes.push_back({0, count - 1, PassKind::cut});
+    const Field k = FieldSet(log, reconstruct(log, Role::commanded, Vec3::Zero()), passes).get("curvature");
+    for (std::size_t i = 0; i < count; ++i)
+        EXPECT_NEAR(k.values[i], 1 / radius, 0.4 / radius) << i;  // its standard error is a tenth
+}
+
 TEST(FieldSet, TellsLagFromContourError) {
     Circle circle;
     const Field lag = circle.get("following_error");
