@@ -91,6 +91,7 @@ ExitCode run_diff(const po::variables_map& values) {
             tool = find_tool(options.runs.tool, &reference.log, reference.program.get(), diagnostics);
         }
         a = std::move(of_reference);
+        if (tool) state_tool_axes(a.path, reference, *lines, k == 1 ? &diagnostics : nullptr);
         clock.begin("compare the runs");
         RunDifferences differences = compare_runs(a, surface, b);
         require_alignment(differences, reference.name, loaded.name);

@@ -26,7 +26,9 @@ std::optional<RoughnessChange> roughness_change_of(const GaugedRun& reference, L
                                                    const CuttingTool& tool, const RunOptions& options) {
     const std::unique_ptr<LineMap> lines = lines_that_cut(run, b.path, options);
     const ClSurface surface = stitch(gather(b.path), *lines);
-    return roughness_change(reference, {run.log, b.path, *lines, surface}, tool);
+    Trajectory path = b.path;
+    state_tool_axes(path, run, *lines, nullptr);
+    return roughness_change(reference, {run.log, path, *lines, surface}, tool);
 }
 
 }  // namespace clsurf::cli

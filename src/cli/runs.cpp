@@ -10,6 +10,7 @@
 #include "pipeline/placement.h"
 #include "pipeline/roles.h"
 #include "pipeline/simulated_log.h"
+#include "pipeline/state_tool_axes.h"
 
 namespace clsurf::cli {
 namespace {
@@ -103,6 +104,13 @@ std::unique_ptr<LineMap> lines_of(LoadedRun& run, const Trajectory& path, const 
     if (run.simulated) return std::make_unique<LineMap>(map_lines(path, run.log, *run.program, true, diagnostics));
     if (!options.program.empty()) return std::make_unique<LineMap>(lines_of_program(run, path, options, diagnostics));
     return std::make_unique<LineMap>(lines_without_program(run.log, path.count));
+}
+
+void state_tool_axes(Trajectory& path, const LoadedRun& run, const LineMap& lines, Diagnostics* diagnostics) {
+    if (!run.program) return;
+    Diagnostics of_log = run.log.diagnostics;
+    clsurf::state_tool_axes(path, *run.program, lines, of_log);
+    if (diagnostics != nullptr && of_log.count("path.tool-axis") > 0) note_unknown_axis(*run.program, *diagnostics);
 }
 
 }  // namespace clsurf::cli

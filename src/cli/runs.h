@@ -58,4 +58,7 @@ struct LoadedRun {
 [[nodiscard]] std::unique_ptr<LineMap> lines_of(LoadedRun& run, const Trajectory& path, const RunOptions& options,
                                                 Diagnostics& diagnostics);
 
+/// state_tool_axes() of the program of a run, where that is known. `diagnostics`: nullptr: it says nothing.
+void state_tool_axes(Trajectory& path, const LoadedRun& run, const LineMap& lines, Diagnostics* diagnostics);
+
 }  // namespace clsurf::cli

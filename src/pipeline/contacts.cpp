@@ -22,10 +22,11 @@ void for_each_index(std::size_t count, Work&& work) {
 PartContacts::PartContacts(const Log& log, const Trajectory& path, const LineMap& lines, const ClSurface& surface,
                            const CuttingTool& tool)
     : path_(path), surface_(surface) {
-    std::optional<ToolAxes> axes;  // of another tool that tilts
-    if (!path.kinematics && find_rotary_motion(log, path.role)) return;
+    std::optional<ToolAxes> axes;  // of a tool that tilts
+    if (!path.axis_known || (!path.kinematics && find_rotary_motion(log, path.role))) return;
     if (tilts(log, path)) {
-        if (tool.kind == ToolKind::ball) {
+        // On tilted planes the axis stays, and the surface of the tips is that of the centres, moved.
+        if (tool.kind == ToolKind::ball && path.stated_axes == nullptr) {
             upright_path_ = upright_ball(log, path, tool.radius);
             upright_surface_ = stitch(gather(*upright_path_), lines);
         } else {

@@ -16,7 +16,7 @@ namespace clsurf {
 /// Does not move once it is made.
 class PartContacts {
 public:
-    /// `surface` is that of `path`. A ball that tilts is followed by its centre: then a surface of its own is
+    /// `surface` is that of `path`. A ball that turns is followed by its centre: then a surface of its own is
     /// made. Where rotary axes move and the path is not through kinematics, no contact point is known. All but
     /// `lines` must outlive it. O(1), or O(points) where there are rotary axes.
     PartContacts(const Log& log, const Trajectory& path, const LineMap& lines, const ClSurface& surface,
@@ -44,7 +44,7 @@ private:
 
     const Trajectory& path_;
     const ClSurface& surface_;
-    std::optional<Trajectory> upright_path_;  ///< of a ball that tilts
+    std::optional<Trajectory> upright_path_;  ///< of a ball that turns
     std::optional<ClSurface> upright_surface_;
     std::optional<ContactPoints> points_;
 };

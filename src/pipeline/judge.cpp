@@ -73,6 +73,13 @@ Quality judge(const Part& part, const ClSurface& surface, const PartSignals& rea
     begin_stage(stages, "measure the formed surface");
     const PartContacts contacts(part, surface, *part.tool);
     contacts.locate(quality.report);
+    if (!contacts.known()) {
+        quality.diagnostics.add({Severity::warning, "quality.tool-axis", Place::of_file(part.log.name),
+                                 "the axis of " + to_text(*part.tool) +
+                                     " is not known: positions are those of tips, and there is no formed surface",
+                                 "give the kinematics with --machine FILE"});
+        return quality;
+    }
     if (part.tool->kind != ToolKind::ball && tilts(part.log, part.path)) {
         quality.diagnostics.add(
             {Severity::warning,

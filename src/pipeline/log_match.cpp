@@ -7,6 +7,7 @@
 #include "mapping/map_lines.h"
 #include "pipeline/placement.h"
 #include "pipeline/roles.h"
+#include "pipeline/state_tool_axes.h"
 #include "toolpath/tip_motions.h"
 
 namespace clsurf {
@@ -26,6 +27,7 @@ ProgramMatch match_log(Program program, const Log& log, const FramePoses& given,
     } else {
         note_rotary(log, role, diagnostics);
     }
+    if (!kinematics && diagnostics.count("path.rotary") == 0) note_unknown_axis(program, diagnostics);
     const LineMap lines = map_lines(path, log, program, true, diagnostics, identity);
     const LineAgreement a = check_lines(path, program, lines);
     if (a.checked == 0) return lines.match();

@@ -9,6 +9,7 @@
 #include "mapping/map_lines.h"
 #include "pipeline/placement.h"
 #include "pipeline/roles.h"
+#include "pipeline/state_tool_axes.h"
 #include "surface/smoothing_segments.h"
 #include "surface/stitch.h"
 
@@ -99,6 +100,7 @@ Part assemble(Program program, Log log, const PartRules& rules) {
     if (kinematics == nullptr && part.diagnostics.count("path.rotary") > 0)
         ask_for_kinematics(rules.accept_unknown_tips, lines);
     refuse_foreign(lines.match(), part.program, part.log, rules.accept_foreign, part.diagnostics);
+    state_tool_axes(part.path, part.program, lines, part.diagnostics);
     part.lines = std::make_shared<const LineMap>(std::move(lines));
     return part;
 }
@@ -111,6 +113,7 @@ void exchange_log(Part& part, Log log, const PartRules& rules) {
     const Trajectory mapped = reconstruct_like(log, mapping_role(log, path.role), path);
     LineMap lines = map_lines(mapped, log, part.program, rules.use_line_channel, diagnostics, rules.identity);
     if (diagnostics.count("path.rotary") > 0) ask_for_kinematics(rules.accept_unknown_tips, lines);
+    state_tool_axes(path, part.program, lines, diagnostics);
     part.log = std::move(log);
     part.path = std::move(path);
     part.lines = std::make_shared<const LineMap>(std::move(lines));

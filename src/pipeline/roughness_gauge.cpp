@@ -8,7 +8,8 @@ namespace clsurf {
 namespace {
 
 bool can_gauge(const GaugedRun& run, const CuttingTool& tool) {
-    return run.surface.step_over > 0 && (tool.kind == ToolKind::ball || !tilts(run.log, run.path));
+    return run.surface.step_over > 0 && run.path.axis_known &&
+           (tool.kind == ToolKind::ball || !tilts(run.log, run.path));
 }
 
 }  // namespace

@@ -13,14 +13,26 @@
 #include "pipeline/placement.h"
 #include "pipeline/roles.h"
 #include "surface/smoothing_segments.h"
+#include "toolpath/stated_axes.h"
 
 namespace clsurf {
 namespace {
+
+/// Of a survey and its shards, contact points are those of a tool along z.
+void refuse_tilted(const Part& part) {
+    if (!part.tool) return;
+    const StatedAxes stated = stated_axes(part.program.motions);
+    if (stated.unknown || !stated.axis.empty())
+        throw UsageError(
+            "a survey is for tools along z: " + part.program.main().name() + " tilts " + to_text(*part.tool),
+            "--tool none judges the tool tips");
+}
 
 /// Throws where a survey cannot tell what a whole log would.
 void refuse_others(const Part& part) {
     if (part.path.kinematics || find_rotary_motion(part.log, part.path.role))
         throw UsageError("a survey is for machines of three axes: " + part.log.name + " has rotary axes that move");
+    refuse_tilted(part);
     if (part.derivative != DerivativeMethod::savgol)
         throw UsageError("--derivative kalman looks at a log as a whole: shards have savgol only");
 }
@@ -161,6 +173,7 @@ Part surveyed_part(Program program, Log log, const PartRules& rules, const Surve
     part.path.offset = survey.offset;
     part.path.turn = survey.turn;
     part.lines = lines_of(part.program, part.log, survey);
+    refuse_tilted(part);
     return part;
 }
 

@@ -21,6 +21,10 @@ AsMachinedSurface ToolRun::as_commanded(const CuttingTool& tool) const {
 
 std::unique_ptr<const UprightPart> upright_part(const Log& log, const Trajectory& path, const LineMap& lines,
                                                 std::optional<Role> wanted, const CuttingTool& tool) {
+    if (!path.axis_known) {
+        throw UsageError("the axis of " + to_text(tool) + " is not known, and so is the surface that it leaves",
+                         "give the kinematics with --machine FILE");
+    }
     if (!tilts(log, path)) return nullptr;
     if (tool.kind != ToolKind::ball) {
         throw UsageError(

@@ -36,7 +36,7 @@ struct UprightPart {
 };
 
 /// nullptr: the tool stands along z all the time. Else it must be a ball, whose centre is what counts; throws
-/// UsageError for other tools.
+/// UsageError for other tools, and where the axis is not known.
 [[nodiscard]] std::unique_ptr<const UprightPart> upright_part(const Log& log, const Trajectory& path,
                                                               const LineMap& lines, std::optional<Role> wanted,
                                                               const CuttingTool& tool);

@@ -18,7 +18,7 @@ std::string channel_name(Role role, std::size_t axis) { return fmt::format("{}.{
 }  // namespace
 
 bool FusedPositions::applies(const Log& log, const Trajectory& path) {
-    return path.role == Role::actual && path.kinematics == nullptr && log.has(Role::feedback);
+    return path.role == Role::actual && path.is_of_linear_axes() && log.has(Role::feedback);
 }
 
 FusedPositions::FusedPositions(const Log& log, const Trajectory& path, const std::vector<PointRange>& pieces,

@@ -46,14 +46,14 @@ MotionEstimate::MotionEstimate(const Log& log, const Trajectory& path, const std
     measure_positions(pieces, fitter);
     across_.emplace(model_);
     // The axes' own speeds are not those of a tool that also turns.
-    if (path.kinematics == nullptr) measure_components(pieces);
+    if (path.is_of_linear_axes()) measure_components(pieces);
     if (!model_.has_speed() && (path.role == Role::commanded || !log.has(Role::commanded))) measure_path_speed(pieces);
     calibrate(pieces);
 }
 
 void MotionEstimate::measure_positions(const std::vector<PointRange>& pieces, NoiseFitter& fitter) {
     double floor = finest_position;
-    if (path_.kinematics == nullptr && !fused_) {
+    if (path_.is_of_linear_axes() && !fused_) {
         for (const ChannelView& view : path_.axes) floor = std::max(floor, quantum_of(view) / std::sqrt(12.0));
     }
     const double step = fused_ ? fused_->scale_floor() : floor;

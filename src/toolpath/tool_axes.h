@@ -27,8 +27,8 @@ private:
     std::shared_ptr<const Columns> columns_;
 };
 
-/// The tool axes of a role, brought into the workpiece as `like` was, which has kinematics. Throws InputError where the log
-/// lacks the angles. O(points), parallel; 24 bytes a point.
+/// The tool axes of a role, brought into the workpiece as `like` was, which has kinematics, or those that `like` has stated.
+/// Throws InputError where the log lacks the angles. O(points), parallel; 24 bytes a point.
 [[nodiscard]] ToolAxes tool_axes(const Log& log, Role role, const Trajectory& like);
 
 /// The angle of a rotary axis as the control counts it [rad]: a view of the log's column, which must outlive it. Throws

@@ -156,6 +156,27 @@ void set_columns(Trajectory& trajectory, std::shared_ptr<const OwnColumns> colum
 
 namespace {
 
+/// Moves tips to those of an upright ball of that radius by the stated axes.
+void stand_upright(Trajectory& trajectory, double ball) {
+    const ToolAxes& axes = *trajectory.stated_axes;
+    const std::array<ChannelView, 3> linear = trajectory.axes;
+    const Eigen::Matrix3d to_machine = trajectory.turn.transpose();
+    const auto compute = [&](PointIndex first, std::span<double> x, std::span<double> y, std::span<double> z) {
+        std::vector<double> u(x.size()), v(x.size()), w(x.size());
+        axes.read(first, u, v, w);
+        copy_block(linear[0], first, x);
+        copy_block(linear[1], first, y);
+        copy_block(linear[2], first, z);
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            const Vec3 shift = to_machine * (ball * (Vec3(u[i], v[i], w[i]) - Vec3::UnitZ()));
+            x[i] += shift.x();
+            y[i] += shift.y();
+            z[i] += shift.z();
+        }
+    };
+    set_columns(trajectory, make_columns(trajectory.count, compute));
+}
+
 Trajectory reconstruct_ball(const Log& log, Role role, const Eigen::Isometry3d& pose,
                             std::shared_ptr<const Kinematics> kinematics, double ball) {
     Trajectory trajectory = trajectory_of(log, role);
@@ -195,12 +216,24 @@ Trajectory reconstruct(const Log& log, Role role, const Eigen::Isometry3d& pose,
     return reconstruct_ball(log, role, pose, std::move(kinematics), 0);
 }
 
+namespace {
+
+Trajectory reconstruct_like(const Log& log, Role role, const Trajectory& like, double ball) {
+    Trajectory trajectory = reconstruct_ball(log, role, like.pose(), like.kinematics, ball);
+    trajectory.stated_axes = like.stated_axes;
+    trajectory.axis_known = like.axis_known;
+    if (trajectory.stated_axes != nullptr && ball > 0) stand_upright(trajectory, ball);
+    return trajectory;
+}
+
+}  // namespace
+
 Trajectory upright_ball(const Log& log, const Trajectory& like, double radius) {
-    return reconstruct_ball(log, like.role, like.pose(), like.kinematics, radius);
+    return reconstruct_like(log, like.role, like, radius);
 }
 
 bool tilts(const Log& log, const Trajectory& trajectory) {
-    if (trajectory.kinematics == nullptr) return false;
+    if (trajectory.kinematics == nullptr) return trajectory.stated_axes != nullptr;
     constexpr double tolerance = 1e-6;
     const Kinematics& kinematics = *trajectory.kinematics;
     return for_angles(log, AngleReader(log, trajectory.role, kinematics), [&](PointIndex, const RotaryAngles& angles) {
@@ -218,10 +251,11 @@ bool can_reconstruct_like(const Log& log, Role role, const Trajectory& like) {
 }
 
 Trajectory reconstruct_like(const Log& log, Role role, const Trajectory& like) {
-    return role == like.role ? like : reconstruct_ball(log, role, like.pose(), like.kinematics, like.ball);
+    return role == like.role ? like : reconstruct_like(log, role, like, like.ball);
 }
 
 ToolAxes tool_axes(const Log& log, Role role, const Trajectory& like) {
+    if (like.stated_axes != nullptr) return *like.stated_axes;
     const Kinematics& kinematics = *like.kinematics;
     const AngleReader angles(log, role, kinematics);
     const auto compute = [&](PointIndex first, std::span<double> x, std::span<double> y, std::span<double> z) {

@@ -16,6 +16,8 @@
 
 namespace clsurf {
 
+class ToolAxes;
+
 struct Trajectory {
     Role role = Role::commanded;
     std::array<ChannelView, 3> axes;  ///< machine positions x, y, z, or of the tip before the offset [mm]
@@ -25,12 +27,17 @@ struct Trajectory {
     double period = 0;                             ///< [s]
     std::string name;                              ///< of the log, for messages
     std::shared_ptr<const Kinematics> kinematics;  ///< of machines with rotary axes; nullptr: three axes
-    double ball = 0;  ///< [mm] 0: positions are those of the tip; else as upright_ball() has them
+    /// In the workpiece, where there are no kinematics and a program states them (stated_axes.h); nullptr: along z.
+    std::shared_ptr<const ToolAxes> stated_axes;
+    bool axis_known = true;  ///< false: the tool turns, and without kinematics nothing tells how
+    double ball = 0;         ///< [mm] 0: positions are those of the tip; else as upright_ball() has them
     std::shared_ptr<const void> keep_alive;
 
     /// Gathers points [begin, begin + x.size()); NaN where the log has none. All spans same size.
     void read(PointIndex begin, std::span<double> x, std::span<double> y, std::span<double> z) const;
     [[nodiscard]] Vec3 at(PointIndex point) const;
+    /// Whether positions are those of the linear axes, but for the pose.
+    [[nodiscard]] bool is_of_linear_axes() const { return kinematics == nullptr && ball == 0; }
     /// The machine's position of the workpiece's zero, and how its axes lie there.
     [[nodiscard]] Eigen::Isometry3d pose() const;
     /// Other such positions: machine = pose · workpiece.
@@ -51,10 +58,10 @@ struct Trajectory {
 
 /// In place of the tips of a ball of that radius [mm] those that it would have with its axis along z and the same
 /// centre: tip + radius (axis − z). The ball cuts the same, and what knows upright tools knows it. `like`
-/// has kinematics. O(points), parallel.
+/// has kinematics or stated axes. O(points), parallel.
 [[nodiscard]] Trajectory upright_ball(const Log& log, const Trajectory& like, double radius);
 
-/// Whether the tool axis ever leaves z, by more than 10⁻⁶ rad. False without kinematics. O(points).
+/// Whether the tool axis ever leaves z, by more than 10⁻⁶ rad. False without kinematics and stated axes. O(points).
 [[nodiscard]] bool tilts(const Log& log, const Trajectory& trajectory);
 
 /// Whether reconstruct_like() finds the channels that it needs: with kinematics the rotary axes too.
