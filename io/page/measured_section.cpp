@@ -54,8 +54,9 @@ std::string marks_html(const std::vector<ComparedMark>& marks) {
     if (marks.empty()) return "<p>The measurement crosses none of the predicted marks.</p>\n";
     std::string rows;
     const auto depth = [](const ComparedMark& mark, double mm) {
-        return mark.state == MarkState::not_judged || !std::isfinite(mm) ? std::string("–")
-                                                                         : fmt::format("{:.2f}", mm * um_per_mm);
+        return mark.state == MarkState::not_judged || !std::isfinite(mm)
+                   ? std::string("–")
+                   : fmt::format("{:.2f} {}", mm * um_per_mm, deep_or_high(mark.pit));
     };
     for (const ComparedMark& mark : marks)
         rows += fmt::format(

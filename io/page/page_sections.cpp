@@ -333,10 +333,10 @@ std::string page_summary(const ReportPage& page) {
                                    page.before.empty() ? "" : html(" · before: " + file_name(page.before)), version);
     text += run_facts(page);
     int worst = 0;
-    double deepest = 0;
+    const Defect* largest = nullptr;
     for (const Defect& d : report.defects) {
         worst = std::max(worst, d.severity);
-        deepest = std::max(deepest, d.depth);
+        if (largest == nullptr || d.depth > largest->depth) largest = &d;
     }
     const bool judged = report.judgement.judged();
     const std::size_t accepted = page.quality.acceptance != nullptr ? page.quality.acceptance->count() : 0;
@@ -350,7 +350,7 @@ std::string page_summary(const ReportPage& page) {
                  !judged || worst > 2 ? "bad"
                  : worst > 0          ? "fair"
                                       : "good");
-    if (worst > 0) text += fact("Deepest", um_text(deepest) + " µm");
+    if (worst > 0) text += fact("Largest mark", depth_text(*largest, " µm"));
     for (const PagePercentiles& row : page.percentiles) {
         if (row.field == "speed_mismatch" && std::isfinite(row.of_magnitude[2]))
             text += fact("Speed mismatch",

@@ -126,7 +126,9 @@ std::string place_label(const Defect& d) {
 std::string cause_label(const Defect& d) {
     std::string words(name_of(d.cause));
     std::replace(words.begin(), words.end(), '_', ' ');
-    return d.depth > 0 ? fmt::format("{}, {:.1f} µm deep", words, um_per_mm * d.depth) : words;
+    if (!(d.depth > 0)) return words;
+    if (d.systematic) return fmt::format("{}, ±{:.1f} µm", words, um_per_mm * d.depth);
+    return fmt::format("{}, {:.1f} µm {}", words, um_per_mm * d.depth, deep_or_high(d.pit));
 }
 
 std::string lines_label(const Defect& d) {

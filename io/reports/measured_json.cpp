@@ -33,7 +33,7 @@ Json marks_json(const ReportedMeasurement& measured, MarkState state) {
     Json all = Json::array();
     for (const ComparedMark& mark : measured.result.marks) {
         if (mark.state != state) continue;
-        Json json{{"id", mark.defect + 1}, {"position_mm", vector(mark.place)}};
+        Json json{{"id", mark.defect + 1}, {"shape", mark.pit ? "pit" : "bulge"}, {"position_mm", vector(mark.place)}};
         json["along_mm"] = measured.data.kind == MeasuredKind::profile ? number(mark.along, 4) : Json(nullptr);
         if (state == MarkState::not_judged) {
             json["reason"] = mark.reason;

@@ -17,8 +17,8 @@ std::string marks_text(const ReportedMeasurement& measured, MarkState state, std
         text += text.empty() ? fmt::format("  marks {}: ", title) : ", ";
         text += state == MarkState::not_judged
                     ? fmt::format("{} ({})", mark.defect + 1, mark.reason)
-                    : fmt::format("{} ({:.2f} µm deep, predicted {:.2f} µm)", mark.defect + 1, to_um(mark.measured),
-                                  to_um(mark.predicted));
+                    : fmt::format("{} ({:.2f} µm {}, predicted {:.2f} µm)", mark.defect + 1, to_um(mark.measured),
+                                  deep_or_high(mark.pit), to_um(mark.predicted));
     }
     return text.empty() ? text : text + "\n";
 }

@@ -5,6 +5,7 @@
 #include "cli/part.h"
 #include "cli/stage_clock.h"
 #include "io/reports/alignment_report.h"
+#include "measured/measured_result.h"
 #include "pipeline/as_machined_part.h"
 
 namespace clsurf::cli {
@@ -27,7 +28,13 @@ ExitCode run_align(const po::variables_map& values) {
     clock.begin("sweep the tool");
     const AsMachinedPart as_machined(part, surface, role, tool);
     clock.begin("align");
-    const Alignment alignment = align(data, as_machined.surface(), measured.rules);
+    Alignment alignment = align(data, as_machined.surface(), measured.rules);
+    if (alignment.determined() && data.kind != MeasuredKind::points) {
+        const AlignedHeights heights(data, alignment.pose);
+        if (std::optional<std::string> doubt =
+                doubt_of(compare_roughness(data, heights, as_machined.surface(), as_machined.signals())))
+            alignment.reasons.push_back(std::move(*doubt));
+    }
     clock.end();
     if (json) {
         write_to_stdout(io::alignment_json(data, alignment, tool, part.diagnostics));
@@ -53,7 +60,8 @@ Subcommand align_subcommand() {
             "the form alone. Poses near its result are compared next, because a surface with scallops fits nearly as well when\n"
             "it is displaced by one step-over.\n"
             "The exit code is 5 if the data do not determine the pose. The reason is given: a plane can be shifted, a profile\n"
-            "without a known start can be anywhere, and without a mark or a form two poses fit equally well.\n\n"
+            "without a known start can be anywhere, without a mark or a form two poses fit equally well, and the roughness\n"
+            "shows where the start is wrong.\n\n"
             "  clsurf align cmm.csv part.nc run.biip --tool ball:6\n"
             "  clsurf align stylus.csv part.nc run.biip --tool ball:6 --measured-at 12.5,3,90",
         .declare =

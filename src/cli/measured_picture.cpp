@@ -28,7 +28,8 @@ std::vector<viz::ChartCursor> cursors_of(const io::ReportedMeasurement& measured
         if (!(at < static_cast<double>(profile.count))) continue;
         cursors.push_back({mark.along,
                            mark.state == MarkState::found
-                               ? fmt::format("mark {}: {:.2f} µm deep", mark.defect + 1, mark.measured * um_per_mm)
+                               ? fmt::format("mark {}: {:.2f} µm {}", mark.defect + 1, mark.measured * um_per_mm,
+                                             deep_or_high(mark.pit))
                                : fmt::format("mark {} missing", mark.defect + 1),
                            {}});
     }

@@ -62,6 +62,7 @@ public:
 
     [[nodiscard]] ComparedMark judge(const Defect& defect, const Crossing& crossed) const {
         ComparedMark mark;
+        mark.pit = defect.pit;
         const Vec3 contact = as_machined_.contact(crossed.point);
         mark.place = Vec3(crossed.place.x(), crossed.place.y(), contact.z());
         const bool profile = data_.kind == MeasuredKind::profile;
@@ -96,8 +97,8 @@ private:
         if (!std::isfinite(mark.predicted))
             mark.reason = "its predicted depth there is not known";
         else if (mark.predicted < least)
-            mark.reason = fmt::format("{:.2f} µm deep there, and less than {:.2f} µm cannot be told from the scatter",
-                                      mark.predicted * um_per_mm, least * um_per_mm);
+            mark.reason = fmt::format("{:.2f} µm {} there, and less than {:.2f} µm cannot be told from the scatter",
+                                      mark.predicted * um_per_mm, deep_or_high(mark.pit), least * um_per_mm);
         else if (!std::isfinite(mark.measured))
             mark.reason = "too few places next to it were measured";
         else

@@ -13,7 +13,7 @@ namespace clsurf {
 
 enum class MarkState : std::uint8_t {
     found,
-    missing,     ///< less than half as deep as predicted
+    missing,     ///< less than half as deep, or as high, as predicted
     not_judged,  ///< `reason` says why
 };
 
@@ -22,7 +22,8 @@ struct ComparedMark {
     MarkState state = MarkState::not_judged;
     Vec3 place = Vec3::Zero();           ///< [mm] where the measurement crosses it
     double along = 0;                    ///< [mm] from the first place of a profile
-    double predicted = 0, measured = 0;  ///< [mm] depths there
+    bool pit = false;                    ///< it is predicted below its neighbours; else above them
+    double predicted = 0, measured = 0;  ///< [mm] depths there, of a bulge heights
     std::string reason;
 };
 

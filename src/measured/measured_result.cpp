@@ -1,6 +1,31 @@
 #include "measured/measured_result.h"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+
 namespace clsurf {
+namespace {
+
+constexpr double least_correlation = 0.3;
+constexpr double most_times = 3;        ///< between measured and predicted Rq that are alike
+constexpr double least_rough = 0.0002;  ///< [mm] Rq of the rougher of both; heights are not known better
+
+}  // namespace
+
+std::optional<std::string> doubt_of(const MeasuredComparison& c) {
+    if (!c.reason.empty() || std::max(c.measured.rq, c.predicted.rq) < least_rough) return std::nullopt;
+    const bool alike = c.measured.rq <= most_times * c.predicted.rq && c.predicted.rq <= most_times * c.measured.rq;
+    // What the prediction does not know adds to the measured roughness: the more it adds, the less both correlate.
+    const double expected = alike ? std::min(1.0, c.predicted.rq / c.measured.rq) : 1.0;
+    if (c.correlation >= least_correlation * expected) return std::nullopt;
+    return fmt::format(
+        "it has another surface than the place where it fits best (correlation {:.3f}, Ra {:.3f} µm measured, {:.3f} µm "
+        "predicted): the start or its angle is wrong, or another part was measured",
+        c.correlation, c.measured.ra * um_per_mm, c.predicted.ra * um_per_mm);
+}
 
 MeasuredResult compare_with_measured(const MeasuredData& data, const AsMachinedSurface& as_machined,
                                      const Signals& signals, const QualityReport& report, const AlignRules& rules) {
@@ -12,6 +37,12 @@ MeasuredResult compare_with_measured(const MeasuredData& data, const AsMachinedS
     }
     const AlignedHeights heights(data, result.alignment.pose);
     result.comparison = compare_roughness(data, heights, as_machined, signals);
+    if (std::optional<std::string> doubt = doubt_of(result.comparison)) {
+        result.alignment.reasons.push_back(std::move(*doubt));
+        result.comparison = {};
+        result.comparison.reason = "the pose of the measurement is not determined";
+        return result;
+    }
     result.marks = compare_marks(data, heights, as_machined, signals, report, result.comparison.noise);
     return result;
 }

@@ -1,6 +1,9 @@
 #pragma once
 // MeasuredResult: what a measurement says about the prediction: its pose, the roughness of both, the marks.
 
+#include <optional>
+#include <string>
+
 #include "measured/align.h"
 #include "measured/compare_measured.h"
 #include "measured/compared_marks.h"
@@ -13,7 +16,11 @@ struct MeasuredResult {
     std::vector<ComparedMark> marks;  ///< that the measurement crosses
 };
 
-/// Aligns and compares. `as_machined` has a step-over; `signals` are its own, `report` has its defects. Throws UsageError as
+/// Why the place of a measurement is in doubt after the comparison: its roughness is not that of the surface there. Nothing: it
+/// is, or both are too smooth to tell.
+[[nodiscard]] std::optional<std::string> doubt_of(const MeasuredComparison& comparison);
+
+/// Aligns and compares. Where the roughness of both shows that the pose is another one, it is not determined. `as_machined` has a step-over; `signals` are its own, `report` has its defects. Throws UsageError as
 /// align() does. Parallel.
 [[nodiscard]] MeasuredResult compare_with_measured(const MeasuredData& data, const AsMachinedSurface& as_machined,
                                                    const Signals& signals, const QualityReport& report,

@@ -30,7 +30,12 @@ TEST(Label, TellsPlaceCauseAndDepth) {
     EXPECT_EQ(place_label(d), "X 1.5  Y −4.7  Z 0.0");
     EXPECT_EQ(cause_label(d), "point spacing");
     d.depth = 0.00123;
+    EXPECT_EQ(cause_label(d), "point spacing, 1.2 µm high");
+    d.pit = true;
     EXPECT_EQ(cause_label(d), "point spacing, 1.2 µm deep");
+    d.systematic = true;
+    EXPECT_EQ(cause_label(d), "point spacing, ±1.2 µm");
+    d.systematic = false;
     d.place.contact = Vec3(2, 3, 4);
     EXPECT_EQ(place_label(d), "X 2.0  Y 3.0  Z 4.0") << "the place on the part";
 }

@@ -1,4 +1,4 @@
-#include "measured/align.h"
+#include "measured/measured_result.h"
 
 #include <gtest/gtest.h>
 
@@ -131,6 +131,22 @@ TEST(Align, AProfileThatBeginsElsewhereIsFound) {
     const Alignment found = align(traced(cut, {6, 1.5}, 5e-5), cut.surface, rules);
     ASSERT_TRUE(found.determined()) << found.reasons.front();
     EXPECT_NEAR(found.pose.shift.y(), 1.5, 5e-4);
+}
+
+TEST(Align, RoughnessThatIsNotThatOfThePlaceIsInDoubt) {
+    const auto compared = [](double measured, double predicted, double correlation) {
+        MeasuredComparison c;
+        c.measured.rq = measured;
+        c.predicted.rq = predicted;
+        c.correlation = correlation;
+        return doubt_of(c).has_value();
+    };
+    EXPECT_TRUE(compared(0.0013, 0.00002, -0.06)) << "across the passes, and predicted along them";
+    EXPECT_TRUE(compared(0.0010, 0.0010, 0.1)) << "as rough, but another profile";
+    EXPECT_TRUE(compared(0.0001, 0.0010, 0.1)) << "much smoother";
+    EXPECT_FALSE(compared(0.0010, 0.0010, 0.95));
+    EXPECT_FALSE(compared(0.0020, 0.0010, 0.5)) << "twice as rough by what the prediction does not know";
+    EXPECT_FALSE(compared(0.00010, 0.00002, 0.0)) << "too smooth to tell";
 }
 
 TEST(Align, APlaneLeavesShiftsUndetermined) {

@@ -25,6 +25,11 @@ clsurf_cli_test(NAME align_touched_points
   ARGS align cmm.csv part.nc run.csv --tool ball:6 STDOUT "cmm.csv: points of 648 places. 0[.][0-9]+ µm rms" "c [+]0[.]0[0-9]+° ± ")
 clsurf_cli_test(NAME align_on_even_passes SETUP "${dexel} make . --part flat_plane --without-mark"
   ARGS align profile.csv part.nc run.csv --tool ball:6 --measured-at 7.1,2.9,90 EXIT 5 STDOUT "not determined: another pose, [0-9.]+ mm away, fits as well")
+# Stated without its angle, the profile lies along a pass, which is smooth.
+clsurf_cli_test(NAME measured_without_its_angle SETUP "${dexel} make ."
+  ARGS check part.nc run.csv --tool ball:6 --measured profile.csv --measured-at 7.1,2.9 EXIT 5 STDOUT "not determined: " NO_STDOUT "marks found")
+clsurf_cli_test(NAME align_without_the_angle SETUP "${dexel} make ."
+  ARGS align profile.csv part.nc run.csv --tool ball:6 --measured-at 7.1,2.9 EXIT 5 STDOUT "not determined: ")
 clsurf_cli_test(NAME align_profile_without_a_start SETUP "${dexel} make ."
   ARGS align profile.csv part.nc run.csv --tool ball:6 EXIT 5 STDOUT "not determined: the profile does not say where on the part it begins")
 
