@@ -11,13 +11,12 @@
 namespace clsurf::viz {
 namespace {
 
-/// Round values, about three times the height of the text apart.
-std::vector<double> y_ticks(const ChartFrame& f, double text) {
+/// Round values, some `wanted` of them, and two at least: one alone, such as 0, gives no scale.
+std::vector<double> scale_ticks(double low, double high, int wanted) {
     constexpr int most_tries = 8;
-    int wanted = std::max(2, static_cast<int>(f.rect.height / (3 * text)));
-    std::vector<double> ticks = nice_ticks(f.y_low, f.y_high, wanted);
-    // One tick alone, such as 0, gives no scale.
-    for (int k = 1; ticks.size() < 2 && k < most_tries; ++k) ticks = nice_ticks(f.y_low, f.y_high, ++wanted);
+    wanted = std::max(2, wanted);
+    std::vector<double> ticks = nice_ticks(low, high, wanted);
+    for (int k = 1; ticks.size() < 2 && k < most_tries; ++k) ticks = nice_ticks(low, high, ++wanted);
     return ticks;
 }
 
@@ -53,7 +52,7 @@ void add_line(Sheet& sheet, const ChartFrame& f, std::span<const double> x, std:
 }
 
 void add_y_axis(Sheet& sheet, const ChartFrame& f, double text) {
-    const std::vector<double> ys = y_ticks(f, text);
+    const std::vector<double> ys = scale_ticks(f.y_low, f.y_high, static_cast<int>(f.rect.height / (3 * text)));
     const double y_step = ys.size() > 1 ? ys[1] - ys[0] : 1;
     double labelled = -std::numeric_limits<double>::infinity();
     for (const double y : ys) {
@@ -78,15 +77,18 @@ void add_grid(Sheet& sheet, const ChartFrame& f, double text, bool x_labels) {
 }
 
 void add_x_grid(Sheet& sheet, const ChartFrame& f, double text, bool x_labels) {
-    const std::vector<double> xs =
-        nice_ticks(f.x_low, f.x_high, std::max(2, static_cast<int>(f.rect.width / (7 * text))));
+    const std::vector<double> xs = scale_ticks(f.x_low, f.x_high, static_cast<int>(f.rect.width / (7 * text)));
     const double x_step = xs.size() > 1 ? xs[1] - xs[0] : 1;
+    double labelled = -std::numeric_limits<double>::infinity();
     for (const double x : xs) {
         const Vec2 p = f.at(x, f.y_low);
         sheet.lines.push_back({{p, {p.x(), f.rect.y + f.rect.height}}, 1, chart_grid, Level::area});
-        if (x_labels)
-            sheet.texts.push_back(
-                {p.x(), f.rect.y - 0.9 * text, tick_text(x, x_step), text, Align::centre, false, chart_ink});
+        if (!x_labels) continue;
+        FlatText label{p.x(), f.rect.y - 0.9 * text, tick_text(x, x_step), text, Align::centre, false, chart_ink};
+        const double half = 0.5 * text_width(label);
+        if (p.x() - half < labelled + 0.3 * text) continue;
+        labelled = p.x() + half;
+        sheet.texts.push_back(std::move(label));
     }
 }
 

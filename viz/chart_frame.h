@@ -42,7 +42,7 @@ void add_line(Sheet& sheet, const ChartFrame& frame, std::span<const double> x, 
 void add_grid(Sheet& sheet, const ChartFrame& frame, double text, bool x_labels);
 /// The grid lines of the y axis with their numbers, two at least where the range has a length, and the frame.
 void add_y_axis(Sheet& sheet, const ChartFrame& frame, double text);
-/// The lines up from the x axis, and its numbers, alone.
+/// The lines up from the x axis, and its numbers, alone; two lines at least where the range has a length.
 void add_x_grid(Sheet& sheet, const ChartFrame& frame, double text, bool x_labels);
 
 }  // namespace clsurf::viz

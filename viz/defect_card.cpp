@@ -6,6 +6,8 @@
 #include <span>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "viz/chart.h"
 #include "viz/chart_frame.h"
 #include "viz/drawing.h"
@@ -19,6 +21,7 @@ constexpr Rgb marked_colour{235, 170, 90};
 constexpr double title_share = 0.15;  ///< of the height
 constexpr double map_share = 0.36;    ///< of the width
 constexpr double foot_share = 0.02;
+constexpr double bearings_lines = 3.4;  ///< height of what stands below the map, in text sizes
 
 double text_size(int width, int height) { return std::clamp(std::min(width * 0.4, height * 1.0) / 34.0, 8.0, 40.0); }
 
@@ -30,7 +33,17 @@ void fit(ChartFrame& frame, const CardChart& chart) {
     range.widen(chart.band_high);
     frame.x_low = chart.x.empty() ? 0 : chart.x.front();
     frame.x_high = chart.x.empty() ? 1 : chart.x.back();
+    // Dots at the ends stay clear of the numbers beside the frame.
+    const double beside = chart.dots ? 0.04 * (frame.x_high - frame.x_low) : 0;
+    frame.x_low -= beside;
+    frame.x_high += beside;
     fit_y(frame, range, 0.07);
+}
+
+/// The longest of 1, 2 and 5 times a power of ten that is not above `most`, which is above 0.
+double round_length(double most) {
+    const double power = std::pow(10.0, std::floor(std::log10(most)));
+    return power * (most >= 5 * power ? 5 : most >= 2 * power ? 2 : 1);
 }
 
 class CardDrawer {
@@ -80,6 +93,28 @@ public:
         sheet_.texts.push_back(name);
     }
 
+    /// A bar of a round length, an arrow along the feed, and the axes of the part, in a strip of a width and a middle height.
+    void bearings(const CardBearings& b, double width, double y) {
+        if (!(b.mm_per_pixel > 0)) return;
+        const double length = round_length(0.26 * width * b.mm_per_pixel);
+        const double x = text_, bar = length / b.mm_per_pixel;
+        stroke({x, y}, {x + bar, y}, 0.14);
+        for (const double end : {x, x + bar}) stroke({end, y - 0.35 * text_}, {end, y + 0.35 * text_}, 0.14);
+        words({x + bar + 0.5 * text_, y}, fmt::format("{:g} mm", length), Align::left);
+        if (b.feed.norm() > 0.1) {
+            const Vec2 middle(0.56 * width, y), half = 1.2 * text_ * b.feed.normalized();
+            arrow(middle - half, middle + half);
+            words({middle.x() + 1.7 * text_, y}, "feed", Align::left);
+        }
+        const Vec2 origin(width - 3.2 * text_, y - 0.9 * text_);
+        for (std::size_t k = 0; k < b.axes.size(); ++k) {
+            if (b.axes[k].norm() < 0.35) continue;  // towards the eye
+            const Vec2 end = origin + 1.5 * text_ * b.axes[k];
+            stroke(origin, end, 0.1);
+            words(origin + 2.1 * text_ * b.axes[k], std::string(1, "XYZ"[k]), Align::centre);
+        }
+    }
+
     void key(const DefectCard& card, double right, double y) {
         const auto entry = [&](const std::string& words, const Rgb& rgb, double width) {
             FlatText label{right, y, words, 0.9 * text_, Align::right, false, chart_ink};
@@ -94,6 +129,20 @@ public:
     }
 
 private:
+    void stroke(const Vec2& from, const Vec2& to, double width) {
+        sheet_.lines.push_back({{from, to}, width * text_, chart_ink, Level::line});
+    }
+
+    void arrow(const Vec2& from, const Vec2& to) {
+        stroke(from, to, 0.14);
+        const Vec2 back = 0.3 * (from - to), aside(0.6 * back.y(), -0.6 * back.x());
+        for (const double side : {-1.0, 1.0}) stroke(to + back + side * aside, to, 0.14);
+    }
+
+    void words(const Vec2& at, const std::string& text, Align align) {
+        sheet_.texts.push_back({at.x(), at.y(), text, 0.9 * text_, align, false, chart_ink});
+    }
+
     void dot(const Vec2& at, const Rgb& rgb, Level level) {
         const double r = 0.22 * text_;
         sheet_.lines.push_back({{at - Vec2(r, 0), at + Vec2(r, 0)}, 2 * r, rgb, level});
@@ -139,7 +188,8 @@ void paste(Image& onto, const Image& picture, int x, int y) {
 }  // namespace
 
 CardMapSize card_map_size(int width, int height) {
-    return {static_cast<int>(map_share * width), static_cast<int>((1 - title_share - foot_share) * height)};
+    return {static_cast<int>(map_share * width),
+            static_cast<int>((1 - title_share - foot_share) * height - bearings_lines * text_size(width, height))};
 }
 
 Image draw_card(const DefectCard& card, int width, int height, const std::string& gl) {
@@ -159,6 +209,7 @@ Image draw_card(const DefectCard& card, int width, int height, const std::string
     const double left = map_share * width + 5.2 * text;
     const double right = width - margin;
     const double top = (1 - title_share) * height - 2.3 * text;
+    drawer.bearings(card.bearings, map_share * width, foot_share * height + 0.5 * bearings_lines * text);
     drawer.key(card, right, (1 - title_share) * height + 0.7 * text);
     const double bottom = 3.2 * text;
     const double gap = 4.6 * text;

@@ -1,9 +1,11 @@
 #pragma once
 // DefectCard: one defect on a third of a page: where it is, and the curves that prove it.
 
+#include <array>
 #include <string>
 #include <vector>
 
+#include "core/geometry.h"
 #include "viz/canvas.h"
 
 namespace clsurf::viz {
@@ -30,9 +32,17 @@ struct CardKey {
     Rgb rgb{0, 0, 0};
 };
 
+/// How the map of a card lies on the part: its scale, and directions in the picture (to the right, up), as long as they are seen.
+struct CardBearings {
+    double mm_per_pixel = 0;                                             ///< 0: not known
+    Vec2 feed = Vec2::Zero();                                            ///< of the pass at fault; zero: not known
+    std::array<Vec2, 3> axes{Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};  ///< X, Y, Z of the part
+};
+
 struct DefectCard {
     std::string title, subtitle;
-    Image map;  ///< at the left, as high as the charts
+    Image map;  ///< at the left; below it its scale, the direction of feed, and axes
+    CardBearings bearings;
     std::vector<CardKey> key;
     std::string band_name;          ///< "usual ± threshold"
     std::vector<CardChart> charts;  ///< the first across, the others side by side below it

@@ -15,6 +15,8 @@ constexpr Rgb level_colour{120, 120, 126};
 // Readable by the colour-blind (Okabe, Ito 2008); the shapes tell them apart in print, too.
 constexpr Rgb group_colours[] = {{0, 90, 178}, {213, 94, 0}, {0, 130, 95}, {160, 70, 130}, {110, 85, 0}, {70, 70, 75}};
 constexpr std::size_t trend_shapes = 4;
+constexpr double below_symbols =
+    1.25;  ///< text sizes from the axis to the numbers of runs: a symbol at 0 reaches below it
 
 class TrendDrawer {
 public:
@@ -94,13 +96,14 @@ private:
             const double x = frame_.rect.x + (static_cast<double>(i) + 0.5) * per_run;
             const double half = 0.5 * text_width({0, 0, s.run, text_, Align::centre, false, chart_ink});
             if (x - half > number_end + 0.6 * text_) {
-                text(x, frame_.rect.y - 0.9 * text_, s.run, text_, Align::centre, false, chart_ink);
+                text(x, frame_.rect.y - below_symbols * text_, s.run, text_, Align::centre, false, chart_ink);
                 number_end = x + half;
             }
             const double width = text_width({0, 0, s.day, 0.85 * text_, Align::left, false, chart_faint});
             if (s.day == day || x < day_end + 0.8 * text_ || x + width > frame_.rect.x + frame_.rect.width) continue;
             day = s.day;
-            text(x, frame_.rect.y - 2.2 * text_, s.day, 0.85 * text_, Align::left, false, chart_faint);
+            text(x, frame_.rect.y - (below_symbols + 1.25) * text_, s.day, 0.85 * text_, Align::left, false,
+                 chart_faint);
             sheet_.lines.push_back(
                 {{{x, frame_.rect.y}, {x, frame_.rect.y - 0.3 * text_}}, 1, level_colour, Level::edge});
             day_end = x + width;

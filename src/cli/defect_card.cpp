@@ -39,8 +39,20 @@ viz::View view_along(const Eigen::Vector3f& normal) {
     return {std::atan2(n.x(), -n.y()) * deg_per_rad, std::asin(n.z()) * deg_per_rad};
 }
 
-viz::Image draw_place(const JudgedPart& judged, std::size_t index, const viz::CardMapSize& size, const std::string& gl,
-                      bool keep_drawing) {
+viz::CardBearings bearings_of(const viz::Camera& camera, const Eigen::Vector3f& feed) {
+    const auto seen = [&](const Vec3& direction) {
+        return Vec2(camera.right.dot(direction), camera.up.dot(direction));
+    };
+    viz::CardBearings bearings;
+    bearings.mm_per_pixel = camera.mm_per_pixel;
+    if (feed.allFinite() && feed.norm() > 0) bearings.feed = seen(feed.cast<double>().normalized());
+    for (int k = 0; k < 3; ++k) bearings.axes[static_cast<std::size_t>(k)] = seen(Vec3::Unit(k));
+    return bearings;
+}
+
+/// The map of a card, and how it lies.
+void draw_place(const JudgedPart& judged, std::size_t index, const viz::CardMapSize& size, const std::string& gl,
+                bool keep_drawing, viz::DefectCard& card) {
     const Defect& d = judged.report.defects[index];
     QualityReport one;
     one.defects = {d};
@@ -69,7 +81,9 @@ viz::Image draw_place(const JudgedPart& judged, std::size_t index, const viz::Ca
     const double room =
         std::max(least_surroundings * judged.surface.step_over, surroundings * section.sizes().maxCoeff());
     look.box = Box3(section.min() - Vec3::Constant(room), section.max() + Vec3::Constant(room));
-    return viz::draw_map({panel}, viz::placed_map({panel}, look), {}, {}, look);
+    const viz::PlacedMap placed = viz::placed_map({panel}, look);
+    card.map = viz::draw_map({panel}, placed, {}, {}, look);
+    card.bearings = bearings_of(placed.camera, judged.signals.feed(d.point));
 }
 
 /// Curves of one quantity along the section, with the band of what is usual.
@@ -156,6 +170,15 @@ std::string title_of(DefectProfile::HeightOf height) {
     return {};
 }
 
+/// "; formed 5.0 µm": of the mark in the formed surface.
+std::string formed_text(const JudgedPart& judged, std::size_t index) {
+    if (judged.as_machined == nullptr) return {};
+    const AsMachinedMark& mark = judged.as_machined->marks[index];
+    if (!std::isfinite(mark.depth)) return {};
+    return fmt::format(" · formed {:.1f} µm {}", mark.depth * um_per_mm,
+                       deep_or_high(judged.report.defects[index].pit));
+}
+
 }  // namespace
 
 viz::Image draw_defect_card(const JudgedPart& judged, std::size_t index, int width, int height, const std::string& gl,
@@ -171,9 +194,10 @@ viz::Image draw_defect_card(const JudgedPart& judged, std::size_t index, int wid
     viz::DefectCard card;
     const std::string lines = io::lines_label(d);
     card.title = fmt::format("Defect {}: {}{}", index + 1, io::label_of(d), lines.empty() ? "" : ", " + lines);
-    card.subtitle = fmt::format("{} · {} · {}", io::sentence_of(d), file_name(judged.part.program.main().name()),
-                                file_name(judged.part.log.name));
-    card.map = draw_place(judged, index, viz::card_map_size(width, height), gl, keep_drawing);
+    card.subtitle =
+        fmt::format("{} · {}{} · {} · {}", io::sentence_of(d), io::place_text(d.place), formed_text(judged, index),
+                    file_name(judged.part.program.main().name()), file_name(judged.part.log.name));
+    draw_place(judged, index, viz::card_map_size(width, height), gl, keep_drawing, card);
     card.key = {{pass_name(d), rgb}, {"next passes", near_colour}, {"second next", far_colour}};
     card.band_name = "usual ± threshold";
     std::vector<double> speed_threshold;
@@ -196,22 +220,23 @@ ExitCode plot_defect(const po::variables_map& values, const PartOptions& options
                      const std::string& output_name, int width, int height, const std::string& gl) {
     if (options.program.empty()) throw UsageError("--defect needs the program: PROGRAM LOG");
     PictureOutput output(output_name, "-o", PictureKind::drawing);
-    StageClock clock(read_common(values), 7);
+    StageClock clock(read_common(values), 8);
     Part part = load_part(options, clock);
     clock.begin("stitch the surface");
     const ClSurface surface = stitch(part);
     clock.begin("derive the signals");
     const PartSignals read = signals_of(part, surface);
-    clock.begin("find the defects");
-    const QualityReport report = find_defects(part, surface, read);
-    note_reasons(report, part, part.diagnostics);
+    const Quality quality = judge(part, surface, read, std::nullopt, {}, clock.stages());
+    const QualityReport& report = quality.report;
+    part.diagnostics.append(quality.diagnostics);
     print(part.diagnostics, values);
     if (number < 1 || number > static_cast<long long>(report.defects.size()))
         throw UsageError(fmt::format("--defect {}: `clsurf check` finds {} of them", number, report.defects.size()));
     clock.begin("draw");
     const auto index = static_cast<std::size_t>(number - 1);
     const viz::Image image =
-        draw_defect_card({part, surface, read.signals, report}, index, width, height, gl, output.wants_drawing());
+        draw_defect_card({part, surface, read.signals, report, quality.as_machined ? &*quality.as_machined : nullptr},
+                         index, width, height, gl, output.wants_drawing());
     output.write(image, fmt::format("clsurf defect {} of {} from {}: {}", number, file_name(options.program),
                                     file_name(options.log), io::label_of(report.defects[index])));
     return ExitCode::done;

@@ -22,8 +22,8 @@ void declare_profile(po::options_description& options) {
 
 bool asks_for_profile(const po::variables_map& values) {
     const bool asked = values.count("profile") > 0;
-    if (!asked && given(values, "tool"))
-        throw UsageError("--tool is of --profile only", "--profile 10,0,10,5 --tool ball:6");
+    if (!asked && given(values, "tool") && values.count("defect") == 0)
+        throw UsageError("--tool is of --profile and --defect", "--profile 10,0,10,5 --tool ball:6");
     if (!asked && given(values, "json")) throw UsageError("--json is of --profile: curves are only drawn");
     if (!asked) return false;
     for (const char* name : {"fields", "over", "from", "to", "line", "mark-point"}) {
