@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/not_finite.h"
 #include "core/statistics.h"
 
 namespace clsurf {
@@ -18,8 +19,9 @@ constexpr double reversal_arc_length = 0.3;  ///< [mm] before the run begins
 constexpr float axis_moves = 0.01F;          ///< of the feed; less is noise
 constexpr float lobe = 0.4F;                 ///< of the peak: a swing counts
 constexpr int lobes_of_oscillation = 3;
-constexpr double share_of_control = 0.5;  ///< of the depth: deviations from the program make so much of it
-constexpr PointIndex looked_at = 16;      ///< points of a run at which the deviation is measured
+constexpr double share_of_control = 0.5;  ///< of a relief: deviations from the program make so much of it
+constexpr double share_of_peak = 0.9;     ///< of the depth: the places where a height is largest
+constexpr std::size_t looked_at = 16;     ///< of these places, about
 constexpr std::int64_t merged =
     110;  ///< motions before and after that of a point: a controller may make one of so many
 
@@ -100,36 +102,46 @@ bool CauseFinder::spaced_otherwise(const Defect& defect) const {
     return own > 0 && beside > 0 && (own > uneven_spacing * beside || beside > uneven_spacing * own);
 }
 
-/// How far the path lies above the programmed one, along the normal [mm]: the median of some points; NaN: no motion is known.
-double CauseFinder::off_program(std::span<const DefectRun> runs) const {
-    std::vector<double> heights;
-    for (const DefectRun& run : runs) {
-        const PointIndex step = 1 + (run.points.last - run.points.first) / looked_at;
-        for (PointIndex i = run.points.first; i <= run.points.last; i += step) {
-            const std::int64_t motion = lines_.motion_at(i);
-            if (motion < 0) continue;
-            const Vec3 at = surface_.positions.absolute(i);
-            Vec3 nearest = at;
-            double least = std::numeric_limits<double>::infinity();
-            const std::int64_t end = std::min(toolpath_.size(), motion + merged + 1);
-            for (std::int64_t k = std::max<std::int64_t>(0, motion - merged); k < end; ++k) {
-                const Projection found = toolpath_.projection(k, at);
-                if (found.distance < least) {
-                    least = found.distance;
-                    nearest = toolpath_.at(k, found.fraction);
-                }
-            }
-            const double height = signals_.normal(i).cast<double>().dot(at - nearest);
-            if (std::isfinite(height)) heights.push_back(height);
+/// How far the path lies above the programmed one at a point, along the normal [mm]; NaN: its motion is not known.
+double CauseFinder::off_program(PointIndex point) const {
+    const std::int64_t motion = lines_.motion_at(point);
+    if (motion < 0) return missing<double>;
+    const Vec3 at = surface_.positions.absolute(point);
+    Vec3 nearest = at;
+    double least = std::numeric_limits<double>::infinity();
+    const std::int64_t end = std::min(toolpath_.size(), motion + merged + 1);
+    for (std::int64_t k = std::max<std::int64_t>(0, motion - merged); k < end; ++k) {
+        const Projection found = toolpath_.projection(k, at);
+        if (found.distance < least) {
+            least = found.distance;
+            nearest = toolpath_.at(k, found.fraction);
         }
     }
-    return heights.empty() ? std::numeric_limits<double>::quiet_NaN() : median(heights);
+    return signals_.normal(point).cast<double>().dot(at - nearest);
 }
 
-/// Whether most of a step in height is not in the program.
-bool CauseFinder::leaves_program(const Defect& defect) const {
-    const double step = off_program(defect.runs) - off_program(defect.neighbours);
-    return (defect.pit ? -step : step) > share_of_control * defect.depth;
+/// Whether most of a relief is not in the program. A relief is the height above the mean of both adjacent passes, and so are the
+/// deviations from the program compared: a controller that rounds off a peak of the program lies below it, and above it at its foot.
+/// The places count where the relief is largest.
+bool CauseFinder::leaves_program(const Defect& defect, std::span<const DefectCandidate* const> sites) const {
+    const auto height = [](const DefectCandidate* s) {
+        return static_cast<double>(s->comparison.residual[index_of(Quantity::relief)]);
+    };
+    std::vector<const DefectCandidate*> highest;
+    for (const DefectCandidate* s : sites) {
+        if ((defect.pit ? -height(s) : height(s)) >= share_of_peak * defect.depth) highest.push_back(s);
+    }
+    std::vector<double> shares;
+    const std::size_t stride = 1 + highest.size() / looked_at;
+    for (std::size_t k = 0; k < highest.size(); k += stride) {
+        const Comparison& c = highest[k]->comparison;
+        double beside = 0;
+        for (const PathLocation& at : {c.beside_left, c.beside_right})
+            beside += 0.5 * (at.exists() ? off_program(at.nearest()) : missing<double>);
+        const double share = (off_program(highest[k]->point) - beside) / height(highest[k]);
+        if (std::isfinite(share)) shares.push_back(share);
+    }
+    return !shares.empty() && median(shares) > share_of_control;
 }
 
 bool CauseFinder::turns(const DefectRun& run) const {
@@ -157,7 +169,7 @@ bool CauseFinder::begins_with_reversal(const DefectRun& run) const {
 }
 
 Cause CauseFinder::cause_of(const Defect& defect, std::span<const DefectCandidate* const> sites) const {
-    if (defect.quantity == Quantity::relief && leaves_program(defect)) return Cause::path_tolerance;
+    if (defect.quantity == Quantity::relief && leaves_program(defect, sites)) return Cause::path_tolerance;
     if (defect.quantity == Quantity::relief || (defect.quantity != Quantity::lag && spaced_otherwise(defect)))
         return Cause::point_spacing;
     const auto most_runs = [&](auto&& test) {

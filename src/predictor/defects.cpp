@@ -28,7 +28,6 @@ constexpr float strong_alone = 1.5F;       ///< … and of the acceleration's ow
 constexpr std::size_t fewest_sites = 2;
 constexpr std::size_t most_systematic_runs = 300;  ///< that are listed: the longest
 constexpr double systematic_depth = 0.99;          ///< quantile of the steps of a systematic lag
-constexpr double effect_seconds = 0.020;           ///< by which a height may outlast the motion that makes it
 
 /// The largest of values; NaN are left out.
 double largest_of(const std::vector<double>& values) {
@@ -296,14 +295,6 @@ bool worse(const Defect& a, const Defect& b) {
     return a.point < b.point;
 }
 
-/// A defect with the sites that it was built from.
-struct Built {
-    Defect defect;
-    DefectCandidates core;
-    bool expected = false;
-    bool listed = true;  ///< large enough
-};
-
 /// A start: where a score reaches 1. In the motion, accelerations start a defect only where they are
 /// strong and change the speed by something: noise of the second derivative leaves no mark.
 bool starts_defect(CandidateSpan sites, Family family) {
@@ -322,7 +313,7 @@ public:
     FamilyBuilder(Family family, bool at_border, double smallest, const Border& border, const Builder& builder)
         : family_(family), at_border_(at_border), smallest_(smallest), border_(border), builder_(builder) {}
 
-    std::vector<Built> build(const DefectCandidates& candidates) {
+    std::vector<BuiltDefect> build(const DefectCandidates& candidates) {
         DefectCandidates mine;
         for (const DefectCandidate* s : candidates) {
             if (s->expected(family_.front()) == at_border_ && largest(s->share, family_) >= half_of_peak)
@@ -375,7 +366,7 @@ private:
     double smallest_;
     const Border& border_;
     const Builder& builder_;
-    std::vector<Built> built_;
+    std::vector<BuiltDefect> built_;
 };
 
 /// Forgets the arc lengths together with the signals of a log that was judged in shards.
@@ -386,22 +377,6 @@ ForgetBlocks forget_with(ArcLength& arc_length, const std::optional<FoundInShard
         if (forgot) arc_length.forget();
         return forgot;
     };
-}
-
-/// The defects of all families that none of an earlier family explains. `of_family`: two vectors for each.
-std::vector<Built> unexplained(std::span<std::vector<Built>> of_family, double period) {
-    std::vector<Built> all;
-    const PointIndex room = std::lround(std::min(effect_seconds / period, 1e6));
-    for (std::size_t family = 0; family < of_family.size(); family += 2) {
-        Explanations before;
-        for (const Built& built : all) before.add(built.defect.runs, room);
-        for (std::vector<Built>& built_there : of_family.subspan(family, 2)) {
-            for (Built& built : built_there) {
-                if (!before.explain(built.core)) all.push_back(std::move(built));
-            }
-        }
-    }
-    return all;
 }
 
 }  // namespace
@@ -445,12 +420,12 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
     const double smallest = smallest_area * surface.step_over * surface.step_over;
     const std::array<Family, 3> families{motion_family, lag_family, relief_family};
     const Border border(surface, signals, arc_length, candidates, joined, report.thresholds);
-    std::array<std::vector<Built>, 2 * families.size()> of_family;  // away from the border and at it
+    std::array<std::vector<BuiltDefect>, 2 * families.size()> of_family;  // away from the border and at it
     // What is forgotten nobody else may be reading.
     for_each_alone_or_at_once(of_family.size(), forget, [&](std::size_t k) {
         of_family[k] = FamilyBuilder(families[k / 2], k % 2 == 1, smallest, border, builder).build(candidates);
     });
-    for (Built& built : unexplained(of_family, period)) {
+    for (BuiltDefect& built : unexplained(of_family, period)) {
         if (!built.listed) continue;
         if (built.expected) built.defect.cause = Cause::pass_end;
         (built.expected ? report.expected : report.defects).push_back(std::move(built.defect));

@@ -1,31 +1,93 @@
 #include "predictor/explanations.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 
 #include "core/point_ranges.h"
 
 namespace clsurf {
+namespace {
 
-void Explanations::add(const std::vector<DefectRun>& runs, PointIndex room) {
-    for (const DefectRun& run : runs) sections_.push_back({run.points.first - room, run.points.last + room, 0});
-    sorted_ = false;
-}
+constexpr double effect_seconds = 0.020;  ///< by which an effect may outlast what makes it
 
-void Explanations::sort() {
-    if (sorted_) return;
-    std::sort(sections_.begin(), sections_.end(), [](const Section& a, const Section& b) { return a.first < b.first; });
-    PointIndex farthest = 0;
-    for (Section& s : sections_) s.farthest = farthest = std::max(farthest, s.last);
-    sorted_ = true;
-}
+/// Sections that explain what lies in them.
+class Explanations {
+public:
+    /// `room`: points round a run that are its own too.
+    explicit Explanations(PointIndex room) : room_(room) {}
 
-bool Explanations::explain(std::span<const DefectCandidate* const> sites) {
-    sort();
-    const auto inside = [&](const DefectCandidate* s) {
-        const auto section = range_at(sections_, s->point);
-        return section != sections_.end() && section->first <= s->point && s->point <= section->farthest;
+    void add(const std::vector<DefectRun>& runs) {
+        for (const DefectRun& run : runs) sections_.push_back({run.points.first - room_, run.points.last + room_, 0});
+        sorted_ = false;
+    }
+
+    /// At least half of the sites, in the order of their points, lie in sections of what was added: of one thing or of several.
+    /// O(sites log runs), and at the first call O(runs log runs).
+    [[nodiscard]] bool explain(CandidateSpan sites) {
+        sort();
+        const auto inside = [&](const DefectCandidate* s) {
+            const auto section = range_at(sections_, s->point);
+            return section != sections_.end() && section->first <= s->point && s->point <= section->farthest;
+        };
+        return 2 * std::count_if(sites.begin(), sites.end(), inside) >= static_cast<std::ptrdiff_t>(sites.size());
+    }
+
+private:
+    struct Section {
+        PointIndex first, last;
+        PointIndex farthest;  ///< last of this one and all before
     };
-    return 2 * std::count_if(sites.begin(), sites.end(), inside) >= static_cast<std::ptrdiff_t>(sites.size());
+    void sort() {
+        if (sorted_) return;
+        std::sort(sections_.begin(), sections_.end(),
+                  [](const Section& a, const Section& b) { return a.first < b.first; });
+        PointIndex farthest = 0;
+        for (Section& s : sections_) s.farthest = farthest = std::max(farthest, s.last);
+        sorted_ = true;
+    }
+
+    PointIndex room_;
+    std::vector<Section> sections_;
+    bool sorted_ = true;
+};
+
+/// A height that the program has, not the controller.
+bool is_programmed(const BuiltDefect& built) {
+    return built.listed && !built.expected && built.defect.quantity == Quantity::relief &&
+           built.defect.cause != Cause::path_tolerance;
+}
+
+}  // namespace
+
+std::vector<BuiltDefect> unexplained(std::span<std::vector<BuiltDefect>> of_family, double period) {
+    const PointIndex room = std::lround(std::min(effect_seconds / period, 1e6));
+    std::vector<BuiltDefect> all;
+    std::vector<BuiltDefect> programmed;
+    for (std::size_t family = 0; family < of_family.size(); family += 2) {
+        Explanations before(room), expected(room);
+        for (const BuiltDefect& built : all) {
+            before.add(built.defect.runs);
+            if (built.expected) expected.add(built.defect.runs);
+        }
+        for (std::vector<BuiltDefect>& built_there : of_family.subspan(family, 2)) {
+            for (BuiltDefect& built : built_there) {
+                if (is_programmed(built) && !expected.explain(built.core))
+                    programmed.push_back(std::move(built));
+                else if (!before.explain(built.core))
+                    all.push_back(std::move(built));
+            }
+        }
+    }
+    for (BuiltDefect& height : programmed) {
+        Explanations program(room);
+        program.add(height.defect.runs);
+        std::erase_if(all, [&](const BuiltDefect& built) {
+            return !built.expected && built.defect.severity <= height.defect.severity && program.explain(built.core);
+        });
+        all.push_back(std::move(height));
+    }
+    return all;
 }
 
 }  // namespace clsurf

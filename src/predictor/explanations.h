@@ -1,33 +1,29 @@
 #pragma once
-// Explanations: heights at places where the motion differs are the effect of that motion.
+// Explanations: which of the differences at one place is the effect of another one. The motion makes the heights of the
+// machine. The program makes its own heights, and the controller may slow down for them.
 
-#include <cstddef>
 #include <span>
 #include <vector>
 
-#include "predictor/candidates.h"
 #include "predictor/defect.h"
+#include "predictor/defect_core.h"
 
 namespace clsurf {
 
-class Explanations {
-public:
-    /// Adds something that was found. `room`: points round a run that are its own too.
-    void add(const std::vector<DefectRun>& runs, PointIndex room);
-
-    /// At least half of the sites, in the order of their points, lie in sections of what was added: of one thing or of several,
-    /// as where every level of a tower has a link of its own. O(sites log runs), and at the first call O(runs log runs).
-    [[nodiscard]] bool explain(std::span<const DefectCandidate* const> sites);
-
-private:
-    struct Section {
-        PointIndex first, last;
-        PointIndex farthest;  ///< last of this one and all before
-    };
-    void sort();
-
-    std::vector<Section> sections_;
-    bool sorted_ = true;
+/// A defect with the sites that it was built from, in the order of their points.
+struct BuiltDefect {
+    Defect defect;
+    DefectCandidates core;
+    bool expected = false;
+    bool listed = true;  ///< large enough
 };
+
+/// The defects that no other one explains. `of_family`: of the motion, the lag and the relief, two vectors for each. `period` [s].
+/// - A motion explains the heights of the machine at its place, lag and path tolerance: at least half of their sites, up
+///   to 20 ms beside its own. Several motions may do so together, as where every level of a tower has a link of its own.
+/// - A height that the program has is never explained, unless by an expected motion. It explains the motions and lags at its place
+///   whose severity is no higher.
+/// O(sites log runs).
+[[nodiscard]] std::vector<BuiltDefect> unexplained(std::span<std::vector<BuiltDefect>> of_family, double period);
 
 }  // namespace clsurf

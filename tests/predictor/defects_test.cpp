@@ -255,10 +255,12 @@ void lift(planted::PlantedLog& log, double height, double from, double to, Taken
     }
 }
 
-/// A zigzag whose tool runs 8 µm above the plane on pass 12 from x = 10 to 14, as its program says or not.
-planted::PlantedLog raised_pass(bool programmed) {
+/// A zigzag whose tool runs 8 µm above the plane on pass 12 from x = 10 to 14, as its program says or not, at `speed` [mm/s].
+planted::PlantedLog raised_pass(bool programmed, double speed = 50) {
     constexpr std::uint32_t pass = 12, line_of_pass = 2 * pass + 2, added = 4;
-    planted::PlantedLog log = plane_zigzag([](int, double, double) { return 50.0; });
+    planted::PlantedLog log = plane_zigzag([speed](int k, double x, double) {
+        return k == pass && x > 10 && x < 14 ? speed : 50.0;
+    });
     lift(log, 0.008, 10, 14, [](int k) { return k == pass; });
     log.commanded[2] = log.measured[2];
     if (!programmed) return log;
@@ -285,6 +287,20 @@ TEST(Defects, OffTheirProgramAreTheControls) {
         EXPECT_EQ(defect.cause, programmed ? Cause::point_spacing : Cause::path_tolerance);
         EXPECT_NEAR(defect.depth, 0.008, 0.001);
         EXPECT_FALSE(defect.pit);
+    }
+}
+
+// A controller slows down for a point that is programmed too high. The height is no effect of that: the report must have it.
+TEST(Defects, OfAProgrammedHeightHaveItsDepthWhateverTheSpeedDoes) {
+    for (const double speed : {49.0, 36.0, 10.0}) {
+        const QualityReport report = planted::judge(raised_pass(true, speed));
+        ASSERT_EQ(report.defects.size(), 1U) << speed;
+        const Defect& defect = report.defects.front();
+        EXPECT_EQ(defect.quantity, Quantity::relief);
+        EXPECT_EQ(defect.cause, Cause::point_spacing);
+        EXPECT_NEAR(defect.depth, 0.008, 0.001);
+        EXPECT_FALSE(defect.pit);
+        EXPECT_NEAR(defect.speed_jump, speed - 50, 1);
     }
 }
 
