@@ -5,6 +5,13 @@ namespace {
 
 constexpr int farthest_walk = 8;  ///< points from the adjacency's neighbour to the crossing
 
+/// Whether a point is of a cutting pass. Hardly any that is has no neighbour: only there the passes are asked.
+bool cuts(const ClSurface& surface, PointIndex point) {
+    const Adjacency& neighbours = surface.neighbours;
+    return neighbours.has(Side::left, point) || neighbours.has(Side::right, point) ||
+           surface.passes[pass_of(surface.passes, point)].kind == PassKind::cut;
+}
+
 }  // namespace
 
 PathLocation beside(const ClSurface& surface, const PathLocation& from, const Eigen::Vector3f& feed, Side side) {
@@ -16,13 +23,14 @@ PathLocation beside(const ClSurface& surface, const PathLocation& from, const Ei
     PointIndex k = surface.neighbours.neighbour(side, own);
     float at = along(k);
     if (at == 0) return {k, 0};
-    // Towards the plane: the neighbour pass runs along with the feed or against it.
-    const PointIndex last = p.size() - 1;
+    // Towards the plane: the neighbour pass runs along with the feed or against it. It ends where a link or a rapid
+    // begins: a lift in the plane would be as near to it as the pass is.
+    const auto goes_on = [&](PointIndex next) { return next >= 0 && next < p.size() && cuts(surface, next); };
     int direction = +1;
-    if (k == last || (k > 0 && std::abs(along(k - 1)) < std::abs(along(k + 1)))) direction = -1;
+    if (!goes_on(k + 1) || (goes_on(k - 1) && std::abs(along(k - 1)) < std::abs(along(k + 1)))) direction = -1;
     for (int walked = 0; walked < farthest_walk; ++walked) {
         const PointIndex next = k + direction;
-        if (next < 0 || next > last) return {};
+        if (!goes_on(next)) break;
         const float then = along(next);
         if (!(then == then)) return {};
         if (at * then <= 0) {

@@ -31,29 +31,12 @@ using Measure = std::function<Vec3(const Vec3& commanded, const Vec3& feed)>;
 /// Where the plane's points really lie: a rotation, a curved surface; empty: on the plane. Keeps distances.
 using Place = std::function<Vec3(const Vec3& flat)>;
 
-inline MadeSurface made_zigzag(const std::vector<double>& speeds, double length, double apart, const Measure& measure,
-                               const Place& place = {}) {
+/// Of commanded and measured positions, one a millisecond, in passes `apart` mm from each other.
+inline MadeSurface made_along(const std::vector<Vec3>& points, const std::vector<Vec3>& off, const Passes& passes,
+                              double apart) {
     constexpr double period = 0.001;
-    std::vector<Vec3> points;
-    std::vector<Vec3> off;
-    const auto add = [&](const Vec3& flat, const Vec3& feed) {
-        const Vec3 p = place ? place(flat) : flat;
-        points.push_back(p);
-        off.push_back(measure ? measure(p, feed) : p);
-    };
     MadeSurface made;
-    for (std::size_t k = 0; k < speeds.size(); ++k) {
-        const double y = static_cast<double>(k) * apart;
-        const bool forth = k % 2 == 0;
-        const Vec3 feed(forth ? 1 : -1, 0, 0);
-        const auto first = static_cast<PointIndex>(points.size());
-        for (double s = 0; s <= length; s += speeds[k] * period) add(Vec3(forth ? s : length - s, y, 0), feed);
-        made.passes.push_back({first, static_cast<PointIndex>(points.size()) - 1, PassKind::cut});
-        if (k + 1 == speeds.size()) break;
-        const auto link = static_cast<PointIndex>(points.size());
-        for (int i = 1; i < 10; ++i) add(Vec3(forth ? length : 0, y + apart * i / 10, 0), Vec3(0, 1, 0));
-        made.passes.push_back({link, static_cast<PointIndex>(points.size()) - 1, PassKind::link});
-    }
+    made.passes = passes;
     const std::size_t n = points.size();
     made.columns = std::make_shared<std::vector<double>>(6 * n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -76,12 +59,39 @@ inline MadeSurface made_zigzag(const std::vector<double>& speeds, double length,
     };
     made.path = trajectory(Role::commanded, 0);
     made.measured = trajectory(Role::feedback, 3);
-    made.has_measured = static_cast<bool>(measure);
     made.surface.positions = gather(made.path);
     made.surface.passes = made.passes;
     made.surface.step_over = apart;
     made.surface.neighbours =
         find_neighbours(made.surface.positions, made.passes, ArcLength(made.surface.positions), apart);
+    return made;
+}
+
+inline MadeSurface made_zigzag(const std::vector<double>& speeds, double length, double apart, const Measure& measure,
+                               const Place& place = {}) {
+    constexpr double period = 0.001;
+    std::vector<Vec3> points;
+    std::vector<Vec3> off;
+    Passes passes;
+    const auto add = [&](const Vec3& flat, const Vec3& feed) {
+        const Vec3 p = place ? place(flat) : flat;
+        points.push_back(p);
+        off.push_back(measure ? measure(p, feed) : p);
+    };
+    for (std::size_t k = 0; k < speeds.size(); ++k) {
+        const double y = static_cast<double>(k) * apart;
+        const bool forth = k % 2 == 0;
+        const Vec3 feed(forth ? 1 : -1, 0, 0);
+        const auto first = static_cast<PointIndex>(points.size());
+        for (double s = 0; s <= length; s += speeds[k] * period) add(Vec3(forth ? s : length - s, y, 0), feed);
+        passes.push_back({first, static_cast<PointIndex>(points.size()) - 1, PassKind::cut});
+        if (k + 1 == speeds.size()) break;
+        const auto link = static_cast<PointIndex>(points.size());
+        for (int i = 1; i < 10; ++i) add(Vec3(forth ? length : 0, y + apart * i / 10, 0), Vec3(0, 1, 0));
+        passes.push_back({link, static_cast<PointIndex>(points.size()) - 1, PassKind::link});
+    }
+    MadeSurface made = made_along(points, off, passes, apart);
+    made.has_measured = static_cast<bool>(measure);
     return made;
 }
 
