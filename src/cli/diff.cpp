@@ -3,6 +3,8 @@
 #include <memory>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "cli/diff_options.h"
 #include "cli/difference_map.h"
 #include "cli/run_roughness.h"
@@ -21,6 +23,22 @@ void require_alignment(const RunDifferences& differences, const std::string& a, 
     throw InputError(
         Place::of_file(b), "nowhere runs along the path of " + a,
         "another part, or another work offset? --work-offset holds for all runs; `clsurf info` shows what a log states");
+}
+
+/// Says so where B has more than A: what A does not have is not compared.
+void note_left_out(const RunReport& report, const LoadedRun& b, const std::string& a, Diagnostics& diagnostics) {
+    constexpr double few = 0.02;  // another approach, another retract
+    const double left_out = report.arc_length_of_b - report.aligned_of_b;
+    if (left_out <= few * report.arc_length_of_b) return;
+    const PointRange& points = report.left_out_of_b;
+    diagnostics.add(
+        {Severity::warning, "compare.left-out", Place::of_file(b.name),
+         fmt::format(
+             "{:.1f} of its {:.1f} mm are not compared, {} does not have them or has them once only: the longest "
+             "way is points {}-{}, {:.3f} s",
+             left_out, report.arc_length_of_b, a, points.first, points.last,
+             b.log.time_of(points.last) - b.log.time_of(points.first)),
+         "a second run in this log, or lines that ran twice? Where it is the first argument, all its runs are compared"});
 }
 
 bool lines_known(const LoadedRun& run, const RunOptions& options) {
@@ -97,6 +115,7 @@ ExitCode run_diff(const po::variables_map& values) {
         require_alignment(differences, reference.name, loaded.name);
         RunReport report =
             report_run(a, surface, lines_known(reference, options.runs) ? lines.get() : nullptr, b, differences);
+        note_left_out(report, loaded, reference.name, diagnostics);
         if (tool) PartContacts(reference.log, a.path, *lines, surface, *tool).locate(report);
         std::vector<BudgetLine> budget = hold(report, options.budget);
         std::optional<RoughnessChange> roughness;

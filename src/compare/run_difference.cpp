@@ -15,6 +15,7 @@ namespace clsurf {
 namespace {
 
 constexpr double smoothing_seconds = 0.015;         ///< window of the mean of lags and heights
+constexpr double jump_seconds = 0.0125;             ///< half a window of derivatives, and a record more
 constexpr PointIndex feed_reach = 8;                ///< points before and after one that tell the feed there
 constexpr double least_feed = 1e-4;                 ///< [mm] of arc length that has a direction
 constexpr float least_tilt = 0.1F;                  ///< sine of the feed's angle to Z: steeper, it has no upper side
@@ -171,6 +172,22 @@ void leave_out_rapids(const Passes& passes, RunDifferences& differences) {
     }
 }
 
+/// Where the path of a run jumps (it was stopped and begun again from an earlier line) its derivatives say nothing.
+void leave_out_jumps(const std::vector<PointRange>& sections, double period, RunDifferences& differences) {
+    const auto reach = static_cast<PointIndex>(std::ceil(std::min(jump_seconds / period, 1e6))) + 1;
+    for (std::size_t k = 1; k < sections.size(); ++k) {
+        const PointIndex end = sections[k - 1].last;
+        const PointIndex begin = sections[k].first;
+        const PointRange before{std::max(sections[k - 1].first, end - reach + 1), end};
+        const PointRange after{begin, std::min(sections[k].last, begin + reach - 1)};
+        for (const RunQuantity q : {RunQuantity::speed, RunQuantity::acceleration}) {
+            Column<float>& values = differences.of[index_of(q)];
+            for (const PointRange& range : {before, after})
+                std::fill(values.begin() + range.first, values.begin() + range.last + 1, missing<float>);
+        }
+    }
+}
+
 /// The whole log as one pass: windows end at gaps in time only, in both runs alike.
 Passes whole(const Trajectory& path) {
     Passes passes;
@@ -249,6 +266,7 @@ RunDifferences compare_runs(const ComparedRun& a, const ClSurface& surface, cons
                      std::max(rules.height, rules.lag_quanta * lag_quantum),
                      std::max(rules.height, rules.height_quanta * height_quantum)};
     leave_out_rapids(surface.passes, out);
+    leave_out_jumps(out.alignment.sections, std::min(a.log->period, b.log->period), out);
     return out;
 }
 

@@ -117,6 +117,35 @@ public:
         return count;
     }
 
+    /// The ways of B that no section of A runs along.
+    void measure_b(RunReport& report) const {
+        const ArcLength arc_length(gather(b_.path));
+        std::vector<PointRange> covered;
+        for (const PointRange& section : differences_.alignment.sections) {
+            const auto& locations = differences_.alignment.locations;
+            covered.push_back({locations[static_cast<std::size_t>(section.first)].nearest(),
+                               locations[static_cast<std::size_t>(section.last)].nearest()});
+        }
+        std::sort(covered.begin(), covered.end(),
+                  [](const PointRange& x, const PointRange& y) { return x.first < y.first; });
+        covered.push_back({b_.path.count - 1, b_.path.count - 1});
+        report.arc_length_of_b = arc_length.to(b_.path.count - 1);
+        double left_out = 0, longest = 0;
+        PointIndex end = 0;
+        for (const PointRange& range : covered) {
+            if (range.first > end) {
+                const double gap = arc_length.to(range.first) - arc_length.to(end);
+                left_out += gap;
+                if (gap > longest) {
+                    longest = gap;
+                    report.left_out_of_b = {end, range.first};
+                }
+            }
+            end = std::max(end, range.last);
+        }
+        report.aligned_of_b = report.arc_length_of_b - left_out;
+    }
+
     void measure_time(RunReport& report) const {
         for (const PointRange& section : differences_.alignment.sections) {
             report.time += a_.log->time_of(section.last) - a_.log->time_of(section.first);
@@ -199,6 +228,7 @@ RunReport report_run(const ComparedRun& a, const ClSurface& surface, const LineM
         report.quantities.back().sections = reporter.find_sections(info.quantity, report);
     }
     reporter.measure_time(report);
+    reporter.measure_b(report);
     std::stable_sort(report.sections.begin(), report.sections.end(), worse);
     return report;
 }

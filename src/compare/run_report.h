@@ -40,10 +40,12 @@ struct RunQuantitySummary {
 };
 
 struct RunReport {
-    std::vector<RunDifferenceSection> sections;  ///< worst first, at most 1000 of a quantity
-    std::vector<RunQuantitySummary> quantities;  ///< those that are known
-    double aligned = 0, arc_length = 0;          ///< [mm] of A
-    double time = 0, time_of_b = 0;              ///< [s] that each took for what is aligned
+    std::vector<RunDifferenceSection> sections;    ///< worst first, at most 1000 of a quantity
+    std::vector<RunQuantitySummary> quantities;    ///< those that are known
+    double aligned = 0, arc_length = 0;            ///< [mm] of A
+    double aligned_of_b = 0, arc_length_of_b = 0;  ///< [mm]
+    PointRange left_out_of_b;                      ///< the longest way of B that A does not have; empty: none
+    double time = 0, time_of_b = 0;                ///< [s] that each took for what is aligned
 
     [[nodiscard]] const RunQuantitySummary* find(RunQuantity q) const;
 };

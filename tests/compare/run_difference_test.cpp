@@ -89,6 +89,18 @@ TEST(RunDifference, IsExactlyZeroOfEqualRuns) {
     EXPECT_TRUE(c.report.sections.empty());
 }
 
+TEST(RunDifference, SaysWhatOfBIsNotCompared) {
+    const MadeRun b = make_run(zigzag_recipe());
+    EXPECT_NEAR(compare(b, b).report.aligned_of_b, 200, 0.5);
+    RunRecipe recipe = zigzag_recipe();
+    recipe.end = 120;
+    const RunReport report = compare(make_run(recipe), b).report;
+    EXPECT_NEAR(report.arc_length_of_b, 200, 0.5);
+    EXPECT_NEAR(report.aligned_of_b, 120, 1);
+    EXPECT_NEAR(b.arc_length[static_cast<std::size_t>(report.left_out_of_b.first)], 120, 1);
+    EXPECT_EQ(report.left_out_of_b.last, b.log.records - 1);
+}
+
 TEST(RunDifference, FindsADipOfSpeed) {
     const MadeRun a = make_run(zigzag_recipe());
     RunRecipe recipe = zigzag_recipe();
