@@ -41,11 +41,24 @@ void judge_records(double record, QualityReport& report) {
         record, report.step_over));
 }
 
+/// Refuses a verdict where the heights of adjacent passes differ by as much as the passes lie apart, all over the part. A
+/// surface of one operation has no such heights: a semi-finish and a finish with one tool, above each other, do.
+void judge_heights(QualityReport& report) {
+    constexpr double most_of_step_over = 0.5;
+    const double height = report.thresholds.of[index_of(Quantity::relief)];
+    if (report.step_over <= 0 || !std::isfinite(height) || height <= most_of_step_over * report.step_over) return;
+    report.judgement.refuse(fmt::format(
+        "Heights of adjacent passes differ by up to {:.0f} µm all over the part, and passes lie {:.2f} mm apart: several "
+        "operations with one tool over one area? Judge each from a log of its own.",
+        1e3 * height, report.step_over));
+}
+
 }  // namespace
 
 void judge_coverage(double record, QualityReport& report) {
     judge_passes(report);
     judge_records(record, report);
+    judge_heights(report);
 }
 
 }  // namespace clsurf

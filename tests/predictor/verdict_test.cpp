@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "predictor/coverage.h"
+
 namespace clsurf::verdict_test {
 namespace {
 
@@ -45,6 +47,20 @@ TEST(Verdict, IsNeverThatABudgetIsMetWhereNothingWasJudged) {
     EXPECT_FALSE(report.judgement.judged());
     EXPECT_EQ(report.judgement.reasons.size(), 1U);
     EXPECT_FALSE(all_held(hold(report, budget)));
+}
+
+TEST(Verdict, IsNoneWherePassesLieAboveEachOther) {
+    QualityReport report;
+    report.points = 100;
+    report.away_from_ends = report.compared = 80;
+    report.step_over = 0.3;
+    report.thresholds.of[index_of(Quantity::relief)] = 0.14F;
+    judge_coverage(0.1, report);
+    EXPECT_TRUE(report.judgement.judged());
+    report.thresholds.of[index_of(Quantity::relief)] = 0.2F;
+    judge_coverage(0.1, report);
+    ASSERT_EQ(report.judgement.reasons.size(), 1U);
+    EXPECT_NE(report.judgement.reasons[0].find("differ by up to 200 µm"), std::string::npos);
 }
 
 }  // namespace
