@@ -20,7 +20,8 @@ struct LineAgreement {
 
 /// Checks a map against the geometry on about 10^5 points in evenly spaced sections. A point may
 /// lie on the motions from its previous distinct line to its line, one more on each side: a kernel
-/// changes the number where a blend begins, and reports the last line of those that it merged.
+/// changes the number where a blend begins, and reports the last line of those that it merged. Ways back to where a run
+/// goes on belong to no line.
 [[nodiscard]] LineAgreement check_lines(const Trajectory& path, const Program& program, const LineMap& map);
 
 /// How sure the lines of points [begin, begin + out.size()) are, 0 … 1: as confidence_at() has it, and less where a

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "core/block.h"
@@ -28,6 +30,7 @@ LineMap::LineMap(const ChannelView& channel, const Program& program, std::shared
       keep_alive_(std::move(keep_alive)),
       motion_of_point_(std::move(motion_of_point)) {
     index_lines(program);
+    index_tools(program);
 }
 
 LineMap::LineMap(Column<std::uint32_t> motion_of_point, Column<std::uint8_t> confidence, const Program& program)
@@ -35,6 +38,7 @@ LineMap::LineMap(Column<std::uint32_t> motion_of_point, Column<std::uint8_t> con
       motion_of_point_(std::move(motion_of_point)),
       confidence_(std::move(confidence)) {
     index_lines(program);
+    index_tools(program);
 }
 
 namespace {
@@ -85,6 +89,30 @@ void LineMap::index_lines(const Program& program) {
     }
 }
 
+/// A tool that is named twice in front of one motion is changed once: the next one is made ready.
+void LineMap::index_tools(const Program& program) {
+    std::unordered_map<std::string, std::uint32_t> numbers;
+    for (const ProgramEvent& event : program.events) {
+        if (event.name != "tool") continue;
+        const auto tool =
+            numbers.try_emplace(event.value, static_cast<std::uint32_t>(numbers.size() + 1)).first->second;
+        if (!tools_.empty() && tools_.back().motion == event.motion) tools_.pop_back();
+        if (tools_.empty() || tools_.back().tool != tool) tools_.push_back({event.motion, tool});
+    }
+}
+
+std::uint32_t LineMap::tool_of(std::int64_t motion) const {
+    const auto next = std::upper_bound(tools_.begin(), tools_.end(), motion,
+                                       [](std::int64_t m, const ToolChange& t) { return m < t.motion; });
+    return next == tools_.begin() ? 0 : std::prev(next)->tool;
+}
+
+bool LineMap::on_way_back(PointIndex point) const {
+    const auto next = std::upper_bound(ways_back_.begin(), ways_back_.end(), point,
+                                       [](PointIndex p, const PointRange& way) { return p < way.first; });
+    return next != ways_back_.begin() && point <= std::prev(next)->last;
+}
+
 std::span<const std::uint32_t> LineMap::motions_of(LineNumber line) const {
     if (std::size_t{line} + 1 >= first_of_line_.size()) return {};
     return {by_line_.data() + first_of_line_[line], by_line_.data() + first_of_line_[line + 1]};
@@ -109,6 +137,15 @@ void LineMap::read(PointIndex begin, std::span<LineNumber> out) const {
 
 void LineMap::read_kinds(PointIndex begin, std::span<PointKind> out) const {
     if (out.empty()) return;
+    read_kinds_of_lines(begin, out);
+    const PointIndex last = begin + static_cast<PointIndex>(out.size()) - 1;
+    for (const PointRange& way : ways_back_) {
+        for (PointIndex i = std::max(begin, way.first); i <= std::min(last, way.last); ++i)
+            out[static_cast<std::size_t>(i - begin)] = PointKind::rapid;
+    }
+}
+
+void LineMap::read_kinds_of_lines(PointIndex begin, std::span<PointKind> out) const {
     checked_.need(begin, begin + static_cast<PointIndex>(out.size()) - 1);
     const std::uint32_t* motion = motion_of_point_.empty() ? nullptr : motion_of_point_.data() + begin;
     if (!from_log()) {

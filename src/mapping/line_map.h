@@ -66,6 +66,20 @@ public:
     /// The same with the lines `first` … `last`.
     [[nodiscard]] std::vector<PointRange> points_of(LineNumber first, LineNumber last) const;
 
+    /// The line of a motion, as read() has it. Domain: a motion of the program.
+    [[nodiscard]] LineNumber line_of_motion(std::int64_t motion) const {
+        return line_of_motion_[static_cast<std::size_t>(motion)];
+    }
+    /// Which of the program's tools makes a motion: equal numbers, equal tools. O(log tool changes).
+    [[nodiscard]] std::uint32_t tool_of(std::int64_t motion) const;
+    [[nodiscard]] bool one_tool() const { return tools_.size() < 2; }
+
+    /// Points off the program's path, on a way back to where a run goes on (mapping/program_runs.h), in order. They are
+    /// rapids, whatever line the log gives them.
+    [[nodiscard]] const std::vector<PointRange>& ways_back() const { return ways_back_; }
+    void set_ways_back(std::vector<PointRange> ways) { ways_back_ = std::move(ways); }
+    [[nodiscard]] bool on_way_back(PointIndex point) const;
+
     /// How sure the line of a point is, 0 … 1, by what gave it: a log's line is certain unless the program was
     /// edited. confidences() adds what the geometry says.
     [[nodiscard]] double confidence_at(PointIndex point) const;
@@ -83,7 +97,14 @@ public:
     void check_when_read(BlockFillPointer checked) { checked_ = std::move(checked); }
 
 private:
+    struct ToolChange {
+        std::int64_t motion = 0;  ///< the first with the tool
+        std::uint32_t tool = 0;
+    };
+
     void index_lines(const Program& program);
+    void index_tools(const Program& program);
+    void read_kinds_of_lines(PointIndex begin, std::span<PointKind> out) const;
 
     PointIndex count_ = 0;
     ProgramMatch match_;
@@ -99,6 +120,8 @@ private:
     Column<PointKind> kind_of_line_;       ///< by line number
     Column<std::uint32_t> first_of_line_;  ///< by line number: where in by_line_ its motions begin
     Column<std::uint32_t> by_line_;        ///< motions sorted by line
+    std::vector<ToolChange> tools_;        ///< in order
+    std::vector<PointRange> ways_back_;
 };
 
 }  // namespace clsurf

@@ -16,6 +16,7 @@
 #include "mapping/motion_track.h"
 #include "mapping/program_course.h"
 #include "mapping/program_lines.h"
+#include "mapping/program_runs.h"
 #include "mapping/work_offset.h"
 
 namespace clsurf {
@@ -69,6 +70,7 @@ public:
 
     LineMap by_geometry() {
         LineMap map = align_lines(path_, program_, diagnostics_);
+        find_runs(map);
         const double off = off_share(map);
         match_.off = off;
         const bool explained =
@@ -76,7 +78,7 @@ public:
         const double foreign_at = identity_ == ProgramIdentity::other ? other_share : offset_share;
         if (identity_ != ProgramIdentity::same && !explained && off > foreign_at && match_.foreign.empty())
             match_.foreign = fmt::format("{:.0f} % of its points lie off the programmed path", 100 * off);
-        if (off <= offset_share) match_.missing = note_course(path_, log_, program_, map, diagnostics_);
+        if (off <= offset_share) match_.missing = note_course(path_, log_, program_, map, runs_, diagnostics_);
         return finish(std::move(map));
     }
 
@@ -91,6 +93,7 @@ public:
                 if (std::optional<LineMap> found = fitting_geometry()) return finish(std::move(*found));
             }
         }
+        find_runs(map);
         const LineAgreement agreement = check_lines(path_, program_, map);
         if (share_of(agreement) > disagreeing_share) note_disagreement(agreement);
         if (agreement.checked >= least_checked) match_.off = share_of(agreement);
@@ -102,13 +105,20 @@ public:
             match_.foreign = fmt::format("{:.0f} % of {} checked points lie farther than {} mm from their lines",
                                          100 * share_of(agreement), agreement.checked, agreement.tolerance);
         }
-        if (share_of(agreement) <= offset_share) match_.missing = note_course(path_, log_, program_, map, diagnostics_);
+        if (share_of(agreement) <= offset_share)
+            match_.missing = note_course(path_, log_, program_, map, runs_, diagnostics_);
         return finish(std::move(map));
     }
 
 private:
     static double share_of(const LineAgreement& a) {
         return a.checked > 0 ? static_cast<double>(a.disagreeing) / static_cast<double>(a.checked) : 0.0;
+    }
+
+    /// The program's runs in this log, and how the tool came back between them.
+    void find_runs(LineMap& map) {
+        runs_ = find_program_runs(map);
+        map.set_ways_back(find_ways_back(path_, program_, map, runs_));
     }
 
     /// Whether the positions would fit in another unit: no work offset aligns them.
@@ -198,7 +208,8 @@ private:
                           "the log's line numbers do not fit the program, its path does: lines are found by geometry",
                           {}});
         match_.edited = true;
-        match_.missing = note_course(path_, log_, program_, map, diagnostics_);
+        find_runs(map);
+        match_.missing = note_course(path_, log_, program_, map, runs_, diagnostics_);
         return map;
     }
 
@@ -217,6 +228,7 @@ private:
     ProgramIdentity identity_;
     Diagnostics& diagnostics_;
     ProgramMatch match_;
+    std::vector<ProgramRun> runs_;
 };
 
 }  // namespace

@@ -31,16 +31,32 @@ public:
             first_ = place;
             first_line_ = line;
         }
-        if (place >= begins_again_after) far_ = true;
-        if (place <= begins_again_before && far_) {
-            far_ = false;
-            ++runs_;
-            add_note("map.runs", point,
-                     fmt::format("the program begins again at line {}: run {} in this log", line, runs_),
-                     "passes of several runs overlap in a map");
-        }
         last_ = place;
         last_line_ = line;
+    }
+
+    void add_runs(const LineMap& map, std::span<const ProgramRun> runs) {
+        for (std::size_t k = 1; k < runs.size(); ++k) {
+            const LineNumber from = map.line_of_motion(runs[k].first_motion);
+            const LineNumber to = map.line_of_motion(runs[k - 1].last_motion);
+            const bool whole = static_cast<double>(runs[k].first_motion) <= begins_again_before * motions_ &&
+                               static_cast<double>(runs[k - 1].last_motion) >= begins_again_after * motions_;
+            if (whole) {
+                warn("map.runs", runs[k].first,
+                     fmt::format("the program begins again at line {}: run {} in this log", from, k + 1),
+                     "each run is compared with itself; maps show both: render --points A..B shows one");
+                continue;
+            }
+            std::string left;
+            for (const PointRange& way : map.ways_back()) {
+                if (way.last + 1 == runs[k].first)
+                    left = fmt::format("the tool leaves the path on line {} at point {}, and ", map.line_at(way.first),
+                                       way.first);
+            }
+            warn("map.restart", runs[k].first,
+                 fmt::format("{}the run goes on from line {}: lines {}-{} ran twice", left, from, from, to),
+                 "both cuts are compared with the passes of their own; a stop may have left a mark");
+        }
     }
 
     /// The share of the motions that the log does not have.
@@ -71,8 +87,9 @@ private:
                  fmt::format("the tool stands still for {:.1f} s on line {}", seconds, line_), {});
     }
 
-    void warn(const char* code, PointIndex point, std::string text) {
-        diagnostics_.add({Severity::warning, code, Place::of_point(log_.name, point), std::move(text), {}});
+    void warn(const char* code, PointIndex point, std::string text, std::string hint = {}) {
+        diagnostics_.add(
+            {Severity::warning, code, Place::of_point(log_.name, point), std::move(text), std::move(hint)});
     }
     void add_note(const char* code, PointIndex point, std::string text, std::string hint) {
         diagnostics_.add({Severity::note, code, Place::of_point(log_.name, point), std::move(text), std::move(hint)});
@@ -84,15 +101,13 @@ private:
     LineNumber line_ = 0, first_line_ = 0, last_line_ = 0;
     std::int64_t motion_ = -1;
     double first_ = -1, last_ = -1;  ///< place in the program, 0 … 1; −1: no line yet
-    bool far_ = false;               ///< this run came near the end
-    int runs_ = 1;
     PointIndex still_since_ = -1;
 };
 
 }  // namespace
 
 double note_course(const Trajectory& path, const Log& log, const Program& program, const LineMap& map,
-                   Diagnostics& diagnostics) {
+                   std::span<const ProgramRun> runs, Diagnostics& diagnostics) {
     if (program.motions.size() == 0 || path.count == 0) return 0;
     constexpr std::size_t block = 4096;
     std::array<LineNumber, block> lines;
@@ -113,6 +128,7 @@ double note_course(const Trajectory& path, const Log& log, const Program& progra
             before = p;
         }
     }
+    course.add_runs(map, runs);
     return course.finish();
 }
 

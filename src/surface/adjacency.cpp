@@ -63,16 +63,18 @@ struct Across {
 class Walker {
 public:
     Walker(const Positions& positions, const Passes& passes, const ArcLength& arc_length, const PathGrid& grid,
-           double step_over, Adjacency& out)
+           const CutGroups& groups, double step_over, Adjacency& out)
         : p_(positions),
           passes_(passes),
           arc_length_(arc_length),
           grid_(grid),
+          groups_(groups),
           step_over_(static_cast<float>(step_over)),
           out_(out) {}
 
     /// Neighbours of points [first, last] of the pass.
     void walk(std::size_t pass, PointIndex first, PointIndex last) {
+        own_pass_ = pass;
         const PointRange own{passes_[pass].first, passes_[pass].last};
         Chords chords(arc_length_, own, first, direction_chord * step_over_);
         std::array<Follower, 2> followers;
@@ -203,6 +205,7 @@ private:
         }
         std::array<Follower, 2> found;
         grid_.for_each_near(across.here, [&](const PathGrid::Entry& entry) {
+            if (groups_.apart(own_pass_, static_cast<std::size_t>(entry.pass))) return;
             const PointRange pass{passes_[static_cast<std::size_t>(entry.pass)].first,
                                   passes_[static_cast<std::size_t>(entry.pass)].last};
             int direction = 1;
@@ -226,6 +229,8 @@ private:
     const Passes& passes_;
     const ArcLength& arc_length_;
     const PathGrid& grid_;
+    const CutGroups& groups_;
+    std::size_t own_pass_ = 0;
     float step_over_;
     Adjacency& out_;
 };
@@ -250,7 +255,7 @@ struct Part {
 }  // namespace
 
 Adjacency find_neighbours(const Positions& positions, const Passes& passes, const ArcLength& arc_length,
-                          double step_over) {
+                          double step_over, const CutGroups& groups) {
     Adjacency adjacency;
     const auto count = static_cast<std::size_t>(positions.size());
     adjacency.left.resize(count);
@@ -269,7 +274,7 @@ Adjacency find_neighbours(const Positions& positions, const Passes& passes, cons
         for (std::int64_t k = from; k < to; ++k) {
             const Part& part = parts[static_cast<std::size_t>(k)];
             if (step_over > 0 && passes[part.pass].kind == PassKind::cut) {
-                Walker(positions, passes, arc_length, grid, step_over, adjacency)
+                Walker(positions, passes, arc_length, grid, groups, step_over, adjacency)
                     .walk(part.pass, part.first, part.last);
                 continue;
             }

@@ -12,6 +12,7 @@
 
 #include "core/block_fill.h"
 #include "core/column.h"
+#include "surface/cut_groups.h"
 #include "surface/passes.h"
 #include "toolpath/arc_length.h"
 
@@ -39,9 +40,9 @@ struct Adjacency {
     [[nodiscard]] const Column<std::int32_t>& column(Side side) const { return side == Side::left ? left : right; }
 };
 
-/// Neighbours of all points of cut passes, for a step-over [mm]; 0: nobody has neighbours.
+/// Neighbours of all points of cut passes, for a step-over [mm]; 0: nobody has neighbours. `groups`: of these passes.
 /// O(points), parallel over pieces of passes; the same for any number of threads.
 [[nodiscard]] Adjacency find_neighbours(const Positions& positions, const Passes& passes, const ArcLength& arc_length,
-                                        double step_over);
+                                        double step_over, const CutGroups& groups = {});
 
 }  // namespace clsurf

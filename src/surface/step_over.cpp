@@ -23,6 +23,7 @@ constexpr double enough = 0.5;  ///< share of probes that must have found a neig
 struct Probe {
     PointIndex point = 0;
     double arc_length = 0;   ///< from the start [mm]
+    std::size_t run = 0;     ///< by number
     double nearest = 1e300;  ///< [mm]
 };
 
@@ -71,23 +72,25 @@ Eigen::AlignedBox3f box_of(const Positions& p, const Passes& runs) {
 struct Sample {
     PointIndex point = 0;
     double arc_length = 0;  ///< [mm]
+    std::size_t run = 0;    ///< by number
     bool joined = false;    ///< the sample before lies on the same run
 };
 
 /// Points of the cutting runs, one per `spacing` [mm] of arc length or little more.
 std::vector<Sample> thinned(const Passes& runs, const ArcLength& arc_length, double spacing) {
     std::vector<std::vector<Sample>> of_block;
-    for (const Pass& run : runs) {
+    for (std::size_t number = 0; number < runs.size(); ++number) {
+        const Pass& run = runs[number];
         if (run.kind != PassKind::cut) continue;
         const std::size_t base = of_block.size();
         of_block.resize(base + static_cast<std::size_t>((run.size() + block_points - 1) / block_points));
         for_each_block(run.size(), [&](PointIndex first, PointIndex last) {
             std::vector<Sample>& mine = of_block[base + static_cast<std::size_t>(first / block_points)];
             double at = arc_length.to(run.first + first);
-            mine.push_back({run.first + first, at, first > 0});
+            mine.push_back({run.first + first, at, number, first > 0});
             for (PointIndex i = run.first + first + 1; i < run.first + last; ++i) {
                 at += arc_length.step(i - 1);
-                if (at - mine.back().arc_length >= spacing) mine.push_back({i, at, true});
+                if (at - mine.back().arc_length >= spacing) mine.push_back({i, at, number, true});
             }
         });
     }
@@ -98,7 +101,8 @@ std::vector<Sample> thinned(const Passes& runs, const ArcLength& arc_length, dou
 
 }  // namespace
 
-double estimate_step_over(const Positions& positions, const Passes& runs, const ArcLength& arc_length) {
+double estimate_step_over(const Positions& positions, const Passes& runs, const ArcLength& arc_length,
+                          const CutGroups& groups) {
     const Eigen::AlignedBox3f box = box_of(positions, runs);
     if (box.isEmpty() || box.diagonal().norm() <= 0) return 0;
     const float diagonal = box.diagonal().norm();
@@ -106,7 +110,7 @@ double estimate_step_over(const Positions& positions, const Passes& runs, const 
     std::vector<Probe> probes;
     const std::size_t stride = std::max<std::size_t>(1, path.size() / probes_wanted);
     for (std::size_t i = stride / 2; i < path.size(); i += stride) {
-        probes.push_back({path[i].point, path[i].arc_length});
+        probes.push_back({path[i].point, path[i].arc_length, path[i].run});
     }
     float cell = diagonal / static_cast<float>(finest_cells);
     for (int look = 0; look < coarsest_look; ++look, cell *= 2) {
@@ -122,7 +126,8 @@ double estimate_step_over(const Positions& positions, const Passes& runs, const 
                 const double distance = distance_to_segment(positions[probe.point], before, here);
                 const bool other =
                     std::abs(path[k].arc_length - probe.arc_length) > arc_length_over_distance * distance;
-                if (other && distance > same_place && distance < probe.nearest) probe.nearest = distance;
+                if (!other || distance <= same_place || distance >= probe.nearest) continue;
+                if (!groups.apart(probe.run, path[k].run)) probe.nearest = distance;
             }
         }
         std::vector<double> found;

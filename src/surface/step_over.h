@@ -2,13 +2,15 @@
 // The step-over of a finishing program: the distance of adjacent passes, estimated from the path itself
 // (median distance from a sample to the nearest part of the path that is not its own pass).
 
+#include "surface/cut_groups.h"
 #include "surface/passes.h"
 #include "toolpath/arc_length.h"
 
 namespace clsurf {
 
 /// Step-over [mm] of the cutting runs, or 0 where no part of the path has another beside it (a single
-/// pass). O(points), parallel.
-[[nodiscard]] double estimate_step_over(const Positions& positions, const Passes& runs, const ArcLength& arc_length);
+/// pass). `groups`: of the runs. O(points), parallel.
+[[nodiscard]] double estimate_step_over(const Positions& positions, const Passes& runs, const ArcLength& arc_length,
+                                        const CutGroups& groups = {});
 
 }  // namespace clsurf

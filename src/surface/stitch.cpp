@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "surface/cut_groups.h"
 #include "surface/finishing.h"
 #include "surface/step_over.h"
 
@@ -93,8 +94,10 @@ Passes cut_at_returns(const Passes& passes, const Adjacency& neighbours, const S
     return turns;
 }
 
-void stitch_runs(ClSurface& surface, const Passes& runs, const ArcLength& arc_length, double step_over) {
-    surface.step_over = step_over > 0 ? step_over : estimate_step_over(surface.positions, runs, arc_length);
+void stitch_runs(ClSurface& surface, const Passes& runs, const ArcLength& arc_length, const CutOrder& order,
+                 double step_over) {
+    surface.step_over =
+        step_over > 0 ? step_over : estimate_step_over(surface.positions, runs, arc_length, CutGroups(order, runs));
     surface.step_over_moves.clear();
     if (surface.step_over <= 0) {
         surface.passes = runs;
@@ -102,7 +105,8 @@ void stitch_runs(ClSurface& surface, const Passes& runs, const ArcLength& arc_le
         return;
     }
     const Passes passes = find_passes(surface.positions, arc_length, runs, surface.step_over);
-    surface.neighbours = find_neighbours(surface.positions, passes, arc_length, surface.step_over);
+    surface.neighbours =
+        find_neighbours(surface.positions, passes, arc_length, surface.step_over, CutGroups(order, passes));
     surface.passes =
         cut_at_returns(passes, surface.neighbours, StepOverMoveFinder(surface.positions, arc_length, surface.step_over),
                        surface.step_over_moves);
@@ -139,10 +143,11 @@ ClSurface stitch(Positions positions, const LineMap& lines, double step_over) {
     surface.positions = std::move(positions);
     const Passes runs = find_runs(surface.positions, lines);
     const ArcLength arc_length(surface.positions);
-    stitch_runs(surface, runs, arc_length, step_over);
+    const CutOrder order(lines);
+    stitch_runs(surface, runs, arc_length, order, step_over);
     if (surface.step_over <= 0) return surface;
     const Passes finishing = without_other_cutting(surface, runs, surface.not_finishing);
-    if (surface.not_finishing > 0) stitch_runs(surface, finishing, arc_length, step_over);
+    if (surface.not_finishing > 0) stitch_runs(surface, finishing, arc_length, order, step_over);
     return surface;
 }
 

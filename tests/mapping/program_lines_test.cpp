@@ -119,6 +119,39 @@ TEST(ProgramCourse, FindsTwoRunsInOneLog) {
     EXPECT_EQ(found.kept()[0].where.number, 400u);
 }
 
+TEST(ProgramCourse, FindsARunThatWentOnFromAnEarlierLine) {
+    Recorded r;
+    run(r, 1, 60);
+    for (int k = 0; k < 8; ++k) {  // up and back, with the number of the line that was stopped
+        r.x.push_back(60 - (k + 1) * 31 / 8.0);
+        r.line.push_back(60);
+    }
+    run(r, 30, 100);
+    for (std::size_t i = 240; i < 248; ++i) r.z[i] = 5;
+    const Diagnostics found = course_of(r);
+    ASSERT_EQ(found.count("map.restart"), 1u);
+    EXPECT_EQ(found.kept().size(), 1u) << found.kept()[0].text;
+    EXPECT_EQ(found.kept()[0].where.number, 248u);
+    EXPECT_EQ(found.kept()[0].text,
+              "the tool leaves the path on line 60 at point 240, and the run goes on from line 30: lines 30-60 ran "
+              "twice");
+}
+
+TEST(ProgramCourse, WhatWasSkippedBeforeDidNotRunTwice) {
+    Recorded r;
+    run(r, 1, 20);
+    run(r, 60, 100);
+    run(r, 21, 59);
+    EXPECT_EQ(course_of(r).count("map.restart"), 0u);
+}
+
+TEST(ProgramCourse, ANumberThatFlickersIsNoRun) {
+    Recorded r;
+    run(r, 1, 100);
+    for (const std::size_t i : {201, 203, 205}) r.line[i] = 48;
+    EXPECT_EQ(course_of(r).count("map.restart"), 0u);
+}
+
 TEST(ProgramCourse, FindsALogThatBeginsInTheMiddle) {
     Recorded r;
     run(r, 50, 80);

@@ -114,3 +114,28 @@ set(lines_differ "$CLSURF export @DATA@/programs/planted_zigzag.nc part.csv --pe
 clsurf_cli_test(NAME lines_by_geometry_are_those_of_the_simulation SETUP "${simulated_lines} && mv all.csv part.csv && ${lines_differ}" ARGS --version)
 clsurf_cli_test(NAME lines_by_geometry_of_few_records SETUP "${simulated_lines} && awk 'NR == 1 || NR % 20 == 0' all.csv > part.csv && ${lines_differ}" ARGS --version)
 clsurf_cli_test(NAME lines_by_geometry_from_the_middle_on SETUP "${simulated_lines} && awk 'NR == 1 || NR > 9000' all.csv > part.csv && ${lines_differ}" ARGS --version)
+# ---- several runs in one log ----
+# A plane of 14 passes, 0.3 mm apart, in lines of 1 mm at 40 mm/s, with a record every 4 ms. The second run is half as fast
+# between X8 and X12 of the seventh pass. Or the run is stopped inside pass 9, and begun again from pass 6.
+string(CONCAT some_runs "awk -v stop=STOP -v runs=RUNS 'BEGIN { print \"G21 G90 F2400\\nG0 X0 Y0 Z0\" > \"part.nc\"; "
+  "for (k = 0; k < 14; ++k) { print \"G1 Y\" k * 0.3 > \"part.nc\"; for (i = 1; i <= 20; ++i) print \"X\" (k % 2 ? 20 - i : i) > \"part.nc\" } "
+  "print \"M2\" > \"part.nc\"; print \"time [s],cmd.x [mm],cmd.y [mm],cmd.z [mm],line\"; "
+  "for (r = 0; r < runs; ++r) { for (k = stop && r ? 5 : 0; k < 14; ++k) for (s = 0; s < 20; s += !stop && r && k == 6 && s > 8 && s < 12 ? 0.08 : 0.16) { "
+  "if (stop && !r && (k > 8 || k == 8 && s > 10)) break; printf \"%.4f,%.4f,%.4f,0,%d\\n\", 0.004 * n++, k % 2 ? 20 - s : s, k * 0.3, 4 + 21 * k + int(s) } "
+  "if (stop && !r) for (i = 1; i <= 30; ++i) printf \"%.4f,%.4f,%.4f,5,182\\n\", 0.004 * n++, 10 + i / 3, 2.4 - 0.03 * i } }' > run.csv")
+string(REPLACE "STOP" "0" two_runs "${some_runs}")
+string(REPLACE "RUNS" "2" two_runs "${two_runs}")
+string(REPLACE "STOP" "1" restarted "${some_runs}")
+string(REPLACE "RUNS" "2" restarted "${restarted}")
+string(REPLACE "STOP" "0" one_run "${some_runs}")
+string(REPLACE "RUNS" "1" one_run "${one_run}")
+clsurf_cli_test(NAME each_of_two_runs_is_judged SETUP "${two_runs}" ARGS check part.nc run.csv
+  STDOUT "^1 defect" "lines 13[78]-14[23]" "on 28 passes, 0.3 mm apart" STDERR "point 1750: warning: the program begins again at line [34]: run 2 in this log")
+clsurf_cli_test(NAME a_restarted_run_is_no_other_program SETUP "${restarted}" ARGS info part.nc run.csv
+  STDOUT "leaves the path on line 182 at point 1063, and the run goes on from line 109: lines 109-182 ran twice" NO_STDOUT "another program")
+clsurf_cli_test(NAME diff_says_what_it_leaves_out SETUP "${two_runs} && mv run.csv two.csv && ${one_run}" ARGS diff run.csv two.csv
+  STDERR "two.csv: warning: .* mm are not compared, run.csv does not have them or has them once only: the longest way is points 17[0-9][0-9]-")
+# A line number that changes with the record is no line that was inserted.
+clsurf_cli_test(NAME a_word_changed_after_the_run
+  SETUP "${one_run} && $CLSURF convert run.csv --program part.nc -o run.biip > /dev/null && sed -i '1s/$/ S9000/' part.nc"
+  ARGS info part.nc run.biip STDOUT "the edit moved no line" NO_STDOUT "inserted" "deleted")

@@ -1,0 +1,28 @@
+#pragma once
+// The runs of a program in one log: several parts cut one after the other, or a run that was stopped and begun again
+// from an earlier line.
+
+#include <span>
+#include <vector>
+
+#include "mapping/line_map.h"
+#include "toolpath/trajectory.h"
+
+namespace clsurf {
+
+struct ProgramRun {
+    PointIndex first = 0;           ///< the point with which it begins
+    std::int64_t first_motion = 0;  ///< of those that it has, both ends included …
+    std::int64_t last_motion = -1;  ///< … last < first: none
+};
+
+/// At least one, in order. A run begins where the log goes back in the program, and motions that cut follow which the run
+/// before had already: a number that flickers begins none. O(points).
+[[nodiscard]] std::vector<ProgramRun> find_program_runs(const LineMap& lines);
+
+/// For each run but the first: the points just before it at which the tool is off the program's path, on its way back to
+/// where it goes on. Empty where there are none. O(points).
+[[nodiscard]] std::vector<PointRange> find_ways_back(const Trajectory& path, const Program& program,
+                                                     const LineMap& lines, std::span<const ProgramRun> runs);
+
+}  // namespace clsurf
