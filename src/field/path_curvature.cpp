@@ -7,16 +7,19 @@
 
 #include "core/not_finite.h"
 #include "core/statistics.h"
+#include "core/units.h"
 #include "log/quantum.h"
 #include "numeric/resolved_curvature.h"
 
 namespace clsurf {
 namespace {
 
-constexpr double finest_step = 1e-6;       ///< [mm]
-constexpr double least_curvature = 1e-3;   ///< [1/mm] a path of a radius of 1 m counts as straight
-constexpr double apart = 2;                ///< steps between points that differ
-constexpr PointIndex sample_points = 512;  ///< of a section that tells the noise
+constexpr double finest_step = 1e-6;               ///< [mm]
+constexpr double least_curvature = 1e-3;           ///< [1/mm] a path of a radius of 1 m counts as straight
+constexpr double apart = 2;                        ///< steps between points that differ
+constexpr double corner_reach = 0.1;               ///< [mm] of a corner on each side of its middle
+constexpr double corner_angle = 45 * rad_per_deg;  ///< a smaller one is curvature, as of programmed paths
+constexpr PointIndex sample_points = 512;          ///< of a section that tells the noise
 constexpr PointIndex samples = 16;
 
 using Columns = std::array<std::vector<double>, 3>;
@@ -55,21 +58,37 @@ double step_of_rounding(const Log& log, Role role) {
     return step;
 }
 
+/// No value in corners, such as controllers round between a pass and the next: they would hide the curvature of the surface.
+void leave_out_corners(const std::vector<Vec3>& points, std::vector<double>& curvature) {
+    std::vector<double> way(points.size(), 0);
+    for (std::size_t i = 1; i < points.size(); ++i) way[i] = way[i - 1] + (points[i] - points[i - 1]).norm();
+    std::size_t before = 0, after = 0, left_out = 0;
+    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+        while (before + 1 < i && way[i] - way[before + 1] >= corner_reach) ++before;
+        while (after + 1 < points.size() && (after <= i || way[after] - way[i] < corner_reach)) ++after;
+        if (angle_between(points[i] - points[before], points[after] - points[i]) <= corner_angle) continue;
+        std::size_t k = std::max(before, left_out);
+        for (; k <= after; ++k) curvature[k] = missing<double>;
+        left_out = k;
+    }
+}
+
 }  // namespace
 
 PathCurvature::PathCurvature(const Log& log, const Trajectory& path)
     : path_(path), step_(std::max(step_of_rounding(log, path.role), step_of_noise(path))) {}
 
-void PathCurvature::compute(PointRange piece, PointIndex first, std::span<double> out) const {
+void PathCurvature::compute(PointIndex first, std::span<double> out) const {
     const PointIndex last = first + static_cast<PointIndex>(out.size()) - 1;
-    const PointIndex from = std::max(piece.first, first - reach);
-    const PointIndex to = std::min(piece.last, last + reach);
+    const PointIndex from = std::max<PointIndex>(0, first - reach);
+    const PointIndex to = std::min(path_.count - 1, last + reach);
     Columns p;
     read(path_, from, to - from + 1, p);
     std::vector<Vec3> points;
     std::vector<std::size_t> kept(out.size(), 0);  // the point before each one asked for, or that itself
     const auto finish = [&](PointIndex begin, PointIndex end) {
-        const std::vector<double> curvature = resolved_curvatures(points, step_, least_curvature, Unresolved::no_value);
+        std::vector<double> curvature = resolved_curvatures(points, step_, least_curvature, Unresolved::no_value);
+        leave_out_corners(points, curvature);
         for (PointIndex i = std::max(begin, first); i < std::min(end, last + 1); ++i) {
             double& value = out[static_cast<std::size_t>(i - first)];
             value = curvature.size() < 3 ? missing<double> : curvature[kept[static_cast<std::size_t>(i - first)]];

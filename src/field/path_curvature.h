@@ -21,9 +21,9 @@ public:
     /// Measures how far positions are off by rounding and noise. O(points), from a few sections all over the log.
     PathCurvature(const Log& log, const Trajectory& path);
 
-    /// Of points [first, first + out.size()), which lie in `piece` [1/mm]: NaN where the path turns back, or where its
-    /// positions do not resolve it.
-    void compute(PointRange piece, PointIndex first, std::span<double> out) const;
+    /// Of points [first, first + out.size()) [1/mm], by the path before and behind them, whatever pass that belongs to: NaN where the path turns back, in corners, which
+    /// turn by more than 45 deg within 0.2 mm, and where positions do not resolve it.
+    void compute(PointIndex first, std::span<double> out) const;
     /// How far apart positions are that rounding or noise cannot make [mm].
     [[nodiscard]] double step() const { return step_; }
 

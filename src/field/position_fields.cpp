@@ -242,7 +242,7 @@ private:
         }
         if (plan_.curvature) {
             curvature_.resize(count_);
-            plan_.curvature->compute(piece, first_, curvature_);
+            plan_.curvature->compute(first_, curvature_);
             fill(needs::curvature, {curvature_.data()});
         }
         if ((plan_.needs & needs::time) == 0) return;

@@ -124,6 +124,42 @@ TEST(FieldSet, CurvatureIsThatOfThePathWhereTheToolHardlyMoves) {
         EXPECT_NEAR(k.values[i], 1 / radius, 0.4 / radius) << i;  // its standard error is a tenth
 }
 
+TEST(FieldSet, CurvatureLeavesOutTheCornersBetweenPasses) {
+    // Along X, a corner of 90 deg with a radius of 0.02 mm, along Y; an arc of 1 mm is no corner.
+    for (const double round : {0.02, 1.0}) {
+        std::vector<double> columns[3];
+        const double quarter = 0.5 * M_PI * round;
+        constexpr double step = 0.004;
+        PointIndex count = 0;
+        for (double s = -3; s < quarter + 3; s += step, ++count) {
+            const double angle = std::clamp(s / round, 0.0, 0.5 * M_PI);
+            columns[0].push_back(std::min(s, 0.0) + round * std::sin(angle));
+            columns[1].push_back(round * (1 - std::cos(angle)) + std::max(s - quarter, 0.0));
+            columns[2].push_back(0);
+        }
+        Log log;
+        log.period = period;
+        log.records = count;
+        for (std::size_t k = 0; k < 3; ++k)
+            log.channels.push_back({std::string("cmd.") + "xyz"[k], "mm",
+                                    ChannelView{reinterpret_cast<const std::byte*>(columns[k].data()), 8, count,
+                                                ScalarType::f64, false, 1, 0}});
+        Passes passes;
+        passes.push_back({0, count - 1, PassKind::cut});
+        const Field k = FieldSet(log, reconstruct(log, Role::commanded, Vec3::Zero()), passes).get("curvature");
+        float most = 0;
+        std::size_t without = 0;
+        for (const float value : k.values) {
+            if (std::isnan(value))
+                ++without;
+            else
+                most = std::max(most, value);
+        }
+        EXPECT_EQ(without > 0, round < 0.1);
+        EXPECT_NEAR(most, round < 0.1 ? 0 : 1 / round, 0.1) << round;
+    }
+}
+
 TEST(FieldSet, TellsLagFromContourError) {
     Circle circle;
     const Field lag = circle.get("following_error");
