@@ -170,13 +170,14 @@ std::string title_of(DefectProfile::HeightOf height) {
     return {};
 }
 
-/// "; formed 5.0 µm": of the mark in the formed surface.
+/// " · formed 5.0 µm high": of the mark in the formed surface.
 std::string formed_text(const JudgedPart& judged, std::size_t index) {
     if (judged.as_machined == nullptr) return {};
     const AsMachinedMark& mark = judged.as_machined->marks[index];
     if (!std::isfinite(mark.depth)) return {};
-    return fmt::format(" · formed {:.1f} µm {}", mark.depth * um_per_mm,
-                       deep_or_high(judged.report.defects[index].pit));
+    const std::string text = fmt::format(" · formed {:.1f} µm", mark.depth * um_per_mm);
+    constexpr double least_shown = 5e-5;  // mm: 0.0 µm is neither deep nor high
+    return mark.depth < least_shown ? text : fmt::format("{} {}", text, deep_or_high(judged.report.defects[index].pit));
 }
 
 }  // namespace
