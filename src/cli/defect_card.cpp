@@ -174,7 +174,7 @@ std::string title_of(DefectProfile::HeightOf height) {
 std::string formed_text(const JudgedPart& judged, std::size_t index) {
     if (judged.as_machined == nullptr) return {};
     const AsMachinedMark& mark = judged.as_machined->marks[index];
-    if (!std::isfinite(mark.depth)) return {};
+    if (!std::isfinite(mark.depth) || judged.report.defects[index].systematic) return {};
     const std::string text = fmt::format(" · formed {:.1f} µm", mark.depth * um_per_mm);
     constexpr double least_shown = 5e-5;  // mm: 0.0 µm is neither deep nor high
     return mark.depth < least_shown ? text : fmt::format("{} {}", text, deep_or_high(judged.report.defects[index].pit));
