@@ -33,6 +33,7 @@ ExitCode check_shard(PartOptions options, const ShardNumber& shard, const po::va
     const SurveyedLog log = read_surveyed_log(options, values);
     const std::optional<Role> measured = take_measured_role(options);
     const Part part = load_surveyed_part(options, log.survey, clock);
+    refuse_tilted_tool(part);
     clock.begin("judge the shard");
     const ClSurface surface = surveyed_surface(part, log.survey);
     const PartSignals read = surveyed_signals(part, surface, log.survey, measured);

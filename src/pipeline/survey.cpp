@@ -18,21 +18,10 @@
 namespace clsurf {
 namespace {
 
-/// Of a survey and its shards, contact points are those of a tool along z.
-void refuse_tilted(const Part& part) {
-    if (!part.tool) return;
-    const StatedAxes stated = stated_axes(part.program.motions);
-    if (stated.unknown || !stated.axis.empty())
-        throw UsageError(
-            "a survey is for tools along z: " + part.program.main().name() + " tilts " + to_text(*part.tool),
-            "--tool none judges the tool tips");
-}
-
 /// Throws where a survey cannot tell what a whole log would.
 void refuse_others(const Part& part) {
     if (part.path.kinematics || find_rotary_motion(part.log, part.path.role))
         throw UsageError("a survey is for machines of three axes: " + part.log.name + " has rotary axes that move");
-    refuse_tilted(part);
     if (part.derivative != DerivativeMethod::savgol)
         throw UsageError("--derivative kalman looks at a log as a whole: shards have savgol only");
 }
@@ -156,6 +145,14 @@ Survey make_survey(const Part& part, std::optional<Role> wanted) {
     return survey;
 }
 
+void refuse_tilted_tool(const Part& part) {
+    if (!part.tool) return;
+    const StatedAxes stated = stated_axes(part.program.motions);
+    if (!stated.unknown && stated.axis.empty()) return;
+    throw UsageError("shards are for tools along z: " + part.program.main().name() + " tilts " + to_text(*part.tool),
+                     "--tool none judges the tool tips");
+}
+
 Part surveyed_part(Program program, Log log, const PartRules& rules, const Survey& survey) {
     if (log.records != survey.points) {
         throw InputError(Place::of_file(log.name),
@@ -173,7 +170,6 @@ Part surveyed_part(Program program, Log log, const PartRules& rules, const Surve
     part.path.offset = survey.offset;
     part.path.turn = survey.turn;
     part.lines = lines_of(part.program, part.log, survey);
-    refuse_tilted(part);
     return part;
 }
 

@@ -61,4 +61,7 @@ struct Survey {
 [[nodiscard]] PartSignals surveyed_signals(const Part& part, const ClSurface& surface, const Survey& survey,
                                            std::optional<Role> wanted = std::nullopt);
 
+/// Throws UsageError where the tool of a part is tilted by its program: contact points of shards are those of a tool along z.
+void refuse_tilted_tool(const Part& part);
+
 }  // namespace clsurf
