@@ -85,7 +85,6 @@ ExitCode run_diff(const po::variables_map& values) {
     LoadedRun reference = load_run(options.files.front(), options.runs);
     diagnostics.append(reference.log.diagnostics);
     io::ReportedRuns reported = reported_against(reference, diagnostics);
-
     std::unique_ptr<LineMap> lines;
     std::unique_ptr<DriftFinder> drift;
     std::optional<CuttingTool> tool;
