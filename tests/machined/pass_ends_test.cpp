@@ -92,7 +92,7 @@ TEST(PassEnds, ABallLeavesTheCuspsOfThePlaneUpToThem) {
               Lifted{0.45, degrees, 0.1, 0, true}, Lifted{0.45, degrees, 0, 0.5}, Lifted{0.45, degrees, 0, -0.5}}) {
             const auto [low, high] = at_ends(of, {ToolKind::ball, 6, 6});
             // Cells of a map meet the tip of a cusp within a tenth.
-            EXPECT_LT(high, 1.01 * cusp(of, 6)) << degrees << " " << of.shorter << " " << of.beside;
+            EXPECT_LT(high, 1.02 * cusp(of, 6)) << degrees << " " << of.shorter << " " << of.beside;
             EXPECT_GT(high, 0.9 * cusp(of, 6)) << degrees << " " << of.shorter << " " << of.beside;
             EXPECT_NEAR(low, 0, 0.00002) << degrees << " " << of.shorter << " " << of.beside;
         }
@@ -102,7 +102,7 @@ TEST(PassEnds, ABallLeavesTheCuspsOfThePlaneUpToThem) {
 TEST(PassEnds, TheCornerOfABullNoseToolDoes) {
     for (const Lifted& of : {Lifted{0.3, 20}, Lifted{0.3, 20, 0, 0, true}, Lifted{0.3, 30, 0.1}}) {
         const auto [low, high] = at_ends(of, {ToolKind::bull, 5, 2});
-        EXPECT_LT(high, 1.01 * cusp(of, 2)) << of.degrees;
+        EXPECT_LT(high, 1.02 * cusp(of, 2)) << of.degrees;
         EXPECT_GT(high, 0.9 * cusp(of, 2)) << of.degrees;
         EXPECT_NEAR(low, 0, 0.0001) << of.degrees;
     }
