@@ -6,17 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "identify/servo_problem.h"
+#include "identify/servo_selection.h"
 
 namespace clsurf {
-
-/// What an additional term of the loop explains.
-struct TermEvidence {
-    ServoTerm term = ServoTerm::friction;
-    double value = 0;   ///< as ServoParameters has it
-    double gain = 0;    ///< by how much the Bayesian information criterion falls with it
-    bool kept = false;  ///< it falls, and the value is more than four standard errors above zero
-};
 
 struct ServoFit {
     ServoParameters parameters;
@@ -26,6 +18,7 @@ struct ServoFit {
     double quantum = 0;                                ///< step of the fed-back positions [unit]; 0: none found
     double noise = 0;               ///< rms of the residual from record to record, beyond rounding [unit]
     double residual = 0;            ///< rms [unit]
+    double explained = 0;           ///< what quantum and noise make of it, rms [unit]
     double lag = 0, lag_error = 0;  ///< at constant speed, of the set point of the same record [s]
     std::vector<TermEvidence> evidence;
 

@@ -125,7 +125,7 @@ private:
             return;
         }
         if (fit.parameters.has(term)) {
-            const std::string note = tried ? fmt::format("BIC falls by {:.0f}", found->gain) : "from the best start";
+            const std::string note = tried ? fmt::format("BIC falls by {:.0f}", found->gain) : "";
             put(name, true, error(term) * factor, fit.parameters[term] * factor, unit, target, to_machine, {}, note);
             return;
         }
@@ -165,6 +165,20 @@ private:
                                       {},
                                       {},
                                       fmt::format("residual {:.2g} {} rms", fit.residual, axis_.unit())});
+        state_residual();
+    }
+
+    /// A loop that leaves more than quantum and noise is not the axis' own.
+    void state_residual() {
+        const ServoFit& fit = axis_.fit;
+        constexpr double most = 2;  // times what quantum and noise leave
+        if (!fit.knows(ServoTerm::log_gain) || fit.residual <= most * fit.explained) return;
+        result_.unidentified.push_back(
+            {"servo", axis_.name(),
+             fmt::format(
+                 "the loop leaves {:.2g} {} rms, of which quantum and noise explain {:.2g}: something moves the axis "
+                 "that the model does not have, and the values may be wrong by more than their standard errors",
+                 fit.residual, axis_.unit(), fit.explained)});
     }
 
     const AxisData& axis_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "simulation/run/servo.h"
 
@@ -14,9 +15,10 @@ constexpr PointIndex group_size = 512;
 
 /// The change of a parameter that its derivative is taken over. An axis sticks and comes loose at a period's end, so with
 /// friction the changes are large enough to move some of these instants; the same for backlash.
-double difference_step(const ServoParameters& p, ServoTerm term) {
-    const double smooth = p[ServoTerm::friction] > 0 ? 3e-3 : 1e-5;
-    constexpr double share = 1e-2, least = 1e-5;
+double difference_step(const ServoParameters& p, ServoTerm term, double width) {
+    const double smooth = p[ServoTerm::friction] > 0 ? std::max(3e-3 * width, 1e-5) : 1e-5;
+    constexpr double least = 1e-5;
+    const double share = std::max(1e-2 * width, 1e-4);
     switch (term) {
         case ServoTerm::velocity_step: return p[term] + smooth > 1 ? -smooth : smooth;
         case ServoTerm::friction:
@@ -26,16 +28,16 @@ double difference_step(const ServoParameters& p, ServoTerm term) {
     }
 }
 
-/// Loops that run side by side: the one of the parameters, and one a parameter with a small change.
+/// Loops that run side by side: the one of the parameters, and one a parameter with a small change, unless `width` is 0.
 class LoopBundle {
 public:
-    LoopBundle(const ServoParameters& parameters, double period, bool with_derivatives, double start)
+    LoopBundle(const ServoParameters& parameters, double period, double width, double start)
         : base_(model_of(parameters, period), period, start, 0), offset_(parameters[ServoTerm::offset]) {
-        if (!with_derivatives) return;
+        if (width == 0) return;
         for (std::size_t k = 0; k < index_of(ServoTerm::offset); ++k) {
             const auto term = static_cast<ServoTerm>(k);
             if (!parameters.has(term)) continue;
-            const double step = difference_step(parameters, term);
+            const double step = difference_step(parameters, term, width);
             ServoParameters changed = parameters;
             changed[term] += step;
             changed_.push_back({ServoLoop(model_of(changed, period), period, start, 0), 1 / step, k});
@@ -68,8 +70,8 @@ void add_scores(ServoSums& sums, ServoVector& scores) {
 }
 
 void add_piece(std::span<const double> commanded, std::span<const double> feedback, PointIndex settling, double period,
-               const ServoParameters& parameters, bool with_derivatives, ServoSums& sums) {
-    LoopBundle loops(parameters, period, with_derivatives, commanded.front());
+               const ServoParameters& parameters, double width, ServoSums& sums) {
+    LoopBundle loops(parameters, period, width, commanded.front());
     ServoVector derivatives = ServoVector::Zero(), scores = ServoVector::Zero();
     if (parameters.has(ServoTerm::offset)) derivatives[index_of(ServoTerm::offset)] = 1;
     double before = NAN;
@@ -85,7 +87,7 @@ void add_piece(std::span<const double> commanded, std::span<const double> feedba
             sums.along += std::copysign(residual, residual * moved);
             ++sums.moving;
         }
-        if (!with_derivatives) continue;
+        if (width == 0) continue;
         sums.normal += derivatives * derivatives.transpose();
         scores += residual * derivatives;
         if (sums.count % group_size == 0) add_scores(sums, scores);
@@ -123,6 +125,31 @@ ServoParameters parameters_of(const ServoModel& model, double period) {
     return p;
 }
 
+ServoProblem::ServoProblem(const ServoProblem& of, PointIndex most, PointIndex piece)
+    : records_(of.records_), period_(of.period_), settling_(of.settling_) {
+    std::vector<std::pair<double, Piece>> ranked;
+    std::vector<double> commanded, feedback;
+    for (const Piece& whole : of.pieces_) {
+        const AxisRecord* record = &records_[static_cast<std::size_t>(whole.record - of.records_.data())];
+        for (PointIndex first = whole.range.first; first + settling_ < whole.range.last; first += piece) {
+            const Piece part{record, {first, std::min(whole.range.last, first + piece - 1)}};
+            gather(part, commanded, feedback);
+            double changes = 0;  // of speed
+            for (std::size_t i = 2; i < commanded.size(); ++i)
+                changes += std::abs(commanded[i] - 2 * commanded[i - 1] + commanded[i - 2]);
+            ranked.emplace_back(changes, part);
+        }
+    }
+    std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    PointIndex total = 0;
+    for (const auto& [changes, part] : ranked) {
+        if (total >= most) break;
+        pieces_.push_back(part);
+        total += part.range.size();
+    }
+    set_settling(settling_);
+}
+
 ServoProblem::ServoProblem(std::span<const AxisRecord> records, double period, PointIndex settling)
     : records_(records.begin(), records.end()), period_(period), settling_(settling) {
     PointIndex total = 0;
@@ -156,10 +183,10 @@ void ServoProblem::gather(const Piece& piece, std::vector<double>& commanded, st
     for (double& value : feedback) value -= start;
 }
 
-ServoSums ServoProblem::linearise(const ServoParameters& parameters) const {
+ServoSums ServoProblem::linearise(const ServoParameters& parameters, double width) const {
     ServoSums sums;
     for_each_piece([&](std::span<const double> commanded, std::span<const double> feedback) {
-        add_piece(commanded, feedback, settling_, period_, parameters, true, sums);
+        add_piece(commanded, feedback, settling_, period_, parameters, width, sums);
     });
     return sums;
 }
@@ -167,7 +194,7 @@ ServoSums ServoProblem::linearise(const ServoParameters& parameters) const {
 ServoSums ServoProblem::evaluate(const ServoParameters& parameters) const {
     ServoSums sums;
     for_each_piece([&](std::span<const double> commanded, std::span<const double> feedback) {
-        add_piece(commanded, feedback, settling_, period_, parameters, false, sums);
+        add_piece(commanded, feedback, settling_, period_, parameters, 0, sums);
     });
     return sums;
 }

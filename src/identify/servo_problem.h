@@ -58,16 +58,20 @@ public:
     /// Pieces of the records are sampled to at most 10^6. `settling`: records at the start of a piece that do not
     /// count, because the state before them is not known. The views must outlive it.
     ServoProblem(std::span<const AxisRecord> records, double period, PointIndex settling);
+    /// About `most` records of another problem, in pieces of `piece`: those with the most changes of speed.
+    ServoProblem(const ServoProblem& of, PointIndex most, PointIndex piece);
     ServoProblem(const ServoProblem&) = delete;
     ServoProblem& operator=(const ServoProblem&) = delete;
     ~ServoProblem() = default;
 
     [[nodiscard]] double period() const { return period_; }
     [[nodiscard]] PointIndex count() const { return count_; }
+    [[nodiscard]] PointIndex settling() const { return settling_; }
     void set_settling(PointIndex settling);
 
-    /// Sums with derivatives. O(records · active terms).
-    [[nodiscard]] ServoSums linearise(const ServoParameters& parameters) const;
+    /// Sums with derivatives. `width` of the differences that these are taken over: with friction, 1 moves some of the instants at
+    /// which the axis sticks, less moves few. O(records · active terms).
+    [[nodiscard]] ServoSums linearise(const ServoParameters& parameters, double width) const;
     /// The same without derivatives. O(records).
     [[nodiscard]] ServoSums evaluate(const ServoParameters& parameters) const;
 

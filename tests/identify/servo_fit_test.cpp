@@ -135,6 +135,48 @@ TEST(ServoFit, LoopsDrawnAtRandom) {
     }
 }
 
+/// The mean of `width` positions before each one: jerks are limited, and loops look more alike.
+std::vector<double> smoothed(const std::vector<double>& positions, std::size_t width) {
+    std::vector<double> means;
+    double sum = positions.front() * static_cast<double>(width);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        sum += positions[i] - (i >= width ? positions[i - width] : positions.front());
+        means.push_back(sum / static_cast<double>(width));
+    }
+    return means;
+}
+
+// Gain, feed-forward and time constant of gentle motions, and friction, backlash and dead time, explain each other nearly: the
+// searches end in narrow valleys unless these are followed.
+TEST(ServoFit, GentleMotionsLeaveNoMoreThanQuantumAndNoise) {
+    struct Case {
+        double gain, feedforward, time_constant, friction, backlash, dead_time, quantum, noise, period;
+    };
+    for (const Case& c :
+         {Case{40, 0.8, 0.006, 1, 0, 0, 1e-4, 0, 0.001}, Case{90, 0.5, 0.003, 0, 0, 0, 1e-5, 2e-4, 0.002},
+          Case{65, 0.6, 0.003, 0.5, 0, 0.003, 1e-4, 3e-4, 0.001},
+          Case{150, 0.98, 0.0015, 0, 0.003, 0, 1e-4, 5e-4, 0.001}}) {
+        ServoModel truth;
+        truth.position_gain = c.gain;
+        truth.velocity_feedforward = c.feedforward;
+        truth.velocity_time_constant = c.time_constant;
+        truth.friction = c.friction;
+        truth.backlash = c.backlash;
+        truth.dead_time = c.dead_time;
+        truth.quantum = c.quantum;
+        truth.noise = c.noise;
+        std::mt19937_64 random(31);
+        const ServoFit fit = run_of(truth, c.period, smoothed(random_moves(random, 12000, c.period), 80)).fit(c.period);
+        const std::string of = "gain " + std::to_string(c.gain);
+        expect_loop(fit, truth, c.period, of);
+        expect_term(fit, ServoTerm::friction, truth.friction, of + " friction");
+        expect_term(fit, ServoTerm::backlash, truth.backlash, of + " backlash");
+        expect_term(fit, ServoTerm::dead_time, truth.dead_time / c.period, of + " dead time");
+        // A quantum rounds by a twelfth of its square on average.
+        EXPECT_LT(fit.residual, 1.03 * std::sqrt(c.quantum * c.quantum / 12 + c.noise * c.noise)) << of;
+    }
+}
+
 TEST(ServoFit, ConstantSpeedTellsTheLagAlone) {
     ServoModel model;
     model.velocity_feedforward = 0.9;
