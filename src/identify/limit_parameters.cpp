@@ -249,7 +249,7 @@ public:
         }
         for (const PlateauFinder& finder : finders) {
             levels_.push_back(finder.highest(least_places, kind.order > 1));
-            bounds_.push_back(finder.nearly_greatest());
+            bounds_.push_back(std::max(finder.nearly_greatest(), finder.held()));
         }
     }
 

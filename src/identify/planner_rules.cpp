@@ -29,7 +29,7 @@ std::size_t present_value(const Rule& rule, const Machine& machine) {
 }
 
 /// Takes back a value that explains the runs better but not well. Of merging tolerances that are all wrong, or with other
-/// rules wrong, one is always the best by chance.
+/// rules wrong, one is always the best by chance. `before`: with the present value.
 void refuse_half_right(const Rule& rule, std::size_t present, const Machine& before, const RuleScores& scores,
                        Identification& result) {
     const auto rows = result.rules.end() - static_cast<std::ptrdiff_t>(rule.values.size());
@@ -42,21 +42,63 @@ void refuse_half_right(const Rule& rule, std::size_t present, const Machine& bef
         {rule.name, rule.axis, "no value explains the runs; kept " + rule.values[present].name});
 }
 
-/// Searches every rule but the planner's once, each with the others as they are. `identified`: limits of the path before
-/// any rule.
-void search_rules(const PathLimits& identified, double least_gain, RuleScores& scores, Identification& result) {
+/// The machine with the merging of lines that was known before any search: of another planner nothing is.
+Machine with_known_merging(Machine machine, const Machine& known) {
+    const bool same = known.controller.planner == machine.controller.planner;
+    machine.controller.merging_tolerance = same ? known.controller.merging_tolerance : std::nullopt;
+    return machine;
+}
+
+/// Searches the merging of lines. A little more or less of it may make up for a limit that is a little wrong, so each time it must
+/// explain clearly more than what was known before any search.
+void search_merging(const Rule& rule, const Machine& known, RuleScores& scores, Identification& result) {
+    result.machine = with_known_merging(result.machine, known);
+    const Machine before = result.machine;
+    const std::size_t present = present_value(rule, before);
+    search_rule(rule, present, gain_of_later_passes, scores, result);
+    refuse_half_right(rule, present, before, scores, result);
+}
+
+/// Searches every rule but the planner's once, each with the others as they are. `known`: before any rule, with the limits that the
+/// motion shows.
+void search_rules(const Machine& known, double least_gain, RuleScores& scores, Identification& result) {
     if (is_trapezoidal(result.machine)) {
         const Rule accelerations = axis_accelerations_rule(result);
         if (accelerations.values.size() > 1)
             search_rule(accelerations, present_value(accelerations, result.machine), least_gain, scores, result);
     }
-    for (const auto& make : rules_of(result.machine, identified)) {
+    for (const auto& make : rules_of(result.machine, known.path)) {
         const Rule rule = make(result.machine);
-        const Machine before = result.machine;
-        const std::size_t present = present_value(rule, before);
-        search_rule(rule, present, least_gain, scores, result);
-        if (rule.name == "merging_tolerance") refuse_half_right(rule, present, before, scores, result);
+        if (rule.name == "merging_tolerance")
+            search_merging(rule, known, scores, result);
+        else
+            search_rule(rule, present_value(rule, result.machine), least_gain, scores, result);
     }
+}
+
+double mean_error_of(const Machine& machine, RuleScores& scores) {
+    return compare({scores.residuals(machine)}, scores).front().speed_error;
+}
+
+/// Takes a merging of lines back if other limits explain the runs about as well without it.
+void confirm_merging(const Machine& known, RuleScores& scores, Identification& result) {
+    Identification other = result;
+    other.machine = with_known_merging(result.machine, known);
+    if (plan_alike(other.machine, result.machine)) return;
+    if (!is_trapezoidal(other.machine)) free_limits(scores, other);
+    search_limits(0, scores, other);
+    if (mean_error_of(result.machine, scores) <= (1 - gain_of_later_passes) * mean_error_of(other.machine, scores))
+        return;
+    const double kept = other.machine.controller.merging_tolerance.value_or(0);
+    const std::string name = is_trapezoidal(other.machine) && !other.machine.controller.merging_tolerance
+                                 ? "program"
+                                 : fmt::format("{:.6g}", kept);
+    for (RuleCandidate& row : result.rules) {
+        if (row.rule == "merging_tolerance") row.chosen = row.value == name;
+    }
+    result.machine = other.machine;
+    result.unidentified.push_back(
+        {"merging_tolerance", "controller", "other limits explain the runs as well without it; kept " + name});
 }
 
 /// The families, each with the kind that explains the runs best with the machine's other rules, and those families first
@@ -81,12 +123,14 @@ std::vector<RuleValue> best_of_families(RuleScores& scores, const Machine& machi
 /// better than the right one with a wrong look-ahead. A family that explains the runs well is the last one. Returns the rows
 /// of those that are not chosen.
 std::vector<RuleCandidate> choose_family(RuleScores& scores, Identification& result) {
+    const Machine known = result.machine;
     std::vector<Identification> found;
     Rule planner{"planner", "controller", {}, {}};
     for (const RuleValue& kind : best_of_families(scores, result.machine)) {
         Identification trial = result;
         kind.apply(trial.machine);
-        search_rules(result.machine.path, 0, scores, trial);
+        if (!is_trapezoidal(trial.machine)) free_limits(scores, trial);
+        search_rules(known, 0, scores, trial);
         const auto last =
             std::find_if(trial.rules.rbegin(), trial.rules.rend(), [](const RuleCandidate& c) { return c.chosen; });
         planner.values.push_back({kind.name, [machine = trial.machine](Machine& m) { m = machine; }});
@@ -128,24 +172,27 @@ void restate_accelerations(Identification& result) {
 
 void identify_rules(std::span<const RecordedRun> runs, Identification& result) {
     RuleScores scores(runs);
-    const PathLimits identified = result.machine.path;
+    const Machine known = result.machine;
     const std::vector<UnidentifiedParameter> known_missing = result.unidentified;
     const std::vector<RuleCandidate> other_families = choose_family(scores, result);
     search_limits(0, scores, result);
     // One rule may hide another: a short look-ahead slows short lines down, as a block time does.
     for (int pass = 1; pass < most_passes; ++pass) {
         const Machine before = result.machine;
+        if (mean_error_of(before, scores) <= scores.resolution()) break;
         Identification next = result;
         next.rules.clear();
         next.unidentified = known_missing;
         const std::vector<PlannerFamily> families = planner_families(before);
         const auto own = std::find_if(families.begin(), families.end(), [](const auto& f) { return f.has_present(); });
         search_rule(own->rule, own->present, gain_of_later_passes, scores, next);
-        search_rules(identified, gain_of_later_passes, scores, next);
+        if (!is_trapezoidal(next.machine)) free_limits(scores, next);
+        search_rules(known, gain_of_later_passes, scores, next);
         search_limits(gain_of_later_passes, scores, next);
         result = std::move(next);
         if (plan_alike(before, result.machine)) break;
     }
+    confirm_merging(known, scores, result);
     result.rules.insert(result.rules.begin(), other_families.begin(), other_families.end());
     for (const auto& [name, reason] : omitted_rules(result.machine))
         result.unidentified.push_back({name, "controller", reason});

@@ -95,6 +95,12 @@ double PlateauFinder::excess(double level) const {
     return std::max(0.0, greatest_ * static_cast<double>(bin) / (bin_count - 1) - error_ - level);
 }
 
+double PlateauFinder::held() const {
+    double greatest = 0;
+    for (const Plateau& plateau : plateaus_) greatest = std::max(greatest, plateau.level);
+    return greatest;
+}
+
 double PlateauFinder::nearly_greatest() const {
     constexpr PointIndex one_of = 1000;
     const PointIndex moving = std::accumulate(bins_.begin() + 1, bins_.end(), PointIndex{0});
@@ -126,6 +132,10 @@ std::optional<PlateauFinder::Level> PlateauFinder::highest(std::size_t places, b
         found.standard_error =
             std::max({spread, 0.3 * error_ / std::sqrt(records), 1e-6 * found.value, excess(found.value)});
         if (exceeding(found.value) > most_exceeding) return std::nullopt;
+        // What the motion holds elsewhere is beyond no limit, however seldom.
+        constexpr std::size_t refuting = 2;
+        if (top >= refuting && sorted[refuting - 1].level > most_of_level * found.value + 2 * error_)
+            return std::nullopt;
         if (varied && !at_varied_speeds(found.plateaus)) return std::nullopt;
         return found;
     }

@@ -39,11 +39,14 @@ public:
         double value = 0, standard_error = 0;
         std::vector<Plateau> plateaus;
     };
-    /// The highest level that at least `places` plateaus share and that hardly a value exceeds; nullopt: none. `varied`:
+    /// The highest level that at least `places` plateaus share, that hardly a value exceeds, and beyond which the motion stays
+    /// at no other level; nullopt: none. `varied`:
     /// and that is held at different speeds of the path.
     [[nodiscard]] std::optional<Level> highest(std::size_t places, bool varied) const;
     /// The value that one of a thousand others exceeds, zeros not counted: outliers are no evidence.
     [[nodiscard]] double nearly_greatest() const;
+    /// The highest level of a single plateau; 0: there is none.
+    [[nodiscard]] double held() const;
 
 private:
     static constexpr std::size_t bin_count = 4096;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -24,6 +26,7 @@ constexpr std::uintmax_t most_steps = 12;   ///< … or so many steps
 constexpr double first_share = 0.0025;      ///< of it, by which a search for the ends of its interval begins
 constexpr double share_of_interval = 0.25;  ///< to which they are known …
 constexpr double finest = 1e-4;             ///< … or to this share of the value
+constexpr double widest = 0.25;             ///< share of a value, to either end of its interval, that determines it
 constexpr double correlation = 2;           ///< of standard errors: differences of speed last for several samples
 constexpr double smallest_error = 5e-4;     ///< standard, a share: planners stay that far below their limits
 
@@ -37,23 +40,30 @@ public:
     /// that the motion allows.
     [[nodiscard]] double best(double lowest, double now, double least_gain) const {
         const double greatest = highest_tried(lowest, now);
-        prepare({now, lowest, greatest});
+        if (mean_error(now) <= scores_.resolution()) return now;
+        prepare({lowest, greatest});
         if (alike(lowest, now) && alike(greatest, now)) return now;
         prepare({below(now), above(now)});
         const double was = mean_error(now);
         if (is_flat_about(now) && scores_.explains(was)) return now;
-        const double best = lowest_in(bracket(lowest, greatest, now), now);
+        double best = lowest_in(bracket(lowest, greatest, now), now);
+        // The best one near the present one need not be the best of all.
+        for (const double end : {lowest, greatest}) {
+            if (mean_error(end) < mean_error(best)) best = end;
+        }
         const double is = mean_error(best);
         // Where the model is not the machine's, a limit may stand for what else is wrong.
         return !as_good(now, best) && (is <= (1 - least_gain) * was || scores_.explains(is)) ? best : now;
     }
 
-    /// The values around the best one that the runs cannot distinguish from it.
-    [[nodiscard]] SimulatedLimit interval(double lowest, double best) const {
+    /// The values around the best one that the runs cannot distinguish from it. `exact`: the share of the value within which the
+    /// ends need not be known better.
+    [[nodiscard]] SimulatedLimit interval(double lowest, double best, double exact) const {
         SimulatedLimit found{key_, of_, best, {}, {}, scores_.explains(mean_error(best))};
         const double greatest = highest_tried(lowest, best);
-        if (lowest < best && !as_good(lowest, best)) found.lowest = end_between(lowest, best);
-        if (!as_good(greatest, best)) found.highest = end_between(greatest, best);
+        if (lowest < best && beyond_doubt(lowest, best) > 0) found.lowest = end_between(lowest, best, exact);
+        if (beyond_doubt(greatest, best) > 0) found.highest = end_between(greatest, best, exact);
+        found.exact = mean_error(best) <= scores_.resolution();
         return found;
     }
 
@@ -131,25 +141,34 @@ private:
         return now * std::exp(share);
     }
 
+    /// By how much a value is beyond those that may be the true one beside the best. What the best one leaves unexplained has
+    /// another reason, and that may as well have moved the best value: a value is beyond where it adds as much.
+    [[nodiscard]] double beyond_doubt(double value, double best) const {
+        const double left = mean_error(best), resolution = scores_.resolution();
+        const double other = std::sqrt(std::max(0.0, left * left - resolution * resolution));
+        return std::min(excess(value, best) / decisive, mean_error(value) / (left + other) - 1);
+    }
+
     /// Where values begin to explain the runs less well than the best one, on the way to `worse`, which does.
-    [[nodiscard]] double end_between(double worse, double best) const {
+    [[nodiscard]] double end_between(double worse, double best, double exact) const {
         const auto beyond = [&](double share) {
             const double value = worse > best ? best * (1 + share) : best / (1 + share);
             return worse > best ? std::min(value, worse) : std::max(value, worse);
         };
-        double share = first_share, good = best, bad = beyond(share);
-        while (bad != worse && as_good(bad, best)) {
+        double share = std::max(first_share, exact), good = best, bad = beyond(share);
+        while (bad != worse && beyond_doubt(bad, best) <= 0) {
             good = bad;
             share *= 2;
             bad = beyond(share);
         }
+        if (good == best && share <= exact) return bad;
         const auto near_enough = [&](double a, double b) {
             return std::abs(a - b) <= std::max(share_of_interval * std::abs(a - best), finest * best);
         };
         std::uintmax_t steps = most_steps;
         const auto [low, high] =
-            boost::math::tools::toms748_solve([&](double value) { return excess(value, best); }, std::min(good, bad),
-                                              std::max(good, bad), near_enough, steps);
+            boost::math::tools::toms748_solve([&](double value) { return beyond_doubt(value, best); },
+                                              std::min(good, bad), std::max(good, bad), near_enough, steps);
         return worse < best ? low : high;
     }
 
@@ -171,7 +190,57 @@ std::vector<const IdentifiedParameter*> searched_limits(const Identification& re
     return limits;
 }
 
+/// The relative error that every slice has: it takes the other limits as they are, and one that is a little wrong moves it.
+double error_of_fixed(const Identification& result) {
+    double error = smallest_error;
+    for (const IdentifiedParameter& p : result.parameters) {
+        if (p.reached == true && p.standard_error) error = std::max(error, *p.standard_error / p.value);
+    }
+    return error;
+}
+
+/// Values that all limits of the list may have at once.
+Machine with_limits(const Machine& machine, std::span<const IdentifiedParameter* const> limits, double factor) {
+    Machine changed = machine;
+    for (const IdentifiedParameter* p : limits) {
+        const double now = *planning_value(machine, p->name, p->axis);
+        set_planning_value(changed, p->name, p->axis, factor * std::max(now, p->value));
+    }
+    return changed;
+}
+
+double mean_error_with(RuleScores& scores, const Machine& machine) {
+    return compare({scores.residuals(machine)}, scores).front().speed_error;
+}
+
 }  // namespace
+
+void free_limits(RuleScores& scores, Identification& result) {
+    const std::vector<const IdentifiedParameter*> limits = searched_limits(result);
+    std::vector<const IdentifiedParameter*> of_path;
+    std::copy_if(limits.begin(), limits.end(), std::back_inserter(of_path),
+                 [](const auto* p) { return p->axis == "path"; });
+    const Machine before = result.machine;
+    if (limits.empty() || mean_error_with(scores, before) <= scores.resolution()) return;
+    std::vector<Machine> machines{before, with_limits(before, limits, range)};
+    if (!of_path.empty() && of_path.size() < limits.size()) machines.push_back(with_limits(before, of_path, range));
+    scores.prepare(machines);
+    std::vector<std::vector<float>> residuals;
+    for (const Machine& machine : machines) residuals.push_back(scores.residuals(machine));
+    const std::vector<Explanation> found = compare(residuals, scores);
+    const auto best = std::min_element(found.begin(), found.end(),
+                                       [](const Explanation& a, const Explanation& b) { return a.score < b.score; });
+    if (best->score > found.front().score - decisive) return;
+    result.machine = machines[static_cast<std::size_t>(best - found.begin())];
+    // Those that were no hindrance keep their values.
+    for (const IdentifiedParameter* p : limits) {
+        Machine kept = result.machine;
+        set_planning_value(kept, p->name, p->axis, *planning_value(before, p->name, p->axis));
+        const std::vector<Explanation> pair =
+            compare({scores.residuals(kept), scores.residuals(result.machine)}, scores);
+        if (pair[0].score <= pair[1].score) result.machine = kept;
+    }
+}
 
 void search_limits(double least_gain, RuleScores& scores, Identification& result) {
     for (int round = 0; round < most_rounds; ++round) {
@@ -187,31 +256,37 @@ void search_limits(double least_gain, RuleScores& scores, Identification& result
 
 std::vector<SimulatedLimit> limit_intervals(RuleScores& scores, const Identification& result) {
     std::vector<SimulatedLimit> limits;
+    // Where less than the error of the other limits decides, their error is stated.
+    const double exact = error_of_fixed(result) * std::sqrt(decisive) / correlation;
     for (const IdentifiedParameter* p : searched_limits(result)) {
         const double now = *planning_value(result.machine, p->name, p->axis);
-        limits.push_back(LimitSlice(scores, result.machine, p->name, p->axis).interval(std::min(p->value, now), now));
+        limits.push_back(
+            LimitSlice(scores, result.machine, p->name, p->axis).interval(std::min(p->value, now), now, exact));
     }
     return limits;
 }
 
 void state_limits(const std::vector<SimulatedLimit>& limits, Identification& result) {
-    // A slice takes the other limits as they are, and one that is a little wrong moves it.
-    double fixed_errors = smallest_error;
-    for (const IdentifiedParameter& p : result.parameters) {
-        if (p.reached == true && p.standard_error) fixed_errors = std::max(fixed_errors, *p.standard_error / p.value);
-    }
+    const double fixed_errors = error_of_fixed(result);
     for (const SimulatedLimit& limit : limits) {
         const auto p = std::find_if(result.parameters.begin(), result.parameters.end(),
                                     [&](const auto& each) { return each.name == limit.key && each.axis == limit.of; });
-        if (limit.explains && limit.lowest && limit.highest) {
+        const double shown = p->value;
+        // Below the motion's own values no simulation is needed.
+        const double farther =
+            std::max(limit.best - limit.lowest.value_or(shown), limit.highest.value_or(INFINITY) - limit.best);
+        if (limit.explains && (limit.lowest || limit.exact) && farther <= widest * limit.best) {
             // At √10 standard errors the criterion of independent samples rises by 10.
-            const double farther = std::max(limit.best - *limit.lowest, *limit.highest - limit.best);
             const double error = std::max(correlation * farther / std::sqrt(decisive), fixed_errors * limit.best);
-            p->value = rounded_to(limit.best, error);
+            p->value = std::max(rounded_to(limit.best, error), shown);
             p->standard_error = error;
             p->reached = true;
-            p->note = fmt::format("simulations with {:.6g} and {:.6g} explain the runs less well",
-                                  rounded_to(*limit.lowest, error), rounded_to(*limit.highest, error));
+            const double above = rounded_to(*limit.highest, error);
+            p->note = limit.lowest
+                          ? fmt::format("simulations with {:.6g} and {:.6g} explain the runs less well",
+                                        rounded_to(*limit.lowest, error), above)
+                          : fmt::format("the motion shows {:.6g}; simulations with {:.6g} explain the runs less well",
+                                        shown, above);
             set_planning_value(result.machine, limit.key, limit.of, p->value);
         } else if (limit.lowest && *limit.lowest > p->value) {
             p->value = rounded_to(*limit.lowest, finest * *limit.lowest);

@@ -10,6 +10,11 @@
 
 namespace clsurf {
 
+/// Limits of `result` that are lower bounds may hold back the simulation together, so that a greater value of one alone explains
+/// nothing. Where four times the values of all of them, or of those of the path, explain the runs decisively better, the machine
+/// has those from then on. O(records) for at most two values and one a limit.
+void free_limits(RuleScores& scores, Identification& result);
+
 /// Searches each acceleration and jerk that `result` has as a lower bound, again until none changes, and puts the values that
 /// explain the runs best into its machine. Nothing is searched on five axes: their simulations take too long. Another value must lower the mean error of the speed by the share `least_gain`, unless the
 /// machine explains the runs with it. O(records) for each of some 20 values of a limit that the runs depend on, and for 3 of
@@ -20,9 +25,11 @@ void search_limits(double least_gain, RuleScores& scores, Identification& result
 struct SimulatedLimit {
     std::string key, of;  ///< of the machine file
     double best = 0;      ///< that of the machine
-    /// Below and above these, the criterion of identify_rules() exceeds that of the best value by 10; nothing: nowhere.
+    /// Below and above these, the criterion of identify_rules() exceeds that of the best value by 10, and the mean difference of
+    /// speed grows by what the best one leaves unexplained; nothing: nowhere.
     std::optional<double> lowest, highest;
     bool explains = false;  ///< the machine, the runs
+    bool exact = false;     ///< the same, to what a model resolves
 };
 
 /// The intervals of all limits that `result` has as lower bounds: slices of the likelihood. Where an end is missing, the

@@ -2,11 +2,13 @@
 
 #include "identify/limit_parameters.h"
 
+#include <algorithm>
 #include <string>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "identify/plateaus.h"
 #include "pipeline/simulated_log.h"
 #include "repair/parts.h"
 
@@ -89,6 +91,33 @@ TEST(LimitParameters, LinesAlongTheAxesTellNoneFromThePath) {
         }
         EXPECT_NEAR(result->machine.path.max_jerk, 50000, 500) << "a file that repeats the runs";
     }
+}
+
+/// Values of a quantity with some plateaus of 8 records each, at rising speeds, and a ramp between them.
+PlateauFinder with_plateaus(const std::vector<double>& levels) {
+    std::vector<double> values, speeds;
+    double speed = 10;
+    for (const double level : levels) {
+        for (int i = 0; i < 40; ++i) values.push_back(level * i / 40);
+        values.insert(values.end(), 8, level);
+        for (int i = 39; i > 0; --i) values.push_back(level * i / 40);
+        speed += 5;
+        speeds.resize(values.size(), speed);
+    }
+    PlateauFinder finder(1e-9, 5, *std::max_element(levels.begin(), levels.end()), true);
+    const std::vector<std::vector<double>> all{values};
+    finder.add(all, 0, speeds, {});
+    return finder;
+}
+
+TEST(LimitParameters, ALevelBeyondWhichTheMotionStaysElsewhereIsNoLimit) {
+    std::vector<double> levels(60, 100);
+    ASSERT_TRUE(with_plateaus(levels).highest(3, true));
+    EXPECT_NEAR(with_plateaus(levels).highest(3, true)->value, 100, 1e-6);
+    // 16 of some 2900 large values: hardly any.
+    levels[20] = levels[40] = 115;
+    EXPECT_FALSE(with_plateaus(levels).highest(3, true));
+    EXPECT_NEAR(with_plateaus(levels).held(), 115, 1e-6);
 }
 
 }  // namespace

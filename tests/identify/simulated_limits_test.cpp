@@ -94,5 +94,42 @@ TEST(SimulatedLimits, AModelThatDoesNotExplainTheRunGivesNoStandardError) {
     EXPECT_EQ(result.parameters[0].reached, false);
 }
 
+// The known path is slower in two ways, so that either value alone explains little more.
+TEST(SimulatedLimits, LimitsThatHoldBackTheSimulationTogetherAreFreedTogether) {
+    Machine real;
+    real.path.max_acceleration = 5000;
+    real.path.max_jerk = 400'000;
+    for (MachineAxis& axis : real.axes) axis.max_acceleration = 1000, axis.max_jerk = 30'000;
+    const Part part = waves_on(real, 2);
+    const RecordedRun run(part);
+    RuleScores scores({&run, 1});
+    Identification result;
+    result.machine = real;
+    result.machine.path.max_acceleration = 700;
+    result.machine.path.max_jerk = 20'000;
+    result.parameters = {{"max_acceleration", "path", 650, "mm/s²", {}, false, "", 650},
+                         {"max_jerk", "path", 18'000, "mm/s³", {}, false, "", 18'000}};
+    const auto error = [&] { return compare({scores.residuals(result.machine)}, scores).front().speed_error; };
+    ASSERT_GT(error(), 10 * scores.resolution());
+    free_limits(scores, result);
+    EXPECT_TRUE(scores.explains(error()));
+    EXPECT_GT(result.machine.path.max_acceleration, 700);
+    EXPECT_GT(result.machine.path.max_jerk, 20'000);
+}
+
+// A path limit that the axes hide gets no standard error, and no bound above the truth, from what another fault leaves.
+TEST(SimulatedLimits, WhatAnotherFaultLeavesDeterminesNoLimit) {
+    Identification result;
+    result.machine.path.max_acceleration = 2511;
+    result.parameters = {{"max_acceleration", "path", 650, "mm/s²", {}, false, "", 650}};
+    SimulatedLimit limit{"max_acceleration", "path", 2511, 705, 3315, true, false};
+    state_limits({limit}, result);
+    EXPECT_FALSE(result.parameters[0].standard_error);
+    EXPECT_EQ(result.parameters[0].reached, false);
+    limit.lowest = 2450, limit.highest = 2600;
+    state_limits({limit}, result);
+    EXPECT_TRUE(result.parameters[0].standard_error);
+}
+
 }  // namespace
 }  // namespace clsurf::simulated_limits_test
