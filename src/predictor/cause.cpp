@@ -19,8 +19,9 @@ constexpr double reversal_arc_length = 0.3;  ///< [mm] before the run begins
 constexpr float axis_moves = 0.01F;          ///< of the feed; less is noise
 constexpr float lobe = 0.4F;                 ///< of the peak: a swing counts
 constexpr int lobes_of_oscillation = 3;
-constexpr double share_of_program = 0.5;  ///< of the depth: what is less the controller makes
-constexpr std::size_t looked_at = 64;     ///< sites of a defect at which the deviation is measured, about
+constexpr double share_of_control = 0.5;  ///< of a relief: deviations from the program make so much of it
+constexpr double share_of_peak = 0.9;     ///< of the depth: the places where a height is largest
+constexpr std::size_t looked_at = 16;     ///< of these places, about
 constexpr std::int64_t merged =
     110;  ///< motions before and after that of a point: a controller may make one of so many
 
@@ -119,24 +120,28 @@ double CauseFinder::off_program(PointIndex point) const {
     return signals_.normal(point).cast<double>().dot(at - nearest);
 }
 
-/// Whether the program has less than half of a relief. A relief is the height above the mean of both adjacent passes, and so are the
-/// deviations from the program compared. The place counts where the program has most of it: a controller that rounds off a peak of the
-/// program leaves it all about the peak.
+/// Whether most of a relief is not in the program. A relief is the height above the mean of both adjacent passes, and so are the
+/// deviations from the program compared: a controller that rounds off a peak of the program lies below it, and above it at its foot.
+/// The places count where the relief is largest.
 bool CauseFinder::leaves_program(const Defect& defect, std::span<const DefectCandidate* const> sites) const {
-    const std::size_t stride = 1 + sites.size() / looked_at;
-    bool known = false;
-    for (std::size_t k = 0; k < sites.size(); k += stride) {
-        const Comparison& c = sites[k]->comparison;
+    const auto height = [](const DefectCandidate* s) {
+        return static_cast<double>(s->comparison.residual[index_of(Quantity::relief)]);
+    };
+    std::vector<const DefectCandidate*> highest;
+    for (const DefectCandidate* s : sites) {
+        if ((defect.pit ? -height(s) : height(s)) >= share_of_peak * defect.depth) highest.push_back(s);
+    }
+    std::vector<double> shares;
+    const std::size_t stride = 1 + highest.size() / looked_at;
+    for (std::size_t k = 0; k < highest.size(); k += stride) {
+        const Comparison& c = highest[k]->comparison;
         double beside = 0;
         for (const PathLocation& at : {c.beside_left, c.beside_right})
             beside += 0.5 * (at.exists() ? off_program(at.nearest()) : missing<double>);
-        const double programmed =
-            static_cast<double>(c.residual[index_of(Quantity::relief)]) - (off_program(sites[k]->point) - beside);
-        if (!std::isfinite(programmed)) continue;
-        known = true;
-        if ((defect.pit ? -programmed : programmed) >= share_of_program * defect.depth) return false;
+        const double share = (off_program(highest[k]->point) - beside) / height(highest[k]);
+        if (std::isfinite(share)) shares.push_back(share);
     }
-    return known;
+    return !shares.empty() && median(shares) > share_of_control;
 }
 
 bool CauseFinder::turns(const DefectRun& run) const {

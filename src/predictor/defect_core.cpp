@@ -12,15 +12,15 @@ constexpr float peak_of_its_own =
 
 class CoreFinder {
 public:
-    CoreFinder(CandidateSpan group, Quantity quantity, const ArcLength& arc_length, const CoreRule& rule)
-        : group_(group), quantity_(index_of(quantity)), arc_length_(arc_length), rule_(rule) {}
+    CoreFinder(CandidateSpan group, Quantity quantity, const ArcLength& arc_length, double joined)
+        : group_(group), quantity_(index_of(quantity)), arc_length_(arc_length), joined_(joined) {}
 
     CoreSites find() {
         const float peak = peak_of(group_);
         // A pass whose peak is lower than this is not at fault.
         const float enough = std::max(std::min(1.0F, half_of_peak * peak), weak_peak * peak);
         CoreSites sites;
-        for (const CandidateSpan run : runs_of(group_, arc_length_, rule_.joined)) {
+        for (const CandidateSpan run : runs_of(group_, arc_length_, joined_)) {
             for (const CandidateSpan bump : bumps_of(run)) {
                 if (peak_of(bump) < enough)
                     sites.rest.insert(sites.rest.end(), bump.begin(), bump.end());
@@ -34,7 +34,7 @@ public:
 private:
     [[nodiscard]] float share(const DefectCandidate* s) const { return s->share[quantity_]; }
     [[nodiscard]] bool near(const DefectCandidate* a, const DefectCandidate* b) const {
-        return !arc_length_.at_least(a->point, b->point, rule_.joined);
+        return !arc_length_.at_least(a->point, b->point, joined_);
     }
     [[nodiscard]] float peak_of(CandidateSpan sites) const {
         float peak = 0;
@@ -42,7 +42,7 @@ private:
         return peak;
     }
 
-    /// The shares of a run with dips shorter than rule_.joined filled: a morphological closing.
+    /// The shares of a run with dips shorter than joined_ filled: a morphological closing.
     [[nodiscard]] std::vector<float> filled(CandidateSpan run) const {
         std::vector<float> shares;
         shares.reserve(run.size());
@@ -77,18 +77,8 @@ private:
         return bumps;
     }
 
-    /// The share from which on sites of a bump belong to its core.
-    [[nodiscard]] float least_of(CandidateSpan bump) const {
-        const float half = half_of_peak * peak_of(bump);
-        if (quantity_ != index_of(Quantity::speed) || half <= 1) return half;
-        const auto strong = [&](const DefectCandidate* s) { return share(s) >= half; };
-        const auto first = std::find_if(bump.begin(), bump.end(), strong);
-        const auto last = std::find_if(bump.rbegin(), bump.rend(), strong);
-        return arc_length_.at_least((*first)->point, (*last)->point, rule_.shortest) ? half : 1;
-    }
-
     void append_strong(CandidateSpan bump, DefectCandidates& core) const {
-        const float least = least_of(bump);
+        const float least = half_of_peak * peak_of(bump);
         for (std::size_t k = 0; k < bump.size(); ++k) {
             if (share(bump[k]) < least) continue;
             std::size_t last = k;
@@ -104,7 +94,7 @@ private:
     CandidateSpan group_;
     std::size_t quantity_;
     const ArcLength& arc_length_;
-    CoreRule rule_;
+    double joined_;  ///< [mm]
 };
 
 }  // namespace
@@ -122,8 +112,8 @@ std::vector<CandidateSpan> runs_of(CandidateSpan sites, const ArcLength& arc_len
     return runs;
 }
 
-CoreSites core_of(CandidateSpan group, Quantity quantity, const ArcLength& arc_length, const CoreRule& rule) {
-    return CoreFinder(group, quantity, arc_length, rule).find();
+CoreSites core_of(CandidateSpan group, Quantity quantity, const ArcLength& arc_length, double joined) {
+    return CoreFinder(group, quantity, arc_length, joined).find();
 }
 
 }  // namespace clsurf

@@ -21,17 +21,9 @@ struct CoreSites {
     DefectCandidates rest;  ///< peaks much weaker than the strongest: something else, joined with it by chance
 };
 
-/// What belongs together and what is long enough [mm].
-struct CoreRule {
-    double joined = 1;    ///< of arc length between sites that hang together
-    double shortest = 0;  ///< of a section of the speed
-};
-
-/// On each pass, the sites of a group where `quantity` reaches half of its peak there. Dips shorter than `rule.joined`
-/// belong to them, as an oscillation crosses zero. The deeper a stop is, the shorter it is at half of its depth: a section of the
-/// speed shorter than `rule.shortest` goes as far as the threshold. Where a longer dip lies between two peaks of a speed or an
-/// acceleration on one pass, each counts from its own peak. Both lists in the order of their points. O(sites · sites within `rule.joined`²).
-[[nodiscard]] CoreSites core_of(CandidateSpan group, Quantity quantity, const ArcLength& arc_length,
-                                const CoreRule& rule);
+/// On each pass, the sites of a group where `quantity` reaches half of its peak there. Dips shorter than `joined` mm
+/// belong to them, as an oscillation crosses zero. Where a longer dip lies between two peaks of a speed or an
+/// acceleration on one pass, each counts from its own peak. Both lists in the order of their points. O(sites · sites within `joined`²).
+[[nodiscard]] CoreSites core_of(CandidateSpan group, Quantity quantity, const ArcLength& arc_length, double joined);
 
 }  // namespace clsurf

@@ -22,9 +22,7 @@ namespace clsurf {
 namespace {
 
 constexpr double shown_share = 0.9;        ///< of a plateau: its height without the noise's own peak
-constexpr double smallest_area = 1.0;      ///< squared step-overs, where nothing is as severe as …
-constexpr int clear_motion = 3;            ///< … a motion: a stop leaves a mark, however short it is …
-constexpr int clear_height = 4;            ///< … or a height
+constexpr double smallest_area = 1.0;      ///< squared step-overs
 constexpr float least_speed_share = 0.6F;  ///< of its threshold, for what only the acceleration shows …
 constexpr float strong_alone = 1.5F;       ///< … and of the acceleration's own
 constexpr std::size_t fewest_sites = 2;
@@ -109,7 +107,7 @@ public:
         return group_candidates(sites, surface_, arc_length_, joined_, forget_);
     }
     [[nodiscard]] CoreSites core_of(CandidateSpan group, Quantity quantity) const {
-        return clsurf::core_of(group, quantity, arc_length_, {joined_, smallest_area * surface_.step_over});
+        return clsurf::core_of(group, quantity, arc_length_, joined_);
     }
     /// Nobody else may be reading.
     void forget() const {
@@ -359,8 +357,7 @@ private:
         if (core.empty()) return;
         Defect defect = builder_.build(core, quantity, family_);
         // An expected motion explains the heights that it makes, however short it is.
-        const int clear = family_.front() == Quantity::speed ? clear_motion : clear_height;
-        const bool large = core.size() >= fewest_sites && (defect.area >= smallest_ || defect.severity >= clear);
+        const bool large = core.size() >= fewest_sites && defect.area >= smallest_;
         if (large || expected) built_.push_back({std::move(defect), core, expected, large});
     }
 

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 
 #include "core/point_ranges.h"
-#include "predictor/severity.h"
 
 namespace clsurf {
 namespace {
@@ -54,9 +52,9 @@ private:
     bool sorted_ = true;
 };
 
-/// A height that the program has, not the controller, and that shows.
+/// A height that the program has, not the controller.
 bool is_programmed(const BuiltDefect& built) {
-    return built.listed && !built.expected && built.defect.severity > 1 && built.defect.quantity == Quantity::relief &&
+    return built.listed && !built.expected && built.defect.quantity == Quantity::relief &&
            built.defect.cause != Cause::path_tolerance;
 }
 
@@ -81,15 +79,14 @@ std::vector<BuiltDefect> unexplained(std::span<std::vector<BuiltDefect>> of_fami
             }
         }
     }
-    std::vector<Explanations> of_program(severities + 1, Explanations(room));  // of this severity or more
-    for (const BuiltDefect& height : programmed) {
-        for (int severity = 1; severity <= height.defect.severity; ++severity)
-            of_program[static_cast<std::size_t>(severity)].add(height.defect.runs);
+    for (BuiltDefect& height : programmed) {
+        Explanations program(room);
+        program.add(height.defect.runs);
+        std::erase_if(all, [&](const BuiltDefect& built) {
+            return !built.expected && built.defect.severity <= height.defect.severity && program.explain(built.core);
+        });
+        all.push_back(std::move(height));
     }
-    std::erase_if(all, [&](const BuiltDefect& built) {
-        return !built.expected && of_program[static_cast<std::size_t>(built.defect.severity)].explain(built.core);
-    });
-    std::move(programmed.begin(), programmed.end(), std::back_inserter(all));
     return all;
 }
 

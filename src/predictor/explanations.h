@@ -21,7 +21,7 @@ struct BuiltDefect {
 /// The defects that no other one explains. `of_family`: of the motion, the lag and the relief, two vectors for each. `period` [s].
 /// - A motion explains the heights of the machine at its place, lag and path tolerance: at least half of their sites, up
 ///   to 20 ms beside its own. Several motions may do so together, as where every level of a tower has a link of its own.
-/// - A height that the program has and that shows is never explained, unless by an expected motion. It explains the motions and lags at its place
+/// - A height that the program has is never explained, unless by an expected motion. It explains the motions and lags at its place
 ///   whose severity is no higher.
 /// O(sites log runs).
 [[nodiscard]] std::vector<BuiltDefect> unexplained(std::span<std::vector<BuiltDefect>> of_family, double period);

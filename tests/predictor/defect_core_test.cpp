@@ -28,8 +28,8 @@ struct Group {
         for (const DefectCandidate& candidate : kept) candidates.push_back(&candidate);
     }
 
-    [[nodiscard]] CoreSites sites(Quantity quantity = Quantity::speed, double shortest = 0) const {
-        return core_of(candidates, quantity, ArcLength(positions), {joined, shortest});
+    [[nodiscard]] CoreSites sites(Quantity quantity = Quantity::speed) const {
+        return core_of(candidates, quantity, ArcLength(positions), joined);
     }
     [[nodiscard]] std::vector<PointIndex> core() const { return points(sites().core); }
     [[nodiscard]] std::vector<PointIndex> rest() const { return points(sites().rest); }
@@ -47,15 +47,6 @@ TEST(DefectCore, EndsAtHalfOfThePeak) {
     const Group group({1, 3, 6, 10, 10, 6, 4, 2, 1});
     EXPECT_EQ(group.core(), (Points{2, 3, 4, 5}));
     EXPECT_TRUE(group.rest().empty());
-}
-
-TEST(DefectCore, OfASharpDipGoesAsFarAsTheThreshold) {
-    // At half of 33 the dip is 0.2 mm long, at the threshold 1.2 mm.
-    const Group group({0.6F, 1, 5, 15, 33, 20, 8, 2, 0.7F});
-    EXPECT_EQ(group.core(), (Points{4, 5}));
-    EXPECT_EQ(Group::points(group.sites(Quantity::speed, 0.3).core), (Points{1, 2, 3, 4, 5, 6, 7}));
-    EXPECT_EQ(Group::points(group.sites(Quantity::speed, 0.1).core), (Points{4, 5})) << "long enough";
-    EXPECT_EQ(Group::points(group.sites(Quantity::lag, 0.3).core), (Points{4, 5}));
 }
 
 TEST(DefectCore, BridgesTheZerosOfAnOscillation) {
