@@ -179,7 +179,7 @@ void identify_rules(std::span<const RecordedRun> runs, Identification& result) {
     // One rule may hide another: a short look-ahead slows short lines down, as a block time does.
     for (int pass = 1; pass < most_passes; ++pass) {
         const Machine before = result.machine;
-        if (mean_error_of(before, scores) <= scores.resolution()) break;
+        if (pass > 1 && mean_error_of(before, scores) <= scores.resolution()) break;
         Identification next = result;
         next.rules.clear();
         next.unidentified = known_missing;
