@@ -45,11 +45,6 @@ struct ChartLook {
 /// The height of its text [px], of which `lines` fit into the picture.
 [[nodiscard]] double text_size_of(const ChartLook& look, double lines);
 
-/// The points of a curve that a width of pixels can show: the lowest and highest of each column, in
-/// their order, so that no extreme is lost. A gap (NaN) within one column is closed. O(points).
-[[nodiscard]] std::vector<Vec2> thin_curve(std::span<const double> x, std::span<const double> y, double x_low,
-                                           double x_high, int columns);
-
 /// Draws the curves over common x values (rising). Throws SystemError.
 [[nodiscard]] Image draw_chart(std::span<const double> x, const std::vector<Curve>& curves,
                                const std::vector<ChartCursor>& cursors, const ChartLook& look);

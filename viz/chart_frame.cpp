@@ -5,7 +5,6 @@
 #include <limits>
 #include <vector>
 
-#include "viz/chart.h"
 #include "viz/colour_map.h"
 
 namespace clsurf::viz {
@@ -36,6 +35,31 @@ void fit_y(ChartFrame& frame, ValueRange range, double room_share) {
     const double room = high > low ? room_share * (high - low) : std::max(1.0, 0.05 * std::abs(high));
     frame.y_low = low - (low >= 0 && low < room ? low : room);
     frame.y_high = high + room;
+}
+
+std::vector<Vec2> thin_curve(std::span<const double> x, std::span<const double> y, double x_low, double x_high,
+                             int columns) {
+    std::vector<Vec2> out;
+    const double per_x = x_high > x_low ? columns / (x_high - x_low) : 0;
+    std::size_t i = 0;
+    while (i < x.size()) {
+        const double column = std::floor((x[i] - x_low) * per_x);
+        std::size_t low = i;
+        std::size_t high = i;
+        std::size_t end = i;
+        for (; end < x.size() && std::floor((x[end] - x_low) * per_x) == column; ++end) {
+            // A gap is no extreme, and the first value after it is both.
+            if (y[end] < y[low] || std::isnan(y[low])) low = end;
+            if (y[end] > y[high] || std::isnan(y[high])) high = end;
+        }
+        const std::size_t picks[4] = {i, std::min(low, high), std::max(low, high), end - 1};
+        for (std::size_t k = 0; k < 4; ++k) {
+            if (k > 0 && picks[k] <= picks[k - 1]) continue;
+            out.emplace_back(x[picks[k]], y[picks[k]]);
+        }
+        i = end;
+    }
+    return out;
 }
 
 void add_line(Sheet& sheet, const ChartFrame& f, std::span<const double> x, std::span<const double> values,

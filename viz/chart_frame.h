@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "viz/canvas.h"
 
@@ -33,6 +34,11 @@ struct ValueRange {
 /// Fits the y axis to a range, with a share of it as room on both sides, but none below 0 for values that are not. A flat curve
 /// gets some anyway.
 void fit_y(ChartFrame& frame, ValueRange range, double room_share);
+
+/// The points of a curve that a width of pixels can show: the lowest and highest of each column, in
+/// their order, so that no extreme is lost. A gap (NaN) within one column is closed. O(points).
+[[nodiscard]] std::vector<Vec2> thin_curve(std::span<const double> x, std::span<const double> y, double x_low,
+                                           double x_high, int columns);
 
 /// A curve over x (rising), with gaps where it has no value; `line` is its look.
 void add_line(Sheet& sheet, const ChartFrame& frame, std::span<const double> x, std::span<const double> values,

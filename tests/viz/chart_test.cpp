@@ -1,4 +1,5 @@
 #include "viz/chart.h"
+#include "viz/chart_frame.h"
 
 #include <algorithm>
 #include <limits>
