@@ -258,9 +258,8 @@ void lift(planted::PlantedLog& log, double height, double from, double to, Taken
 /// A zigzag whose tool runs 8 µm above the plane on pass 12 from x = 10 to 14, as its program says or not, at `speed` [mm/s].
 planted::PlantedLog raised_pass(bool programmed, double speed = 50) {
     constexpr std::uint32_t pass = 12, line_of_pass = 2 * pass + 2, added = 4;
-    planted::PlantedLog log = plane_zigzag([speed](int k, double x, double) {
-        return k == pass && x > 10 && x < 14 ? speed : 50.0;
-    });
+    planted::PlantedLog log =
+        plane_zigzag([speed](int k, double x, double) { return k == pass && x > 10 && x < 14 ? speed : 50.0; });
     lift(log, 0.008, 10, 14, [](int k) { return k == pass; });
     log.commanded[2] = log.measured[2];
     if (!programmed) return log;
