@@ -89,7 +89,7 @@ def test_a_part_without_defects_has_an_empty_table(clean_plane, uneven_report):
     frame = clsurf.Part(*clean_plane, tool="none").defects()
     assert len(frame) == 0
     always = set.intersection(*(set(defect) for defect in uneven_report["defects"]))
-    assert set(frame.reset_index().columns) == always - {"contact_mm", "formed_um", "formed_note"}
+    assert set(frame.reset_index().columns) == always - {"contact_mm", "formed_um", "formed_note", "delta_e00"}
 
 
 def test_a_log_that_cannot_be_judged_warns(tmp_path, clean_plane):
