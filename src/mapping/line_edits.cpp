@@ -19,9 +19,9 @@ constexpr PointIndex sampled_points = 1600;  ///< points
 constexpr std::size_t least_run = 5;         ///< moving points of a line whose middle tells it from the next one
 constexpr double steps_off = 1.5;            ///< chords that a point may lie off its line
 constexpr double least_confidence = 0.5;     ///< of an aligned point that tells where a line is
-/// Records by which a reported line may lead the positions: a planner is ahead of its axes. Longer leads explain the logs
-/// of kernels, whose lead changes with the speed, by edits that are none.
-constexpr PointIndex longest_lead = 4;
+/// Records by which a reported line may lead the positions: a planner is ahead of its axes, and measured positions are
+/// behind the commanded ones by their following error.
+constexpr PointIndex longest_lead = 64;
 constexpr PointIndex longest_lag = 4;       ///< … and by which it may come later
 constexpr double clearly_fewer = 0.95;      ///< changes of the shift that speak for a longer lead or lag
 constexpr std::size_t lines_together = 9;   ///< lines that together tell a shift

@@ -132,7 +132,7 @@ std::vector<Edit> edits() {
         {"end", "the edit moved no line", 1'000'000, 0, [](Text& t) { t.emplace_back("(the end)"); }},
         {"spindle", "the edit moved no line", 1'000'000, 0, [](Text& t) { t[1] = "S11000"; }},
         {"a value", "the edit moved no line", 1'000'000, 0, [=](Text& t) { *at(t, middle) += " Z0.05"; }},
-        {"deleted", "1 line deleted before line ", middle + 1, -1, [=](Text& t) { t.erase(at(t, middle)); }},
+        {"deleted", "1 line deleted before line 538 since", middle + 1, -1, [=](Text& t) { t.erase(at(t, middle)); }},
     };
 }
 
@@ -162,7 +162,8 @@ TEST_P(LeadOfLines, IsNoEdit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Periods, LeadOfLines,
-                         testing::Combine(testing::Values(0.0005, 0.001, 0.002, 0.004), testing::Values(-1, 0, 1, 3)));
+                         testing::Combine(testing::Values(0.0005, 0.001, 0.002, 0.004),
+                                          testing::Values(-1, 0, 1, 3, 6)));
 
 }  // namespace
 }  // namespace clsurf::line_lead_test
