@@ -19,16 +19,12 @@ constexpr PointIndex sampled_points = 1600;  ///< points
 constexpr std::size_t least_run = 5;         ///< moving points of a line whose middle tells it from the next one
 constexpr double steps_off = 1.5;            ///< chords that a point may lie off its line
 constexpr double least_confidence = 0.5;     ///< of an aligned point that tells where a line is
-/// Records by which a reported line may lead the positions: a planner is ahead of its axes, and measured positions are
-/// behind the commanded ones by their following error.
-constexpr PointIndex longest_lead = 64;
-constexpr PointIndex longest_lag = 4;       ///< … and by which it may come later
-constexpr double clearly_fewer = 0.95;      ///< changes of the shift that speak for a longer lead or lag
-constexpr std::size_t lines_together = 9;   ///< lines that together tell a shift
-constexpr double together_share = 2.0 / 3;  ///< of them
-constexpr LineNumber soon_undone = 40;      ///< lines
-constexpr double explained_share = 0.8;     ///< of all lines, or no edit explains them
-constexpr std::size_t most_shifts = 1000;   ///< and of lines, one in ten at most
+constexpr PointIndex longest_lead = 4;       ///< records by which a reported line may lead the axes
+constexpr std::size_t lines_together = 9;    ///< lines that together tell a shift
+constexpr double together_share = 2.0 / 3;   ///< of them
+constexpr LineNumber soon_undone = 40;       ///< lines
+constexpr double explained_share = 0.8;      ///< of all lines, or no edit explains them
+constexpr std::size_t most_shifts = 1000;    ///< and of lines, one in ten at most
 
 /// Where each line of the old text stands now.
 struct Vote {
@@ -61,34 +57,23 @@ public:
     }
 
 private:
-    /// body(reported, aligned) for the points of [first, end) that move and have both, the aligned line `lead` records
-    /// later (earlier where that is negative).
+    /// body(point, reported, aligned `lead` records later) for the points that move and have both.
     template <typename Body>
-    void for_pairs(PointIndex first, PointIndex end, PointIndex lead, const Body& body) const {
-        for_windows(first, end, [&](LineNumber reported, const LineNumber* aligned) {
-            if (const LineNumber at = aligned[lead]; at != 0) body(reported, at);
-        });
-    }
-
-    /// body(reported, aligned) for the points of [first, end) that move and have a line; aligned[lead], from −longest_lag
-    /// to longest_lead, is the line found for the record `lead` later; 0: none.
-    template <typename Body>
-    void for_windows(PointIndex first, PointIndex end, const Body& body) const {
+    void for_pairs(PointIndex lead, const Body& body) const {
         constexpr PointIndex block = 4096;
         std::vector<LineNumber> reported(static_cast<std::size_t>(block));
-        std::vector<LineNumber> found(static_cast<std::size_t>(longest_lag + block + longest_lead));
-        std::vector<double> x(reported.size()), y(x.size()), z(x.size());
-        for (PointIndex begin = first; begin < end; begin += block) {
-            const auto n = static_cast<std::size_t>(std::min(block, end - begin));
+        std::vector<LineNumber> found(static_cast<std::size_t>(block + longest_lead));
+        std::vector<double> x(found.size()), y(found.size()), z(found.size());
+        for (PointIndex begin = 0; begin < path_.count; begin += block) {
+            const auto n = static_cast<std::size_t>(std::min(block, path_.count - begin));
+            const auto m = static_cast<std::size_t>(std::min(block + lead + 1, path_.count - begin));
             copy_block(lines_, begin, {reported.data(), n}, 0);
+            read_aligned(begin, {found.data(), std::min(m, found.size())});
             path_.read(begin, {x.data(), n}, {y.data(), n}, {z.data(), n});
-            const PointIndex from = std::max<PointIndex>(0, begin - longest_lag);
-            const PointIndex to = std::min(path_.count, begin + static_cast<PointIndex>(n) + longest_lead);
-            std::fill(found.begin(), found.end(), 0);
-            read_aligned(from, {found.data() + (from - (begin - longest_lag)), static_cast<std::size_t>(to - from)});
-            for (std::size_t i = 1; i < n; ++i) {
+            for (std::size_t i = 1; i < n && i + static_cast<std::size_t>(lead) < m; ++i) {
+                const LineNumber at = found[i + static_cast<std::size_t>(lead)];
                 const bool moves = x[i] != x[i - 1] || y[i] != y[i - 1] || z[i] != z[i - 1];
-                if (moves && reported[i] != 0) body(reported[i], found.data() + longest_lag + i);
+                if (moves && reported[i] != 0 && at != 0) body(reported[i], at);
             }
         }
     }
@@ -107,36 +92,21 @@ private:
         }
     }
 
-    /// Both change their line at the same record where the lead is right: the difference of their lines changes least
-    /// often there. Where all lines take the same number of records, a lead by that number looks like lines that were
-    /// inserted: the shortest lead that explains the log is taken. O(1): looks at evenly spaced sections.
+    /// Both change their line at the same record where the lead is right.
     [[nodiscard]] PointIndex find_lead() const {
-        constexpr auto leads = static_cast<std::size_t>(longest_lag + 1 + longest_lead);
-        std::array<std::int64_t, leads> changes{};
-        const PointIndex stride = std::max(sampled_points, path_.count / sampled_sections);
-        for (PointIndex first = 0; first < path_.count; first += stride) {
-            std::array<std::int64_t, leads> before{};
-            std::array<bool, leads> known{};
-            const auto count = [&](LineNumber reported, const LineNumber* aligned) {
-                for (std::size_t k = 0; k < leads; ++k) {
-                    const LineNumber at = aligned[static_cast<PointIndex>(k) - longest_lag];
-                    if (at == 0) continue;
-                    const std::int64_t shift = std::int64_t{at} - reported;
-                    changes[k] += known[k] && shift != before[k] ? 1 : 0;
-                    before[k] = shift;
-                    known[k] = true;
-                }
-            };
-            for_windows(first, std::min(path_.count, first + sampled_points), count);
-        }
-        const auto changes_at = [&](PointIndex lead) { return changes[static_cast<std::size_t>(lead + longest_lag)]; };
         PointIndex best = 0;
-        for (PointIndex length = 1; length <= longest_lead; ++length) {
-            for (const PointIndex lead : {-length, length}) {
-                if (lead < -longest_lag) continue;
-                const auto fewer = clearly_fewer * static_cast<double>(changes_at(best));
-                if (static_cast<double>(changes_at(lead)) < fewer) best = lead;
-            }
+        std::int64_t least = -1;
+        for (PointIndex lead = 0; lead <= longest_lead; ++lead) {
+            std::int64_t changes = 0;
+            std::int64_t before = 0;
+            for_pairs(lead, [&](LineNumber reported, LineNumber at) {
+                const std::int64_t shift = std::int64_t{at} - reported;
+                changes += shift != before ? 1 : 0;
+                before = shift;
+            });
+            if (least >= 0 && changes >= least) continue;
+            least = changes;
+            best = lead;
         }
         return best;
     }
@@ -155,7 +125,7 @@ private:
             if (line >= of_line.size()) of_line.resize(std::size_t{line} + 1);
             of_line[line].add(run.shift);
         };
-        for_pairs(0, path_.count, lead_, [&](LineNumber reported, LineNumber at) {
+        for_pairs(lead_, [&](LineNumber reported, LineNumber at) {
             if (reported != line) {
                 close();
                 line = reported;
@@ -289,7 +259,7 @@ private:
             const auto next = static_cast<std::size_t>(k);
             const bool in_gap = next < gaps_.size() && line >= gaps_[next].first && line <= gaps_[next].last;
             if (in_gap) {
-                line = aligned_.line_at(std::clamp<PointIndex>(point + lead_, 0, path_.count - 1));
+                line = aligned_.line_at(std::min(point + lead_, path_.count - 1));
             } else if (k > 0) {
                 line = static_cast<LineNumber>(std::max<std::int64_t>(0, line + total[next - 1]));
             }
