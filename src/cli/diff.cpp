@@ -3,10 +3,9 @@
 #include <memory>
 #include <optional>
 
-#include <fmt/format.h>
-
 #include "cli/diff_options.h"
 #include "cli/difference_map.h"
+#include "cli/run_alignment.h"
 #include "cli/run_roughness.h"
 #include "cli/runs.h"
 #include "cli/stage_clock.h"
@@ -17,32 +16,9 @@
 namespace clsurf::cli {
 namespace {
 
-/// Nothing of B lies on A: another part, or another work offset.
-void require_alignment(const RunDifferences& differences, const std::string& a, const std::string& b) {
-    if (differences.alignment.aligned > 0) return;
-    throw InputError(
-        Place::of_file(b), "nowhere runs along the path of " + a,
-        "another part, or another work offset? --work-offset holds for all runs; `clsurf info` shows what a log states");
-}
-
-/// Says so where B has more than A: what A does not have is not compared.
-void note_left_out(const RunReport& report, const LoadedRun& b, const std::string& a, Diagnostics& diagnostics) {
-    constexpr double few = 0.02;  // another approach, another retract
-    const double left_out = report.arc_length_of_b - report.aligned_of_b;
-    if (left_out <= few * report.arc_length_of_b) return;
-    const PointRange& points = report.left_out_of_b;
-    diagnostics.add(
-        {Severity::warning, "compare.left-out", Place::of_file(b.name),
-         fmt::format(
-             "{:.1f} of its {:.1f} mm are not compared, {} does not have them or has them once only: the longest "
-             "way is points {}-{}, {:.3f} s",
-             left_out, report.arc_length_of_b, a, points.first, points.last,
-             b.log.time_of(points.last) - b.log.time_of(points.first)),
-         "a second run in this log, or lines that ran twice? Where it is the first argument, all its runs are compared"});
-}
-
-bool lines_known(const LoadedRun& run, const RunOptions& options) {
-    return run.log.find("line") != nullptr || run.simulated || !options.program.empty();
+/// nullptr: neither the log nor a program gives lines.
+const LineMap* known_lines(const LineMap& lines, const LoadedRun& run, const RunOptions& options) {
+    return run.log.find("line") != nullptr || run.simulated || !options.program.empty() ? &lines : nullptr;
 }
 
 void write_result(const io::ReportedRuns& reported, const Diagnostics& diagnostics, bool json,
@@ -112,8 +88,7 @@ ExitCode run_diff(const po::variables_map& values) {
         clock.begin("compare the runs");
         RunDifferences differences = compare_runs(a, surface, b);
         require_alignment(differences, reference.name, loaded.name);
-        RunReport report =
-            report_run(a, surface, lines_known(reference, options.runs) ? lines.get() : nullptr, b, differences);
+        RunReport report = report_run(a, surface, known_lines(*lines, reference, options.runs), b, differences);
         note_left_out(report, loaded, reference.name, diagnostics);
         if (tool) PartContacts(reference.log, a.path, *lines, surface, *tool).locate(report);
         std::vector<BudgetLine> budget = hold(report, options.budget);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/point_ranges.h"
+
 namespace clsurf {
 
 CutGroups::CutGroups(const CutOrder& order, const Passes& passes) {
@@ -10,10 +12,10 @@ CutGroups::CutGroups(const CutOrder& order, const Passes& passes) {
     of_pass_.resize(passes.size());
     for (std::size_t k = 0; k < passes.size(); ++k) {
         OfPass& pass = of_pass_[k];
-        const auto next = std::upper_bound(runs_.begin(), runs_.end(), passes[k].first,
-                                           [](PointIndex point, const ProgramRun& run) { return point < run.first; });
-        pass.run = static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(0, next - runs_.begin() - 1));
-        pass.first = order.lines->motion_at(passes[k].first);
+        // A pass may begin some points before the run that cuts it.
+        const auto run = range_at(runs_, passes[k].last);
+        pass.run = static_cast<std::uint32_t>(run - runs_.begin());
+        pass.first = order.lines->motion_at(std::max(passes[k].first, run->first));
         pass.last = order.lines->motion_at(passes[k].last);
         pass.tool = order.lines->tool_of(pass.first);
     }

@@ -154,7 +154,7 @@ clsurf_cli_test(NAME info_of_compressed ARGS info @DATA@/logs/dome_loops.biip.xz
 clsurf_cli_test(NAME info_of_compressed_program SETUP "gzip -c @DATA@/programs/dome_loops.nc > part.nc" ARGS info part.nc STDOUT "program, dialect")
 clsurf_cli_test(NAME compressed_cut SETUP "head -c 1000 @DATA@/logs/dome_loops.biip.xz > run.biip" ARGS info run.biip EXIT 3 STDERR "run.biip: byte 1000: error: the compressed data end here")
 clsurf_cli_test(NAME edge_damaged SETUP "sed '20s/:/;/' @LOGS@/edge_300.json > run.json" ARGS info run.json EXIT 3 STDERR "run.json:20:[0-9]*: error: is not valid JSON")
-clsurf_cli_test(NAME trace_damaged SETUP "sed '8s/=/ /' @LOGS@/dome_loops.trace.xml > run.xml" ARGS info run.xml EXIT 3 STDERR "run.xml:8:[0-9]*: error: no valid XML")
+clsurf_cli_test(NAME trace_damaged SETUP "sed '8s/=/ /' @LOGS@/dome_loops.trace.xml > run.xml" ARGS info run.xml EXIT 3 STDERR "run.xml:8:[0-9]*: error: is not valid XML")
 # Two runs in one log, a part of a run, a stop: said, and the lines are right with and without line numbers.
 set(one_run "awk 'BEGIN {print \"cmd.x,cmd.y,cmd.z,line\"} {print $2 \",\" $3 \",\" $4 \",\" $8}' @LOGS@/dome_loops.halsampler.txt > one.csv")
 set(two_runs "${one_run}; (cat one.csv; tail -n +2 one.csv) > run.csv")

@@ -135,7 +135,3 @@ clsurf_cli_test(NAME a_restarted_run_is_no_other_program SETUP "${restarted}" AR
   STDOUT "leaves the path on line 182 at point 1063, and the run goes on from line 109: lines 109-182 ran twice" NO_STDOUT "another program")
 clsurf_cli_test(NAME diff_says_what_it_leaves_out SETUP "${two_runs} && mv run.csv two.csv && ${one_run}" ARGS diff run.csv two.csv
   STDERR "two.csv: warning: .* mm are not compared, run.csv does not have them or has them once only: the longest way is points 17[0-9][0-9]-")
-# A line number that changes with the record is no line that was inserted.
-clsurf_cli_test(NAME a_word_changed_after_the_run
-  SETUP "${one_run} && $CLSURF convert run.csv --program part.nc -o run.biip > /dev/null && sed -i '1s/$/ S9000/' part.nc"
-  ARGS info part.nc run.biip STDOUT "the edit moved no line" NO_STDOUT "inserted" "deleted")
