@@ -16,6 +16,7 @@ constexpr int dead_periods_searched = 8;
 constexpr PointIndex least_records = 200;  ///< that a fit must compare
 constexpr double significant = 4;          ///< standard errors
 constexpr double least_quantum = 1e-6;     ///< [unit] positions are rounded at least so when a log is written
+constexpr double least_change = 1e-4;      ///< [unit] of the following error beside a lag: less is a step of an encoder
 
 /// Records until what was before a piece is forgotten.
 PointIndex settling_of(const ServoParameters& p, double period) {
@@ -38,6 +39,46 @@ bool is_moved(std::span<const AxisRecord> records) {
         if (high - low > least_move) return true;
     }
     return false;
+}
+
+/// The lag that explains the following error best, as if the speed never changed.
+struct ConstantLag {
+    double lag = 0, error = 0;  ///< [s]
+    double residual = 0;        ///< [unit] rms
+};
+
+ConstantLag constant_lag(std::span<const AxisRecord> records, double period) {
+    double count = 0, vv = 0, ve = 0, ee = 0;
+    std::vector<double> commanded, feedback;
+    for (const AxisRecord& record : records) {
+        for (const PointRange& piece : sample_pieces(record.sections, std::numeric_limits<PointIndex>::max())) {
+            commanded.resize(static_cast<std::size_t>(piece.size()));
+            feedback.resize(commanded.size());
+            copy_block(record.commanded, piece.first, commanded);
+            copy_block(record.feedback, piece.first, feedback);
+            for (std::size_t i = 1; i < commanded.size(); ++i) {
+                const double speed = (commanded[i] - commanded[i - 1]) / period, error = commanded[i] - feedback[i];
+                count += 1;
+                vv += speed * speed;
+                ve += speed * error;
+                ee += error * error;
+            }
+        }
+    }
+    if (!(count > 0 && vv > 0)) return {};
+    const double residual = std::sqrt(std::max(0.0, ee - ve * ve / vv) / count);
+    return {ve / vv, residual / std::sqrt(vv), residual};
+}
+
+/// Of the gain and the feed-forward only the lag is known.
+void take_lag(const ConstantLag& known, double period, ServoFit& fit) {
+    ServoModel model;
+    model.velocity_feedforward = 1 - known.lag * model.position_gain;
+    fit.parameters = parameters_of(model, period);
+    fit.lag = known.lag;
+    fit.lag_error = known.error;
+    fit.residual = known.residual;
+    fit.explained = known.residual;
 }
 
 }  // namespace
@@ -77,6 +118,11 @@ ServoFit fit_servo(std::span<const AxisRecord> records, double period) {
     if (problem.count() < least_records) problem.set_settling(settling_of(usual, period));
     fit.records = problem.count();
     if (fit.records < least_records) return fit;
+    // Where the speed hardly changes, any loop of that lag explains the records.
+    if (const ConstantLag lag = constant_lag(records, period); lag.residual < least_change) {
+        take_lag(lag, period, fit);
+        return fit;
+    }
     const std::vector<ServoStart> regressions = servo_starts(problem, dead_periods_searched);
     const double rounding = std::max(fit.quantum * fit.quantum, least_quantum * least_quantum) / 12;
     SelectedLoop selected = select_loop(problem, regressions, rounding);
