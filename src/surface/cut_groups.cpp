@@ -6,6 +6,21 @@
 
 namespace clsurf {
 
+Passes cut_at_runs(const Passes& pieces, std::span<const ProgramRun> runs) {
+    if (runs.size() < 2) return pieces;
+    Passes result;
+    for (Pass piece : pieces) {
+        for (const ProgramRun& run : runs.subspan(1)) {
+            if (piece.kind != PassKind::cut || run.first <= piece.first || run.first > piece.last) continue;
+            append_pass(result, {piece.first, run.first - 2, PassKind::cut});
+            append_pass(result, {run.first - 1, run.first - 1, PassKind::link});
+            piece.first = run.first;
+        }
+        append_pass(result, piece);
+    }
+    return result;
+}
+
 CutGroups::CutGroups(const CutOrder& order, const Passes& passes) {
     if (order.lines == nullptr || (order.runs.size() < 2 && order.lines->one_tool())) return;
     runs_ = order.runs;

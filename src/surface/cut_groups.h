@@ -3,6 +3,7 @@
 // what another tool has left), and those of two runs of a program in one log (of two parts, or of one that was cut twice).
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "mapping/program_runs.h"
@@ -19,6 +20,9 @@ struct CutOrder {
     /// `lines` must outlive it. O(points).
     explicit CutOrder(const LineMap& of_points) : lines(&of_points), runs(find_program_runs(of_points)) {}
 };
+
+/// The pieces, with a link where a run of the program begins inside a cut: no rapid may lie between two runs.
+[[nodiscard]] Passes cut_at_runs(const Passes& pieces, std::span<const ProgramRun> runs);
 
 class CutGroups {
 public:

@@ -141,9 +141,9 @@ Passes without_other_cutting(const ClSurface& surface, const Passes& runs, Point
 ClSurface stitch(Positions positions, const LineMap& lines, double step_over) {
     ClSurface surface;
     surface.positions = std::move(positions);
-    const Passes runs = find_runs(surface.positions, lines);
-    const ArcLength arc_length(surface.positions);
     const CutOrder order(lines);
+    const Passes runs = cut_at_runs(find_runs(surface.positions, lines), order.runs);
+    const ArcLength arc_length(surface.positions);
     stitch_runs(surface, runs, arc_length, order, step_over);
     if (surface.step_over <= 0) return surface;
     const Passes finishing = without_other_cutting(surface, runs, surface.not_finishing);
