@@ -94,13 +94,13 @@ void run(Recorded& r, int first, int last) {
     r.z.assign(r.x.size(), 0);
 }
 
-Diagnostics course_of(const Recorded& r) {
+Diagnostics course_of(const Recorded& r, ProgramIdentity identity = ProgramIdentity::unknown) {
     std::string text;
     for (int line = 1; line <= 100; ++line) text += "G1 X" + std::to_string(line) + " F100\n";
     const Program program = parse("part.nc", text);
     const Log log = log_of(r, {});
     Diagnostics diagnostics;
-    (void)map_lines(reconstruct(log, Role::commanded, Vec3::Zero()), log, program, true, diagnostics);
+    (void)map_lines(reconstruct(log, Role::commanded, Vec3::Zero()), log, program, true, diagnostics, identity);
     return diagnostics;
 }
 
@@ -128,7 +128,7 @@ TEST(ProgramCourse, FindsARunThatWentOnFromAnEarlierLine) {
     }
     run(r, 30, 100);
     for (std::size_t i = 240; i < 248; ++i) r.z[i] = 5;
-    const Diagnostics found = course_of(r);
+    const Diagnostics found = course_of(r, ProgramIdentity::same);
     ASSERT_EQ(found.count("map.restart"), 1u);
     EXPECT_EQ(found.kept().size(), 1u) << found.kept()[0].text;
     EXPECT_EQ(found.kept()[0].where.number, 248u);
