@@ -3,6 +3,22 @@
 #include <algorithm>
 
 namespace clsurf {
+namespace {
+
+template <typename F>
+void for_each_column(Motions& m, F&& f) {
+    f(m.kind);
+    f(m.end);
+    f(m.feed);
+    f(m.line);
+    f(m.rotary);
+    f(m.tool_axis);
+    f(m.file);
+    f(m.call);
+    f(m.frame);
+}
+
+}  // namespace
 
 const Arc* Motions::arc_of(std::int64_t i) const {
     const auto found =
@@ -20,18 +36,9 @@ void Motions::drop_front(std::int64_t count) {
     if (count == 0) return;
     const auto n = static_cast<std::size_t>(count);
     start = end[n - 1];
-    const auto drop = [n](auto& column) {
+    for_each_column(*this, [n](auto& column) {
         if (!column.empty()) column.drop_front(n);
-    };
-    drop(kind);
-    drop(end);
-    drop(feed);
-    drop(line);
-    drop(rotary);
-    drop(tool_axis);
-    drop(file);
-    drop(call);
-    drop(frame);
+    });
     for (std::int64_t& from : programmed_from) from = std::max<std::int64_t>(0, from - count);
     arcs.erase(arcs.begin(),
                std::find_if(arcs.begin(), arcs.end(), [count](const Arc& arc) { return arc.motion >= count; }));
@@ -43,18 +50,9 @@ void Motions::drop_front(std::int64_t count) {
 
 void Motions::truncate(std::int64_t count) {
     const auto n = static_cast<std::size_t>(count);
-    const auto cut = [n](auto& column) {
+    for_each_column(*this, [n](auto& column) {
         if (!column.empty()) column.resize(n);
-    };
-    cut(kind);
-    cut(end);
-    cut(feed);
-    cut(line);
-    cut(rotary);
-    cut(tool_axis);
-    cut(file);
-    cut(call);
-    cut(frame);
+    });
     for (std::int64_t& from : programmed_from) from = std::min(from, count);
     while (!arcs.empty() && arcs.back().motion >= count) arcs.pop_back();
     while (!curves.empty() && curves.back().motion >= count) curves.pop_back();
