@@ -31,11 +31,11 @@ Bounds bounds_of(ServoTerm term, double period) {
 /// of c, s and f.
 class ServoLags {
 public:
-    ServoLags(const ServoParameters& p, double period) : lags_(p), period_(period), slope_(ServoMatrix::Identity()) {
+    ServoLags(const ServoParameters& p, double period)
+        : lags_(p), period_(period), slope_(ServoMatrix::Identity()), with_friction_(p.has(ServoTerm::friction)) {
         const double gain = std::exp(p[ServoTerm::log_gain]), dead = p[ServoTerm::dead_time] * period;
         const double alpha = (1 - p[ServoTerm::feedforward]) / gain, step = p[ServoTerm::velocity_step];
         const double beta = (period * (1 / step - 1) - alpha) / gain;
-        with_friction_ = p.has(ServoTerm::friction);
         lags_[ServoTerm::feedforward] = alpha + dead;
         lags_[ServoTerm::velocity_step] = beta - alpha * dead - dead * dead / 2;
         if (with_friction_) lags_[ServoTerm::friction] = p[ServoTerm::friction] / gain + p[ServoTerm::backlash] / 2;
@@ -88,7 +88,7 @@ private:
     ServoParameters lags_;  ///< A, B and C in the places of c, s and f
     double period_;
     ServoMatrix slope_;
-    bool with_friction_ = false;
+    bool with_friction_;
 };
 
 /// The matrix that a step or a covariance is solved with: scaled to a diagonal of 1, inactive terms decoupled.
