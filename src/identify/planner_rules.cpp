@@ -76,18 +76,14 @@ void search_rules(const Machine& known, double least_gain, RuleScores& scores, I
     }
 }
 
-double mean_error_of(const Machine& machine, RuleScores& scores) {
-    return compare({scores.residuals(machine)}, scores).front().speed_error;
-}
-
 /// Takes a merging of lines back if other limits explain the runs about as well without it.
 void confirm_merging(const Machine& known, RuleScores& scores, Identification& result) {
     Identification other = result;
     other.machine = with_known_merging(result.machine, known);
     if (plan_alike(other.machine, result.machine)) return;
-    if (!is_trapezoidal(other.machine)) free_limits(scores, other);
+    free_limits(scores, other);
     search_limits(0, scores, other);
-    if (mean_error_of(result.machine, scores) <= (1 - gain_of_later_passes) * mean_error_of(other.machine, scores))
+    if (scores.mean_error(result.machine) <= (1 - gain_of_later_passes) * scores.mean_error(other.machine))
         return;
     const double kept = other.machine.controller.merging_tolerance.value_or(0);
     const std::string name = is_trapezoidal(other.machine) && !other.machine.controller.merging_tolerance
@@ -129,7 +125,7 @@ std::vector<RuleCandidate> choose_family(RuleScores& scores, Identification& res
     for (const RuleValue& kind : best_of_families(scores, result.machine)) {
         Identification trial = result;
         kind.apply(trial.machine);
-        if (!is_trapezoidal(trial.machine)) free_limits(scores, trial);
+        free_limits(scores, trial);
         search_rules(known, 0, scores, trial);
         const auto last =
             std::find_if(trial.rules.rbegin(), trial.rules.rend(), [](const RuleCandidate& c) { return c.chosen; });
@@ -179,14 +175,14 @@ void identify_rules(std::span<const RecordedRun> runs, Identification& result) {
     // One rule may hide another: a short look-ahead slows short lines down, as a block time does.
     for (int pass = 1; pass < most_passes; ++pass) {
         const Machine before = result.machine;
-        if (pass > 1 && mean_error_of(before, scores) <= scores.resolution()) break;
+        if (pass > 1 && scores.mean_error(before) <= scores.resolution()) break;
         Identification next = result;
         next.rules.clear();
         next.unidentified = known_missing;
         const std::vector<PlannerFamily> families = planner_families(before);
         const auto own = std::find_if(families.begin(), families.end(), [](const auto& f) { return f.has_present(); });
         search_rule(own->rule, own->present, gain_of_later_passes, scores, next);
-        if (!is_trapezoidal(next.machine)) free_limits(scores, next);
+        free_limits(scores, next);
         search_rules(known, gain_of_later_passes, scores, next);
         search_limits(gain_of_later_passes, scores, next);
         result = std::move(next);

@@ -210,6 +210,10 @@ std::vector<Explanation> compare(const std::vector<std::vector<float>>& residual
     return found;
 }
 
+double RuleScores::mean_error(const Machine& machine) {
+    return compare({residuals(machine)}, *this).front().speed_error;
+}
+
 bool RuleScores::explains(double mean_error) const {
     constexpr double share = 0.002;  // of the speed
     return mean_error <= share * usual_speed();

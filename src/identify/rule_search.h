@@ -43,6 +43,8 @@ public:
     /// |difference of speed| at every sample [mm/s]; NaN: not compared. Machines that plan alike, and those that merge the same
     /// lines, are simulated once.
     [[nodiscard]] std::vector<float> residuals(const Machine& machine);
+    /// Mean |difference of speed| over the samples that the machine has [mm/s].
+    [[nodiscard]] double mean_error(const Machine& machine);
     /// Simulates those of the machines that are not known yet, in parallel, so that residuals() finds them.
     void prepare(std::span<const Machine> machines);
     /// The speed that a place counts as wrong by where the simulation does not go there [mm/s].

@@ -86,7 +86,7 @@ private:
     }
 
     [[nodiscard]] double mean_error(double value) const {
-        return compare({scores_.residuals(machine_with(value))}, scores_).front().speed_error;
+        return scores_.mean_error(machine_with(value));
     }
 
     /// By how much the score of `value` exceeds what would tell it from one that explains the runs better.
@@ -98,7 +98,7 @@ private:
     [[nodiscard]] bool as_good(double value, double better) const { return excess(value, better) <= 0; }
     [[nodiscard]] bool alike(double one, double other) const { return as_good(one, other) && as_good(other, one); }
 
-    /// Whether the runs cannot distinguish a value from those beside it.
+    /// Whether the runs fit as well with slightly smaller and slightly greater values.
     [[nodiscard]] bool is_flat_about(double now) const {
         return mean_error(now) <= scores_.resolution() || (alike(below(now), now) && alike(above(now), now));
     }
@@ -209,19 +209,16 @@ Machine with_limits(const Machine& machine, std::span<const IdentifiedParameter*
     return changed;
 }
 
-double mean_error_with(RuleScores& scores, const Machine& machine) {
-    return compare({scores.residuals(machine)}, scores).front().speed_error;
-}
-
 }  // namespace
 
 void free_limits(RuleScores& scores, Identification& result) {
+    if (is_trapezoidal(result.machine)) return;
     const std::vector<const IdentifiedParameter*> limits = searched_limits(result);
     std::vector<const IdentifiedParameter*> of_path;
     std::copy_if(limits.begin(), limits.end(), std::back_inserter(of_path),
                  [](const auto* p) { return p->axis == "path"; });
     const Machine before = result.machine;
-    if (limits.empty() || mean_error_with(scores, before) <= scores.resolution()) return;
+    if (limits.empty() || scores.mean_error(before) <= scores.resolution()) return;
     std::vector<Machine> machines{before, with_limits(before, limits, range)};
     if (!of_path.empty() && of_path.size() < limits.size()) machines.push_back(with_limits(before, of_path, range));
     scores.prepare(machines);

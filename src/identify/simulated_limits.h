@@ -12,7 +12,8 @@ namespace clsurf {
 
 /// Limits of `result` that are lower bounds may hold back the simulation together, so that a greater value of one alone explains
 /// nothing. Where four times the values of all of them, or of those of the path, explain the runs decisively better, the machine
-/// has those from then on. O(records) for at most two values and one a limit.
+/// has those from then on. A trapezoidal planner is left alone: its rules search the accelerations of its axes. O(records) for at
+/// most two values and one a limit.
 void free_limits(RuleScores& scores, Identification& result);
 
 /// Searches each acceleration and jerk that `result` has as a lower bound, again until none changes, and puts the values that
