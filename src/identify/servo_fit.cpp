@@ -14,7 +14,6 @@ namespace {
 
 constexpr int dead_periods_searched = 8;
 constexpr PointIndex least_records = 200;  ///< that a fit must compare
-constexpr double significant = 4;          ///< standard errors
 constexpr double least_quantum = 1e-6;     ///< [unit] positions are rounded at least so when a log is written
 constexpr double least_change = 1e-4;      ///< [unit] of the following error beside a lag: less is a step of an encoder
 
@@ -100,7 +99,7 @@ bool ServoFit::knows(ServoTerm term) const {
         case ServoTerm::log_gain: return error < 0.25;
         case ServoTerm::feedforward: return error < 0.1;
         case ServoTerm::velocity_step: return error < 0.25 * parameters[term];
-        default: return parameters.has(term) && parameters[term] > significant * error;
+        default: return parameters.has(term) && parameters[term] > certain_errors * error;
     }
 }
 
@@ -131,9 +130,7 @@ ServoFit fit_servo(std::span<const AxisRecord> records, double period) {
     fit.parameters = solution.parameters;
     fit.standard_error = standard_errors(solution);
     fit.residual = std::sqrt(solution.sums.mean_square());
-    const double between =
-        solution.sums.squared_changes / (2 * static_cast<double>(std::max<PointIndex>(fit.records - 1, 1)));
-    fit.noise = std::sqrt(std::max(between - fit.quantum * fit.quantum / 12, 0.0));
+    fit.noise = std::sqrt(std::max(solution.sums.variance_of_changes() - fit.quantum * fit.quantum / 12, 0.0));
     fit.explained = std::sqrt(solution.unexplainable());
     const ServoModel model = model_of(fit.parameters, period);
     fit.lag = (1 - model.velocity_feedforward) / model.position_gain + model.dead_time;

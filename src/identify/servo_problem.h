@@ -3,6 +3,7 @@
 // the commanded ones, as a least-squares problem in the loop's parameters (output error; Ljung, System Identification,
 // 2nd ed., ch. 7). Derivatives are differences between loops that run side by side.
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -51,6 +52,10 @@ struct ServoSums {
     ServoVector gradient = ServoVector::Zero();  ///< Jᵀ e
 
     [[nodiscard]] double mean_square() const { return count > 0 ? squares / static_cast<double>(count) : 0; }
+    /// Half the mean square of the residuals' changes: the variance of residuals that were independent [unit²].
+    [[nodiscard]] double variance_of_changes() const {
+        return squared_changes / (2 * static_cast<double>(std::max<PointIndex>(count - 1, 1)));
+    }
 };
 
 class ServoProblem {

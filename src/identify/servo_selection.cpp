@@ -9,7 +9,6 @@
 namespace clsurf {
 namespace {
 
-constexpr double certain_errors = 4;  ///< standard errors that a certain value exceeds
 constexpr double needless = 10;       ///< a term of no certain value must lower the criterion by more
 constexpr std::array optional_terms{ServoTerm::friction, ServoTerm::backlash, ServoTerm::dead_time};
 constexpr unsigned all_terms = (1U << optional_terms.size()) - 1;

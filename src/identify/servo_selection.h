@@ -9,12 +9,15 @@
 
 namespace clsurf {
 
+/// Standard errors above zero from which an optional term is certain.
+inline constexpr double certain_errors = 4;
+
 /// What an additional term of the loop explains.
 struct TermEvidence {
     ServoTerm term = ServoTerm::friction;
     double value = 0;   ///< as ServoParameters has it
     double gain = 0;    ///< by how much the Bayesian information criterion falls with it
-    bool kept = false;  ///< it falls, and the value is more than four standard errors above zero
+    bool kept = false;  ///< it falls, and the value exceeds `certain_errors` standard errors
 };
 
 struct SelectedLoop {

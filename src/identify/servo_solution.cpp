@@ -103,7 +103,10 @@ struct ScaledNormal {
         }
         matrix = scale.asDiagonal() * normal * scale.asDiagonal();
         for (Eigen::Index k = 0; k < scale.size(); ++k) {
-            if (scale[k] == 0) matrix.row(k).setZero(), matrix.col(k).setZero(), matrix(k, k) = 1;
+            if (scale[k] != 0) continue;
+            matrix.row(k).setZero();
+            matrix.col(k).setZero();
+            matrix(k, k) = 1;
         }
     }
 };
@@ -160,8 +163,7 @@ double ServoSolution::criterion() const {
 }
 
 double ServoSolution::unexplainable() const {
-    const auto pairs = static_cast<double>(std::max<PointIndex>(sums.count - 1, 1));
-    return std::max(rounding, sums.squared_changes / (2 * pairs));
+    return std::max(rounding, sums.variance_of_changes());
 }
 
 bool settles(const ServoParameters& parameters, double period) {

@@ -14,7 +14,7 @@ struct ServoSolution {
 
     /// Bayesian information criterion of Gaussian residuals. Rounding of doubles explains residuals below 10⁻¹⁰.
     [[nodiscard]] double criterion() const;
-    /// What quantum and noise make of the residuals: half the mean square of their change from one record to the next, and the rounding [unit²].
+    /// What quantum and noise make of the residuals: the variance of their changes, at least the rounding [unit²].
     [[nodiscard]] double unexplainable() const;
 };
 
