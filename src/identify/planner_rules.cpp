@@ -83,8 +83,7 @@ void confirm_merging(const Machine& known, RuleScores& scores, Identification& r
     if (plan_alike(other.machine, result.machine)) return;
     free_limits(scores, other);
     search_limits(0, scores, other);
-    if (scores.mean_error(result.machine) <= (1 - gain_of_later_passes) * scores.mean_error(other.machine))
-        return;
+    if (scores.mean_error(result.machine) <= (1 - gain_of_later_passes) * scores.mean_error(other.machine)) return;
     const double kept = other.machine.controller.merging_tolerance.value_or(0);
     const std::string name = is_trapezoidal(other.machine) && !other.machine.controller.merging_tolerance
                                  ? "program"

@@ -9,7 +9,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double needless = 10;       ///< a term of no certain value must lower the criterion by more
+constexpr double needless = 10;  ///< a term of no certain value must lower the criterion by more
 constexpr std::array optional_terms{ServoTerm::friction, ServoTerm::backlash, ServoTerm::dead_time};
 constexpr unsigned all_terms = (1U << optional_terms.size()) - 1;
 

@@ -162,9 +162,7 @@ double ServoSolution::criterion() const {
     return n * std::log(sums.mean_square() + 1e-20) + parameters.count() * std::log(n);
 }
 
-double ServoSolution::unexplainable() const {
-    return std::max(rounding, sums.variance_of_changes());
-}
+double ServoSolution::unexplainable() const { return std::max(rounding, sums.variance_of_changes()); }
 
 bool settles(const ServoParameters& parameters, double period) {
     const ServoModel model = model_of(parameters, period);

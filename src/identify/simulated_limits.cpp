@@ -85,9 +85,7 @@ private:
         return changed;
     }
 
-    [[nodiscard]] double mean_error(double value) const {
-        return scores_.mean_error(machine_with(value));
-    }
+    [[nodiscard]] double mean_error(double value) const { return scores_.mean_error(machine_with(value)); }
 
     /// By how much the score of `value` exceeds what would tell it from one that explains the runs better.
     [[nodiscard]] double excess(double value, double better) const {
