@@ -28,13 +28,8 @@ ExitCode run_align(const po::variables_map& values) {
     clock.begin("sweep the tool");
     const AsMachinedPart as_machined(part, surface, role, tool);
     clock.begin("align");
-    Alignment alignment = align(data, as_machined.surface(), measured.rules);
-    if (alignment.determined() && data.kind != MeasuredKind::points) {
-        const AlignedHeights heights(data, alignment.pose);
-        if (std::optional<std::string> doubt =
-                doubt_of(compare_roughness(data, heights, as_machined.surface(), as_machined.signals())))
-            alignment.reasons.push_back(std::move(*doubt));
-    }
+    const Alignment alignment =
+        align_by_roughness(data, as_machined.surface(), as_machined.signals(), measured.rules).alignment;
     clock.end();
     if (json) {
         write_to_stdout(io::alignment_json(data, alignment, tool, part.diagnostics));

@@ -1,6 +1,7 @@
 #include "measured/measured_result.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -27,22 +28,28 @@ std::optional<std::string> doubt_of(const MeasuredComparison& c) {
         c.correlation, c.measured.ra * um_per_mm, c.predicted.ra * um_per_mm);
 }
 
-MeasuredResult compare_with_measured(const MeasuredData& data, const AsMachinedSurface& as_machined,
-                                     const Signals& signals, const QualityReport& report, const AlignRules& rules) {
+MeasuredResult align_by_roughness(const MeasuredData& data, const AsMachinedSurface& as_machined,
+                                  const Signals& signals, const AlignRules& rules) {
     MeasuredResult result;
     result.alignment = align(data, as_machined, rules);
-    if (!result.alignment.determined()) {
-        result.comparison.reason = "the pose of the measurement is not determined";
-        return result;
+    if (result.alignment.determined()) {
+        const AlignedHeights heights(data, result.alignment.pose);
+        result.comparison = compare_roughness(data, heights, as_machined, signals);
+        if (std::optional<std::string> doubt = doubt_of(result.comparison))
+            result.alignment.reasons.push_back(std::move(*doubt));
     }
-    const AlignedHeights heights(data, result.alignment.pose);
-    result.comparison = compare_roughness(data, heights, as_machined, signals);
-    if (std::optional<std::string> doubt = doubt_of(result.comparison)) {
-        result.alignment.reasons.push_back(std::move(*doubt));
+    if (!result.alignment.determined()) {
         result.comparison = {};
         result.comparison.reason = "the pose of the measurement is not determined";
-        return result;
     }
+    return result;
+}
+
+MeasuredResult compare_with_measured(const MeasuredData& data, const AsMachinedSurface& as_machined,
+                                     const Signals& signals, const QualityReport& report, const AlignRules& rules) {
+    MeasuredResult result = align_by_roughness(data, as_machined, signals, rules);
+    if (!result.alignment.determined()) return result;
+    const AlignedHeights heights(data, result.alignment.pose);
     result.marks = compare_marks(data, heights, as_machined, signals, report, result.comparison.noise);
     return result;
 }

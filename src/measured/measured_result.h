@@ -20,8 +20,12 @@ struct MeasuredResult {
 /// is, or both are too smooth to tell.
 [[nodiscard]] std::optional<std::string> doubt_of(const MeasuredComparison& comparison);
 
-/// Aligns and compares. Where the roughness of both shows that the pose is another one, it is not determined. `as_machined` has a step-over; `signals` are its own, `report` has its defects. Throws UsageError as
-/// align() does. Parallel.
+/// Aligns and compares the roughness. Where the roughness of both shows that the pose is another one, it is not determined.
+/// Without marks. `as_machined` has a step-over; `signals` are its own. Throws UsageError as align() does. Parallel.
+[[nodiscard]] MeasuredResult align_by_roughness(const MeasuredData& data, const AsMachinedSurface& as_machined,
+                                                const Signals& signals, const AlignRules& rules = {});
+
+/// The same with the marks: `report` has the defects of `as_machined`.
 [[nodiscard]] MeasuredResult compare_with_measured(const MeasuredData& data, const AsMachinedSurface& as_machined,
                                                    const Signals& signals, const QualityReport& report,
                                                    const AlignRules& rules = {});
