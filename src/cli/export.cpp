@@ -1,5 +1,8 @@
 // clsurf export: per-point columns as CSV, BIIP, VTK.
 
+#include <optional>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "cli/export_columns.h"
@@ -80,12 +83,18 @@ ExitCode run_export(const po::variables_map& values) {
         return write_shard(options, *shard, names, values);
     if (given(values, "survey")) throw UsageError("--survey goes with --shard");
     const std::string_view format = output_format(output, table_formats()).name;
-    if (options.program.empty()) {
-        const Log log = io::open_log(options.log, options.log_options);
-        if (!has_positions(log)) return write_channels(log, output, format, values);
-    }
     StageClock clock(read_common(values), 5);
-    const Part part = load_part(options, clock);
+    std::optional<Log> alone;
+    if (options.program.empty()) {
+        clock.begin("open the log");
+        alone = io::open_log(options.log, options.log_options);
+        if (!has_positions(*alone)) {
+            clock.end();
+            return write_channels(*alone, output, format, values);
+        }
+    }
+    const Part part = alone ? assemble(std::move(*alone), rules_of(options)) : load_part(options, clock);
+    clock.end();
     print(part.diagnostics, values);
     clock.begin("stitch the surface");
     const ClSurface surface = stitch(part);
