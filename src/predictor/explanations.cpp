@@ -26,6 +26,7 @@ public:
     /// O(sites log runs), and at the first call O(runs log runs).
     [[nodiscard]] bool explain(CandidateSpan sites) {
         sort();
+        if (lies_elsewhere(sites)) return false;
         const auto inside = [&](const DefectCandidate* s) {
             const auto section = range_at(sections_, s->point);
             return section != sections_.end() && section->first <= s->point && s->point <= section->farthest;
@@ -38,6 +39,13 @@ private:
         PointIndex first, last;
         PointIndex farthest;  ///< last of this one and all before
     };
+    /// Before all sections or behind them, as most things do.
+    [[nodiscard]] bool lies_elsewhere(CandidateSpan sites) const {
+        if (sites.empty()) return false;
+        return sections_.empty() || sites.back()->point < sections_.front().first ||
+               sections_.back().farthest < sites.front()->point;
+    }
+
     void sort() {
         if (sorted_) return;
         std::sort(sections_.begin(), sections_.end(),
