@@ -1,6 +1,6 @@
 #pragma once
-// Residuals: the value that a pass should have, judged by the passes beside it. Near the border of a part, of an island or
-// of a step in the outline, one side has few passes or none.
+// Residuals: how far the value of a pass is from the one that the passes beside it lead to expect. Near the border of a part,
+// of an island or of a step in the outline, one side has few passes or none.
 
 #include <span>
 

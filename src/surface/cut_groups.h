@@ -31,8 +31,9 @@ public:
     /// O(passes).
     CutGroups(const CutOrder& order, const Passes& passes);
 
-    /// Whether passes a and b, by number, are no neighbours. A run stopped and begun again from an earlier line has its
-    /// own passes where both cut; where the other one alone did, that one's are beside it.
+    /// Whether passes a and b, by number, cannot be neighbours. A program may be stopped and begun again from an earlier line.
+    /// The passes of the two runs are then apart where both runs cut. Where only one of them cut, its passes are neighbours of
+    /// the other's.
     [[nodiscard]] bool apart(std::size_t a, std::size_t b) const {
         if (of_pass_.empty()) return false;
         const OfPass& mine = of_pass_[a];
