@@ -47,6 +47,21 @@ struct Circle {
     }
 };
 
+/// A field of one cut pass along these commanded x, y and z [mm].
+Field field_along(const std::vector<double> (&commanded)[3], const char* name) {
+    const auto count = std::ssize(commanded[0]);
+    Log log;
+    log.period = period;
+    log.records = count;
+    for (std::size_t k = 0; k < 3; ++k)
+        log.channels.push_back({std::string("cmd.") + "xyz"[k], "mm",
+                                ChannelView{reinterpret_cast<const std::byte*>(commanded[k].data()), 8, count,
+                                            ScalarType::f64, false, 1, 0}});
+    Passes passes;
+    passes.push_back({0, count - 1, PassKind::cut});
+    return FieldSet(log, reconstruct(log, Role::commanded, Vec3::Zero()), passes).get(name);
+}
+
 TEST(FieldSet, ShowsNoMotionBeforeTheToolStarts) {
     // It rests, starts with 800 mm/s², runs at 40 mm/s, and stops as it started. Positions of 0.1 µm.
     constexpr double acceleration = 800, top = 40, rest = 0.2, ramp = top / acceleration, run = 0.3;
@@ -63,17 +78,7 @@ TEST(FieldSet, ShowsNoMotionBeforeTheToolStarts) {
         columns[1].push_back(0);
         columns[2].push_back(0);
     }
-    Log log;
-    log.period = period;
-    log.records = 1000;
-    for (int k = 0; k < 3; ++k)
-        log.channels.push_back({std::string("cmd.") + "xyz"[k], "mm",
-                                ChannelView{reinterpret_cast<const std::byte*>(columns[k].data()), 8, 1000,
-                                            ScalarType::f64, false, 1, 0}});
-    Passes passes;
-    passes.push_back({0, 999, PassKind::cut});
-    const Trajectory path = reconstruct(log, Role::commanded, Vec3::Zero());
-    const Field speed_there = FieldSet(log, path, passes).get("speed");
+    const Field speed_there = field_along(columns, "speed");
     for (std::size_t i = 0; i < 1000; ++i) {
         if (speeds[i] == 0 && i != 200 && i != 600) { EXPECT_NEAR(speed_there.values[i], 0, 1e-9) << i; }
         EXPECT_NEAR(speed_there.values[i], speeds[i], 2) << i;  // the corners of the ramps are rounded
@@ -110,16 +115,7 @@ TEST(FieldSet, CurvatureIsThatOfThePathWhereTheToolHardlyMoves) {
         columns[1].push_back(std::round(radius * std::sin(way / radius) * 1e4) / 1e4);
         columns[2].push_back(0);
     }
-    Log log;
-    log.period = period;
-    log.records = count;
-    for (std::size_t k = 0; k < 3; ++k)
-        log.channels.push_back({std::string("cmd.") + "xyz"[k], "mm",
-                                ChannelView{reinterpret_cast<const std::byte*>(columns[k].data()), 8, count,
-                                            ScalarType::f64, false, 1, 0}});
-    Passes passes;
-    passes.push_back({0, count - 1, PassKind::cut});
-    const Field k = FieldSet(log, reconstruct(log, Role::commanded, Vec3::Zero()), passes).get("curvature");
+    const Field k = field_along(columns, "curvature");
     for (std::size_t i = 0; i < count; ++i)
         EXPECT_NEAR(k.values[i], 1 / radius, 0.4 / radius) << i;  // its standard error is a tenth
 }
@@ -130,23 +126,13 @@ TEST(FieldSet, CurvatureLeavesOutTheCornersBetweenPasses) {
         std::vector<double> columns[3];
         const double quarter = 0.5 * M_PI * round;
         constexpr double step = 0.004;
-        PointIndex count = 0;
-        for (double s = -3; s < quarter + 3; s += step, ++count) {
+        for (double s = -3; s < quarter + 3; s += step) {
             const double angle = std::clamp(s / round, 0.0, 0.5 * M_PI);
             columns[0].push_back(std::min(s, 0.0) + round * std::sin(angle));
             columns[1].push_back(round * (1 - std::cos(angle)) + std::max(s - quarter, 0.0));
             columns[2].push_back(0);
         }
-        Log log;
-        log.period = period;
-        log.records = count;
-        for (std::size_t k = 0; k < 3; ++k)
-            log.channels.push_back({std::string("cmd.") + "xyz"[k], "mm",
-                                    ChannelView{reinterpret_cast<const std::byte*>(columns[k].data()), 8, count,
-                                                ScalarType::f64, false, 1, 0}});
-        Passes passes;
-        passes.push_back({0, count - 1, PassKind::cut});
-        const Field k = FieldSet(log, reconstruct(log, Role::commanded, Vec3::Zero()), passes).get("curvature");
+        const Field k = field_along(columns, "curvature");
         float most = 0;
         std::size_t without = 0;
         for (const float value : k.values) {
