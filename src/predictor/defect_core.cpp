@@ -1,6 +1,8 @@
 #include "predictor/defect_core.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 namespace clsurf {
 namespace {
@@ -97,7 +99,58 @@ private:
     double joined_;  ///< [mm]
 };
 
+/// The sites of a run from its strongest one away, one way.
+class Flank {
+public:
+    Flank(Quantity quantity, const ArcLength& arc_length, double joined)
+        : quantity_(quantity), arc_length_(arc_length), joined_(joined) {}
+
+    /// The arc length [mm] between `from` and the last of the sites `next`, which lead away from it, up to `enough`.
+    template <class Iterator>
+    [[nodiscard]] double length(const DefectCandidate* from, Iterator next, Iterator end, float peak,
+                                double enough) const {
+        const double begin = arc_length_.to(from->point);
+        double length = 0;
+        for (const DefectCandidate* at = from; next != end && length < enough; at = *next++) {
+            if (!goes_on(at, *next, peak)) break;
+            length = std::abs(arc_length_.to((*next)->point) - begin);
+        }
+        return length;
+    }
+
+private:
+    [[nodiscard]] bool goes_on(const DefectCandidate* at, const DefectCandidate* next, float peak) const {
+        const std::size_t q = index_of(quantity_);
+        const PointIndex first = std::min(at->point, next->point), last = std::max(at->point, next->point);
+        return next->pass == at->pass && next->share[q] >= 1 && next->share[q] <= peak &&
+               (at->comparison.residual[q] < 0) == (next->comparison.residual[q] < 0) &&
+               !arc_length_.at_least(first, last, joined_);
+    }
+
+    Quantity quantity_;
+    const ArcLength& arc_length_;
+    double joined_;  ///< [mm]
+};
+
 }  // namespace
+
+double length_above_threshold(CandidateSpan core, CandidateSpan sites, Quantity quantity, const ArcLength& arc_length,
+                              double joined, double enough) {
+    const auto before = [](const DefectCandidate* a, const DefectCandidate* b) { return a->point < b->point; };
+    const Flank flank(quantity, arc_length, joined);
+    double length = 0;
+    for (const CandidateSpan run : runs_of(core, arc_length, joined)) {
+        if (length >= enough) break;
+        length += arc_length.to(run.back()->point) - arc_length.to(run.front()->point);
+        float peak = 0;
+        for (const DefectCandidate* s : run) peak = std::max(peak, s->share[index_of(quantity)]);
+        const auto after = std::upper_bound(sites.begin(), sites.end(), run.back(), before);
+        const auto first = std::lower_bound(sites.begin(), sites.end(), run.front(), before);
+        length += flank.length(run.back(), after, sites.end(), peak, enough - length);
+        length += flank.length(run.front(), std::make_reverse_iterator(first), sites.rend(), peak, enough - length);
+    }
+    return length;
+}
 
 std::vector<CandidateSpan> runs_of(CandidateSpan sites, const ArcLength& arc_length, double joined) {
     std::vector<CandidateSpan> runs;

@@ -26,4 +26,11 @@ struct CoreSites {
 /// acceleration on one pass, each counts from its own peak. Both lists in the order of their points. O(sites · sites within `joined`²).
 [[nodiscard]] CoreSites core_of(CandidateSpan group, Quantity quantity, const ArcLength& arc_length, double joined);
 
+/// How long [mm] the runs of a core are together with the sites beside them where `quantity` passes its threshold on the same
+/// side: the sharper a peak is, the shorter it is at half of its height. They end where another peak rises higher, and the sum is
+/// complete only up to `enough`. `sites`: all candidates of the family in the order of their points.
+/// O(core log sites + sites within `enough`).
+[[nodiscard]] double length_above_threshold(CandidateSpan core, CandidateSpan sites, Quantity quantity,
+                                            const ArcLength& arc_length, double joined, double enough);
+
 }  // namespace clsurf

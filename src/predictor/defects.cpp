@@ -26,6 +26,7 @@ constexpr double smallest_area = 1.0;      ///< squared step-overs
 constexpr float least_speed_share = 0.6F;  ///< of its threshold, for what only the acceleration shows …
 constexpr float strong_alone = 1.5F;       ///< … and of the acceleration's own
 constexpr std::size_t fewest_sites = 2;
+constexpr int of_stops = 3;  ///< severity of a motion by its speed alone, from which on it may be of any length
 constexpr std::size_t most_systematic_runs = 300;  ///< that are listed: the longest
 constexpr double systematic_depth = 0.99;          ///< quantile of the steps of a systematic lag
 
@@ -151,6 +152,18 @@ public:
         const bool motion = defect.quantity == Quantity::speed || defect.quantity == Quantity::acceleration;
         defect.severity = severity_of({defect.depth, defect.score, motion, false}, rules_.severity);
         return defect;
+    }
+
+    /// Whether a defect is large enough to be listed. Its core covers `area` [mm²], at half of its peak or above its threshold,
+    /// or the tool nearly stops: that leaves a mark however short it is. `sites`: those of its family.
+    [[nodiscard]] bool is_large(const Defect& defect, CandidateSpan core, CandidateSpan sites, double area) const {
+        if (core.size() < fewest_sites) return false;
+        if (defect.area >= area) return true;
+        if (defect.quantity == Quantity::speed &&
+            severity_of({0, defect.score, true, false}, rules_.severity) >= of_stops)
+            return true;
+        const double enough = area / surface_.step_over;
+        return length_above_threshold(core, sites, defect.quantity, arc_length_, joined_, enough) >= enough;
     }
 
     /// The one defect that systematic lag is.
@@ -314,12 +327,11 @@ public:
         : family_(family), at_border_(at_border), smallest_(smallest), border_(border), builder_(builder) {}
 
     std::vector<BuiltDefect> build(const DefectCandidates& candidates) {
-        DefectCandidates mine;
         for (const DefectCandidate* s : candidates) {
             if (s->expected(family_.front()) == at_border_ && largest(s->share, family_) >= half_of_peak)
-                mine.push_back(s);
+                mine_.push_back(s);
         }
-        std::vector<DefectCandidates> groups = builder_.regroup(mine);
+        std::vector<DefectCandidates> groups = builder_.regroup(mine_);
         for (std::size_t g = 0; g < groups.size(); ++g) {
             const DefectCandidates group = std::move(groups[g]);
             if (!starts_defect(group, family_)) continue;
@@ -357,7 +369,7 @@ private:
         if (core.empty()) return;
         Defect defect = builder_.build(core, quantity, family_);
         // An expected motion explains the heights that it makes, however short it is.
-        const bool large = core.size() >= fewest_sites && defect.area >= smallest_;
+        const bool large = builder_.is_large(defect, core, mine_, smallest_);
         if (large || expected) built_.push_back({std::move(defect), core, expected, large});
     }
 
@@ -366,6 +378,7 @@ private:
     double smallest_;
     const Border& border_;
     const Builder& builder_;
+    DefectCandidates mine_;
     std::vector<BuiltDefect> built_;
 };
 

@@ -20,7 +20,7 @@ struct Group {
             positions.x.push_back(0.2F * static_cast<float>(k));
             positions.y.push_back(0);
             positions.z.push_back(0);
-            DefectCandidate candidate;
+            DefectCandidate candidate{};
             candidate.point = static_cast<PointIndex>(k);
             candidate.share[index_of(Quantity::speed)] = candidate.share[index_of(Quantity::lag)] = shares[k];
             kept.push_back(candidate);
@@ -32,6 +32,9 @@ struct Group {
         return core_of(candidates, quantity, ArcLength(positions), joined);
     }
     [[nodiscard]] std::vector<PointIndex> core() const { return points(sites().core); }
+    [[nodiscard]] double length(double enough = 10) const {
+        return length_above_threshold(sites().core, candidates, Quantity::speed, ArcLength(positions), joined, enough);
+    }
     [[nodiscard]] std::vector<PointIndex> rest() const { return points(sites().rest); }
 
     [[nodiscard]] static std::vector<PointIndex> points(const DefectCandidates& sites) {
@@ -47,6 +50,26 @@ TEST(DefectCore, EndsAtHalfOfThePeak) {
     const Group group({1, 3, 6, 10, 10, 6, 4, 2, 1});
     EXPECT_EQ(group.core(), (Points{2, 3, 4, 5}));
     EXPECT_TRUE(group.rest().empty());
+}
+
+TEST(DefectCore, OfASharpDipIsAsLongAsItPassesTheThreshold) {
+    // At half of 33 the dip is 0.2 mm long, above the threshold 1.2 mm.
+    Group group({0.6F, 1, 5, 15, 33, 20, 8, 2, 0.7F, 1, 1});
+    EXPECT_EQ(group.core(), (Points{4, 5}));
+    EXPECT_NEAR(group.length(), 1.2, 1e-6);
+    EXPECT_GE(group.length(0.5), 0.5) << "that is enough";
+    EXPECT_LT(group.length(0.5), 1.2);
+    group.kept[2].comparison.residual[index_of(Quantity::speed)] = -1;  // overshoot before the dip
+    EXPECT_NEAR(group.length(), 0.8, 1e-6);
+    group.kept[6].pass = 1;
+    EXPECT_NEAR(group.length(), 0.4, 1e-6);
+}
+
+TEST(DefectCore, OfAWeakPeakIsNotAsLongAsAStrongOneBesideIt) {
+    const Group group({2, 3, 2, 2, 9, 9, 9});
+    EXPECT_NEAR(length_above_threshold(CandidateSpan(group.candidates).first(2), group.candidates, Quantity::speed,
+                                       ArcLength(group.positions), joined, 10),
+                0.6, 1e-6);
 }
 
 TEST(DefectCore, BridgesTheZerosOfAnOscillation) {

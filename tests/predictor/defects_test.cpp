@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
@@ -12,6 +11,7 @@
 #include "mapping/map_lines.h"
 #include "planted_score.h"
 #include "predictor/axis_delay.h"
+#include "support/plane_zigzag.h"
 #include "surface/smoothing_segments.h"
 #include "surface/stitch.h"
 
@@ -19,6 +19,10 @@ namespace clsurf::defects_test {
 namespace {
 
 using planted::Shape;
+using test::lift;
+using test::pass_length;
+using test::plane_zigzag;
+using test::usual_step_over;
 
 constexpr Shape shapes[] = {Shape::zigzag, Shape::one_way, Shape::loops, Shape::spiral};
 
@@ -142,44 +146,6 @@ TEST(Defects, OfARecordedPartAreWhereTheProgramHasThem) {
     }
 }
 
-constexpr double apart = 0.3;    // [mm] passes of plane_zigzag
-constexpr double length = 24.0;  // [mm] … and what they are long
-
-/// A zigzag of 24 passes over a plane. `speed`: [mm/s] on a pass at x, the way s [mm] from its beginning.
-template <typename Speed>
-planted::PlantedLog plane_zigzag(Speed&& speed) {
-    constexpr int passes = 24;
-    planted::PlantedLog log;
-    const double period = log.recipe.period = 0.001;
-    log.program = "G1 F3000 X0 Y0 Z0\n";
-    const auto put = [&](double x, double y, std::uint32_t line, int pass) {
-        const double p[3] = {x, y, 0};
-        for (int axis = 0; axis < 3; ++axis) {
-            log.commanded[axis].push_back(p[axis]);
-            log.measured[axis].push_back(p[axis]);
-        }
-        log.line.push_back(line);
-        log.pass.push_back(pass);
-    };
-    std::uint32_t line = 1;
-    for (int k = 0; k < passes; ++k) {
-        const bool back = k % 2 == 1;
-        const double y = k * apart;
-        log.program += fmt::format("X{} Y{}\n", back ? 0.0 : length, y);
-        ++line;
-        for (double s = 0; s < length;) {
-            const double x = back ? length - s : s;
-            put(x, y, line, k);
-            s += period * speed(k, x, s);
-        }
-        if (k + 1 == passes) break;
-        log.program += fmt::format("Y{}\n", y + apart);
-        ++line;
-        for (double s = 0; s < apart; s += 0.01) put(back ? 0.0 : length, y + s, line, -1);
-    }
-    return log;
-}
-
 /// Speed after the way s with an acceleration [mm/s²] from 1 mm/s.
 double reached(double acceleration, double s) { return std::sqrt(1 + 2 * acceleration * s); }
 
@@ -187,8 +153,9 @@ double reached(double acceleration, double s) { return std::sqrt(1 + 2 * acceler
 /// edge at 45° to the feed. `steady`: a pass that does not slow down; −1: none.
 planted::PlantedLog slow_along_an_edge(int steady) {
     return plane_zigzag([steady](int k, double x, double s) {
-        const double off = (x - 8 - k * apart) / 0.7;
-        return std::min(reached(600, std::min(s, length - s)), k == steady ? 50.0 : 50 - 25 * std::exp(-off * off));
+        const double off = (x - 8 - k * usual_step_over) / 0.7;
+        return std::min(reached(600, std::min(s, pass_length - s)),
+                        k == steady ? 50.0 : 50 - 25 * std::exp(-off * off));
     });
 }
 
@@ -196,7 +163,7 @@ planted::PlantedLog slow_along_an_edge(int steady) {
 /// does by `share` more from x = 3 to 5, inside the ramp.
 planted::PlantedLog unlike_ramps(double share) {
     return plane_zigzag([share](int k, double x, double s) {
-        const double planned = std::min({66.7, reached(300, s), reached(1100, length - s)});
+        const double planned = std::min({66.7, reached(300, s), reached(1100, pass_length - s)});
         return k == 12 && x > 3 && x < 5 ? (1 + share) * planned : planned;
     });
 }
@@ -215,7 +182,7 @@ TEST(Defects, AreNotHowPassesBeginAndEnd) {
     for (const double share : {-0.2, 0.2}) {
         const QualityReport report = planted::judge(unlike_ramps(share));
         ASSERT_EQ(report.defects.size(), 1U) << share;
-        EXPECT_NEAR(report.defects[0].place.tip.y(), 12 * apart, 1e-3);
+        EXPECT_NEAR(report.defects[0].place.tip.y(), 12 * usual_step_over, 1e-3);
         EXPECT_NEAR(report.defects[0].place.tip.x(), 4, 1.5);
         // Against its own way: 50 mm/s at x = 4. The other one is still at 66.7.
         EXPECT_NEAR(report.defects[0].speed_jump, 50 * share, 1);
@@ -242,65 +209,6 @@ TEST(Defects, OfFastPassesAreSeenByTheirLength) {
     EXPECT_EQ(score.found, 1);
     EXPECT_EQ(score.named, 1);
     EXPECT_EQ(score.right, score.reported);
-}
-
-/// The measured positions of some passes lifted by `height` [mm] from x = `from` to `to`, with edges of 0.5 mm.
-template <typename Taken>
-void lift(planted::PlantedLog& log, double height, double from, double to, Taken&& taken) {
-    for (std::size_t i = 0; i < log.pass.size(); ++i) {
-        if (log.pass[i] < 0 || !taken(log.pass[i])) continue;
-        const double x = log.commanded[0][i];
-        const double inside = std::clamp(2 * std::min(x - from, to - x), 0.0, 1.0);
-        log.measured[2][i] += height * inside;
-    }
-}
-
-/// A zigzag whose tool runs 8 µm above the plane on pass 12 from x = 10 to 14, as its program says or not, at `speed` [mm/s].
-planted::PlantedLog raised_pass(bool programmed, double speed = 50) {
-    constexpr std::uint32_t pass = 12, line_of_pass = 2 * pass + 2, added = 4;
-    planted::PlantedLog log =
-        plane_zigzag([speed](int k, double x, double) { return k == pass && x > 10 && x < 14 ? speed : 50.0; });
-    lift(log, 0.008, 10, 14, [](int k) { return k == pass; });
-    log.commanded[2] = log.measured[2];
-    if (!programmed) return log;
-    std::size_t at = 0;
-    for (std::uint32_t line = 1; line < line_of_pass; ++line) at = log.program.find('\n', at) + 1;
-    log.program.replace(at, log.program.find('\n', at) + 1 - at, "X10\nX10.5 Z0.008\nX13.5\nX14 Z0\nX24\n");
-    for (std::size_t i = 0; i < log.line.size(); ++i) {
-        if (log.line[i] == line_of_pass)
-            for (const double end : {10.0, 10.5, 13.5, 14.0}) log.line[i] += log.commanded[0][i] > end ? 1 : 0;
-        else if (log.line[i] > line_of_pass)
-            log.line[i] += added;
-    }
-    return log;
-}
-
-// A control may leave the programmed path inside its tolerance, where it merges lines or rounds corners. Points that are
-// spaced differently would be looked for in vain.
-TEST(Defects, OffTheirProgramAreTheControls) {
-    for (const bool programmed : {false, true}) {
-        const QualityReport report = planted::judge(raised_pass(programmed));
-        ASSERT_EQ(report.defects.size(), 1U) << programmed;
-        const Defect& defect = report.defects.front();
-        EXPECT_EQ(defect.quantity, Quantity::relief);
-        EXPECT_EQ(defect.cause, programmed ? Cause::point_spacing : Cause::path_tolerance);
-        EXPECT_NEAR(defect.depth, 0.008, 0.001);
-        EXPECT_FALSE(defect.pit);
-    }
-}
-
-// A controller slows down for a point that is programmed too high. The height is no effect of that: the report must have it.
-TEST(Defects, OfAProgrammedHeightHaveItsDepthWhateverTheSpeedDoes) {
-    for (const double speed : {49.0, 36.0, 10.0}) {
-        const QualityReport report = planted::judge(raised_pass(true, speed));
-        ASSERT_EQ(report.defects.size(), 1U) << speed;
-        const Defect& defect = report.defects.front();
-        EXPECT_EQ(defect.quantity, Quantity::relief);
-        EXPECT_EQ(defect.cause, Cause::point_spacing);
-        EXPECT_NEAR(defect.depth, 0.008, 0.001);
-        EXPECT_FALSE(defect.pit);
-        EXPECT_NEAR(defect.speed_jump, speed - 50, 1);
-    }
 }
 
 /// A zigzag whose axes run 10 µm above the path on the way forward and as much below it on the way back, for x = 4 to 20.

@@ -1,0 +1,124 @@
+// What a report says of heights and stops on one pass of a plane.
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "planted_score.h"
+#include "predictor/defects.h"
+#include "support/plane_zigzag.h"
+
+namespace clsurf::heights_and_stops_test {
+namespace {
+
+using test::lift;
+using test::plane_zigzag;
+
+constexpr std::uint32_t programmed_pass = 12;
+
+/// Replaces the line of pass 12 by lines that end at `ends` before the last one.
+void program_pass(planted::PlantedLog& log, std::string_view lines, const std::vector<double>& ends) {
+    constexpr std::uint32_t line_of_pass = 2 * programmed_pass + 2;
+    std::size_t at = 0;
+    for (std::uint32_t line = 1; line < line_of_pass; ++line) at = log.program.find('\n', at) + 1;
+    log.program.replace(at, log.program.find('\n', at) + 1 - at, lines);
+    for (std::size_t i = 0; i < log.line.size(); ++i) {
+        if (log.line[i] == line_of_pass)
+            for (const double end : ends) log.line[i] += log.commanded[0][i] > end ? 1 : 0;
+        else if (log.line[i] > line_of_pass)
+            log.line[i] += static_cast<std::uint32_t>(ends.size());
+    }
+}
+
+/// A zigzag whose tool runs 8 µm above the plane on pass 12 from x = 10 to 14, as its program says or not, at `speed` [mm/s].
+planted::PlantedLog raised_pass(bool programmed, double speed = 50) {
+    planted::PlantedLog log = plane_zigzag(
+        [speed](int k, double x, double) { return k == programmed_pass && x > 10 && x < 14 ? speed : 50.0; });
+    lift(log, 0.008, 10, 14, [](int k) { return k == programmed_pass; });
+    log.commanded[2] = log.measured[2];
+    if (programmed) program_pass(log, "X10\nX10.5 Z0.008\nX13.5\nX14 Z0\nX24\n", {10.0, 10.5, 13.5, 14.0});
+    return log;
+}
+
+/// A point of pass 12 that is programmed 20 µm too high, 0.4 mm from the next ones. The controller makes a peak of it that is
+/// 2 mm wide on either side.
+planted::PlantedLog rounded_peak() {
+    planted::PlantedLog log = plane_zigzag([](int, double, double) { return 50.0; });
+    for (std::size_t i = 0; i < log.pass.size(); ++i) {
+        if (log.pass[i] == programmed_pass)
+            log.commanded[2][i] = 0.020 * std::max(0.0, 1 - std::abs(log.commanded[0][i] - 12) / 2);
+    }
+    log.measured[2] = log.commanded[2];
+    program_pass(log, "X11.6\nX12 Z0.020\nX12.4 Z0\nX24\n", {11.6, 12.0, 12.4});
+    return log;
+}
+
+// A control may leave the programmed path inside its tolerance, where it merges lines or rounds corners. Points that are
+// spaced differently would be looked for in vain.
+TEST(Defects, OffTheirProgramAreTheControls) {
+    for (const bool programmed : {false, true}) {
+        const QualityReport report = planted::judge(raised_pass(programmed));
+        ASSERT_EQ(report.defects.size(), 1U) << programmed;
+        const Defect& defect = report.defects.front();
+        EXPECT_EQ(defect.quantity, Quantity::relief);
+        EXPECT_EQ(defect.cause, programmed ? Cause::point_spacing : Cause::path_tolerance);
+        EXPECT_NEAR(defect.depth, 0.008, 0.001);
+        EXPECT_FALSE(defect.pit);
+    }
+}
+
+// At the peak the path agrees with the program. Beside it the path lies 16 µm above the program at most, 10 µm where the peak is
+// half as high: most of the section is off the program, but without its point there would be no peak.
+TEST(Defects, OfAPointThatTheControllerRoundsOffAreThePrograms) {
+    const QualityReport report = planted::judge(rounded_peak());
+    ASSERT_EQ(report.defects.size(), 1U);
+    EXPECT_EQ(report.defects.front().cause, Cause::point_spacing);
+    // The mean over 15 ms, 0.75 mm: 20 − 20 · (0.75 / 4) / 2 µm.
+    EXPECT_NEAR(report.defects.front().depth, 0.018, 0.0015);
+}
+
+// A controller slows down for a point that is programmed too high. The height is no effect of that: the report must have it.
+TEST(Defects, OfAProgrammedHeightHaveItsDepthWhateverTheSpeedDoes) {
+    for (const double speed : {49.0, 36.0, 10.0}) {
+        const QualityReport report = planted::judge(raised_pass(true, speed));
+        ASSERT_EQ(report.defects.size(), 1U) << speed;
+        const Defect& defect = report.defects.front();
+        EXPECT_EQ(defect.quantity, Quantity::relief);
+        EXPECT_EQ(defect.cause, Cause::point_spacing);
+        EXPECT_NEAR(defect.depth, 0.008, 0.001);
+        EXPECT_FALSE(defect.pit);
+        EXPECT_NEAR(defect.speed_jump, speed - 50, 1);
+    }
+}
+
+// A feed hold: the tool brakes from 50 mm/s, and stands on the surface. With 2500 mm/s² it is slower than half of its speed over
+// 25² / 2500 = 0.25 mm, less than a step-over.
+TEST(Defects, OfAStopAreFoundHoweverShortTheyAre) {
+    for (const double apart : {0.3, 1.0}) {
+        for (const double braking : {500.0, 2500.0}) {
+            for (const double place : {12.03, 12.08, 12.2}) {
+                const planted::PlantedLog log = plane_zigzag(
+                    [=](int k, double x, double) {
+                        const double speed = std::sqrt(2 * braking * std::abs(x - place));
+                        return k == programmed_pass ? std::clamp(speed, 0.05, 50.0) : 50.0;
+                    },
+                    apart);
+                const QualityReport report = planted::judge(log);
+                ASSERT_EQ(report.defects.size(), 1U) << apart << " mm, " << braking << " mm/s², " << place << " mm";
+                const Defect& defect = report.defects.front();
+                EXPECT_EQ(defect.quantity, Quantity::speed);
+                EXPECT_EQ(defect.severity, 3);
+                EXPECT_LT(defect.speed_jump, -25);
+                EXPECT_NEAR(defect.place.tip.x(), place, 0.2);
+                ASSERT_EQ(defect.runs.size(), 1U);
+                EXPECT_EQ(defect.runs.front().pass, 13);
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace clsurf::heights_and_stops_test
