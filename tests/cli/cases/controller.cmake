@@ -62,7 +62,7 @@ clsurf_cli_test(NAME machine_file_with_uncertainty_of_nothing EXIT 3
 # passes 82 to 87 % slower than their neighbours.
 set(repaired @DATA@/programs/bottle_uneven_repaired.nc)
 clsurf_cli_test(NAME repaired_on_a_kernel ARGS check ${repaired} @LOGS@/bottle_uneven_repaired.biip
-  STDOUT "^9 defects: systematic axis lag .±7[0-9.]+ µm" "slower sections .up to -2[0-9] %.")
+  STDOUT "^10 defects: systematic axis lag .±7[0-9.]+ µm" "slower sections .up to -2[0-9] %.")
 clsurf_cli_test(NAME repaired_as_the_kernel_ran_it
   SETUP "$CLSURF simulate ${repaired} --machine @DATA@/machines/linuxcnc_kernel.toml -o simulated.biip -q"
   ARGS diff @LOGS@/bottle_uneven_repaired.biip simulated.biip --program ${repaired}
