@@ -20,7 +20,7 @@ constexpr float shape_beside = 0.6F;      ///< share of the largest relief aroun
 constexpr float nearer_to_border =
     1.33F;  ///< times the opposite relief of the pass towards the border: up to that the fault is that one's
 
-float median(std::span<const float> values, std::size_t fewest = fewest_values) {
+float median_of_known(std::span<const float> values, std::size_t fewest = fewest_values) {
     return median_of(values, fewest, [](float v) { return v; });
 }
 
@@ -104,11 +104,11 @@ bool is_shape(float relief, std::span<const float> left, std::span<const float> 
 /// The median relief of the passes on one side. A pass that is off by d has the relief d, each of the adjacent passes -d/2. Where
 /// they cannot be outvoted, that part of the fault is taken off: a third of the difference.
 float median_beside(float relief, std::span<const float> side) {
-    if (side.size() >= fewest_clean && known(side) != fewest_values) return median(side);
+    if (side.size() >= fewest_clean && known(side) != fewest_values) return median_of_known(side);
     std::array<float, most_values> clean{};
     std::copy(side.begin(), side.end(), clean.begin());
     clean[0] += (relief - side[0]) / 3;
-    return median(std::span(clean).first(side.size()));
+    return median_of_known(std::span(clean).first(side.size()));
 }
 
 /// How far a relief lies above the reliefs of the passes on its two sides, or below (−): by the distance from the interval between
@@ -119,7 +119,7 @@ float beyond_sides(float relief, std::span<const float> left, std::span<const fl
     if (one == one && other == other) return relief - std::clamp(relief, std::min(one, other), std::max(one, other));
     std::array<float, most_values> all{};
     const auto end = std::copy(right.begin(), right.end(), std::copy(left.begin(), left.end(), all.begin()));
-    return relief - median(std::span(all.begin(), end));
+    return relief - median_of_known(std::span(all.begin(), end));
 }
 
 /// The same next to the border, where the outermost pass has no chord: what relief it would have is not known. A relief is
@@ -158,13 +158,13 @@ float usual_beside(float own, std::span<const float> left, std::span<const float
     std::array<float, most_values> values = passes.value;
     if (passes.count == 2) return std::clamp(own, std::min(values[0], values[1]), std::max(values[0], values[1]));
     const std::span<float> all(values.data(), passes.count);
-    if (left.size() == right.size() && passes.count == left.size() + right.size()) return median(all);
+    if (left.size() == right.size() && passes.count == left.size() + right.size()) return median_of_known(all);
     const float change = passes.even_change();
     for (std::size_t k = 0; k < passes.count; ++k) values[k] -= change * passes.place[k];
-    const float middle = median(all);
+    const float middle = median_of_known(all);
     if (left.empty() || right.empty()) return middle;  // nobody else tells a change from a fault
     for (float& value : all) value = std::abs(value - middle);
-    return std::abs(own - middle) <= clear_of_scatter * median(all) ? own : middle;
+    return std::abs(own - middle) <= clear_of_scatter * median_of_known(all) ? own : middle;
 }
 
 float relief_mark(float own, std::span<const float> left, std::span<const float> right) {
