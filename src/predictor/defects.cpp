@@ -10,6 +10,7 @@
 #include "predictor/border.h"
 #include "predictor/candidates.h"
 #include "predictor/cause.h"
+#include "predictor/chord_effect.h"
 #include "predictor/coverage.h"
 #include "predictor/defect_core.h"
 #include "predictor/explanations.h"
@@ -26,7 +27,8 @@ constexpr double smallest_area = 1.0;      ///< squared step-overs
 constexpr float least_speed_share = 0.6F;  ///< of its threshold, for what only the acceleration shows …
 constexpr float strong_alone = 1.5F;       ///< … and of the acceleration's own
 constexpr std::size_t fewest_sites = 2;
-constexpr int of_stops = 3;  ///< severity of a motion by its speed alone, from which on it may be of any length
+constexpr int of_stops = 3;   ///< severity of a motion by its speed alone, from which on it may be of any length …
+constexpr int of_spikes = 4;  ///< … and that of a height
 constexpr std::size_t most_systematic_runs = 300;  ///< that are listed: the longest
 constexpr double systematic_depth = 0.99;          ///< quantile of the steps of a systematic lag
 
@@ -155,13 +157,13 @@ public:
     }
 
     /// Whether a defect is large enough to be listed. Its core covers `area` [mm²], at half of its peak or above its threshold,
-    /// or the tool nearly stops: that leaves a mark however short it is. `sites`: those of its family.
+    /// or the tool nearly stops or leaves the surface by far: that leaves a mark however short it is. `sites`: those of its family.
     [[nodiscard]] bool is_large(const Defect& defect, CandidateSpan core, CandidateSpan sites, double area) const {
-        if (core.size() < fewest_sites) return false;
+        if (core.size() < fewest_sites || defect.length <= 0) return false;
         if (defect.area >= area) return true;
-        if (defect.quantity == Quantity::speed &&
-            severity_of({0, defect.score, true, false}, rules_.severity) >= of_stops)
-            return true;
+        const bool motion = defect.quantity == Quantity::speed;
+        const int alone = motion ? severity_of({0, defect.score, true, false}, rules_.severity) : defect.severity;
+        if (alone >= (motion ? of_stops : of_spikes)) return true;
         const double enough = area / surface_.step_over;
         return length_above_threshold(core, sites, defect.quantity, arc_length_, joined_, enough) >= enough;
     }
@@ -429,6 +431,7 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
         rules.group_systematic
             ? take_systematic_lag(surface, signals, arc_length, report.thresholds, joined, found, forget)
             : SystematicLag{};
+    take_chord_effects(surface.passes, arc_length, joined, found, forget);
     const DefectCandidates& candidates = found.candidates;
     const double smallest = smallest_area * surface.step_over * surface.step_over;
     const std::array<Family, 3> families{motion_family, lag_family, relief_family};

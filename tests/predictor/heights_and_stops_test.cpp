@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "planted_score.h"
@@ -92,6 +93,45 @@ TEST(Defects, OfAProgrammedHeightHaveItsDepthWhateverTheSpeedDoes) {
         EXPECT_FALSE(defect.pit);
         EXPECT_NEAR(defect.speed_jump, speed - 50, 1);
     }
+}
+
+/// Peaks at x = 12, 0.4 mm wide on either side: `height` [mm] on pass 12, where the tool is slow, as its program says, and `beside`
+/// on pass 13.
+planted::PlantedLog peaks(double height, double beside) {
+    planted::PlantedLog log = plane_zigzag(
+        [](int k, double x, double) { return k == programmed_pass && std::abs(x - 12) < 1.5 ? 20.0 : 50.0; });
+    for (std::size_t i = 0; i < log.pass.size(); ++i) {
+        const double shape = std::max(0.0, 1 - std::abs(log.commanded[0][i] - 12) / 0.4);
+        if (log.pass[i] == programmed_pass) log.commanded[2][i] = height * shape;
+        if (log.pass[i] == programmed_pass + 1) log.commanded[2][i] = beside * shape;
+    }
+    log.measured[2] = log.commanded[2];
+    program_pass(log, fmt::format("X11.6\nX12 Z{}\nX12.4 Z0\nX24\n", height), {11.6, 12.0, 12.4});
+    return log;
+}
+
+// Heights are means over 15 ms: 0.3 mm where the tool is slow, 0.75 mm on the adjacent passes. What the peak does to their chords
+// is wider than the peak.
+TEST(Defects, OfAPeakAreNotOfThePassesBesideIt) {
+    for (const double height : {0.02, 0.1, -0.1}) {
+        const QualityReport report = planted::judge(peaks(height, 0));
+        int reliefs = 0;
+        for (const Defect& defect : report.defects) {
+            for (const DefectRun& run : defect.runs) EXPECT_EQ(run.pass, programmed_pass + 1) << height;
+            if (defect.quantity != Quantity::relief) continue;
+            ++reliefs;
+            EXPECT_EQ(defect.pit, height < 0);
+            EXPECT_NEAR(defect.depth, std::abs(height), 0.2 * std::abs(height));
+        }
+        EXPECT_EQ(reliefs, 1) << height;
+    }
+}
+
+TEST(Defects, OfAPassBesideAPeakStayIfItLiesOffItself) {
+    const QualityReport report = planted::judge(peaks(0.02, -0.03));
+    EXPECT_TRUE(std::any_of(report.defects.begin(), report.defects.end(), [](const Defect& defect) {
+        return defect.pit && defect.runs.front().pass == programmed_pass + 2;
+    }));
 }
 
 // A feed hold: the tool brakes from 50 mm/s, and stands on the surface. With 2500 mm/s² it is slower than half of its speed over

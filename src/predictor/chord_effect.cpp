@@ -1,0 +1,85 @@
+#include "predictor/chord_effect.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "core/block_portions.h"
+
+namespace clsurf {
+namespace {
+
+constexpr std::size_t of_relief = index_of(Quantity::relief);
+/// Of the stronger relief. −h/2 beside h, with room for noise; a pass that is off by p the other way has (p + h/2) / (h + p/2).
+constexpr float most_of_chord = 0.6F;
+
+class ChordEffects {
+public:
+    /// `reliefs`: the candidates with a relief, in the order of their points.
+    ChordEffects(const DefectCandidates& reliefs, const Passes& passes, const ArcLength& arc_length, double along)
+        : reliefs_(reliefs), passes_(passes), arc_length_(arc_length), along_(along) {}
+
+    [[nodiscard]] bool is_one(const DefectCandidate& candidate) const {
+        const Comparison& c = candidate.comparison;
+        const bool pit = c.residual[of_relief] < 0;
+        const float most = most_of_chord * std::max(peak_near(c.beside_left, !pit), peak_near(c.beside_right, !pit));
+        return most > 0 && peak_near({candidate.point, 0}, pit) <= most;
+    }
+
+private:
+    /// The largest relief of one sign on the pass of a place, up to `along` from it [mm].
+    [[nodiscard]] float peak_near(const PathLocation& place, bool pit) const {
+        if (!place.exists()) return 0;
+        const PointIndex there = place.nearest();
+        const auto after = std::lower_bound(reliefs_.begin(), reliefs_.end(), there,
+                                            [](const DefectCandidate* s, PointIndex p) { return s->point < p; });
+        return std::max(peak_from(after, reliefs_.end(), there, pit),
+                        peak_from(std::make_reverse_iterator(after), reliefs_.rend(), there, pit));
+    }
+
+    template <typename Iterator>
+    [[nodiscard]] float peak_from(Iterator next, Iterator end, PointIndex there, bool pit) const {
+        const std::size_t pass = pass_of(passes_, there);
+        float peak = 0;
+        for (; next != end && (*next)->pass == pass; ++next) {
+            const PointIndex point = (*next)->point;
+            if (arc_length_.at_least(std::min(there, point), std::max(there, point), along_)) break;
+            const float relief = (*next)->comparison.residual[of_relief];
+            if ((relief < 0) == pit) peak = std::max(peak, std::abs(relief));
+        }
+        return peak;
+    }
+
+    const DefectCandidates& reliefs_;
+    const Passes& passes_;
+    const ArcLength& arc_length_;
+    double along_;  ///< [mm]
+};
+
+}  // namespace
+
+void take_chord_effects(const Passes& passes, const ArcLength& arc_length, double along, FoundCandidates& found,
+                        const ForgetBlocks& forget) {
+    std::vector<DefectCandidate*> all;
+    for (std::vector<DefectCandidate>& piece : found.kept) {
+        for (DefectCandidate& candidate : piece) {
+            if (candidate.share[of_relief] > 0) all.push_back(&candidate);
+        }
+    }
+    std::sort(all.begin(), all.end(),
+              [](const DefectCandidate* a, const DefectCandidate* b) { return a->point < b->point; });
+    const DefectCandidates reliefs(all.begin(), all.end());
+    const ChordEffects effects(reliefs, passes, arc_length, along);
+    std::vector<DefectCandidate*> taken;  // first all are looked at: what is taken from one must not change another
+    for_each_portion(
+        all.size(), forget, [&](std::size_t k) { return all[k]->point; },
+        [&](std::size_t first, std::size_t end) {
+            std::copy_if(all.begin() + static_cast<std::ptrdiff_t>(first),
+                         all.begin() + static_cast<std::ptrdiff_t>(end), std::back_inserter(taken),
+                         [&](const DefectCandidate* c) { return effects.is_one(*c); });
+        });
+    for (DefectCandidate* candidate : taken)
+        candidate->share[of_relief] = candidate->score[of_relief] = candidate->comparison.residual[of_relief] = 0;
+}
+
+}  // namespace clsurf
