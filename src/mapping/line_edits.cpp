@@ -1,7 +1,6 @@
 #include "mapping/line_edits.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <span>
@@ -9,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "mapping/allowed_motions.h"
+#include "mapping/line_shifts.h"
 #include "toolpath/toolpath.h"
 
 namespace clsurf {
@@ -19,28 +19,8 @@ constexpr PointIndex sampled_points = 1600;  ///< points
 constexpr std::size_t least_run = 5;         ///< moving points of a line whose middle tells it from the next one
 constexpr double steps_off = 1.5;            ///< chords that a point may lie off its line
 constexpr double least_confidence = 0.5;     ///< of an aligned point that tells where a line is
-constexpr PointIndex longest_lead = 4;       ///< records by which a reported line may lead the axes
-constexpr std::size_t lines_together = 9;    ///< lines that together tell a shift
-constexpr double together_share = 2.0 / 3;   ///< of them
-constexpr LineNumber soon_undone = 40;       ///< lines
 constexpr double explained_share = 0.8;      ///< of all lines, or no edit explains them
 constexpr std::size_t most_shifts = 1000;    ///< and of lines, one in ten at most
-
-/// Where each line of the old text stands now.
-struct Vote {
-    std::int64_t shift = 0;
-    std::int32_t weight = 0;  ///< majority vote (Boyer and Moore)
-
-    void add(std::int64_t given) {
-        if (weight == 0) shift = given;
-        weight += given == shift ? 1 : -1;
-    }
-};
-
-struct LineVote {
-    LineNumber line = 0;
-    std::int64_t shift = 0;
-};
 
 class EditFinder {
 public:
@@ -48,32 +28,72 @@ public:
         : path_(path), program_(program), lines_(lines), aligned_(aligned) {}
 
     std::optional<LineEdits> find() {
-        lead_ = find_lead();
-        take_votes();
-        if (votes_.empty() || !segment(votes_)) return std::nullopt;
-        for (std::size_t k = 0; k < gaps_.size(); ++k) narrow(k);
-        correct();
-        return std::move(edits_);
+        collect_ends();
+        if (ends_.empty()) return std::nullopt;
+        const LineShifts shifts = find_line_shifts(ends_, found_, lines_with_motion());
+        if (shifts.unexplained > 1 - explained_share ||
+            shifts.sections.size() > std::min(most_shifts, shifts.lines / 10 + 1))
+            return std::nullopt;
+        LineEdits edits;
+        std::int64_t before = 0;
+        for (const ShiftedLines& section : shifts.sections) {
+            edits.shifts.push_back({section.first, section.shift - before});
+            before = section.shift;
+        }
+        correct(edits, shifts.lead);
+        return edits;
     }
 
 private:
-    /// body(point, reported, aligned `lead` records later) for the points that move and have both.
+    /// A run of records that move and report one line; found_ has what geometry says of each.
+    struct Run {
+        LineNumber line = 0;
+        std::int64_t begin = 0;
+        std::int64_t off_path = 0;  ///< records
+    };
+
+    /// A line that is blended with the next one ends by half of the shorter of both too early.
+    void collect_ends() {
+        Run last, now;
+        const auto close = [&](std::int64_t end) {
+            if (last.line != 0) {
+                const std::int64_t shorter = std::min(now.begin - last.begin, end - now.begin);
+                const auto records = static_cast<double>(now.begin - last.begin);
+                ends_.push_back({last.line, now.begin, static_cast<double>(shorter) / 2,
+                                 static_cast<double>(last.off_path) / records});
+            }
+            last = now;
+        };
+        for_moving([&](LineNumber reported, LineNumber at) {
+            const auto record = static_cast<std::int64_t>(found_.size());
+            found_.push_back(at);
+            if (reported != now.line) {
+                close(record);
+                now = {reported, record, 0};
+            }
+            now.off_path += at == 0 ? 1 : 0;
+        });
+        close(static_cast<std::int64_t>(found_.size()));
+        std::stable_sort(ends_.begin(), ends_.end(),
+                         [](const LineEnd& x, const LineEnd& y) { return x.line < y.line; });
+    }
+
+    /// body(reported, aligned) for the points that move; 0: none.
     template <typename Body>
-    void for_pairs(PointIndex lead, const Body& body) const {
+    void for_moving(const Body& body) const {
         constexpr PointIndex block = 4096;
-        std::vector<LineNumber> reported(static_cast<std::size_t>(block));
-        std::vector<LineNumber> found(static_cast<std::size_t>(block + longest_lead));
-        std::vector<double> x(found.size()), y(found.size()), z(found.size());
+        std::vector<LineNumber> reported(static_cast<std::size_t>(block)), found(reported.size());
+        std::vector<double> x(reported.size()), y(x.size()), z(x.size());
+        Vec3 before = path_.count > 0 ? path_.at(0) : Vec3::Zero();
         for (PointIndex begin = 0; begin < path_.count; begin += block) {
             const auto n = static_cast<std::size_t>(std::min(block, path_.count - begin));
-            const auto m = static_cast<std::size_t>(std::min(block + lead + 1, path_.count - begin));
             copy_block(lines_, begin, {reported.data(), n}, 0);
-            read_aligned(begin, {found.data(), std::min(m, found.size())});
+            read_aligned(begin, {found.data(), n});
             path_.read(begin, {x.data(), n}, {y.data(), n}, {z.data(), n});
-            for (std::size_t i = 1; i < n && i + static_cast<std::size_t>(lead) < m; ++i) {
-                const LineNumber at = found[i + static_cast<std::size_t>(lead)];
-                const bool moves = x[i] != x[i - 1] || y[i] != y[i - 1] || z[i] != z[i - 1];
-                if (moves && reported[i] != 0 && at != 0) body(reported[i], at);
+            for (std::size_t i = 0; i < n; ++i) {
+                const Vec3 p(x[i], y[i], z[i]);
+                if (p != before) body(reported[i], found[i]);
+                before = p;
             }
         }
     }
@@ -87,181 +107,36 @@ private:
         }
         if (program_.motions.file.empty()) return;
         for (std::size_t i = 0; i < out.size(); ++i) {
-            const std::int64_t motion = aligned_.motion_at(begin + static_cast<PointIndex>(i));
-            if (motion >= 0 && program_.motions.file[static_cast<std::size_t>(motion)] != 0) out[i] = 0;
+            if (in_other_file(begin + static_cast<PointIndex>(i))) out[i] = 0;
         }
     }
 
-    /// Both change their line at the same record where the lead is right.
-    [[nodiscard]] PointIndex find_lead() const {
-        PointIndex best = 0;
-        std::int64_t least = -1;
-        for (PointIndex lead = 0; lead <= longest_lead; ++lead) {
-            std::int64_t changes = 0;
-            std::int64_t before = 0;
-            for_pairs(lead, [&](LineNumber reported, LineNumber at) {
-                const std::int64_t shift = std::int64_t{at} - reported;
-                changes += shift != before ? 1 : 0;
-                before = shift;
-            });
-            if (least >= 0 && changes >= least) continue;
-            least = changes;
-            best = lead;
-        }
-        return best;
+    [[nodiscard]] std::vector<LineNumber> lines_with_motion() const {
+        std::vector<LineNumber> lines;
+        for (std::int64_t m = 0; m < program_.motions.size(); ++m) lines.push_back(aligned_.line_of_motion(m));
+        std::sort(lines.begin(), lines.end());
+        lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+        return lines;
     }
 
-    /// How the lines of runs of points are displaced. Within a run of a few points only, the lead decides, and
-    /// that changes with the speed: such runs are kept apart.
-    void take_votes() {
-        std::vector<Vote> by_long, by_short;
-        LineNumber line = 0;
-        Vote run;
-        std::size_t points = 0;
-        const auto close = [&] {
-            constexpr LineNumber most_lines = 100'000'000;
-            if (points == 0 || line > most_lines) return;
-            std::vector<Vote>& of_line = points >= least_run ? by_long : by_short;
-            if (line >= of_line.size()) of_line.resize(std::size_t{line} + 1);
-            of_line[line].add(run.shift);
-        };
-        for_pairs(lead_, [&](LineNumber reported, LineNumber at) {
-            if (reported != line) {
-                close();
-                line = reported;
-                run = {};
-                points = 0;
-            }
-            run.add(std::int64_t{at} - reported);
-            ++points;
-        });
-        close();
-        votes_ = votes_of(by_long);
-        weak_votes_ = votes_of(by_short);
-        if (votes_.size() < 2 * lines_together) {
-            votes_.insert(votes_.end(), weak_votes_.begin(), weak_votes_.end());
-            std::stable_sort(votes_.begin(), votes_.end(),
-                             [](const LineVote& x, const LineVote& y) { return x.line < y.line; });
-        }
-    }
-
-    static std::vector<LineVote> votes_of(const std::vector<Vote>& of_line) {
-        std::vector<LineVote> votes;
-        for (std::size_t line = 0; line < of_line.size(); ++line) {
-            if (of_line[line].weight > 0) votes.push_back({static_cast<LineNumber>(line), of_line[line].shift});
-        }
-        return votes;
-    }
-
-    /// The shift that most of the votes from `at` on agree on; nullopt: they do not.
-    static std::optional<std::int64_t> common_shift(std::span<const LineVote> votes, std::size_t at) {
-        const std::span<const LineVote> some = votes.subspan(at, std::min(lines_together, votes.size() - at));
-        Vote most;
-        for (const LineVote& vote : some) most.add(vote.shift);
-        const auto agreeing =
-            std::count_if(some.begin(), some.end(), [&](const LineVote& v) { return v.shift == most.shift; });
-        if (static_cast<double>(agreeing) < together_share * static_cast<double>(some.size())) return std::nullopt;
-        return most.shift;
-    }
-
-    /// Lines cut into sections of one shift each.
-    bool segment(std::span<const LineVote> votes) {
-        std::int64_t shift = 0;
-        std::size_t agreeing = 0;
-        LineNumber last = 0;  // that agreed
-        bool first = true;
-        for (std::size_t i = 0; i < votes.size(); ++i) {
-            if (votes[i].shift != shift || first) {
-                const std::optional<std::int64_t> common = common_shift(votes, i);
-                if (common && *common == votes[i].shift && (*common != shift || first)) {
-                    if (*common != shift) {
-                        edits_.shifts.push_back({votes[i].line, *common - shift});
-                        gaps_.push_back({last + 1, votes[i].line - 1});
-                    }
-                    shift = *common;
-                    first = false;
-                }
-            }
-            if (votes[i].shift != shift) continue;
-            ++agreeing;
-            last = votes[i].line;
-        }
-        drop_undone();
-        return static_cast<double>(agreeing) >= explained_share * static_cast<double>(votes.size()) &&
-               edits_.shifts.size() <= std::min(most_shifts, votes.size() / 10 + 1);
-    }
-
-    /// One line more and soon one less is what a lead looks like that differs for some lines.
-    void drop_undone() {
-        for (std::size_t k = 1; k < edits_.shifts.size();) {
-            const LineShift& first = edits_.shifts[k - 1];
-            const LineShift& second = edits_.shifts[k];
-            if (first.by + second.by != 0 || std::abs(first.by) != 1 || second.before - first.before > soon_undone) {
-                ++k;
-                continue;
-            }
-            const auto at = static_cast<std::ptrdiff_t>(k) - 1;
-            edits_.shifts.erase(edits_.shifts.begin() + at, edits_.shifts.begin() + at + 2);
-            gaps_.erase(gaps_.begin() + at, gaps_.begin() + at + 2);
-            k = std::max<std::size_t>(1, k - 1);
-        }
-    }
-
-    /// Where in the gap before a shift it is, by the short runs there: their shifts are off by the same lead.
-    void narrow(std::size_t k) {
-        const auto less = [](const LineVote& v, LineNumber line) { return v.line < line; };
-        const auto first = std::lower_bound(weak_votes_.begin(), weak_votes_.end(), gaps_[k].first, less);
-        const auto last = std::lower_bound(first, weak_votes_.end(), gaps_[k].last + 1, less);
-        if (first == last) return;
-        std::int64_t before = 0;
-        for (std::size_t j = 0; j < k; ++j) before += edits_.shifts[j].by;
-        const std::int64_t after = before + edits_.shifts[k].by;
-        std::int64_t best = -1;
-        auto best_at = last;
-        for (std::int64_t bias = -1; bias <= 1; ++bias) {
-            // Votes for the shift before up to a place, and for the one after from there on.
-            std::int64_t agreeing =
-                std::count_if(first, last, [&](const LineVote& v) { return v.shift == after + bias; });
-            for (auto at = first;; ++at) {
-                // Deleted lines lie before the shift.
-                const bool room = at == last || edits_.shifts[k].by > 0 ||
-                                  std::int64_t{at->line} + edits_.shifts[k].by >= std::int64_t{gaps_[k].first};
-                if (room && agreeing > best) {
-                    best = agreeing;
-                    best_at = at;
-                }
-                if (at == last) break;
-                agreeing += (at->shift == before + bias ? 1 : 0) - (at->shift == after + bias ? 1 : 0);
-            }
-        }
-        if (best_at != last) edits_.shifts[k].before = best_at->line;
-        if (best_at != first && edits_.shifts[k].by > 0) gaps_[k].first = std::prev(best_at)->line + 1;
-        gaps_[k].last = edits_.shifts[k].before - 1;
-    }
-
-    /// Lines of the points in the new text. A line between two shifts that no motion tells of may be one that was
-    /// deleted: what geometry finds is taken.
-    void correct() {
-        edits_.lines.resize(static_cast<std::size_t>(path_.count));
-        copy_block(lines_, 0, {edits_.lines.data(), edits_.lines.size()}, 0);
-        std::vector<std::int64_t> total;
-        for (const LineShift& s : edits_.shifts) total.push_back((total.empty() ? 0 : total.back()) + s.by);
-        const auto after = [&](LineNumber line) {
-            return std::upper_bound(edits_.shifts.begin(), edits_.shifts.end(), line,
-                                    [](LineNumber l, const LineShift& s) { return l < s.before; }) -
-                   edits_.shifts.begin();
-        };
-        for (std::size_t i = 0; i < edits_.lines.size(); ++i) {
-            LineNumber& line = edits_.lines[i];
+    /// Lines of the points in the new text. Of a line that was deleted, geometry tells what is there now.
+    void correct(LineEdits& edits, PointIndex lead) const {
+        edits.lines.resize(static_cast<std::size_t>(path_.count));
+        copy_block(lines_, 0, {edits.lines.data(), edits.lines.size()}, 0);
+        std::vector<std::int64_t> total{0};
+        for (const LineShift& s : edits.shifts) total.push_back(total.back() + s.by);
+        for (std::size_t i = 0; i < edits.lines.size(); ++i) {
+            LineNumber& line = edits.lines[i];
             const auto point = static_cast<PointIndex>(i);
             if (line == 0 || in_other_file(point)) continue;
-            const std::ptrdiff_t k = after(line);
-            const auto next = static_cast<std::size_t>(k);
-            const bool in_gap = next < gaps_.size() && line >= gaps_[next].first && line <= gaps_[next].last;
-            if (in_gap) {
-                line = aligned_.line_at(std::min(point + lead_, path_.count - 1));
-            } else if (k > 0) {
-                line = static_cast<LineNumber>(std::max<std::int64_t>(0, line + total[next - 1]));
+            const auto next = std::upper_bound(edits.shifts.begin(), edits.shifts.end(), line,
+                                               [](LineNumber l, const LineShift& s) { return l < s.before; });
+            if (next != edits.shifts.end() &&
+                std::int64_t{line} >= std::int64_t{next->before} + std::min<std::int64_t>(0, next->by)) {
+                line = aligned_.line_at(std::clamp<PointIndex>(point + lead, 0, path_.count - 1));
+            } else {
+                const std::int64_t moved = line + total[static_cast<std::size_t>(next - edits.shifts.begin())];
+                line = static_cast<LineNumber>(std::max<std::int64_t>(0, moved));
             }
         }
     }
@@ -272,18 +147,12 @@ private:
         return motion >= 0 && program_.motions.file[static_cast<std::size_t>(motion)] != 0;
     }
 
-    struct Gap {
-        LineNumber first = 0, last = 0;
-    };
-
     const Trajectory& path_;
     const Program& program_;
     const ChannelView& lines_;
     const LineMap& aligned_;
-    PointIndex lead_ = 0;
-    std::vector<LineVote> votes_, weak_votes_;  ///< by line
-    LineEdits edits_;
-    std::vector<Gap> gaps_;  ///< in front of each shift: lines that no motion tells of
+    std::vector<LineEnd> ends_;  ///< by line
+    Column<LineNumber> found_;   ///< by geometry, of the records that move
 };
 
 /// Looks at the middle of each run of points with one line.

@@ -34,6 +34,14 @@ clsurf_cli_test(NAME crlf_is_the_same_program SETUP "sed 's/$/\\r/' ${uneven} > 
 clsurf_cli_test(NAME mixed_line_ends_are_the_same_program
   SETUP "sed '1~2s/$/\\r/' ${uneven} > bottle_uneven.nc && $CLSURF convert ${uneven_log} --program bottle_uneven.nc -o run.biip && cp ${uneven} bottle_uneven.nc"
   ARGS info bottle_uneven.nc run.biip STDOUT "positions lie" NO_STDOUT "edited" "another program")
+# A kernel's line numbers lead its axes by two records, in which the tool passes several of the shorter lines.
+set(irregular @DATA@/programs/petal_zigzag_irregular.ngc)
+clsurf_cli_test(NAME comment_appended_after_the_run SETUP "(cat ${irregular} && echo '(the end)') > petal_zigzag_irregular.ngc"
+  ARGS info petal_zigzag_irregular.ngc @LOGS@/petal_zigzag_irregular.biip STDOUT "the edit moved no line" NO_STDOUT "inserted" "deleted")
+clsurf_cli_test(NAME lines_edited_where_they_are_short
+  SETUP "sed -e '12001i (a comment)' -e '16000,16001d' ${irregular} > petal_zigzag_irregular.ngc"
+  ARGS info petal_zigzag_irregular.ngc @LOGS@/petal_zigzag_irregular.biip
+  STDOUT "1 line inserted before line 1200[0-3], 2 lines deleted before line 1600[0-4] since")
 # The log of petal_spiral carries no hash.
 clsurf_cli_test(NAME lines_inserted_without_a_hash SETUP "sed -e '3000i (a)' -e '3000i (b)' @DATA@/programs/petal_spiral.ngc > petal_spiral.ngc"
   ARGS query petal_spiral.ngc @LOGS@/petal_spiral.raw --layout @DATA@/logs/petal_spiral.layout.toml --point 70000
