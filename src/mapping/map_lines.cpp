@@ -89,7 +89,7 @@ public:
         if (match_.edited || off_line > displaced) {
             if (std::optional<LineMap> moved = look_for_edits(channel, own, map, off_line)) {
                 map = std::move(*moved);
-            } else if (off_line > all_displaced) {
+            } else if (!lines_valid_ && off_line > all_displaced) {
                 if (std::optional<LineMap> found = fitting_geometry()) return finish(std::move(*found));
             }
         }
@@ -165,6 +165,7 @@ private:
         std::optional<LineEdits> edits = find_line_edits(path_, program_, lines, aligned);
         if (!edits) return std::nullopt;
         if (edits->shifts.empty()) {
+            lines_valid_ = true;
             if (match_.edited)
                 diagnostics_.add({Severity::note,
                                   "map.edited",
@@ -228,6 +229,7 @@ private:
     ProgramIdentity identity_;
     Diagnostics& diagnostics_;
     ProgramMatch match_;
+    bool lines_valid_ = false;  ///< no edit moved a line: what lies off its line is led by it
     std::vector<ProgramRun> runs_;
 };
 

@@ -42,6 +42,12 @@ clsurf_cli_test(NAME lines_edited_where_they_are_short
   SETUP "sed -e '12001i (a comment)' -e '16000,16001d' ${irregular} > petal_zigzag_irregular.ngc"
   ARGS info petal_zigzag_irregular.ngc @LOGS@/petal_zigzag_irregular.biip
   STDOUT "1 line inserted before line 1200[0-3], 2 lines deleted before line 1600[0-4] since")
+# Line numbers that lead by three records more: five in all.
+set(led "$CLSURF export ${zigzag} @LOGS@/bottle_zigzag.biip --columns line,cmd.x,cmd.y,cmd.z -o all.csv -q"
+  "(head -n 1 all.csv && paste -d, <(tail -n +5 all.csv | cut -d, -f1) <(tail -n +2 all.csv | head -n -3 | cut -d, -f2-)) > run.csv")
+list(JOIN led " && " led)
+clsurf_cli_test(NAME lines_that_lead_are_kept SETUP "${led}" ARGS info ${zigzag} run.csv --period 0.001
+  STDOUT "positions lie" NO_STDOUT "do not fit" "since the run")
 # The log of petal_spiral carries no hash.
 clsurf_cli_test(NAME lines_inserted_without_a_hash SETUP "sed -e '3000i (a)' -e '3000i (b)' @DATA@/programs/petal_spiral.ngc > petal_spiral.ngc"
   ARGS query petal_spiral.ngc @LOGS@/petal_spiral.raw --layout @DATA@/logs/petal_spiral.layout.toml --point 70000
