@@ -106,6 +106,11 @@ TEST(Klartext, ShiftsTurnsMirrorsAndScalesByCycle) {
                    "CYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+90\nL X+1 Y+0 FMAX\nCYCL DEF 10.1 ROT+0\n"
                    "CYCL DEF 7.1 X+0\nL X+1 FMAX\n"),
               (Rows{"rapid 0 0 0", "rapid 10 1 0", "rapid 1 1 0"}));
+    // 30° and 60° more are 90°, and 180° less of them −90°; ROT begins anew.
+    EXPECT_EQ(rows("L X+0 Y+0 Z+0 FMAX\nCYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+30\nCYCL DEF 10.1 IROT+60\n"
+                   "L X+2 Y+0 FMAX\nCYCL DEF 10.1 IROT-180\nL X+2 Y+0 FMAX\nCYCL DEF 10.1 ROT+180\nL X+2 Y+0 FMAX\n"),
+              (Rows{"rapid 0 0 0", "rapid 0 2 0", "rapid 0 -2 0", "rapid -2 0 0"}));
+    EXPECT_NE(error("CYCL DEF 10.1 +30\n").find("expected ROT or IROT"), std::string::npos);
     EXPECT_EQ(rows("L X+0 Y+0 Z+0 FMAX\nCYCL DEF 8.1 X\nL X+1 FMAX\nCYCL DEF 8.1\nCYCL DEF 11.1 SCL 2\nL X+3 FMAX\n"),
               (Rows{"rapid 0 0 0", "rapid -1 0 0", "rapid 6 0 0"}));
     // Twice as long from X10: 12 becomes 14.

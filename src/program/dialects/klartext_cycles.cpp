@@ -70,12 +70,14 @@ void mirror(Line& line) {
     line.in.event("mirror", "CYCL DEF 8");
 }
 
+/// CYCL DEF 10.1 ROT+30; IROT+30 is added to the rotation that is active.
 void rotate(Line& line) {
     Interpreter& in = line.in;
-    const bool adds = line.c.take_word("IROT") || line.c.text.substr(line.c.at).starts_with("IROT");
-    const std::size_t at = line.c.text.find("ROT", line.c.at);
-    if (at == std::string_view::npos) throw ReadError{"expected ROT and the angle", line.c.column(), {}};
-    line.c.at = at + 3;
+    const bool adds = line.c.peek() == 'I';
+    if (adds) ++line.c.at;
+    if (!line.c.text.substr(line.c.at).starts_with("ROT"))
+        throw ReadError{"expected ROT or IROT and the angle", line.c.column(), {}};
+    line.c.at += 3;
     const double angle = line.value();
     expect_end(line);
     in.frames_.turned_by = adds ? in.frames_.turned_by + angle : angle;
