@@ -306,6 +306,32 @@ TEST(FiveAxisSimulator, ARestBesideATinyBendIsReached) {
     }
 }
 
+// Short lines that nearly reverse, on a machine whose axes take from 1.3 ms (a table of high jerk) to 0.55 s to reach their
+// acceleration: no first speeds led to a solution, and the program was refused.
+TEST(FiveAxisSimulator, LimitsOfVeryDifferentAxesArePlanned) {
+    Machine machine = trunnion();
+    machine.controller.period = 0.004;
+    machine.path = {machine.path.max_speed, 435.452, 6830.72, 9617.52};
+    const std::array<std::array<double, 3>, 5> limits{
+        {{3979.1, 10591.3, 19202.4},
+         {1115.7, 37492.8, 152617},
+         {872.04, 4792.17, 545319},
+         {39.349 * rad_per_deg, 1401.03 * rad_per_deg, 70972.6 * rad_per_deg},
+         {81.78 * rad_per_deg, 8833.52 * rad_per_deg, 1.1379e6 * rad_per_deg}}};
+    for (std::size_t k = 0; k < 5; ++k) {
+        MachineAxis& axis = k < 3 ? machine.axes[k] : machine.rotary[k - 3];
+        axis.max_speed = limits[k][0], axis.max_acceleration = limits[k][1], axis.max_jerk = limits[k][2];
+    }
+    const Recorded r = run(
+        "G21 G90 G17 G43.4 H1\nG64 P0.0297 F197\nG0 X-27.6086 Y-25.1345 Z11.5007 A-6.8278 C-21.9761\n"
+        "G1 X-27.6639 Y-25.1914 Z11.5007 A-7.5913 C-23.4305\nG1 X-27.6635 Y-25.1911 Z11.5007 A-7.6302 C-23.4307\n"
+        "G1 X-27.6681 Y-25.1958 Z11.5007 A-6.3905 C-22.1439 F194\nG1 X-27.6137 Y-25.1380 Z11.5007 A-8.4814 C-22.0743\nM2\n",
+        machine);
+    EXPECT_TRUE(r.summary.run.limits_ok);
+    EXPECT_LE(worst_share(r, machine), 1.0011);
+    EXPECT_LT(r.summary.run.duration, 5) << "4.3 s; the rapid alone takes 3.4 s";
+}
+
 TEST(FiveAxisSimulator, FeedOfZeroNamesTheLine) {
     try {
         (void)run("G43.4 H1\nG1 X10 A-5 F0\n", trunnion());

@@ -153,5 +153,32 @@ TEST(SpeedProblem, KeepsItsValuesWhereNothingIsFaster) {
     EXPECT_FALSE(problem.solve({20, 0}, {20, 0})) << "fewer than four cells";
 }
 
+// b = u² + 100 over ten cells of 1 mm on a straight line: the coefficient of the cell from i is i (i + 1) + 100, and at the end the
+// acceleration is 10 and the jerk √200. A share s of v² has s times the acceleration and s √s times the jerk.
+TEST(SpeedProblem, SaysBySlowingDownWhichShareEveryLimitHolds) {
+    const auto share = [](double acceleration, double jerk, double cap) {
+        ProblemLimits<5> limits;
+        limits.acceleration.setConstant(acceleration);
+        limits.jerk.setConstant(jerk);
+        limits.path_acceleration = limits.path_jerk = 1e9;
+        AxisSpeedProblem<5> problem(limits, FirstSpeeds::guess);
+        AxisSample<5> straight;
+        straight.first[0] = 1;
+        problem.clear();
+        for (int i = 0; i < 10; ++i) {
+            problem.add_cell(1, i * (i + 1) + 100, {cap, 1e9, 1e9});
+            for (const double at : {0.0, 1.0}) {
+                straight.at = at;
+                problem.add_sample(straight);
+            }
+        }
+        return problem.holding_share({10, 0}, {std::sqrt(200.0), 10});
+    };
+    EXPECT_DOUBLE_EQ(share(20, 20, 20), 1);
+    EXPECT_NEAR(share(5, 1e9, 1e9), 0.5, 1e-12);
+    EXPECT_NEAR(share(1e9, 10, 1e9), std::pow(10 / std::sqrt(200.0), 2.0 / 3), 1e-12);
+    EXPECT_NEAR(share(1e9, 1e9, 10), 0.5, 1e-12);
+}
+
 }  // namespace
 }  // namespace clsurf::speed_problem_test

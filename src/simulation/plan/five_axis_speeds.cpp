@@ -24,6 +24,9 @@ constexpr std::size_t window_cells = 1500, samples_of_cell = 4;
 constexpr std::size_t least_cells = 100;                                       ///< of a window whose end is moved
 constexpr double kept_share = 0.6;                                             ///< of a window
 constexpr std::array<double, 6> slower_tries{1, 0.5, 0.25, 0.1, 0.03, 0.003};  ///< first v², tried in turn
+constexpr std::size_t most_cells = 12000;  ///< of a window: one that has more is planned in shorter ones
+constexpr double held_share = 0.7;         ///< of the v² that would just hold every limit
+constexpr int most_halvings = 30;          ///< of v² that breaks a limit between samples
 
 class FiveAxisPlanner {
 public:
@@ -65,6 +68,7 @@ private:
                 end = earlier;
                 solved = solve(end);
             }
+            if (!solved && tail_.empty()) solved = solve_held(end);
             const bool last = end >= path_->length();
             if (!solved) {
                 // What was planned before comes to rest.
@@ -134,12 +138,52 @@ private:
     bool solve(double end) {
         for (const double scale : slower_tries) {
             scan(end, scale);
-            if (solve_scanned(end)) return true;
+            if (!divide_window(end) || cells_.size() > most_cells) return false;
+            if (find_speeds()) return true;
         }
         return false;
     }
 
-    bool solve_scanned(double end) {
+    bool find_speeds() {
+        return problem_.solve(start_, stop_, [this] { return broken_between(); });
+    }
+
+    /// Where no first speeds lead to a solution: from speeds that hold every limit. These exist on every path between rests, as a
+    /// run whose v² is everywhere lower by one factor has accelerations that are lower by it, and lower jerks. `end` becomes
+    /// where the window ends; where nothing faster is found, it is as short as can be.
+    bool solve_held(double& end) {
+        for (std::size_t cells = window_cells; cells >= least_cells; cells /= 2) {
+            end = horizon(cells);
+            scan(end, 1);
+            if (!divide_window(end)) continue;
+            const bool shortest = cells / 2 < least_cells;
+            if (cells_.size() > most_cells && !shortest) continue;
+            if (!hold_everywhere()) continue;
+            if (find_speeds() || shortest) return true;
+        }
+        return false;
+    }
+
+    /// Lowers all v² of the window by one factor, so that all limits hold.
+    bool hold_everywhere() {
+        slow_down(held_share * problem_.holding_share(start_, stop_));
+        for (int k = 0; k < most_halvings; ++k) {
+            if (broken_between().empty()) return true;
+            slow_down(0.5);
+        }
+        return false;
+    }
+
+    void slow_down(double share) {
+        problem_.scale(share);
+        const double root = std::sqrt(share);
+        for (KnotState* state : {&start_, &stop_}) *state = {root * state->speed, share * state->acceleration};
+        for (FiveAxisMotion* piece : {&first_piece_, &last_piece_})
+            piece->jerk *= share * root, piece->duration /= root;  // their lengths stay
+    }
+
+    /// The cells up to a rest at `end`, with their first speeds, and the pieces next to the rests; false: there is no room.
+    bool divide_window(double end) {
         problem_.clear();
         cells_.clear();
         const double length = end - at_;
@@ -163,7 +207,7 @@ private:
         divide(u, last_u, start, stop, start_time, last.time);
         start_ = start;
         stop_ = stop;
-        return problem_.solve(start, stop, [this] { return broken_between(); });
+        return true;
     }
 
     /// Places within the cells at which the solution breaks a limit.

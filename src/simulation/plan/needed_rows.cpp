@@ -152,6 +152,51 @@ std::uint16_t AxisSpeedProblem<Axes>::broken_at(const Sample& sample, const AtBe
     return broken;
 }
 
+template <int Axes>
+double AxisSpeedProblem<Axes>::holding_share(const KnotState& start, const KnotState& end) {
+    fix_ends(start, end);
+    weigh();
+    double share = 1;
+    const auto hold_square = [&](double square, double cap) { share = std::min(share, cap * cap / square); };
+    const auto hold_acceleration = [&](double acceleration, double limit) {
+        share = std::min(share, limit / std::abs(acceleration));
+    };
+    const auto hold_jerk = [&](double jerk, double limit) {  // of a share s of v²: s √s times as great
+        if (limit > 0 && limit < std::abs(jerk)) share = std::min(share, std::pow(limit / std::abs(jerk), 2.0 / 3));
+    };
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        const Cell& cell = cells_[i];
+        const AtBegin at = at_begin(i);
+        const double last_slope = at.slope + cell.length * at.curve;
+        const double last = at.b + 0.5 * cell.length * (at.slope + last_slope);
+        const double greatest = std::max({at.b, last, value_[i + 1]});
+        hold_square(greatest, cell.limits.cap);
+        hold_acceleration(0.5 * last_slope, acceleration_at_end(i));
+        hold_jerk(0.5 * at.curve * std::sqrt(greatest), cell.limits.jerk);
+        for (std::uint32_t k = cell.first_sample; k < cell.end_sample; ++k) {
+            const Sample& s = samples_[k].sample;
+            const double b = at.b + s.at * (at.slope + 0.5 * s.at * at.curve), slope = at.slope + s.at * at.curve;
+            const double root = std::sqrt(b);
+            hold_square(b, s.cap);
+            hold_acceleration(0.5 * s.pace.value * slope + s.pace.slope * b, limits_.path_acceleration);
+            hold_jerk(root * (0.5 * s.pace.value * at.curve + 1.5 * s.pace.slope * slope + s.pace.curve * b),
+                      limits_.path_jerk);
+            for (int x = 0; x < Axes; ++x) {
+                hold_acceleration(0.5 * s.first[x] * slope + s.second[x] * b, limits_.acceleration[x]);
+                hold_jerk(root * (0.5 * s.first[x] * at.curve + 1.5 * s.second[x] * slope + s.third[x] * b),
+                          limits_.jerk[x]);
+            }
+        }
+    }
+    return share;
+}
+
+template <int Axes>
+void AxisSpeedProblem<Axes>::scale(double factor) {
+    for (double& value : value_) value *= factor;
+    limiting_.assign(cells_.size(), Row::axis_jerk);
+}
+
 /// Rows for what is above a part of its limit and has none; false: nothing is.
 template <int Axes>
 bool AxisSpeedProblem<Axes>::need_broken_rows(double part) {
@@ -279,7 +324,7 @@ void AxisSpeedProblem<Axes>::make_rows_of(std::size_t i) {
     }
 }
 
-// What speed_problem.cpp calls of these, and what they call of each other.
+// What speed_problem.cpp and five_axis_speeds.cpp call of these, and what they call of each other.
 template bool AxisSpeedProblem<3>::may_break(const Cell& cell, double part, double acceleration, double square,
                                              double jerk, double path_jerk) const;
 template bool AxisSpeedProblem<5>::may_break(const Cell& cell, double part, double acceleration, double square,
@@ -290,6 +335,8 @@ template AxisSpeedProblem<3>::AtBegin AxisSpeedProblem<3>::at_begin(std::size_t 
 template std::uint16_t AxisSpeedProblem<3>::broken_at(const Sample& sample, const AtBegin& at, double part) const;
 template AxisSpeedProblem<5>::AtBegin AxisSpeedProblem<5>::at_begin(std::size_t cell) const;
 template std::uint16_t AxisSpeedProblem<5>::broken_at(const Sample& sample, const AtBegin& at, double part) const;
+template double AxisSpeedProblem<5>::holding_share(const KnotState& start, const KnotState& end);
+template void AxisSpeedProblem<5>::scale(double factor);
 template void AxisSpeedProblem<3>::need_likely_rows();
 template void AxisSpeedProblem<5>::need_likely_rows();
 template bool AxisSpeedProblem<3>::need_broken_rows(double part);

@@ -88,6 +88,12 @@ public:
         return broken_at(sample, at_begin(cell), 1) != 0;
     }
 
+    /// The factor, at most 1, by which v² is to be lower everywhere, at the states of both ends too, so that the values hold
+    /// every limit at the samples.
+    [[nodiscard]] double holding_share(const KnotState& start, const KnotState& end);
+    /// All values times a factor.
+    void scale(double factor);
+
     /// Forgets all cells but the first ones.
     void drop_back(std::size_t left);
     /// Forgets the first cells.
