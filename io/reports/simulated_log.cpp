@@ -86,7 +86,8 @@ Json json_of(const SimulationSummary& summary) {
     json["max"] = Json{{"speed_mm_min", number(summary.max_speed * seconds_per_minute)},
                        {"axis_speed_mm_min", by_axis(summary.max_axis_speed, seconds_per_minute)},
                        {"acceleration_mm_s2", by_axis(summary.max_acceleration, 1)},
-                       {"jerk_mm_s3", by_axis(summary.max_jerk, 1)}};
+                       {"jerk_mm_s3", by_axis(summary.max_jerk, 1)},
+                       {"normal_acceleration_mm_s2", number(summary.max_normal_acceleration)}};
     json["path_deviation_mm"] = number(summary.path_deviation);
     json["limits_ok"] = summary.limits_ok;
     Json limited_by;

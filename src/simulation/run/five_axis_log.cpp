@@ -13,6 +13,7 @@ namespace clsurf {
 void FiveAxisLog::add(FiveAxisPoint point, const LimitExcess& exceeds) {
     if (servos_.empty()) {
         last_.fill(point.commanded);
+        last_tip_ = tip_of(point);
         for (std::size_t k = 0; k < 5; ++k) {
             const ServoModel& model = k < 3 ? machine_->axes[k].servo : machine_->rotary[k - 3].servo;
             servos_.emplace_back(model, period_, point.commanded[k], k + 1);
@@ -21,6 +22,7 @@ void FiveAxisLog::add(FiveAxisPoint point, const LimitExcess& exceeds) {
     for (std::size_t k = 0; k < 5; ++k) point.feedback[k] = servos_[k].follow(point.commanded[k]);
     ++summary_.run.limited_by[static_cast<std::size_t>(point.limit)];
     measure(point, exceeds);
+    measure_path(point);
     ++points_;
     block_of_points_.push_back(point);
     if (static_cast<PointIndex>(block_of_points_.size()) == block_points) flush();
@@ -30,8 +32,34 @@ FiveAxisSummary FiveAxisLog::finish() {
     flush();
     summary_.run.points = points_;
     summary_.run.duration = static_cast<double>(std::max<PointIndex>(0, points_ - 1)) * period_;
-    summary_.run.limits_ok = held_;
+    SimulationSummary& run = summary_.run;
+    normal_.add(Vec3::Zero(), 0);
+    run.max_normal_acceleration = normal_.greatest();
+    const LimitExcessOfPath excess = excess_of_path(run, *machine_);
+    summary_.axes_ok = held_;
+    run.limits_ok = held_ && excess.what.empty();
+    if (!excess.what.empty())
+        run.diagnostics.add({Severity::warning, "motion.limits", Place::of_file(program_->main().name()),
+                             fmt::format("the {} reaches {:.3g} times its limit", excess.what, excess.factor),
+                             "`clsurf check PROGRAM LOG --machine FILE` names the line"});
     return std::move(summary_);
+}
+
+Vec3 FiveAxisLog::tip_of(const FiveAxisPoint& point) const {
+    const std::array<double, 5>& p = point.commanded;
+    return machine_->kinematics.to_workpiece({p[0], p[1], p[2]}, {p[3], p[4]}).tip;
+}
+
+void FiveAxisLog::measure_path(const FiveAxisPoint& point) {
+    const Vec3 tip = tip_of(point);
+    normal_.add(tip - last_tip_, point.speed);
+    const double change = (point.speed - last_speed_) / period_;
+    SimulationSummary& run = summary_.run;
+    run.max_tangential_acceleration = std::max(run.max_tangential_acceleration, std::abs(change));
+    run.max_tangential_jerk = std::max(run.max_tangential_jerk, std::abs(change - last_change_) / period_);
+    last_tip_ = tip;
+    last_speed_ = point.speed;
+    last_change_ = change;
 }
 
 void FiveAxisLog::measure(const FiveAxisPoint& point, const LimitExcess& exceeds) {

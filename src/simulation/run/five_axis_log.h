@@ -7,6 +7,7 @@
 
 #include "simulation/path/five_axis_blocks.h"
 #include "simulation/run/five_axis_point.h"
+#include "simulation/run/path_limits.h"
 #include "simulation/run/servo.h"
 
 namespace clsurf {
@@ -19,7 +20,12 @@ public:
     /// All must outlive it.
     FiveAxisLog(const Program& program, const Machine& machine, const std::array<AxisLimits, 5>& limits,
                 const FiveAxisSink& sink)
-        : program_(&program), machine_(&machine), limits_(&limits), sink_(&sink), period_(machine.controller.period) {}
+        : program_(&program),
+          machine_(&machine),
+          limits_(&limits),
+          sink_(&sink),
+          period_(machine.controller.period),
+          normal_(period_) {}
 
     /// The set point of the next period; its feedback follows from it.
     void add(FiveAxisPoint point, const LimitExcess& exceeds = {});
@@ -30,6 +36,8 @@ public:
 
 private:
     void measure(const FiveAxisPoint& point, const LimitExcess& exceeds);
+    [[nodiscard]] Vec3 tip_of(const FiveAxisPoint& point) const;
+    void measure_path(const FiveAxisPoint& point);
     void note_travel(std::size_t axis, double position, LineNumber line);
     void flush();
 
@@ -40,6 +48,9 @@ private:
     double period_;
     std::vector<ServoLoop> servos_;
     std::array<std::array<double, 5>, 3> last_{};
+    Vec3 last_tip_ = Vec3::Zero();
+    double last_speed_ = 0, last_change_ = 0;  ///< of the tip [mm/s]; in a period
+    NormalAcceleration normal_;
     std::array<bool, 5> outside_{};
     bool held_ = true;
     PointIndex points_ = 0;

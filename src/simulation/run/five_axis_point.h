@@ -21,8 +21,9 @@ struct FiveAxisSummary {
     SimulationSummary run;  ///< speeds, accelerations and jerks of the linear axes, the path's speed that of the tip
     std::array<double, 2> max_speed{}, max_acceleration{}, max_jerk{};  ///< of tilt and rotation [rad/s^d]
     double orientation_error =
-        0;           ///< greatest angle between a set point at feed and the great circle of its block [rad]
-    int rounds = 0;  ///< 0: planned on one path
+        0;                ///< greatest angle between a set point at feed and the great circle of its block [rad]
+    bool axes_ok = true;  ///< of run.limits_ok: the limits of the axes
+    int rounds = 0;       ///< 0: planned on one path
 };
 
 using FiveAxisSink = std::function<void(std::span<const FiveAxisPoint>)>;

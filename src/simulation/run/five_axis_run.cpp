@@ -247,7 +247,7 @@ FiveAxisSummary run_five_axes(const Program& program, const Machine& machine, Fi
     }
     FiveAxisSummary summary = run.finish();
     note_settings_without_effect(machine.controller, program.main().name(), summary.run.diagnostics);
-    if (!summary.run.limits_ok) {
+    if (!summary.axes_ok) {
         summary.run.diagnostics.add({Severity::warning, "motion.limits", Place::of_file(program.main().name()),
                                      "an axis exceeds a limit by more than 0.1 %", "a lower feed helps"});
     }

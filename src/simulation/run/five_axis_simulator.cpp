@@ -270,13 +270,13 @@ FiveAxisSummary simulate_five_axis(const Program& program, const Machine& machin
     int rounds = 0;
     for (bool slower = true; slower && rounds < most_slower_rounds; ++rounds) {
         const FiveAxisSummary tried = run({}, &excesses);
-        slower = !tried.run.limits_ok && blocks.derate(excesses);
+        slower = !tried.axes_ok && blocks.derate(excesses);
         // Between blocks of different speed the tip takes as much jerk as it may, however slow they are.
         if (slower && rounds >= patient_rounds) tip.path.max_jerk *= std::max(most_lowering, share);
     }
     FiveAxisSummary summary = run(sink, nullptr);
     summary.rounds = rounds;
-    if (!summary.run.limits_ok) {
+    if (!summary.axes_ok) {
         summary.run.diagnostics.add(
             {Severity::warning, "motion.limits", Place::of_file(program.main().name()),
              fmt::format("after {} rounds an axis still exceeds a limit by more than 0.1 %", rounds),

@@ -7,19 +7,8 @@
 #include <fmt/format.h>
 
 #include "machine/limit_table.h"
-#include "simulation/path/junction.h"
 
 namespace clsurf {
-namespace {
-
-/// Arcs in corners are for drives that bear steps of the curvature: where one meets the rounding of another corner, the
-/// tangential acceleration steps, too.
-bool limits_tangential_jerk(const Machine& machine) {
-    const bool arcs = drives_arcs(machine) && only_path_jerk(machine);
-    return machine.controller.planner == PlannerKind::time_optimal && !arcs;
-}
-
-}  // namespace
 
 Recorder::Recorder(const Program& program, const Machine& machine, const Vec3& start, const PointSink& sink)
     : program_(&program),
@@ -29,7 +18,8 @@ Recorder::Recorder(const Program& program, const Machine& machine, const Vec3& s
       servos_{ServoLoop(machine.axes[0].servo, machine.controller.period, start.x(), 1),
               ServoLoop(machine.axes[1].servo, machine.controller.period, start.y(), 2),
               ServoLoop(machine.axes[2].servo, machine.controller.period, start.z(), 3)},
-      last_(start) {
+      last_(start),
+      normal_(machine.controller.period) {
     block_.reserve(points_at_once);
 }
 
@@ -67,6 +57,7 @@ void Recorder::measure() {
         low = low.cwiseMin(point.commanded);
         high = high.cwiseMax(point.commanded);
         const double change = point.speed - last_speed;
+        normal_.add(step, point.speed);
         greatest_change = std::max(greatest_change, std::abs(change));
         greatest_second = std::max(greatest_second, std::abs(change - last_change));
         last_speed = point.speed;
@@ -119,6 +110,8 @@ SimulationSummary Recorder::finish() {
     s.max_jerk = twist_ * (rate_ * rate_ * rate_);
     s.max_tangential_acceleration = speed_change_ * rate_;
     s.max_tangential_jerk = second_change_ * (rate_ * rate_);
+    normal_.add(Vec3::Zero(), 0);
+    s.max_normal_acceleration = normal_.greatest();
     judge_limits();
     return std::move(s);
 }
@@ -126,17 +119,11 @@ SimulationSummary Recorder::finish() {
 /// Whether all limits were kept, and by how much they were not.
 void Recorder::judge_limits() {
     SimulationSummary& s = summary_;
-    double worst = limit_tolerance;
-    std::string exceeded;
+    LimitExcessOfPath worst = excess_of_path(s, *machine_);
     const auto judge = [&](double value, double limit, const std::string& what) {
-        if (limit <= 0 || value <= worst * limit) return;
-        worst = value / limit;
-        exceeded = what;
+        if (limit <= 0 || value <= worst.factor * limit) return;
+        worst = {value / limit, what};
     };
-    judge(s.max_speed, machine_->path.max_speed, "speed of the path");
-    judge(s.max_tangential_acceleration, machine_->path.max_acceleration, "tangential acceleration of the path");
-    if (limits_tangential_jerk(*machine_))
-        judge(s.max_tangential_jerk, machine_->path.max_jerk, "tangential jerk of the path");
     const std::array<const Vec3*, 4> greatest{nullptr, &s.max_axis_speed, &s.max_acceleration, &s.max_jerk};
     // At a corner that is not rounded the speeds of the axes step, which is no excess.
     const int highest_order = machine_->controller.corner == CornerMode::junction ? 1 : 3;
@@ -147,10 +134,10 @@ void Recorder::judge_limits() {
                   machine_->axes[i].*row.of_axis, fmt::format("{} of {}", row.name, axis_names[i]));
         }
     }
-    s.limits_ok = exceeded.empty();
+    s.limits_ok = worst.what.empty();
     if (s.limits_ok) return;
     s.diagnostics.add({Severity::warning, "motion.limits", Place::of_file(program_->main().name()),
-                       fmt::format("the {} reaches {:.3g} times its limit", exceeded, worst),
+                       fmt::format("the {} reaches {:.3g} times its limit", worst.what, worst.factor),
                        "`clsurf check PROGRAM LOG --machine FILE` names the line"});
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "machine/machine.h"
+#include "simulation/run/path_limits.h"
 #include "simulation/run/servo.h"
 #include "simulation/run/simulated_point.h"
 
@@ -48,6 +49,7 @@ private:
     double last_speed_ = 0, last_change_ = 0, speed_change_ = 0, second_change_ = 0;
     double greatest_step_ = 0;                                               ///< squared [mm²]
     Vec3 step_ = Vec3::Zero(), bend_ = Vec3::Zero(), twist_ = Vec3::Zero();  ///< greatest differences [mm]
+    NormalAcceleration normal_;
     std::array<bool, 3> outside_{};
     SimulationSummary summary_;
 };

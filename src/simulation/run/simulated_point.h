@@ -27,11 +27,11 @@ struct SimulationSummary {
     double max_speed = 0;                    ///< of the path [mm/s]
     double max_tangential_acceleration = 0;  ///< change of the path speed in a period [mm/s²]
     double max_tangential_jerk = 0;          ///< change of that in a period [mm/s³]
+    double max_normal_acceleration = 0;      ///< that differences prove (path_limits.h) [mm/s²]
     Vec3 max_axis_speed = Vec3::Zero(), max_acceleration = Vec3::Zero(), max_jerk = Vec3::Zero();
     double path_deviation = 0;  ///< greatest distance that rounding took a point from the path [mm]
-    /// No limit of an axis, or of the path's speed, tangential acceleration or jerk, is exceeded by more than
-    /// limit_tolerance. Where corners are not rounded (CornerMode::junction), accelerations and jerks of axes do not
-    /// count; the tangential jerk does not with the trapezoidal planner and with arcs in corners.
+    /// No limit of an axis or of the path (excess_of_path()) is exceeded by more than limit_tolerance. Where corners are not
+    /// rounded (CornerMode::junction), accelerations and jerks of axes do not count.
     bool limits_ok = true;
     std::array<PointIndex, 10> limited_by{};  ///< points by LimitingFactor
     Diagnostics diagnostics;

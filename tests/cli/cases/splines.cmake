@@ -29,3 +29,6 @@ clsurf_cli_test(NAME spline_on_a_five_axis_machine
 # A cubic whose control polygon crosses itself has a cusp: the axes stop there, and no limit is exceeded.
 clsurf_cli_test(NAME spline_with_a_cusp SETUP "printf 'G0 X0 Y0 Z0\\nG64 P0.01\\nG1 X-5 F3000\\nX0\\nG5 I10 J10 P-10 Q10 X10 Y0\\nG1 X15\\nM2\\n' > cusp.ngc"
   ARGS simulate cusp.ngc --dialect linuxcnc -o run.biip --json STDOUT "\"limits_ok\": true")
+# On five axes, where A and C stand off zero.
+clsurf_cli_test(NAME spline_with_a_cusp_on_five_axes SETUP "printf 'G43.4 H1\\nG64 P0.01\\nG1 X-5 A-20 C30 F3000\\nX0\\nG5 I10 J10 P-10 Q10 X10 Y0\\nG1 X15\\nM2\\n' > cusp.ngc"
+  ARGS simulate cusp.ngc --dialect linuxcnc --machine @DATA@/machines/five_axis_trunnion.toml -o run.biip --json STDOUT "\"limits_ok\": true")
