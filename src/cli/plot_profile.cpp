@@ -65,7 +65,8 @@ ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz:
         whole.values.push_back(profile.deviation[k] * um_per_mm);
     }
     const std::span<const double> known = std::span(profile.deviation).subspan(profile.first, profile.count);
-    const std::vector<double> waviness = gaussian_mean_line(known, profile.step, profile.roughness.cutoff);
+    const std::vector<double> waviness = gaussian_mean_line(
+        known, std::span(profile.along).subspan(profile.first, profile.count), profile.roughness.cutoff);
     for (std::size_t k = 0; k < known.size(); ++k)
         rough.values[profile.first + k] = (known[k] - waviness[k]) * um_per_mm;
 

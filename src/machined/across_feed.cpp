@@ -1,6 +1,7 @@
 #include "machined/across_feed.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace clsurf {
 
@@ -20,14 +21,28 @@ AcrossFeed across_feed(const AsMachinedSurface& as_machined, const Signals& sign
     return a;
 }
 
-std::vector<double> deviations_along(const AsMachinedSurface& as_machined, const AsMachinedSurface& form_of,
-                                     const ProfileRow& row, Form::Of of, double tolerance) {
+std::vector<double> arc_lengths(std::span<const float> slopes, double step) {
+    std::vector<double> along(slopes.size());
+    const auto steepness = [&](std::size_t k) {
+        return std::isfinite(slopes[k]) ? std::hypot(1.0, static_cast<double>(slopes[k])) : 1.0;
+    };
+    for (std::size_t k = 1; k < slopes.size(); ++k)
+        along[k] = along[k - 1] + 0.5 * step * (steepness(k - 1) + steepness(k));
+    return along;
+}
+
+RowDeviations deviations_along(const AsMachinedSurface& as_machined, const AsMachinedSurface& form_of,
+                               const ProfileRow& row, Form::Of of, double tolerance) {
     const MapFrame frame{row.from, row.along, row.step, row.count, 1};
     const Form form(form_of, frame.bounds(0, 0, row.count, 1), of, tolerance);
-    std::vector<double> deviations;
-    map_deviation(as_machined, form, frame,
-                  [&](std::int64_t, std::span<float> z) { deviations.assign(z.begin(), z.end()); });
-    return deviations;
+    RowDeviations result;
+    std::vector<float> slopes(static_cast<std::size_t>(row.count));
+    as_machined.map(frame, [&](std::int64_t first_row, std::span<float> z) {
+        form.subtract(frame, first_row, as_machined.level(), z, slopes);
+        result.deviation.assign(z.begin(), z.end());
+    });
+    result.along = arc_lengths(slopes, row.step);
+    return result;
 }
 
 }  // namespace clsurf

@@ -2,6 +2,7 @@
 // AcrossFeed: a place on the part and the direction across the feed there, along which profiles are measured.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/point.h"
@@ -30,10 +31,17 @@ struct ProfileRow {
     std::int64_t count = 0;
 };
 
-/// Deviations [mm] of a surface along a row, over the form of `form_of`; `of` and `tolerance` as of Form. NaN: nothing
-/// was cut, or no form there.
-[[nodiscard]] std::vector<double> deviations_along(const AsMachinedSurface& as_machined,
-                                                   const AsMachinedSurface& form_of, const ProfileRow& row,
-                                                   Form::Of of = Form::Of::program, double tolerance = 0);
+/// A surface over a form, along a row.
+struct RowDeviations {
+    std::vector<double> deviation;  ///< [mm] NaN: nothing was cut, or no form there
+    std::vector<double> along;      ///< [mm] arc length of the form from the first place; level where there is none
+};
+/// Arc lengths [mm] at places `step` mm apart seen from above, where a line has these slopes; not finite: level.
+[[nodiscard]] std::vector<double> arc_lengths(std::span<const float> slopes, double step);
+
+/// Over the form of `form_of`; `of` and `tolerance` as of Form.
+[[nodiscard]] RowDeviations deviations_along(const AsMachinedSurface& as_machined, const AsMachinedSurface& form_of,
+                                             const ProfileRow& row, Form::Of of = Form::Of::program,
+                                             double tolerance = 0);
 
 }  // namespace clsurf

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "machined/across_feed.h"
 
@@ -20,7 +21,9 @@ AsMachinedProfile measure_profile(const AsMachinedSurface& as_machined, const As
         as_machined.surface().step_over > 0 ? as_machined.surface().step_over : 20 * as_machined.usual_cell();
     const auto pieces = static_cast<std::int64_t>(std::max(1.0, std::ceil(length * steps_per_pass / spacing)));
     profile.step = length / static_cast<double>(pieces);
-    profile.deviation = deviations_along(as_machined, form_of, {from, (to - from) / length, profile.step, pieces + 1});
+    RowDeviations row = deviations_along(as_machined, form_of, {from, (to - from) / length, profile.step, pieces + 1});
+    profile.deviation = std::move(row.deviation);
+    profile.along = std::move(row.along);
     std::size_t run = 0;
     for (std::size_t k = 0; k < profile.deviation.size(); ++k) {
         run = std::isfinite(profile.deviation[k]) ? run + 1 : 0;
@@ -29,7 +32,8 @@ AsMachinedProfile measure_profile(const AsMachinedSurface& as_machined, const As
             profile.first = k + 1 - run;
         }
     }
-    profile.roughness = roughness_of(std::span(profile.deviation).subspan(profile.first, profile.count), profile.step,
+    profile.roughness = roughness_of(std::span(profile.deviation).subspan(profile.first, profile.count),
+                                     std::span(profile.along).subspan(profile.first, profile.count),
                                      cutoff_for(as_machined.surface().step_over));
     return profile;
 }

@@ -11,8 +11,9 @@ namespace clsurf {
 
 /// A profile across the formed surface.
 struct AsMachinedProfile {
-    double step = 0;                   ///< [mm] between values
-    std::vector<double> deviation;     ///< [mm] over the form; NaN: nothing was cut, or no form there
+    double step = 0;                ///< [mm] between values, seen from above
+    std::vector<double> deviation;  ///< [mm] over the form; NaN: nothing was cut, or no form there
+    std::vector<double> along;      ///< [mm] arc length of the form at each value: of its filter and sampling lengths
     std::size_t first = 0, count = 0;  ///< the longest section without gaps …
     Roughness roughness;               ///< … and its roughness
 };

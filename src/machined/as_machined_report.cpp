@@ -159,7 +159,7 @@ AsMachinedMark mark_of(const AsMachinedSurface& as_machined, const Signals& sign
                          static_cast<std::int64_t>(2 * passes_aside * steps_per_pass) + 1};
     const Form::Of of = form_about_mark(as_machined, defect.point);
     const std::vector<double> deviations =
-        deviations_along(as_machined, as_machined, row, of, mark_tolerance * std::abs(defect.depth));
+        deviations_along(as_machined, as_machined, row, of, mark_tolerance * std::abs(defect.depth)).deviation;
     return with_note(mark_depth(deviations, step, across.step_over, defect.pit), defect);
 }
 

@@ -440,7 +440,8 @@ Form::Programmed Form::programmed_rows(const MapFrame& frame, std::int64_t first
     return p;
 }
 
-std::int64_t Form::subtract(const MapFrame& frame, std::int64_t first_row, double level, std::span<float> z) const {
+std::int64_t Form::subtract(const MapFrame& frame, std::int64_t first_row, double level, std::span<float> z,
+                            std::span<float> slopes) const {
     const double shift = level - level_;
     std::atomic<std::int64_t> unknown = 0;
     const auto count = static_cast<std::int64_t>(z.size());
@@ -457,6 +458,9 @@ std::int64_t Form::subtract(const MapFrame& frame, std::int64_t first_row, doubl
                                      programmed.at(column, row));
             height =
                 static_cast<float>((height + shift - form.z) / std::sqrt(1 + form.zx * form.zx + form.zy * form.zy));
+            if (!slopes.empty())
+                slopes[static_cast<std::size_t>(k)] =
+                    static_cast<float>(form.zx * frame.along.x() + form.zy * frame.along.y());
             here += form.unknown ? 1 : 0;
         }
         unknown += here;

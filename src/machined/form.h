@@ -42,8 +42,10 @@ public:
 
     /// Turns heights of AsMachinedSurface::map(), over `level` [mm], into deviations [mm] along the form's normal, +
     /// outside of it; NaN stays, and becomes what has no form: beyond the outermost contact points, and where the form
-    /// is not known. Returns how many heights that were. Parallel.
-    std::int64_t subtract(const MapFrame& frame, std::int64_t first_row, double level, std::span<float> z) const;
+    /// is not known. Returns how many heights that were. `slopes`, as many as heights or none: the form's along the rows,
+    /// where it is known. Parallel.
+    std::int64_t subtract(const MapFrame& frame, std::int64_t first_row, double level, std::span<float> z,
+                          std::span<float> slopes = {}) const;
 
     /// The height [mm] of the form of the contacts over AsMachinedSurface::level() of the surface that it is made of, and its slopes;
     /// NaN: none there.

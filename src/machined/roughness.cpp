@@ -23,6 +23,27 @@ CLSURF_VECTORISED void add_beside(std::span<const double> z, std::size_t off, do
     for (std::size_t k = 0; k < count; ++k) to[k] += weight * from[k + off];
 }
 
+/// z(along) at other distances; both increase, and the others lie within the ends of `along`, but for rounding.
+std::vector<double> interpolated(std::span<const double> z, std::span<const double> along,
+                                 std::span<const double> others) {
+    std::vector<double> result(others.size());
+    std::size_t next = 1;
+    for (std::size_t k = 0; k < others.size(); ++k) {
+        while (next + 1 < along.size() && along[next] < others[k]) ++next;
+        const double share = std::clamp((others[k] - along[next - 1]) / (along[next] - along[next - 1]), 0.0, 1.0);
+        result[k] = z[next - 1] + share * (z[next] - z[next - 1]);
+    }
+    return result;
+}
+
+/// As many places in equal steps, the ends included. Domain: two places at least.
+std::vector<double> equal_steps(std::span<const double> along) {
+    std::vector<double> places(along.size());
+    const double step = (along.back() - along.front()) / static_cast<double>(along.size() - 1);
+    for (std::size_t k = 0; k < places.size(); ++k) places[k] = along.front() + static_cast<double>(k) * step;
+    return places;
+}
+
 }  // namespace
 
 ProfileHeights profile_heights(std::span<const double> z) {
@@ -59,6 +80,13 @@ std::vector<double> gaussian_mean_line(std::span<const double> z, double step, d
     return line;
 }
 
+std::vector<double> gaussian_mean_line(std::span<const double> z, std::span<const double> along, double cutoff) {
+    if (z.size() < 2) return {z.begin(), z.end()};
+    const std::vector<double> places = equal_steps(along);
+    const std::vector<double> line = gaussian_mean_line(interpolated(z, along, places), places[1] - places[0], cutoff);
+    return interpolated(line, places, along);
+}
+
 double cutoff_for(double step_over) { return step_over > 1.3 ? 8.0 : step_over > 0.4 ? 2.5 : 0.8; }
 
 Roughness roughness_of(std::span<const double> z, double step, double cutoff) {
@@ -87,6 +115,12 @@ Roughness roughness_of(std::span<const double> z, double step, double cutoff) {
     }
     result.length = step * static_cast<double>(used);
     return result;
+}
+
+Roughness roughness_of(std::span<const double> z, std::span<const double> along, double cutoff) {
+    if (z.size() < 2) return roughness_of(z, cutoff, cutoff);
+    const std::vector<double> places = equal_steps(along);
+    return roughness_of(interpolated(z, along, places), places[1] - places[0], cutoff);
 }
 
 AreaHeights area_heights(std::span<const float> z) {

@@ -18,6 +18,10 @@ struct ProfileHeights {
 /// the weights of what is there are scaled up. Domain: step, cutoff > 0. O(points · cutoff / step).
 [[nodiscard]] std::vector<double> gaussian_mean_line(std::span<const double> z, double step, double cutoff);
 
+/// The same of values that lie `along` a line, distances [mm] that increase: equal steps of it are filtered.
+[[nodiscard]] std::vector<double> gaussian_mean_line(std::span<const double> z, std::span<const double> along,
+                                                     double cutoff);
+
 /// The cut-off [mm] for scallops so far apart: 0.8 mm, for wider ones what ISO 4288 gives for such a
 /// spacing of profile elements: 2.5 mm above 0.4 mm, 8 mm above 1.3 mm.
 [[nodiscard]] double cutoff_for(double step_over);
@@ -35,6 +39,9 @@ struct Roughness {
 /// out at both ends, where the filter does not know enough; of a profile shorter than two cut-offs all
 /// is one sampling length. Domain: z finite.
 [[nodiscard]] Roughness roughness_of(std::span<const double> z, double step, double cutoff);
+/// The same of values that lie `along` a line, distances [mm] that increase: on an incline they are longer than seen from
+/// above.
+[[nodiscard]] Roughness roughness_of(std::span<const double> z, std::span<const double> along, double cutoff);
 
 /// Of an area about its mean; NaN: no value. Sz is the height from lowest to highest.
 struct AreaHeights {

@@ -25,13 +25,13 @@ std::vector<double> over_form(std::vector<double> heights, const Form& form, con
 }
 
 /// Without waves shorter than `cutoff`; NaN stays.
-void take_off_short_waves(std::vector<double>& z, double step, double cutoff) {
+void take_off_short_waves(std::vector<double>& z, std::span<const double> along, double cutoff) {
     for (std::size_t first = 0; first < z.size();) {
         std::size_t end = first;
         while (end < z.size() && std::isfinite(z[end])) ++end;
         if (end > first) {
             const std::vector<double> smooth =
-                gaussian_mean_line(std::span(z).subspan(first, end - first), step, cutoff);
+                gaussian_mean_line(std::span(z).subspan(first, end - first), along.subspan(first, end - first), cutoff);
             std::copy(smooth.begin(), smooth.end(), z.begin() + static_cast<std::ptrdiff_t>(first));
         }
         first = end + 1;
@@ -48,8 +48,8 @@ void find_longest_section(ComparedProfile& profile) {
     }
 }
 
-std::vector<double> roughness_profile(std::span<const double> z, double step, double cutoff) {
-    std::vector<double> rough = gaussian_mean_line(z, step, cutoff);
+std::vector<double> roughness_profile(std::span<const double> z, std::span<const double> along, double cutoff) {
+    std::vector<double> rough = gaussian_mean_line(z, along, cutoff);
     for (std::size_t k = 0; k < rough.size(); ++k) rough[k] = z[k] - rough[k];
     return rough;
 }
@@ -78,18 +78,19 @@ double correlation_of(std::span<const double> a, std::span<const double> b, std:
 
 void evaluate(ComparedProfile& profile, double cutoff, double short_cutoff) {
     if (short_cutoff > 0) {
-        take_off_short_waves(profile.measured, profile.row.step, short_cutoff);
-        take_off_short_waves(profile.predicted, profile.row.step, short_cutoff);
+        take_off_short_waves(profile.measured, profile.along, short_cutoff);
+        take_off_short_waves(profile.predicted, profile.along, short_cutoff);
     }
     find_longest_section(profile);
     if (profile.count < 2) return;
     const auto measured = std::span(profile.measured).subspan(profile.first, profile.count);
     const auto predicted = std::span(profile.predicted).subspan(profile.first, profile.count);
-    const double step = profile.row.step;
-    profile.of_measured = roughness_of(measured, step, cutoff);
-    profile.of_predicted = roughness_of(predicted, step, cutoff);
-    profile.measured_rough = roughness_profile(measured, step, cutoff);
-    profile.predicted_rough = roughness_profile(predicted, step, cutoff);
+    const auto along = std::span<const double>(profile.along).subspan(profile.first, profile.count);
+    profile.of_measured = roughness_of(measured, along, cutoff);
+    profile.of_predicted = roughness_of(predicted, along, cutoff);
+    profile.measured_rough = roughness_profile(measured, along, cutoff);
+    profile.predicted_rough = roughness_profile(predicted, along, cutoff);
+    const double step = (along.back() - along.front()) / static_cast<double>(profile.count - 1);
     const auto used = std::min(profile.count, static_cast<std::size_t>(std::lround(profile.of_measured.length / step)));
     profile.correlation = correlation_of(profile.measured_rough, profile.predicted_rough, used);
 }
@@ -187,8 +188,12 @@ ComparedProfile deviations_of_both(const AlignedHeights& measured, const AsMachi
     for (std::int64_t k = 0; k < row.count; ++k)
         heights[static_cast<std::size_t>(k)] = measured.at(frame.at(static_cast<double>(k), 0));
     profile.measured = over_form(std::move(heights), form, frame, as_machined.level());
-    map_deviation(as_machined, form, frame,
-                  [&](std::int64_t, std::span<float> z) { profile.predicted.assign(z.begin(), z.end()); });
+    std::vector<float> slopes(static_cast<std::size_t>(row.count));
+    as_machined.map(frame, [&](std::int64_t first_row, std::span<float> z) {
+        form.subtract(frame, first_row, as_machined.level(), z, slopes);
+        profile.predicted.assign(z.begin(), z.end());
+    });
+    profile.along = arc_lengths(slopes, row.step);
     return profile;
 }
 

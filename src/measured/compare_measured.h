@@ -15,6 +15,7 @@ namespace clsurf {
 struct ComparedProfile {
     ProfileRow row;
     std::vector<double> measured, predicted;  ///< [mm] deviations from the form along its normal; NaN: not known
+    std::vector<double> along;                ///< [mm] arc length of the form, of filters and sampling lengths
     std::size_t first = 0, count = 0;         ///< the longest section in which both are known …
     std::vector<double> measured_rough, predicted_rough;  ///< … and its roughness profiles [mm]
     Roughness of_measured, of_predicted;

@@ -5,8 +5,8 @@
 
 A tool is placed every 10 µm along zigzag passes, and over each place of a section the lowest outline counts. The parts are
 planes, ridges, cylinders, valleys, fillets and waves whose design is a formula, so that the true form is known: Ra and Rz
-(ISO 4287, Gaussian filter of ISO 16610-21) of the section and Sa and Sz (ISO 25178-2) of a square of 1.6 mm about its
-middle are those of the distance to the design, not to a fit. In a valley without a fillet the design is what the tool can
+(ISO 4287, Gaussian filter of ISO 16610-21, along the design and not along its plan) of the section and Sa and Sz (ISO
+25178-2) of a square of 1.6 mm about its middle are those of the distance to the design, not to a fit. In a valley without a fillet the design is what the tool can
 reach. With an ERROR, pass k runs sin(2π x / 5 mm + 2 k) times as far above the commanded path.
 Lengths in mm, Ra, Rz, Sa, Sz and ERROR in µm, heights of the section in mm. A case is a line
     case NAME KIND RADIUS CORNER PART A B ERROR X0 Y0 X1 Y1 RA RZ SA SZ COUNT
@@ -106,7 +106,14 @@ def cut(tool, tip, x, y, error=0.0):
     return low
 
 
-def roughness(deviation, step, cutoff=0.8):
+def arc_length(design, x, y):
+    z = design(x, y)
+    return np.concatenate([[0], np.cumsum(np.sqrt(np.diff(x) ** 2 + np.diff(y) ** 2 + np.diff(z) ** 2))])
+
+
+def roughness(deviation, along, cutoff=0.8):
+    equal = np.linspace(0, along[-1], len(along))
+    deviation, step = np.interp(equal, along, deviation), equal[1]
     a = math.sqrt(math.log(2) / math.pi)
     reach = int(cutoff / step)
     weights = np.exp(-math.pi * (np.arange(-reach, reach + 1) * step / (a * cutoff)) ** 2)
@@ -173,7 +180,7 @@ for name, tool, part, a, b, error, (x0, y0, x1, y1) in CASES:
     z = cut(tool, tip, x, y, 1e-3 * error)
     ra = rz = sa = sz = 0.0
     if design:
-        ra, rz = roughness(deviation(design, z, x, y), length / (len(u) - 1))
+        ra, rz = roughness(deviation(design, z, x, y), arc_length(design, x, y))
         sa, sz = area(tool, tip, design, ((x0 + x1) / 2, (y0 + y1) / 2), 1e-3 * error)
     few = z[::16]
     print("case", name.replace(" ", "_"), *tool, part.__name__, a, b, error, x0, y0, x1, y1,

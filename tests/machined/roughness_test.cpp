@@ -38,6 +38,23 @@ TEST(Roughness, TheFilterHalvesAWaveOfItsCutoff) {
     EXPECT_NEAR(passed(0.4), 1 - std::pow(0.5, 4), 0.005);
 }
 
+TEST(Roughness, IsThatOfDistancesAlongTheProfile) {
+    // A sine along a profile that is steeper and steeper, seen in equal steps from above.
+    std::vector<double> z;
+    std::vector<double> along;
+    for (double x = 0; x < 6; x += 0.001) {
+        along.push_back(x + 0.05 * x * x);  // a distance of 1 … 1.6 for a step of 1
+        z.push_back(0.001 * std::sin(2 * pi * along.back() / 0.8));
+    }
+    const Roughness r = roughness_of(z, along, 0.8);
+    EXPECT_EQ(r.sampling_lengths, 5);
+    EXPECT_NEAR(r.length, 4, 0.004);
+    EXPECT_NEAR(r.rq, 0.5 * 0.001 / std::sqrt(2.0), 0.005 * 0.001);
+    const std::vector<double> line = gaussian_mean_line(z, along, 0.8);
+    for (std::size_t k = 2000; k < 4000; ++k) EXPECT_NEAR(line[k], 0.5 * z[k], 2e-6);
+    EXPECT_EQ(roughness_of(std::vector<double>{1.0}, std::vector<double>{0.0}, 0.8).length, 0);
+}
+
 TEST(Roughness, TheMeanLineOfAConstantIsItself) {
     for (const double v : gaussian_mean_line(std::vector<double>(500, 0.7), 0.01, 0.8)) EXPECT_NEAR(v, 0.7, 1e-12);
 }
