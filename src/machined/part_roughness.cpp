@@ -17,24 +17,72 @@ constexpr std::size_t patches_wanted = 24;
 constexpr double profile_cutoffs = 6;  ///< five sampling lengths and half of one at both ends
 constexpr double patch_cutoffs = 2;    ///< side of a patch
 constexpr int lines_across = 6;        ///< through a patch
+constexpr int rows_in_two = 41;        ///< of a patch's cells, in two step-overs
 
-/// From the lowest place to the highest [mm] on lines across the feed through a square: cells of a map meet the tip of a
+/// What is evaluated about a place: two cut-offs along the feed, and across it a whole even number of step-overs next to
+/// as much (even: passes to and fro may differ). A window of another width would hold a part of a scallop more than whole
+/// ones, and its mean and Sa would change with where that part begins. The edges across the feed rise over one step-over:
+/// the mean over all windows that begin within one, which a step-over that is not quite known changes by its square only.
+class PatchWindow {
+public:
+    PatchWindow(const RoughnessPlace& place, double cutoff)
+        : middle_(place.across.at),
+          across_(place.across.direction),
+          apart_(place.apart > 0 ? place.apart : place.across.step_over),
+          half_along_(0.5 * patch_cutoffs * cutoff),
+          half_across_(apart_ * std::max(1.0, std::round(half_along_ / apart_))) {}
+
+    [[nodiscard]] const Vec2& across() const { return across_; }
+    /// [mm] along the feed.
+    [[nodiscard]] double length() const { return 2 * half_along_; }
+    /// [mm] across the feed, where the weight is a half at least.
+    [[nodiscard]] double width() const { return 2 * half_across_; }
+    [[nodiscard]] Vec2 at(double along, double across) const {
+        return middle_ + along * Vec2(across_.y(), -across_.x()) + across * across_;
+    }
+    /// Rows along the feed, as far as anything weighs, the place in its middle. 41 of them in two step-overs: those of one
+    /// scallop lie between those of the next, and the tips of cusps are met at other places.
+    [[nodiscard]] MapFrame frame() const {
+        const double cell = 2 * apart_ / rows_in_two;
+        const auto columns = static_cast<std::int64_t>(half_along_ / cell);
+        const auto rows = static_cast<std::int64_t>((half_across_ + 0.5 * apart_) / cell);
+        return {at(-static_cast<double>(columns) * cell, -static_cast<double>(rows) * cell),
+                Vec2(across_.y(), -across_.x()), cell, 2 * columns + 1, 2 * rows + 1};
+    }
+    /// Of the cells of such a frame.
+    [[nodiscard]] std::vector<float> weights(const MapFrame& frame) const {
+        std::vector<float> result;
+        for (std::int64_t row = 0; row < frame.rows; ++row) {
+            const double aside =
+                frame.cell * std::abs(static_cast<double>(row) - 0.5 * static_cast<double>(frame.rows - 1));
+            const double weight = std::clamp((half_across_ - aside) / apart_ + 0.5, 0.0, 1.0);
+            result.insert(result.end(), static_cast<std::size_t>(frame.columns), static_cast<float>(weight));
+        }
+        return result;
+    }
+    [[nodiscard]] Box2 bounds() const {
+        Box2 box;
+        for (const double along : {-half_along_, half_along_})
+            for (const double across : {-half_across_, half_across_})
+                box.extend(at(along, across / half_across_ * (half_across_ + 0.5 * apart_)));
+        return box;
+    }
+
+private:
+    Vec2 middle_, across_;
+    double apart_;                     ///< [mm] step-over, seen from above
+    double half_along_, half_across_;  ///< [mm]
+};
+
+/// From the lowest place to the highest [mm] on lines across the feed through a window: cells of a map meet the tip of a
 /// cusp within a tenth of its height only, and these within a hundredth.
-double height_across(const AsMachinedSurface& as_machined, const Form& form, const Box2& box,
-                     const AcrossFeed& across) {
-    const Vec2 along(across.direction.y(), -across.direction.x());
-    const double side = box.sizes().x();
-    const double step = across.step_over / steps_per_pass;
-    // The whole square where the feed runs along a side of it, else the circle in it.
-    constexpr double along_side = 0.99;
-    const bool whole = std::max(std::abs(along.x()), std::abs(along.y())) > along_side;
+double height_across(const AsMachinedSurface& as_machined, const Form& form, const PatchWindow& window, double step) {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
     for (int line = 0; line < lines_across; ++line) {
-        const double off = ((line + 0.5) / lines_across - 0.5) * side;
-        const double half = along_side * (whole ? 0.5 * side : std::sqrt(0.25 * side * side - off * off));
-        const MapFrame frame{box.center() + off * along - half * across.direction, across.direction, step,
-                             static_cast<std::int64_t>(2 * half / step) + 1, 1};
+        const double off = ((line + 0.5) / lines_across - 0.5) * window.length();
+        const MapFrame frame{window.at(off, -0.5 * window.width()), window.across(), step,
+                             static_cast<std::int64_t>(window.width() / step) + 1, 1};
         map_deviation(as_machined, form, frame, [&](std::int64_t, std::span<float> z) {
             for (const float value : z) {
                 if (!std::isfinite(value)) continue;
@@ -46,15 +94,17 @@ double height_across(const AsMachinedSurface& as_machined, const Form& form, con
     return high > low ? high - low : 0;
 }
 
-/// Of a square about a place, from its heights.
-AreaHeights square_heights(const AsMachinedSurface& as_machined, const Form& form, const Box2& box,
-                           const AcrossFeed& across, std::vector<float> cells, double& unknown) {
-    const auto unknown_cells =
-        static_cast<double>(form.subtract(frame_of(box, as_machined.usual_cell()), 0, as_machined.level(), cells));
-    AreaHeights heights = area_heights(cells);
-    if (heights.cells > 0) heights.sz = std::max(heights.sz, height_across(as_machined, form, box, across));
-    const double cut = unknown_cells + static_cast<double>(heights.cells);
+/// Of a window, from its heights.
+AreaHeights window_heights(const AsMachinedSurface& as_machined, const Form& form, const PatchWindow& window,
+                           double step, std::vector<float> cells, double& unknown) {
+    const MapFrame frame = window.frame();
+    const auto unknown_cells = static_cast<double>(form.subtract(frame, 0, as_machined.level(), cells));
+    const double cut =
+        static_cast<double>(std::count_if(cells.begin(), cells.end(), [](float z) { return std::isfinite(z); })) +
+        unknown_cells;
     unknown = cut > 0 ? unknown_cells / cut : 1;
+    AreaHeights heights = area_heights(cells, window.weights(frame));
+    if (heights.cells > 0) heights.sz = std::max(heights.sz, height_across(as_machined, form, window, step));
     return heights;
 }
 
@@ -128,16 +178,17 @@ bool surrounds(const AsMachinedSurface& as_machined, const Vec2& at) {
 
 /// Whether the measured run cut about a place wherever that run did whose places these are: a log may hold a part of the program,
 /// and beyond its outermost pass stands the tool's flank. Looks at places along the profile, and at the corners of the
-/// square.
+/// window.
 bool covers(const RoughnessSurfaces& surfaces, const RoughnessPlace& place, double cutoff) {
-    constexpr int along = 6;  ///< parts of the profile
+    constexpr int parts = 6;  ///< of the profile
     std::vector<Vec2> places;
-    for (int k = 0; k <= along; ++k)
+    for (int k = 0; k <= parts; ++k)
         places.push_back(place.across.at +
-                         (static_cast<double>(k) / along - 0.5) * profile_cutoffs * cutoff * place.across.direction);
-    const double half = 0.5 * patch_cutoffs * cutoff;
-    for (const Vec2& corner : {Vec2(-half, -half), Vec2(half, -half), Vec2(-half, half), Vec2(half, half)})
-        places.push_back(place.across.at + corner);
+                         (static_cast<double>(k) / parts - 0.5) * profile_cutoffs * cutoff * place.across.direction);
+    const PatchWindow window(place, cutoff);
+    for (const double along : {-0.5, 0.5})
+        for (const double aside : {-0.5, 0.5})
+            places.push_back(window.at(along * window.length(), aside * window.width()));
     return std::all_of(places.begin(), places.end(), [&](const Vec2& at) {
         return surrounds(surfaces.measured, at) || !surrounds(surfaces.form_of, at);
     });
@@ -155,16 +206,13 @@ RoughPatch measure_patch(const RoughnessSurfaces& surfaces, const RoughnessPlace
     const AcrossFeed& across = place.across;
     const Vec2 half = 0.5 * profile_cutoffs * cutoff * across.direction;
     patch.profile = measure_profile(surfaces.measured, surfaces.form_of, across.at - half, across.at + half).roughness;
-    const Vec2 corner = Vec2::Constant(0.5 * patch_cutoffs * cutoff);
-    const Box2 box(across.at - corner, across.at + corner);
-    const Form form(surfaces.form_of, box);
+    const PatchWindow window(place, cutoff);
+    const Form form(surfaces.form_of, window.bounds());
     const AsMachinedSurface& measured = surfaces.measured;
-    const MapFrame own_frame = frame_of(box, measured.usual_cell());
-    std::vector<float> heights = heights_of(measured, own_frame);
-    patch.area = square_heights(measured, form, box, across, heights, patch.unknown);
+    const MapFrame frame = window.frame();
+    std::vector<float> heights = heights_of(measured, frame);
+    patch.area = window_heights(measured, form, window, across.step_over / steps_per_pass, heights, patch.unknown);
     if (surfaces.commanded == nullptr) return patch;
-    const MapFrame frame = frame_of(box, surfaces.form_of.usual_cell());
-    if (frame.cell != own_frame.cell) heights = heights_of(measured, frame);
     std::vector<float> added = take_off(*surfaces.commanded, measured.level(), std::move(heights), frame);
     for (std::int64_t k = 0; k < static_cast<std::int64_t>(added.size()); ++k) {
         const std::int64_t column = k % frame.columns;
@@ -172,7 +220,7 @@ RoughPatch measure_patch(const RoughnessSurfaces& surfaces, const RoughnessPlace
         const Vec2 middle = frame.at(static_cast<double>(column), static_cast<double>(row));
         if (!form.is_among_contacts(middle)) added[static_cast<std::size_t>(k)] = missing<float>;
     }
-    patch.machine = area_heights(added);
+    patch.machine = area_heights(added, window.weights(frame));
     return patch;
 }
 
@@ -203,6 +251,25 @@ void sum_up(PartRoughness& result, const std::vector<RoughPatch>& patches) {
     for (double* sum : {&result.ra, &result.rz, &result.sa, &result.sq}) *sum /= known_patches;
 }
 
+/// Seen from above, to the contacts of the neighbours on both sides [mm]; 0: there are none, or they lie so much nearer or
+/// farther than step-overs do that they are not usual.
+double contacts_apart(const AsMachinedSurface& as_machined, PointIndex point, const AcrossFeed& across) {
+    const Adjacency& neighbours = as_machined.surface().neighbours;
+    double sum = 0;
+    int sides = 0;
+    for (const Side side : {Side::left, Side::right}) {
+        if (!neighbours.has(side, point)) continue;
+        const Vec2 beside = as_machined.contact(neighbours.neighbour(side, point)).head<2>();
+        const double distance = std::abs((beside - across.at).dot(across.direction));
+        if (!std::isfinite(distance)) continue;
+        sum += distance;
+        ++sides;
+    }
+    constexpr double usual = 2;
+    const double apart = sides > 0 ? sum / sides : 0;
+    return apart > across.step_over / usual && apart < across.step_over * usual ? apart : 0;
+}
+
 }  // namespace
 
 std::vector<RoughnessPlace> roughness_places(const AsMachinedSurface& as_machined, const Signals& signals) {
@@ -210,7 +277,8 @@ std::vector<RoughnessPlace> roughness_places(const AsMachinedSurface& as_machine
     if (as_machined.surface().step_over <= 0) return places;
     for (const PointIndex point : spread_points(signals)) {
         const AcrossFeed across = across_feed(as_machined, signals, point);
-        if (across.known) places.push_back({point, as_machined.contact(point), across});
+        if (!across.known) continue;
+        places.push_back({point, as_machined.contact(point), across, contacts_apart(as_machined, point, across)});
     }
     return places;
 }

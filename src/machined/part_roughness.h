@@ -16,6 +16,7 @@ struct RoughnessPlace {
     PointIndex point = 0;
     Vec3 contact = Vec3::Zero();  ///< [mm] of the tool with the surface there
     AcrossFeed across;
+    double apart = 0;  ///< [mm] from contact to contact of adjacent passes there, seen from above; 0: not known
 };
 
 /// Some 24 of them.
@@ -27,9 +28,9 @@ struct RoughPatch {
     PointIndex point = 0;  ///< in its middle
     Vec3 contact;          ///< [mm] of the tool with the surface there
     Roughness profile;     ///< across the feed
-    AreaHeights area;      ///< [mm] of a square of two cut-offs, form taken off
-    AreaHeights machine;   ///< [mm] of the same square: what the machine adds (deviation_from())
-    double unknown = 0;    ///< share of the square's cut cells where the form is not known
+    AreaHeights area;      ///< [mm] of a window, form taken off: PatchWindow in part_roughness.cpp
+    AreaHeights machine;   ///< [mm] of the same window: what the machine adds (deviation_from())
+    double unknown = 0;    ///< share of the window's cut cells where the form is not known
 };
 
 struct PartRoughness {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/vectorised.h"
@@ -123,28 +124,36 @@ Roughness roughness_of(std::span<const double> z, std::span<const double> along,
     return roughness_of(interpolated(z, along, places), places[1] - places[0], cutoff);
 }
 
-AreaHeights area_heights(std::span<const float> z) {
+AreaHeights area_heights(std::span<const float> z, std::span<const float> weights) {
     AreaHeights h;
+    constexpr float counts = 0.5F;
+    const auto weight = [&](std::size_t k) { return weights.empty() ? 1.0F : weights[k]; };
     double sum = 0;
-    float low = 0;
-    float high = 0;
-    for (const float v : z) {
+    double all = 0;
+    float low = std::numeric_limits<float>::infinity();
+    float high = -low;
+    for (std::size_t k = 0; k < z.size(); ++k) {
+        const float v = z[k];
         if (!(v == v)) continue;
-        low = h.cells == 0 ? v : std::min(low, v);
-        high = h.cells == 0 ? v : std::max(high, v);
-        sum += v;
+        const float w = weight(k);
+        if (w >= counts) {
+            low = std::min(low, v);
+            high = std::max(high, v);
+        }
+        sum += static_cast<double>(w) * v;
+        all += w;
         ++h.cells;
     }
-    if (h.cells == 0) return h;
-    const auto n = static_cast<double>(h.cells);
-    const double mean = sum / n;
-    for (const float v : z) {
-        if (!(v == v)) continue;
-        h.sa += std::abs(v - mean) / n;
-        h.sq += (v - mean) * (v - mean) / n;
+    if (!(all > 0)) return {};
+    const double mean = sum / all;
+    for (std::size_t k = 0; k < z.size(); ++k) {
+        if (!(z[k] == z[k])) continue;
+        const double share = weight(k) / all;
+        h.sa += share * std::abs(z[k] - mean);
+        h.sq += share * (z[k] - mean) * (z[k] - mean);
     }
     h.sq = std::sqrt(h.sq);
-    h.sz = static_cast<double>(high) - low;
+    h.sz = high > low ? static_cast<double>(high) - low : 0;
     return h;
 }
 

@@ -48,6 +48,7 @@ struct AreaHeights {
     double sa = 0, sq = 0, sz = 0;
     std::size_t cells = 0;  ///< that have a value
 };
-[[nodiscard]] AreaHeights area_heights(std::span<const float> z);
+/// `weights`, 0 … 1, one for each value; empty: all are 1. Sz counts those that weigh a half at least. O(cells).
+[[nodiscard]] AreaHeights area_heights(std::span<const float> z, std::span<const float> weights = {});
 
 }  // namespace clsurf

@@ -6,11 +6,13 @@
 A tool is placed every 10 µm along zigzag passes, and over each place of a section the lowest outline counts. The parts are
 planes, ridges, cylinders, valleys, fillets and waves whose design is a formula, so that the true form is known: Ra and Rz
 (ISO 4287, Gaussian filter of ISO 16610-21, along the design and not along its plan) of the section and Sa and Sz (ISO
-25178-2) of a square of 1.6 mm about its middle are those of the distance to the design, not to a fit. In a valley without a fillet the design is what the tool can
+25178-2) about its middle are those of the distance to the design, not to a fit. They are of 1.6 mm along the feed and,
+across it, of the whole even number of step-overs next to that; Sa is the mean over windows of this width that begin at
+all places of one step-over. In a valley without a fillet the design is what the tool can
 reach. With an ERROR, pass k runs sin(2π x / 5 mm + 2 k) times as far above the commanded path.
 Lengths in mm, Ra, Rz, Sa, Sz and ERROR in µm, heights of the section in mm. A case is a line
-    case NAME KIND RADIUS CORNER PART A B ERROR X0 Y0 X1 Y1 RA RZ SA SZ COUNT
-with a line of COUNT heights after it; RA, RZ, SA and SZ are 0 where the design is not known.
+    case NAME KIND RADIUS CORNER PART A B ERROR X0 Y0 X1 Y1 APART RA RZ SA SZ COUNT
+with a line of COUNT heights after it. APART [mm] lie the contacts of adjacent passes, seen from above. RA, RZ, SA and SZ are 0 where the design is not known.
 """
 import math
 
@@ -133,13 +135,24 @@ def deviation(design, z, x, y):
     return (z - design(x, y)) / np.sqrt(1 + slope_x**2 + slope_y**2)
 
 
-def area(tool, tip, design, middle, error, side=1.6):
-    """Sa and Sz of a square; lines across the feed are fine enough for the tips of the cusps."""
-    across = np.arange(-side / 2, side / 2, STEP_OVER / 150)
-    x, y = (v.ravel() for v in np.meshgrid(np.arange(-side / 2, side / 2, side / 40), across))
+def area(tool, tip, design, middle, error, apart, side=1.6):
+    """Sa and Sz about a place; lines across the feed are fine enough for the tips of the cusps."""
+    fine = 150
+    whole = 2 * max(1, round(side / apart / 2)) * fine  # places across whole step-overs
+    weights = np.convolve(np.ones(whole), np.ones(fine))
+    weights /= weights.sum()
+    across = (np.arange(len(weights)) - (len(weights) - 1) / 2) * apart / fine
+    along = np.arange(-side / 2, side / 2, side / 40)
+    x, y = (v.ravel() for v in np.meshgrid(along, across))
     x, y = x + middle[0], y + middle[1]
-    off = deviation(design, cut(tool, tip, x, y, error), x, y)
-    return np.mean(abs(off - off.mean())), np.ptp(off)
+    off = deviation(design, cut(tool, tip, x, y, error), x, y).reshape(len(across), len(along)).T
+    mean = np.mean(off @ weights)
+    return np.mean(abs(off - mean) @ weights), np.ptp(off[:, abs(across) <= whole / 2 * apart / fine])
+
+
+def contacts_apart(tool, part, direction, rho):
+    """Of adjacent passes, seen from above: a ball on a rod touches nearer to its axis than its centre lies."""
+    return STEP_OVER * rho / (rho + tool[1]) if part is cylinder and direction == 0 else STEP_OVER
 
 
 BALL, BULL, FLAT = ("ball", 3.0, 3.0), ("bull", 3.0, 1.5), ("flat", 3.0, 0.0)
@@ -179,10 +192,11 @@ for name, tool, part, a, b, error, (x0, y0, x1, y1) in CASES:
     x, y = x0 + u * (x1 - x0), y0 + u * (y1 - y0)
     z = cut(tool, tip, x, y, 1e-3 * error)
     ra = rz = sa = sz = 0.0
+    apart = contacts_apart(tool, part, a, b)
     if design:
         ra, rz = roughness(deviation(design, z, x, y), arc_length(design, x, y))
-        sa, sz = area(tool, tip, design, ((x0 + x1) / 2, (y0 + y1) / 2), 1e-3 * error)
+        sa, sz = area(tool, tip, design, ((x0 + x1) / 2, (y0 + y1) / 2), 1e-3 * error, apart)
     few = z[::16]
-    print("case", name.replace(" ", "_"), *tool, part.__name__, a, b, error, x0, y0, x1, y1,
+    print("case", name.replace(" ", "_"), *tool, part.__name__, a, b, error, x0, y0, x1, y1, apart,
           *(f"{1e3 * value:.4f}" for value in (ra, rz, sa, sz)), len(few))
     print(" ".join(f"{value:.6f}" for value in few))

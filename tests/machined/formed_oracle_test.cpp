@@ -28,6 +28,7 @@ struct OracleCase {
     double a = 0, b = 0;
     double error = 0;  ///< [µm] of the machine
     Vec2 from, to;
+    double apart = 0;                       ///< [mm] contacts of adjacent passes, seen from above
     double ra = 0, rz = 0, sa = 0, sz = 0;  ///< µm
     std::vector<double> z;
 };
@@ -40,7 +41,7 @@ std::vector<OracleCase> read_cases() {
         OracleCase c;
         std::size_t count = 0;
         file >> c.name >> c.kind >> c.tool.radius >> c.tool.corner >> c.part >> c.a >> c.b >> c.error >> c.from.x() >>
-            c.from.y() >> c.to.x() >> c.to.y() >> c.ra >> c.rz >> c.sa >> c.sz >> count;
+            c.from.y() >> c.to.x() >> c.to.y() >> c.apart >> c.ra >> c.rz >> c.sa >> c.sz >> count;
         c.tool.kind = c.kind == "ball" ? ToolKind::ball : c.kind == "bull" ? ToolKind::bull : ToolKind::flat;
         c.z.resize(count);
         for (double& height : c.z) file >> height;
@@ -148,7 +149,8 @@ TEST(FormedOracle, RoughnessIsThatOfTheDistanceToTheDesignCreasesIncluded) {
         EXPECT_NEAR(1e3 * profile.roughness.rz, c.rz, 0.03 * c.rz) << what;
         EXPECT_GT(profile.step * static_cast<double>(profile.count), 0.97 * (c.to - c.from).norm()) << what;
         const Vec2 middle = 0.5 * (c.from + c.to);
-        const RoughnessPlace place{0, Vec3(middle.x(), middle.y(), 0), {middle, Vec2::UnitY(), step_over, true}};
+        const RoughnessPlace place{
+            0, Vec3(middle.x(), middle.y(), 0), {middle, Vec2::UnitY(), step_over, true}, c.apart};
         const PartRoughness area = measure_roughness({part.as_machined, part.as_machined}, std::span(&place, 1));
         ASSERT_EQ(area.patches.size(), 1U) << what;
         EXPECT_EQ(area.unknown, 0) << what;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -105,6 +106,41 @@ TEST(PartRoughness, AnotherRunIsMeasuredAtTheSamePlacesOverTheSameForm) {
     EXPECT_NEAR(was.sa, in_theory(0, 0).sa, 0.05 * was.sa);
     EXPECT_NEAR(is.sa, in_theory(0.004, 0).sa, 0.05 * is.sa);
     EXPECT_GT(is.sa, 1.2 * was.sa);
+}
+
+/// A zigzag of passes over a plane, inclined across the feed.
+MadeSurface inclined(double step_over, double angle, double length) {
+    return test::flat_zigzag(passes, length, step_over, 50, {}, [=](const Vec3& flat) {
+        return Vec3(flat.x(), flat.y() * std::cos(angle), flat.y() * std::sin(angle));
+    });
+}
+
+/// Of one scallop from cusp to cusp, R − √(R² − y²).
+AreaHeights scallop_of(double step_over) {
+    constexpr int count = 20001;
+    std::vector<float> z;
+    for (int k = 0; k < count; ++k) {
+        const double y = step_over * (static_cast<double>(k) / (count - 1) - 0.5);
+        z.push_back(static_cast<float>(radius - std::sqrt(radius * radius - y * y)));
+    }
+    return area_heights(z);
+}
+
+TEST(PartRoughness, IsThatOfWholeScallopsForAnyStepOverAndIncline) {
+    struct Plane {
+        double step_over = 0, angle = 0;
+        double ra = 0;  ///< [mm] of the scallops behind a Gaussian filter of 0.8 mm along the plane; NumPy
+    };
+    for (const Plane& plane : {Plane{0.35, 0, 0.0012764}, Plane{0.25, 0.26, 0.0006679}, Plane{0.4, 0.785, 0.0016080}}) {
+        const AreaHeights expected = scallop_of(plane.step_over);
+        const Cut cut(inclined(plane.step_over, plane.angle, 12));
+        const AsMachinedSurface surface = cut.along(cut.made.path);
+        const PartRoughness found = measure_roughness({surface, surface}, roughness_places(surface, cut.signals));
+        EXPECT_NEAR(found.sa, expected.sa, 0.01 * expected.sa) << plane.step_over;
+        EXPECT_NEAR(found.sq, expected.sq, 0.01 * expected.sq) << plane.step_over;
+        EXPECT_NEAR(found.sz, expected.sz, 0.015 * expected.sz) << plane.step_over;
+        EXPECT_NEAR(found.ra, plane.ra, 0.015 * plane.ra) << plane.step_over;
+    }
 }
 
 /// A patch that is known, at a point, `um` rough.

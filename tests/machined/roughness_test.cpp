@@ -99,5 +99,15 @@ TEST(Roughness, AnAreaIsMeasuredAboutItsMean) {
     EXPECT_EQ(area_heights(std::vector<float>{none}).cells, 0U);
 }
 
+TEST(Roughness, AnAreasHeightsAreWeighed) {
+    const std::vector<float> z{2, 6, 100, -1};
+    const AreaHeights h = area_heights(z, std::vector<float>{1, 0.75F, 0, 0.25F});
+    const double mean = (2 + 4.5 - 0.25) / 2;
+    EXPECT_NEAR(h.sa, ((mean - 2) + 0.75 * (6 - mean) + 0.25 * (mean + 1)) / 2, 1e-12);
+    EXPECT_NEAR(h.sq, std::sqrt((4 + 27 + 0.25) / 2 - mean * mean), 1e-12);
+    EXPECT_DOUBLE_EQ(h.sz, 4) << "of values that weigh a half at least";
+    EXPECT_EQ(area_heights(z, std::vector<float>(4, 0)).cells, 0U);
+}
+
 }  // namespace
 }  // namespace clsurf::roughness_test
