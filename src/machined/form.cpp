@@ -323,6 +323,16 @@ bool Form::is_among_contacts(const Vec2& place) const {
                                                        static_cast<std::int64_t>(u * finer))] != 0;
 }
 
+bool Form::is_well_among_contacts(const Vec2& place) const {
+    const double square = pitch_ / finer;
+    for (const double x : {-square, 0.0, square}) {
+        for (const double y : {-square, 0.0, square}) {
+            if (!is_among_contacts(place + Vec2(x, y))) return false;
+        }
+    }
+    return true;
+}
+
 Form::Facet Form::at(const Vec2& place) const {
     return blend(place, {missing<double>, missing<double>, missing<double>, true});
 }

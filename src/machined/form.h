@@ -57,6 +57,9 @@ public:
 
     /// Whether contact points lie about a place on all sides: beyond the outermost pass stands the tool's flank.
     [[nodiscard]] bool is_among_contacts(const Vec2& place) const;
+    /// The same to the last place: is_among_contacts() counts squares of a quarter of a step-over, which may reach as far
+    /// beyond the end of a pass, where cusps rise.
+    [[nodiscard]] bool is_well_among_contacts(const Vec2& place) const;
 
 private:
     enum class Kind : std::uint8_t {

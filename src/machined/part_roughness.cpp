@@ -74,6 +74,15 @@ private:
     double half_along_, half_across_;  ///< [mm]
 };
 
+/// Forgets cells that do not lie among contacts.
+void forget_outside(const Form& form, const MapFrame& frame, std::span<float> cells) {
+    for (std::int64_t k = 0; k < static_cast<std::int64_t>(cells.size()); ++k) {
+        const auto column = static_cast<double>(k % frame.columns);
+        const auto row = static_cast<double>(k / frame.columns);
+        if (!form.is_well_among_contacts(frame.at(column, row))) cells[static_cast<std::size_t>(k)] = missing<float>;
+    }
+}
+
 /// From the lowest place to the highest [mm] on lines across the feed through a window: cells of a map meet the tip of a
 /// cusp within a tenth of its height only, and these within a hundredth.
 double height_across(const AsMachinedSurface& as_machined, const Form& form, const PatchWindow& window, double step) {
@@ -84,6 +93,7 @@ double height_across(const AsMachinedSurface& as_machined, const Form& form, con
         const MapFrame frame{window.at(off, -0.5 * window.width()), window.across(), step,
                              static_cast<std::int64_t>(window.width() / step) + 1, 1};
         map_deviation(as_machined, form, frame, [&](std::int64_t, std::span<float> z) {
+            forget_outside(form, frame, z);
             for (const float value : z) {
                 if (!std::isfinite(value)) continue;
                 low = std::min(low, static_cast<double>(value));
@@ -103,6 +113,7 @@ AreaHeights window_heights(const AsMachinedSurface& as_machined, const Form& for
         static_cast<double>(std::count_if(cells.begin(), cells.end(), [](float z) { return std::isfinite(z); })) +
         unknown_cells;
     unknown = cut > 0 ? unknown_cells / cut : 1;
+    forget_outside(form, frame, cells);
     AreaHeights heights = area_heights(cells, window.weights(frame));
     if (heights.cells > 0) heights.sz = std::max(heights.sz, height_across(as_machined, form, window, step));
     return heights;
@@ -214,12 +225,7 @@ RoughPatch measure_patch(const RoughnessSurfaces& surfaces, const RoughnessPlace
     patch.area = window_heights(measured, form, window, across.step_over / steps_per_pass, heights, patch.unknown);
     if (surfaces.commanded == nullptr) return patch;
     std::vector<float> added = take_off(*surfaces.commanded, measured.level(), std::move(heights), frame);
-    for (std::int64_t k = 0; k < static_cast<std::int64_t>(added.size()); ++k) {
-        const std::int64_t column = k % frame.columns;
-        const std::int64_t row = k / frame.columns;
-        const Vec2 middle = frame.at(static_cast<double>(column), static_cast<double>(row));
-        if (!form.is_among_contacts(middle)) added[static_cast<std::size_t>(k)] = missing<float>;
-    }
+    forget_outside(form, frame, added);
     patch.machine = area_heights(added, window.weights(frame));
     return patch;
 }

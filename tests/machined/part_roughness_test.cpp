@@ -143,6 +143,20 @@ TEST(PartRoughness, IsThatOfWholeScallopsForAnyStepOverAndIncline) {
     }
 }
 
+TEST(PartRoughness, BesideTheEndsOfPassesNothingIsHigherThanACusp) {
+    // Where two passes end without a link between them, the cusp rises beyond their ends.
+    constexpr double step_over = 0.3, length = 10;
+    const Cut cut(inclined(step_over, 0.785, length));
+    const AsMachinedSurface surface = cut.along(cut.made.path);
+    for (const double from_end : {0.34, 0.4}) {
+        const Vec2 at(length - from_end, surface.bounds().center().y());
+        const RoughnessPlace place{0, Vec3(at.x(), at.y(), 0), {at, Vec2::UnitY(), step_over * std::cos(0.785), true}};
+        const PartRoughness found = measure_roughness({surface, surface}, std::span(&place, 1));
+        ASSERT_EQ(found.patches.size(), 1U);
+        EXPECT_NEAR(found.sz, scallop_of(step_over).sz, 0.015 * scallop_of(step_over).sz) << from_end;
+    }
+}
+
 /// A patch that is known, at a point, `um` rough.
 RoughPatch patch_at(PointIndex point, double um) {
     RoughPatch patch;
