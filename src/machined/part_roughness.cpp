@@ -77,9 +77,9 @@ private:
 /// Forgets cells that do not lie among contacts.
 void forget_outside(const Form& form, const MapFrame& frame, std::span<float> cells) {
     for (std::int64_t k = 0; k < static_cast<std::int64_t>(cells.size()); ++k) {
-        const auto column = static_cast<double>(k % frame.columns);
-        const auto row = static_cast<double>(k / frame.columns);
-        if (!form.is_well_among_contacts(frame.at(column, row))) cells[static_cast<std::size_t>(k)] = missing<float>;
+        const std::int64_t column = k % frame.columns, row = k / frame.columns;
+        const Vec2 middle = frame.at(static_cast<double>(column), static_cast<double>(row));
+        if (!form.is_well_among_contacts(middle)) cells[static_cast<std::size_t>(k)] = missing<float>;
     }
 }
 
