@@ -35,8 +35,7 @@ constexpr double most_behind = 0.2;   ///< the best, by score, after the first r
 constexpr double small_share = 0.3;   ///< of the time, for a feed reduction that begins with the cheap defects …
 constexpr double large_share = 0.65;  ///< … and for one that takes all it can
 constexpr int first_rounds = 2, more_rounds = 8;
-constexpr std::size_t most_listed = 8;                    ///< accepted finalists, where all are listed …
-constexpr std::size_t most_compared = 4;                  ///< … and where the best one on other machines is sought
+constexpr std::size_t most_listed = 8;                    ///< accepted finalists, where all are listed
 constexpr std::array<double, 2> other_steps{0.85, 0.55};  ///< that feed reductions are tried with as well …
 constexpr std::size_t most_drafts_of_other_steps = 2;     ///< … for so many drafts
 
@@ -49,15 +48,6 @@ double usual_feed(const Program& program) {
             feeds.push_back(program.motions.feed[k]);
     }
     return feeds.empty() ? 0 : median(feeds);
-}
-
-/// The index of the finalist with the largest mean gain on the ensemble; 0: there are none.
-std::size_t best_on_other_machines(const std::vector<Finalist>& finalists) {
-    const auto less = [](const Finalist& a, const Finalist& b) {
-        return a.ensemble.mean().gain < b.ensemble.mean().gain;
-    };
-    return static_cast<std::size_t>(
-        std::distance(finalists.begin(), std::max_element(finalists.begin(), finalists.end(), less)));
 }
 
 class Optimizer {
@@ -100,17 +90,14 @@ public:
     }
 
 private:
-    /// Among the first proposals that the ensemble accepts, the one with the largest mean gain on it; the best of all, refused with
-    /// the ensemble's reason, where it accepts none.
+    /// The best proposal that the ensemble accepts; the best of all, refused with the ensemble's reason, where it accepts
+    /// none.
     TriedProposal choose(Optimized& result) {
         measure_roughness();
         const std::vector<TriedProposal> finalists = evaluator_.finalists();
         if (finalists.empty()) return evaluator_.best();
         Ensemble ensemble(program_, machines_drawn_from(machine_, rules_.machines), rules_, evaluator_.kinematics());
-        // A weight and a controller have their own order.
-        const bool ordered = rules_.all_finalists || rules_.weight || rules_.machines == 0;
-        const std::size_t most_accepted = rules_.all_finalists ? most_listed : ordered ? 1 : most_compared;
-        std::vector<TriedProposal> accepted;
+        TriedProposal chosen;
         std::string refusal;
         EnsembleResult refused;
         std::vector<Finalist> doubtful;
@@ -135,17 +122,13 @@ private:
                 continue;
             }
             result.finalists.push_back({each->text, each->run.measures(), each->evaluation, runs});
-            accepted.push_back(each);
-            if (accepted.size() == most_accepted) break;
-        }
-        const std::size_t best = ordered ? 0 : best_on_other_machines(result.finalists);
-        if (!accepted.empty()) {
-            std::swap(result.finalists.front(), result.finalists[best]);
-            result.ensemble = result.finalists.front().ensemble;
+            if (chosen == nullptr) result.ensemble = runs;
+            if (chosen == nullptr) chosen = each;
+            if (!rules_.all_finalists || result.finalists.size() == most_listed) break;
         }
         // Where a controller decides, it decides on these, too.
         std::move(doubtful.begin(), doubtful.end(), std::back_inserter(result.finalists));
-        if (!accepted.empty()) return accepted[best];
+        if (chosen != nullptr) return chosen;
         result.ensemble = refused;
         finalists.front()->evaluation.accepted = false;
         finalists.front()->evaluation.reason = refusal;
