@@ -29,20 +29,15 @@ Border::Border(const ClSurface& surface, const Signals& signals, const ArcLength
 
 const DefectCandidate* Border::as_strong_near(PointIndex point, std::size_t pass, float share,
                                               Quantity quantity) const {
-    const auto by_point = [](const DefectCandidate* s, PointIndex p) { return s->point < p; };
-    const auto after = std::lower_bound(at_border_.begin(), at_border_.end(), point, by_point);
     const auto strong = [&](const DefectCandidate* s) {
-        return s->pass == pass && s->expected(quantity) && s->share[index_of(quantity)] >= share &&
-               !arc_length_.at_least(s->point, point, along_);
+        return s->pass == pass && s->expected(quantity) && s->share[index_of(quantity)] >= share;
     };
-    // Within that way there are few of them.
-    for (auto k = after; k != at_border_.end() && !arc_length_.at_least(point, (*k)->point, along_); ++k) {
-        if (strong(*k)) return *k;
-    }
-    for (auto k = after; k != at_border_.begin() && !arc_length_.at_least((*(k - 1))->point, point, along_); --k) {
-        if (strong(*(k - 1))) return *(k - 1);
-    }
-    return nullptr;
+    const CandidateSpan near = candidates_near(at_border_, point, arc_length_, along_);  // few
+    const std::size_t after = index_by_point(near, point);
+    const auto behind = std::find_if(near.begin() + static_cast<std::ptrdiff_t>(after), near.end(), strong);
+    if (behind != near.end()) return *behind;
+    const auto before = std::find_if(near.rend() - static_cast<std::ptrdiff_t>(after), near.rend(), strong);
+    return before == near.rend() ? nullptr : *before;
 }
 
 const DefectCandidate* Border::flank_of(const DefectCandidates& core, Quantity quantity) const {

@@ -326,6 +326,32 @@ FoundCandidates find_candidates(const ClSurface& surface, const Signals& signals
     return CandidateFinder(surface, signals, arc_length, thresholds).find(starts, forget);
 }
 
+std::size_t index_by_point(CandidateSpan candidates, PointIndex point) {
+    const auto before = [](const DefectCandidate* s, PointIndex p) { return s->point < p; };
+    return static_cast<std::size_t>(std::lower_bound(candidates.begin(), candidates.end(), point, before) -
+                                    candidates.begin());
+}
+
+CandidateSpan candidates_near(CandidateSpan candidates, PointIndex point, const ArcLength& arc_length, double along) {
+    const std::size_t after = index_by_point(candidates, point);
+    std::size_t first = after, end = after;
+    while (first > 0 && !arc_length.at_least(candidates[first - 1]->point, point, along)) --first;
+    while (end < candidates.size() && !arc_length.at_least(point, candidates[end]->point, along)) ++end;
+    return candidates.subspan(first, end - first);
+}
+
+std::vector<DefectCandidate*> FoundCandidates::with_share_of(Quantity quantity) {
+    std::vector<DefectCandidate*> found;
+    for (std::vector<DefectCandidate>& piece : kept) {
+        for (DefectCandidate& candidate : piece) {
+            if (candidate.share[index_of(quantity)] > 0) found.push_back(&candidate);
+        }
+    }
+    std::sort(found.begin(), found.end(),
+              [](const DefectCandidate* a, const DefectCandidate* b) { return a->point < b->point; });
+    return found;
+}
+
 double joined_along(const ClSurface& surface, double record) {
     constexpr double least = 1.0;  // [mm]
     constexpr double step_overs = 2, records = 2.5;

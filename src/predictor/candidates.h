@@ -3,6 +3,7 @@
 // together.
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "predictor/mismatch.h"
@@ -31,11 +32,22 @@ struct DefectCandidate {
 /// Some candidates, in the order of their points. They stay where they were found: each is 150 bytes, and
 /// a bad part has a million.
 using DefectCandidates = std::vector<const DefectCandidate*>;
+using CandidateSpan = std::span<const DefectCandidate* const>;  ///< in the order of their points
+
+/// Index of the first candidate that is not before a point. O(log candidates).
+[[nodiscard]] std::size_t index_by_point(CandidateSpan candidates, PointIndex point);
+/// Those less than `along` [mm] of arc length before or behind a point.
+/// O(log candidates + those found).
+[[nodiscard]] CandidateSpan candidates_near(CandidateSpan candidates, PointIndex point, const ArcLength& arc_length,
+                                            double along);
 
 /// All candidates of a part, and where they are kept.
 struct FoundCandidates {
     std::vector<std::vector<DefectCandidate>> kept;
     DefectCandidates candidates;
+
+    /// Those with a share of a quantity, in the order of their points.
+    [[nodiscard]] std::vector<DefectCandidate*> with_share_of(Quantity quantity);
 };
 
 /// Sites (sites.h) whose residual passes half a threshold, in the order of their points. Only sites with a step are

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <vector>
 
 #include "core/block_portions.h"
 
@@ -10,7 +11,7 @@ namespace clsurf {
 namespace {
 
 constexpr std::size_t of_relief = index_of(Quantity::relief);
-/// Of the stronger relief. −h/2 beside h, with room for noise; a pass that is off by p the other way has (p + h/2) / (h + p/2).
+/// Of the stronger relief: −h/2 beside h, with room for noise. A pass that is off by −p itself has (p + h/2) of (h + p/2).
 constexpr float most_of_chord = 0.6F;
 
 class ChordEffects {
@@ -30,22 +31,11 @@ private:
     /// The largest relief of one sign on the pass of a place, up to `along` from it [mm].
     [[nodiscard]] float peak_near(const PathLocation& place, bool pit) const {
         if (!place.exists()) return 0;
-        const PointIndex there = place.nearest();
-        const auto after = std::lower_bound(reliefs_.begin(), reliefs_.end(), there,
-                                            [](const DefectCandidate* s, PointIndex p) { return s->point < p; });
-        return std::max(peak_from(after, reliefs_.end(), there, pit),
-                        peak_from(std::make_reverse_iterator(after), reliefs_.rend(), there, pit));
-    }
-
-    template <typename Iterator>
-    [[nodiscard]] float peak_from(Iterator next, Iterator end, PointIndex there, bool pit) const {
-        const std::size_t pass = pass_of(passes_, there);
+        const std::size_t pass = pass_of(passes_, place.nearest());
         float peak = 0;
-        for (; next != end && (*next)->pass == pass; ++next) {
-            const PointIndex point = (*next)->point;
-            if (arc_length_.at_least(std::min(there, point), std::max(there, point), along_)) break;
-            const float relief = (*next)->comparison.residual[of_relief];
-            if ((relief < 0) == pit) peak = std::max(peak, std::abs(relief));
+        for (const DefectCandidate* s : candidates_near(reliefs_, place.nearest(), arc_length_, along_)) {
+            const float relief = s->comparison.residual[of_relief];
+            if (s->pass == pass && (relief < 0) == pit) peak = std::max(peak, std::abs(relief));
         }
         return peak;
     }
@@ -60,14 +50,7 @@ private:
 
 void take_chord_effects(const Passes& passes, const ArcLength& arc_length, double along, FoundCandidates& found,
                         const ForgetBlocks& forget) {
-    std::vector<DefectCandidate*> all;
-    for (std::vector<DefectCandidate>& piece : found.kept) {
-        for (DefectCandidate& candidate : piece) {
-            if (candidate.share[of_relief] > 0) all.push_back(&candidate);
-        }
-    }
-    std::sort(all.begin(), all.end(),
-              [](const DefectCandidate* a, const DefectCandidate* b) { return a->point < b->point; });
+    const std::vector<DefectCandidate*> all = found.with_share_of(Quantity::relief);
     const DefectCandidates reliefs(all.begin(), all.end());
     const ChordEffects effects(reliefs, passes, arc_length, along);
     std::vector<DefectCandidate*> taken;  // first all are looked at: what is taken from one must not change another

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace clsurf {
 namespace {
@@ -12,19 +11,25 @@ constexpr float dip_share = 0.5F;   ///< of the lower of its two peaks, to which
 constexpr float peak_of_its_own =
     3.0;  ///< share of the threshold that a second peak reaches; weaker ones follow strong ones
 
+float peak_of(CandidateSpan sites, Quantity quantity) {
+    float peak = 0;
+    for (const DefectCandidate* s : sites) peak = std::max(peak, s->share[index_of(quantity)]);
+    return peak;
+}
+
 class CoreFinder {
 public:
     CoreFinder(CandidateSpan group, Quantity quantity, const ArcLength& arc_length, double joined)
-        : group_(group), quantity_(index_of(quantity)), arc_length_(arc_length), joined_(joined) {}
+        : group_(group), quantity_(quantity), arc_length_(arc_length), joined_(joined) {}
 
     CoreSites find() {
-        const float peak = peak_of(group_);
+        const float peak = peak_of(group_, quantity_);
         // A pass whose peak is lower than this is not at fault.
         const float enough = std::max(std::min(1.0F, half_of_peak * peak), weak_peak * peak);
         CoreSites sites;
         for (const CandidateSpan run : runs_of(group_, arc_length_, joined_)) {
             for (const CandidateSpan bump : bumps_of(run)) {
-                if (peak_of(bump) < enough)
+                if (peak_of(bump, quantity_) < enough)
                     sites.rest.insert(sites.rest.end(), bump.begin(), bump.end());
                 else
                     append_strong(bump, sites.core);
@@ -34,14 +39,9 @@ public:
     }
 
 private:
-    [[nodiscard]] float share(const DefectCandidate* s) const { return s->share[quantity_]; }
+    [[nodiscard]] float share(const DefectCandidate* s) const { return s->share[index_of(quantity_)]; }
     [[nodiscard]] bool near(const DefectCandidate* a, const DefectCandidate* b) const {
         return !arc_length_.at_least(a->point, b->point, joined_);
-    }
-    [[nodiscard]] float peak_of(CandidateSpan sites) const {
-        float peak = 0;
-        for (const DefectCandidate* s : sites) peak = std::max(peak, share(s));
-        return peak;
     }
 
     /// The shares of a run with dips shorter than joined_ filled: a morphological closing.
@@ -60,7 +60,7 @@ private:
 
     /// A run, cut at the bottom of each dip between two peaks of the motion. Heights swing after what made them.
     [[nodiscard]] std::vector<CandidateSpan> bumps_of(CandidateSpan run) const {
-        if (quantity_ == index_of(Quantity::lag) || quantity_ == index_of(Quantity::relief)) return {run};
+        if (quantity_ == Quantity::lag || quantity_ == Quantity::relief) return {run};
         const std::vector<float> shares = filled(run);
         std::vector<CandidateSpan> bumps;
         std::size_t first = 0, bottom = 0;
@@ -80,7 +80,7 @@ private:
     }
 
     void append_strong(CandidateSpan bump, DefectCandidates& core) const {
-        const float least = half_of_peak * peak_of(bump);
+        const float least = half_of_peak * peak_of(bump, quantity_);
         for (std::size_t k = 0; k < bump.size(); ++k) {
             if (share(bump[k]) < least) continue;
             std::size_t last = k;
@@ -94,7 +94,7 @@ private:
     }
 
     CandidateSpan group_;
-    std::size_t quantity_;
+    Quantity quantity_;
     const ArcLength& arc_length_;
     double joined_;  ///< [mm]
 };
@@ -121,10 +121,9 @@ public:
 private:
     [[nodiscard]] bool goes_on(const DefectCandidate* at, const DefectCandidate* next, float peak) const {
         const std::size_t q = index_of(quantity_);
-        const PointIndex first = std::min(at->point, next->point), last = std::max(at->point, next->point);
         return next->pass == at->pass && next->share[q] >= 1 && next->share[q] <= peak &&
                (at->comparison.residual[q] < 0) == (next->comparison.residual[q] < 0) &&
-               !arc_length_.at_least(first, last, joined_);
+               !arc_length_.at_least(at->point, next->point, joined_);
     }
 
     Quantity quantity_;
@@ -136,18 +135,16 @@ private:
 
 double length_above_threshold(CandidateSpan core, CandidateSpan sites, Quantity quantity, const ArcLength& arc_length,
                               double joined, double enough) {
-    const auto before = [](const DefectCandidate* a, const DefectCandidate* b) { return a->point < b->point; };
     const Flank flank(quantity, arc_length, joined);
     double length = 0;
     for (const CandidateSpan run : runs_of(core, arc_length, joined)) {
         if (length >= enough) break;
         length += arc_length.to(run.back()->point) - arc_length.to(run.front()->point);
-        float peak = 0;
-        for (const DefectCandidate* s : run) peak = std::max(peak, s->share[index_of(quantity)]);
-        const auto after = std::upper_bound(sites.begin(), sites.end(), run.back(), before);
-        const auto first = std::lower_bound(sites.begin(), sites.end(), run.front(), before);
-        length += flank.length(run.back(), after, sites.end(), peak, enough - length);
-        length += flank.length(run.front(), std::make_reverse_iterator(first), sites.rend(), peak, enough - length);
+        const float peak = peak_of(run, quantity);
+        const auto first = static_cast<std::ptrdiff_t>(index_by_point(sites, run.front()->point));
+        const auto after = static_cast<std::ptrdiff_t>(index_by_point(sites, run.back()->point + 1));
+        length += flank.length(run.back(), sites.begin() + after, sites.end(), peak, enough - length);
+        length += flank.length(run.front(), sites.rend() - first, sites.rend(), peak, enough - length);
     }
     return length;
 }

@@ -1,15 +1,11 @@
 #pragma once
 // The core of a group of candidates: its strong sites, which make the defect.
 
-#include <span>
 #include <vector>
 
 #include "predictor/candidates.h"
 
 namespace clsurf {
-
-/// Candidates in the order of their points.
-using CandidateSpan = std::span<const DefectCandidate* const>;
 
 constexpr float half_of_peak = 0.5F;
 
@@ -26,9 +22,9 @@ struct CoreSites {
 /// acceleration on one pass, each counts from its own peak. Both lists in the order of their points. O(sites · sites within `joined`²).
 [[nodiscard]] CoreSites core_of(CandidateSpan group, Quantity quantity, const ArcLength& arc_length, double joined);
 
-/// How long [mm] the runs of a core are together with the sites beside them where `quantity` passes its threshold on the same
-/// side: the sharper a peak is, the shorter it is at half of its height. They end where another peak rises higher, and the sum is
-/// complete only up to `enough`. `sites`: all candidates of the family in the order of their points.
+/// The length [mm] of the runs of a core, extended on both sides as far as `quantity` exceeds its threshold with the same sign: the
+/// sharper a peak is, the shorter it is at half of its height. A run is not extended into a higher peak. Counting stops once the
+/// sum reaches `enough`. `sites`: all candidates of the family.
 /// O(core log sites + sites within `enough`).
 [[nodiscard]] double length_above_threshold(CandidateSpan core, CandidateSpan sites, Quantity quantity,
                                             const ArcLength& arc_length, double joined, double enough);

@@ -136,12 +136,7 @@ struct Candidate {
 std::vector<Candidate> find_candidates(const LagComparer& comparer, const Thresholds& thresholds,
                                        FoundCandidates& found, const ForgetBlocks& forget) {
     std::vector<Candidate> all;
-    const std::size_t lag = index_of(Quantity::lag);
-    for (std::vector<DefectCandidate>& piece : found.kept) {
-        for (DefectCandidate& defect_candidate : piece) {
-            if (defect_candidate.share[lag] > 0) all.push_back({&defect_candidate, {}});
-        }
-    }
+    for (DefectCandidate* defect_candidate : found.with_share_of(Quantity::lag)) all.push_back({defect_candidate, {}});
     constexpr std::int64_t grain = 1024;
     for_each_portion(
         all.size(), forget, [&](std::size_t k) { return all[k].defect_candidate->point; },
@@ -154,9 +149,6 @@ std::vector<Candidate> find_candidates(const LagComparer& comparer, const Thresh
         });
     std::erase_if(all, [&](const Candidate& c) {
         return std::abs(c.lag.alternating) < alternates * thresholds.of[index_of(Quantity::lag)];
-    });
-    std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
-        return a.defect_candidate->point < b.defect_candidate->point;
     });
     return all;
 }
@@ -196,13 +188,6 @@ void subtract(const Candidate& candidate, const Thresholds& thresholds) {
     s.comparison.slack[q] = 0;
     s.share[q] = left / thresholds.of[q];
     s.score[q] = std::max(0.0F, std::min((step - s.comparison.uncertainty[q]) / thresholds.of[q], 2 * s.share[q]));
-}
-
-/// Domain: a candidate of that point is there. O(log candidates).
-std::size_t index_by_point(const DefectCandidates& defect_candidates, PointIndex point) {
-    const auto at = std::lower_bound(defect_candidates.begin(), defect_candidates.end(), point,
-                                     [](const DefectCandidate* s, PointIndex p) { return s->point < p; });
-    return static_cast<std::size_t>(at - defect_candidates.begin());
 }
 
 }  // namespace
