@@ -5,6 +5,21 @@
 
 namespace clsurf {
 
+namespace {
+
+/// Arc lengths [mm] at places `step` mm apart seen from above, where a line has these slopes; not finite: level.
+std::vector<double> arc_lengths(std::span<const float> slopes, double step) {
+    std::vector<double> along(slopes.size());
+    const auto steepness = [&](std::size_t k) {
+        return std::isfinite(slopes[k]) ? std::hypot(1.0, static_cast<double>(slopes[k])) : 1.0;
+    };
+    for (std::size_t k = 1; k < slopes.size(); ++k)
+        along[k] = along[k - 1] + 0.5 * step * (steepness(k - 1) + steepness(k));
+    return along;
+}
+
+}  // namespace
+
 AcrossFeed across_feed(const AsMachinedSurface& as_machined, const Signals& signals, PointIndex point) {
     AcrossFeed a;
     const Eigen::Vector3f feed = signals.feed(point);
@@ -21,20 +36,8 @@ AcrossFeed across_feed(const AsMachinedSurface& as_machined, const Signals& sign
     return a;
 }
 
-std::vector<double> arc_lengths(std::span<const float> slopes, double step) {
-    std::vector<double> along(slopes.size());
-    const auto steepness = [&](std::size_t k) {
-        return std::isfinite(slopes[k]) ? std::hypot(1.0, static_cast<double>(slopes[k])) : 1.0;
-    };
-    for (std::size_t k = 1; k < slopes.size(); ++k)
-        along[k] = along[k - 1] + 0.5 * step * (steepness(k - 1) + steepness(k));
-    return along;
-}
-
-RowDeviations deviations_along(const AsMachinedSurface& as_machined, const AsMachinedSurface& form_of,
-                               const ProfileRow& row, Form::Of of, double tolerance) {
-    const MapFrame frame{row.from, row.along, row.step, row.count, 1};
-    const Form form(form_of, frame.bounds(0, 0, row.count, 1), of, tolerance);
+RowDeviations deviations_along(const AsMachinedSurface& as_machined, const Form& form, const ProfileRow& row) {
+    const MapFrame frame = row.frame();
     RowDeviations result;
     std::vector<float> slopes(static_cast<std::size_t>(row.count));
     as_machined.map(frame, [&](std::int64_t first_row, std::span<float> z) {
@@ -43,6 +46,11 @@ RowDeviations deviations_along(const AsMachinedSurface& as_machined, const AsMac
     });
     result.along = arc_lengths(slopes, row.step);
     return result;
+}
+
+RowDeviations deviations_along(const AsMachinedSurface& as_machined, const AsMachinedSurface& form_of,
+                               const ProfileRow& row, Form::Of of, double tolerance) {
+    return deviations_along(as_machined, Form(form_of, row.frame().bounds(0, 0, row.count, 1), of, tolerance), row);
 }
 
 }  // namespace clsurf

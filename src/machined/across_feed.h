@@ -2,7 +2,6 @@
 // AcrossFeed: a place on the part and the direction across the feed there, along which profiles are measured.
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "core/point.h"
@@ -29,6 +28,8 @@ struct ProfileRow {
     Vec2 from = Vec2::Zero(), along = Vec2::UnitX();
     double step = 0;  ///< [mm]
     std::int64_t count = 0;
+
+    [[nodiscard]] MapFrame frame() const { return {from, along, step, count, 1}; }
 };
 
 /// A surface over a form, along a row.
@@ -36,9 +37,10 @@ struct RowDeviations {
     std::vector<double> deviation;  ///< [mm] NaN: nothing was cut, or no form there
     std::vector<double> along;      ///< [mm] arc length of the form from the first place; level where there is none
 };
-/// Arc lengths [mm] at places `step` mm apart seen from above, where a line has these slopes; not finite: level.
-[[nodiscard]] std::vector<double> arc_lengths(std::span<const float> slopes, double step);
 
+/// Over a form of the places of the row.
+[[nodiscard]] RowDeviations deviations_along(const AsMachinedSurface& as_machined, const Form& form,
+                                             const ProfileRow& row);
 /// Over the form of `form_of`; `of` and `tolerance` as of Form.
 [[nodiscard]] RowDeviations deviations_along(const AsMachinedSurface& as_machined, const AsMachinedSurface& form_of,
                                              const ProfileRow& row, Form::Of of = Form::Of::program,

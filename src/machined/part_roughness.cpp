@@ -19,10 +19,10 @@ constexpr double patch_cutoffs = 2;    ///< side of a patch
 constexpr int lines_across = 6;        ///< through a patch
 constexpr int rows_in_two = 41;        ///< of a patch's cells, in two step-overs
 
-/// What is evaluated about a place: two cut-offs along the feed, and across it a whole even number of step-overs next to
-/// as much (even: passes to and fro may differ). A window of another width would hold a part of a scallop more than whole
-/// ones, and its mean and Sa would change with where that part begins. The edges across the feed rise over one step-over:
-/// the mean over all windows that begin within one, which a step-over that is not quite known changes by its square only.
+/// The part of the surface that is evaluated about a place. It is two cut-offs long along the feed. Across the feed it has the
+/// even number of step-overs that comes nearest to that length; even, because passes to and fro may differ. A window that ended
+/// inside a scallop would have a mean and an Sa that depend on where it ends. Its weights rise over one step-over at each edge:
+/// that is the mean over all windows that begin within one step-over, and an error of the step-over changes it in second order only.
 class PatchWindow {
 public:
     PatchWindow(const RoughnessPlace& place, double cutoff)
@@ -40,48 +40,44 @@ public:
     [[nodiscard]] Vec2 at(double along, double across) const {
         return middle_ + along * Vec2(across_.y(), -across_.x()) + across * across_;
     }
-    /// Rows along the feed, as far as anything weighs, the place in its middle. 41 of them in two step-overs: those of one
-    /// scallop lie between those of the next, and the tips of cusps are met at other places.
+    /// Rows along the feed, as far as the weights reach, with the place in the middle. Two step-overs have 41 rows. The rows of
+    /// one scallop therefore lie between those of the next one, and do not all miss the tips of the cusps.
     [[nodiscard]] MapFrame frame() const {
         const double cell = 2 * apart_ / rows_in_two;
         const auto columns = static_cast<std::int64_t>(half_along_ / cell);
-        const auto rows = static_cast<std::int64_t>((half_across_ + 0.5 * apart_) / cell);
+        const auto rows = static_cast<std::int64_t>(reach_across() / cell);
         return {at(-static_cast<double>(columns) * cell, -static_cast<double>(rows) * cell),
                 Vec2(across_.y(), -across_.x()), cell, 2 * columns + 1, 2 * rows + 1};
     }
-    /// Of the cells of such a frame.
-    [[nodiscard]] std::vector<float> weights(const MapFrame& frame) const {
+    /// Of the cells of such a frame: 0 where they do not lie among contacts.
+    [[nodiscard]] std::vector<float> weights(const MapFrame& frame, const Form& form) const {
         std::vector<float> result;
         for (std::int64_t row = 0; row < frame.rows; ++row) {
             const double aside =
                 frame.cell * std::abs(static_cast<double>(row) - 0.5 * static_cast<double>(frame.rows - 1));
-            const double weight = std::clamp((half_across_ - aside) / apart_ + 0.5, 0.0, 1.0);
-            result.insert(result.end(), static_cast<std::size_t>(frame.columns), static_cast<float>(weight));
+            const auto weight = static_cast<float>(std::clamp((half_across_ - aside) / apart_ + 0.5, 0.0, 1.0));
+            for (std::int64_t column = 0; column < frame.columns; ++column) {
+                const Vec2 place = frame.at(static_cast<double>(column), static_cast<double>(row));
+                result.push_back(form.is_well_among_contacts(place) ? weight : 0);
+            }
         }
         return result;
     }
     [[nodiscard]] Box2 bounds() const {
         Box2 box;
         for (const double along : {-half_along_, half_along_})
-            for (const double across : {-half_across_, half_across_})
-                box.extend(at(along, across / half_across_ * (half_across_ + 0.5 * apart_)));
+            for (const double across : {-reach_across(), reach_across()}) box.extend(at(along, across));
         return box;
     }
 
 private:
+    /// [mm] to where the weight is 0.
+    [[nodiscard]] double reach_across() const { return half_across_ + 0.5 * apart_; }
+
     Vec2 middle_, across_;
     double apart_;                     ///< [mm] step-over, seen from above
     double half_along_, half_across_;  ///< [mm]
 };
-
-/// Forgets cells that do not lie among contacts.
-void forget_outside(const Form& form, const MapFrame& frame, std::span<float> cells) {
-    for (std::int64_t k = 0; k < static_cast<std::int64_t>(cells.size()); ++k) {
-        const std::int64_t column = k % frame.columns, row = k / frame.columns;
-        const Vec2 middle = frame.at(static_cast<double>(column), static_cast<double>(row));
-        if (!form.is_well_among_contacts(middle)) cells[static_cast<std::size_t>(k)] = missing<float>;
-    }
-}
 
 /// From the lowest place to the highest [mm] on lines across the feed through a window: cells of a map meet the tip of a
 /// cusp within a tenth of its height only, and these within a hundredth.
@@ -93,11 +89,10 @@ double height_across(const AsMachinedSurface& as_machined, const Form& form, con
         const MapFrame frame{window.at(off, -0.5 * window.width()), window.across(), step,
                              static_cast<std::int64_t>(window.width() / step) + 1, 1};
         map_deviation(as_machined, form, frame, [&](std::int64_t, std::span<float> z) {
-            forget_outside(form, frame, z);
-            for (const float value : z) {
-                if (!std::isfinite(value)) continue;
-                low = std::min(low, static_cast<double>(value));
-                high = std::max(high, static_cast<double>(value));
+            for (std::size_t k = 0; k < z.size(); ++k) {
+                if (!std::isfinite(z[k]) || !form.is_well_among_contacts(frame.at(static_cast<double>(k), 0))) continue;
+                low = std::min(low, static_cast<double>(z[k]));
+                high = std::max(high, static_cast<double>(z[k]));
             }
         });
     }
@@ -106,15 +101,14 @@ double height_across(const AsMachinedSurface& as_machined, const Form& form, con
 
 /// Of a window, from its heights.
 AreaHeights window_heights(const AsMachinedSurface& as_machined, const Form& form, const PatchWindow& window,
-                           double step, std::vector<float> cells, double& unknown) {
+                           double step, std::span<const float> weights, std::vector<float> cells, double& unknown) {
     const MapFrame frame = window.frame();
     const auto unknown_cells = static_cast<double>(form.subtract(frame, 0, as_machined.level(), cells));
     const double cut =
         static_cast<double>(std::count_if(cells.begin(), cells.end(), [](float z) { return std::isfinite(z); })) +
         unknown_cells;
     unknown = cut > 0 ? unknown_cells / cut : 1;
-    forget_outside(form, frame, cells);
-    AreaHeights heights = area_heights(cells, window.weights(frame));
+    AreaHeights heights = area_heights(cells, weights);
     if (heights.cells > 0) heights.sz = std::max(heights.sz, height_across(as_machined, form, window, step));
     return heights;
 }
@@ -221,12 +215,12 @@ RoughPatch measure_patch(const RoughnessSurfaces& surfaces, const RoughnessPlace
     const Form form(surfaces.form_of, window.bounds());
     const AsMachinedSurface& measured = surfaces.measured;
     const MapFrame frame = window.frame();
+    const std::vector<float> weights = window.weights(frame, form);
     std::vector<float> heights = heights_of(measured, frame);
-    patch.area = window_heights(measured, form, window, across.step_over / steps_per_pass, heights, patch.unknown);
+    const double step = across.step_over / steps_per_pass;
+    patch.area = window_heights(measured, form, window, step, weights, heights, patch.unknown);
     if (surfaces.commanded == nullptr) return patch;
-    std::vector<float> added = take_off(*surfaces.commanded, measured.level(), std::move(heights), frame);
-    forget_outside(form, frame, added);
-    patch.machine = area_heights(added, window.weights(frame));
+    patch.machine = area_heights(take_off(*surfaces.commanded, measured.level(), std::move(heights), frame), weights);
     return patch;
 }
 

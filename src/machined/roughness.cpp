@@ -133,9 +133,8 @@ AreaHeights area_heights(std::span<const float> z, std::span<const float> weight
     float low = std::numeric_limits<float>::infinity();
     float high = -low;
     for (std::size_t k = 0; k < z.size(); ++k) {
-        const float v = z[k];
-        if (!(v == v)) continue;
-        const float w = weight(k);
+        const float v = z[k], w = weight(k);
+        if (!(v == v) || !(w > 0)) continue;
         if (w >= counts) {
             low = std::min(low, v);
             high = std::max(high, v);

@@ -182,18 +182,15 @@ ComparedProfile deviations_of_both(const AlignedHeights& measured, const AsMachi
                                    const ProfileRow& row, Form::Of of, double tolerance) {
     ComparedProfile profile;
     profile.row = row;
-    const MapFrame frame{row.from, row.along, row.step, row.count, 1};
+    const MapFrame frame = row.frame();
     const Form form(as_machined, frame.bounds(0, 0, row.count, 1), of, tolerance);
     std::vector<double> heights(static_cast<std::size_t>(row.count));
     for (std::int64_t k = 0; k < row.count; ++k)
         heights[static_cast<std::size_t>(k)] = measured.at(frame.at(static_cast<double>(k), 0));
     profile.measured = over_form(std::move(heights), form, frame, as_machined.level());
-    std::vector<float> slopes(static_cast<std::size_t>(row.count));
-    as_machined.map(frame, [&](std::int64_t first_row, std::span<float> z) {
-        form.subtract(frame, first_row, as_machined.level(), z, slopes);
-        profile.predicted.assign(z.begin(), z.end());
-    });
-    profile.along = arc_lengths(slopes, row.step);
+    RowDeviations predicted = deviations_along(as_machined, form, row);
+    profile.predicted = std::move(predicted.deviation);
+    profile.along = std::move(predicted.along);
     return profile;
 }
 
