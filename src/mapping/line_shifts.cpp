@@ -9,22 +9,22 @@
 namespace clsurf {
 namespace {
 
-/// Records by which a line may lead the positions (a planner is ahead of its axes, and measured positions lag) or come
-/// later, the shortest first.
+/// Records by which a line may lead the positions (a planner is ahead of its axes, and measured positions lag), or come
+/// later (negative). Of each sign the shortest comes first.
 constexpr std::array<std::int64_t, 19> leads{0, 1, -1, 2, -2, 3, -3, 4, -4, 5, 6, 8, -6, -8, 11, 15, 20, 26, 32};
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t lines_for_lead = 4096;
-constexpr double shorter_lead = 1.0;    ///< what a longer lead must explain in addition
-constexpr double lead_changes = 1.0;    ///< records
-constexpr double slightly_off = 4.0;    ///< records that cost 1
-constexpr double most_cost = 3.0;       ///< of a line
-constexpr double records_off = 28.0;    ///< that cost most: slightly_off · (2^most_cost − 1)
-constexpr double near_cost = 1.0;       ///< of a line whose shift is worth a try
-constexpr double explained_cost = 0.5;  ///< of the lines of a section, at most
-constexpr double shift_cost = 5.0;      ///< two long lines that are clearly off
-constexpr double most_doubt = 9.0;
-constexpr std::size_t most_ends = 8;  ///< of one line that is looked at
-constexpr std::ptrdiff_t most_tries = 64;
+constexpr double shorter_lead = 1.0;       ///< what a longer lead must explain in addition
+constexpr double lead_changes = 1.0;       ///< records
+constexpr double slightly_off = 4.0;       ///< records that cost 1
+constexpr double most_cost = 3.0;          ///< of a line
+constexpr double records_off = 28.0;       ///< that cost most: slightly_off · (2^most_cost − 1)
+constexpr double near_cost = 1.0;          ///< of a line whose shift is worth a try
+constexpr double explained_cost = 0.5;     ///< of the lines of a section, at most
+constexpr double shift_cost = 5.0;         ///< two long lines that are clearly off
+constexpr double most_doubt = 9.0;         ///< of a line end: three of its uncertainties, squared
+constexpr std::size_t most_ends = 8;       ///< of one line that is looked at
+constexpr std::ptrdiff_t most_tries = 64;  ///< shifts that one line end suggests
 
 /// When the tool came to the ends of lines near a record.
 class Arrivals {
@@ -245,7 +245,7 @@ private:
         return sections;
     }
 
-    /// Lines that were deleted may look like a section of their own, which fits badly.
+    /// Deleted lines may look like a section of their own that fits badly. It is joined with the next one.
     void join_deleted(std::vector<Section>& sections, std::int64_t lead) const {
         for (std::size_t k = 1; k + 1 < sections.size();) {
             const Section& section = sections[k];
@@ -263,8 +263,8 @@ private:
         }
     }
 
-    /// Puts the begin of a section where the lines around it fit best, with the lead that they fit best with: it changes
-    /// with the speed. Around it are those up to where the shifts before and after are told apart.
+    /// Puts the beginning of a section where the lines around it fit best. The lead is the one that these lines fit best with,
+    /// because it changes with the speed. On both sides, lines are looked at until they clearly tell the two shifts apart.
     void place(std::vector<Section>& sections, std::size_t k, std::int64_t lead) const {
         const std::int64_t before = sections[k - 1].shift, after = sections[k].shift;
         const std::size_t least_first = sections[k - 1].begin + (k > 1 ? 1 : 0);

@@ -69,7 +69,7 @@ struct Defect {
     std::vector<DefectRun> neighbours;  ///< the clean passes beside them
 };
 
-/// The word for the depth of a pit or the height of a ridge against the passes beside it.
+/// How a mark differs from the adjacent passes: a pit is deep, a bulge is high.
 [[nodiscard]] constexpr std::string_view deep_or_high(bool pit) { return pit ? "deep" : "high"; }
 
 /// What was found in the shards of a log before the defects are built.

@@ -156,8 +156,8 @@ public:
         return defect;
     }
 
-    /// Whether a defect is large enough to be listed. Its core covers `area` [mm²], at half of its peak or above its threshold,
-    /// or the tool nearly stops or leaves the surface by far: that leaves a mark however short it is. `sites`: those of its family.
+    /// Whether a defect is large enough to be listed: its core covers `area` [mm²], or does so as far as it exceeds the threshold.
+    /// Where the tool nearly stops, or is far off the surface, it leaves a mark of any length. `sites`: those of its family.
     [[nodiscard]] bool is_large(const Defect& defect, CandidateSpan core, CandidateSpan sites, double area) const {
         if (core.size() < fewest_sites || defect.length <= 0) return false;
         if (defect.area >= area) return true;

@@ -1,6 +1,6 @@
 #pragma once
-// Residuals: how far the value of a pass is from the one that the passes beside it lead to expect. Near the border of a part,
-// of an island or of a step in the outline, one side has few passes or none.
+// Residuals: the value of a pass, less the value that the passes beside it predict. Near the border of a part or an island, and
+// near a step in the outline, one side has few passes or none.
 
 #include <span>
 

@@ -71,8 +71,8 @@ TEST(Defects, OffTheirProgramAreTheControls) {
     }
 }
 
-// At the peak the path agrees with the program. Beside it the path lies 16 µm above the program at most, 10 µm where the peak is
-// half as high: most of the section is off the program, but without its point there would be no peak.
+// The path and the program agree at the peak only. Beside it, the path is up to 16 µm above the program. Most of the section is
+// therefore off the program, but the point in the program is what makes the peak.
 TEST(Defects, OfAPointThatTheControllerRoundsOffAreThePrograms) {
     const QualityReport report = planted::judge(rounded_peak());
     ASSERT_EQ(report.defects.size(), 1U);
@@ -110,8 +110,8 @@ planted::PlantedLog peaks(double height, double beside) {
     return log;
 }
 
-// Heights are means over 15 ms: 0.3 mm where the tool is slow, 0.75 mm on the adjacent passes. What the peak does to their chords
-// is wider than the peak.
+// Heights are means over 15 ms. That is 0.3 mm where the tool is slow, and 0.75 mm on the adjacent passes: there the effect of the
+// peak is wider than the peak.
 TEST(Defects, OfAPeakAreNotOfThePassesBesideIt) {
     for (const double height : {0.02, 0.1, -0.1}) {
         const QualityReport report = planted::judge(peaks(height, 0));
