@@ -125,29 +125,45 @@ typename AxisSpeedProblem<Axes>::AtBegin AxisSpeedProblem<Axes>::at_begin(std::s
     return {dot(begin.b, c), dot(begin.slope, c), dot(begin.curve, c)};
 }
 
+/// The magnitudes of what has limits, at a sample of a cell.
+template <int Axes>
+struct AxisSpeedProblem<Axes>::SampleMotion {
+    const Sample& sample;
+    double curve, slope, b, root;  ///< of b = v² there, and its square root
+
+    SampleMotion(const Sample& at_sample, const AtBegin& at)
+        : sample(at_sample),
+          curve(at.curve),
+          slope(at.slope + sample.at * curve),
+          b(at.b + sample.at * (at.slope + 0.5 * sample.at * curve)),
+          root(std::sqrt(b)) {}
+
+    [[nodiscard]] double path_acceleration() const {
+        return std::abs(0.5 * sample.pace.value * slope + sample.pace.slope * b);
+    }
+    [[nodiscard]] double path_jerk() const {
+        return std::abs(0.5 * sample.pace.value * curve + 1.5 * sample.pace.slope * slope + sample.pace.curve * b) *
+               root;
+    }
+    [[nodiscard]] double acceleration(int x) const {
+        return std::abs(0.5 * sample.first[x] * slope + sample.second[x] * b);
+    }
+    [[nodiscard]] double jerk(int x) const {
+        return std::abs(0.5 * sample.first[x] * curve + 1.5 * sample.second[x] * slope + sample.third[x] * b) * root;
+    }
+};
+
 /// What is above a part of its limit at a sample of a cell, as bits of HeldSample::needed.
 template <int Axes>
 std::uint16_t AxisSpeedProblem<Axes>::broken_at(const Sample& sample, const AtBegin& at, double part) const {
-    const double curve = at.curve;
-    const double b_here = at.b + sample.at * (at.slope + 0.5 * sample.at * curve);
-    const double slope_here = at.slope + sample.at * curve;
-    const double root = std::sqrt(b_here);
+    const SampleMotion motion(sample, at);
     std::uint16_t broken = 0;
-    if (std::abs(0.5 * sample.pace.value * slope_here + sample.pace.slope * b_here) > part * limits_.path_acceleration)
-        broken |= path_bit<Axes>;
-    if (std::abs(0.5 * sample.pace.value * curve + 1.5 * sample.pace.slope * slope_here + sample.pace.curve * b_here) *
-            root >
-        part * limits_.path_jerk)
-        broken |= path_jerk_bit<Axes>;
-    if (b_here > part * sample.cap * sample.cap) broken |= speed_bit<Axes>;
+    if (motion.path_acceleration() > part * limits_.path_acceleration) broken |= path_bit<Axes>;
+    if (motion.path_jerk() > part * limits_.path_jerk) broken |= path_jerk_bit<Axes>;
+    if (motion.b > part * sample.cap * sample.cap) broken |= speed_bit<Axes>;
     for (int x = 0; x < Axes; ++x) {
-        const double acceleration = std::abs(0.5 * sample.first[x] * slope_here + sample.second[x] * b_here);
-        if (acceleration > part * limits_.acceleration[x]) broken |= acceleration_bit(x);
-        if (limits_.jerk[x] <= 0) continue;
-        const double jerk =
-            std::abs(0.5 * sample.first[x] * curve + 1.5 * sample.second[x] * slope_here + sample.third[x] * b_here) *
-            root;
-        if (jerk > part * limits_.jerk[x]) broken |= jerk_bit<Axes>(x);
+        if (motion.acceleration(x) > part * limits_.acceleration[x]) broken |= acceleration_bit(x);
+        if (limits_.jerk[x] > 0 && motion.jerk(x) > part * limits_.jerk[x]) broken |= jerk_bit<Axes>(x);
     }
     return broken;
 }
@@ -159,10 +175,10 @@ double AxisSpeedProblem<Axes>::holding_share(const KnotState& start, const KnotS
     double share = 1;
     const auto hold_square = [&](double square, double cap) { share = std::min(share, cap * cap / square); };
     const auto hold_acceleration = [&](double acceleration, double limit) {
-        share = std::min(share, limit / std::abs(acceleration));
+        share = std::min(share, limit / acceleration);
     };
     const auto hold_jerk = [&](double jerk, double limit) {  // of a share s of v²: s √s times as great
-        if (limit > 0 && limit < std::abs(jerk)) share = std::min(share, std::pow(limit / std::abs(jerk), 2.0 / 3));
+        if (limit > 0 && limit < jerk) share = std::min(share, std::pow(limit / jerk, 2.0 / 3));
     };
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         const Cell& cell = cells_[i];
@@ -171,20 +187,16 @@ double AxisSpeedProblem<Axes>::holding_share(const KnotState& start, const KnotS
         const double last = at.b + 0.5 * cell.length * (at.slope + last_slope);
         const double greatest = std::max({at.b, last, value_[i + 1]});
         hold_square(greatest, cell.limits.cap);
-        hold_acceleration(0.5 * last_slope, acceleration_at_end(i));
-        hold_jerk(0.5 * at.curve * std::sqrt(greatest), cell.limits.jerk);
+        hold_acceleration(std::abs(0.5 * last_slope), acceleration_at_end(i));
+        hold_jerk(std::abs(0.5 * at.curve) * std::sqrt(greatest), cell.limits.jerk);
         for (std::uint32_t k = cell.first_sample; k < cell.end_sample; ++k) {
-            const Sample& s = samples_[k].sample;
-            const double b = at.b + s.at * (at.slope + 0.5 * s.at * at.curve), slope = at.slope + s.at * at.curve;
-            const double root = std::sqrt(b);
-            hold_square(b, s.cap);
-            hold_acceleration(0.5 * s.pace.value * slope + s.pace.slope * b, limits_.path_acceleration);
-            hold_jerk(root * (0.5 * s.pace.value * at.curve + 1.5 * s.pace.slope * slope + s.pace.curve * b),
-                      limits_.path_jerk);
+            const SampleMotion motion(samples_[k].sample, at);
+            hold_square(motion.b, motion.sample.cap);
+            hold_acceleration(motion.path_acceleration(), limits_.path_acceleration);
+            hold_jerk(motion.path_jerk(), limits_.path_jerk);
             for (int x = 0; x < Axes; ++x) {
-                hold_acceleration(0.5 * s.first[x] * slope + s.second[x] * b, limits_.acceleration[x]);
-                hold_jerk(root * (0.5 * s.first[x] * at.curve + 1.5 * s.second[x] * slope + s.third[x] * b),
-                          limits_.jerk[x]);
+                hold_acceleration(motion.acceleration(x), limits_.acceleration[x]);
+                hold_jerk(motion.jerk(x), limits_.jerk[x]);
             }
         }
     }

@@ -135,6 +135,7 @@ private:
     struct AtBegin {
         double b = 0, slope = 0, curve = 0;
     };
+    struct SampleMotion;
     // speed_problem.cpp: the solution
     [[nodiscard]] bool optimise(const KnotState& start, const KnotState& end, const LookBetween& look);
     static void widen(Cell& cell, const Sample& sample);
