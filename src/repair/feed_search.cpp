@@ -5,6 +5,7 @@
 #include <set>
 
 #include "repair/feeds/feed_equalisation.h"
+#include "repair/regions.h"
 
 namespace clsurf {
 namespace {
@@ -12,8 +13,9 @@ namespace {
 constexpr std::array<double, 3> steps_between_passes{0.1, 0.05, 0.02};
 constexpr double feed_tolerance = 0.003;  ///< a motion this little too fast (a share) gets no feed
 constexpr int equalising_rounds = 3;      ///< with the time that there is
-constexpr double most_share = 0.65;  ///< of the time there is, that a round may reckon with: feeds hold whole lines
-constexpr double time_used = 0.95;   ///< of what is there: enough
+constexpr double most_share = 0.65;     ///< of the time there is, that a round may reckon with: feeds hold whole lines
+constexpr int most_mixed_attempts = 2;  ///< of the attempts of a round, place by place
+constexpr double time_used = 0.95;      ///< of what is there: enough
 
 /// The targets of a proposal, and lower ones from a speed per point of its run [mm/s]; its own where none is lower.
 std::vector<float> lowered_targets(const Proposal& proposal, const std::vector<float>& speeds) {
@@ -42,6 +44,21 @@ std::vector<float> eased_targets(const Proposal& from, const Proposal& made, con
         if (targets[i] == old || !(reached[i] < wanted[i])) continue;
         targets[i] += wanted[i] - reached[i];
         if (old > 0) targets[i] = std::min(targets[i], old);
+    }
+    return targets;
+}
+
+/// For each motion the target of that attempt, or of `from`, that ran best about it.
+std::vector<float> best_targets(const Proposal& from, const std::vector<TriedProposal>& attempts, double longest) {
+    std::vector<const JudgedRun*> runs{&from.run};
+    for (const TriedProposal& each : attempts) runs.push_back(&each->run);
+    RegionRules rules;
+    rules.more_time = (longest - from.run.duration) / from.run.log.period;
+    const std::vector<std::uint8_t> best = best_runs(runs, 0, from.draft->program, rules);
+    std::vector<float> targets(best.size(), 0);
+    for (std::size_t i = 0; i < best.size(); ++i) {
+        const std::vector<float>& of = best[i] == 0 ? from.targets : attempts[best[i] - 1U]->targets;
+        targets[i] = of.empty() ? 0 : of[i];
     }
     return targets;
 }
@@ -94,6 +111,15 @@ void FeedSearch::equalise_in_time(const TriedProposal& from) {
     }
 }
 
+void FeedSearch::mix(const TriedProposal& from, std::vector<TriedProposal>& attempts) {
+    for (int k = 0; k < most_mixed_attempts && evaluator_.has_time(); ++k) {
+        std::vector<float> mixed = best_targets(*from, attempts, evaluator_.longest());
+        const auto is_mixed = [&](const TriedProposal& tried) { return tried->targets == mixed; };
+        if (mixed == from->targets || std::ranges::any_of(attempts, is_mixed)) return;
+        attempts.push_back(evaluator_.propose(from->draft, std::move(mixed)));
+    }
+}
+
 void FeedSearch::reduce_feeds(FeedReduction& reduction, int rounds) {
     const JudgedRun& before = evaluator_.before();
     FeedReductionRules rules;
@@ -128,6 +154,7 @@ void FeedSearch::reduce_feeds(FeedReduction& reduction, int rounds) {
         }
         if (evaluator_.has_time())
             attempts.push_back(evaluator_.propose(from->draft, eased_targets(*from, *attempts.back(), speeds.speeds)));
+        mix(from, attempts);
         for (const TriedProposal& tried : attempts) {
             if (tried->run.duration <= evaluator_.longest() &&
                 evaluator_.score(*tried) < evaluator_.score(*reduction.from))

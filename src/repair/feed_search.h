@@ -33,11 +33,14 @@ public:
     void equalise(const TriedProposal& from);
 
     /// Slows down around remaining defects, round by round, as long as the time budget lasts. Each round is one feed
-    /// reduction, the same only for the defects that it removed, and the last of these with feeds as high as its speeds
-    /// need.
+    /// reduction, the same only for the defects that it removed, the last of these with feeds as high as its speeds
+    /// need, and for each place what ran best there.
     void reduce_feeds(FeedReduction& reduction, int rounds);
 
 private:
+    /// Adds attempts that have for each motion the target that ran best about it, of these attempts and of `from`.
+    void mix(const TriedProposal& from, std::vector<TriedProposal>& attempts);
+
     Evaluator& evaluator_;
     double lag_power_;
     Ramp ramp_;

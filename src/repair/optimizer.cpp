@@ -38,6 +38,9 @@ constexpr int first_rounds = 2, more_rounds = 8;
 constexpr std::size_t most_listed = 8;                    ///< accepted finalists, where all are listed
 constexpr std::array<double, 2> other_steps{0.85, 0.55};  ///< that feed reductions are tried with as well …
 constexpr std::size_t most_drafts_of_other_steps = 2;     ///< … for so many drafts
+constexpr std::array<double, 4> polishing_steps{FeedReduction::usual_step, 0.85, 0.55,
+                                                0.4};  ///< of the best proposal …
+constexpr double least_polished = 1e-3;                ///< … again, while the score falls by so much
 
 /// The median feed of the cutting lines [mm/s].
 double usual_feed(const Program& program) {
@@ -266,7 +269,7 @@ private:
             feeds.reduce_feeds(other, more_rounds);
             feeds.equalise(each.points);
         }
-        reduce_best(feeds);
+        polish(feeds);
         if (rules_.more_time <= 0) return;
         // After all that costs nothing: what the user gives is added to that, and never makes it worse.
         evaluator_.allow_more_time();
@@ -276,6 +279,15 @@ private:
             FeedReduction other{each.points, large_share};
             feeds.reduce_feeds(other, more_rounds);
         }
+    }
+
+    /// Feed reductions of the best proposal with one step after the other, as long as that helps.
+    void polish(FeedSearch& feeds) const {
+        double before = 0;
+        do {
+            before = evaluator_.score(*evaluator_.best());
+            for (const double step : polishing_steps) reduce_best(feeds, step);
+        } while (evaluator_.score(*evaluator_.best()) < before - least_polished);
     }
 
     void reduce_best(FeedSearch& feeds, double step = FeedReduction::usual_step) const {
@@ -294,9 +306,10 @@ private:
     void mix(const Drafter& drafter, TriedProposal from, std::vector<TriedProposal>& drafts) {
         for (int round = 0; round < most_mixing_rounds && from && evaluator_.has_time(share_of_drafts); ++round) {
             if (round >= mixing_rounds && from->evaluation.accepted) return;
-            const std::vector<std::uint8_t> worse = worse_motions(evaluator_.before(), from->run, program_, {});
+            const std::array<const JudgedRun*, 2> runs{&evaluator_.before(), &from->run};
+            const std::vector<std::uint8_t> best = best_runs(runs, 1, program_, {});
             std::vector<std::uint8_t> needed = from->draft->needed;
-            for (std::size_t i = 0; i < needed.size(); ++i) needed[i] = needed[i] != 0 && worse[i] == 0 ? 1 : 0;
+            for (std::size_t i = 0; i < needed.size(); ++i) needed[i] = needed[i] != 0 && best[i] != 0 ? 1 : 0;
             if (needed == from->draft->needed) return;
             from = propose(drafter.draft(from->draft->lines, std::move(needed)), drafts);
         }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "core/cell_grid.h"
 #include "repair/repair_mask.h"
@@ -11,48 +10,25 @@
 namespace clsurf {
 namespace {
 
-/// What a run has more in a cell than another one.
-struct Excess {
-    double defects = 0, mismatch = 0;  ///< shares of all that the other one has
-    std::int64_t points = 0;           ///< one a period
+/// What a run has in a cell.
+struct CellSum {
+    double loss = 0;  ///< defects and mismatch, each as a share of all that the first run has
+    double time = 0;  ///< points, one a period
 
-    [[nodiscard]] double loss() const { return defects + mismatch; }
-    Excess& operator+=(const Excess& other) {
-        defects += other.defects;
-        mismatch += other.mismatch;
-        points += other.points;
+    CellSum& operator+=(const CellSum& other) {
+        loss += other.loss;
+        time += other.time;
         return *this;
     }
 };
 
-constexpr double least_loss = 1e-4;   ///< that counts, a share of all
-constexpr double counted_from = 0.5;  ///< of the mismatch before: smaller differences are none
+using CellSums = std::vector<CellSum>;  ///< one a run
 
-class CellMap {
-public:
-    explicit CellMap(double side) : grid_(side) {}
-
-    [[nodiscard]] CellGrid::Key key(const Vec3& p) const { return grid_.key(p); }
-    Excess& at(CellGrid::Key key) { return cells_[key]; }
-
-    /// Every cell's sum with those around it, in the order of their keys.
-    [[nodiscard]] std::vector<std::pair<CellGrid::Key, Excess>> sums(int aside) const {
-        std::vector<std::pair<CellGrid::Key, Excess>> result;
-        for (const auto& [key, own] : cells_) {
-            Excess sum;
-            CellGrid::for_each_near(key, aside, [&](CellGrid::Key near) {
-                if (const auto it = cells_.find(near); it != cells_.end()) sum += it->second;
-            });
-            result.emplace_back(key, sum);
-        }
-        std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-        return result;
-    }
-
-private:
-    CellGrid grid_;
-    std::unordered_map<CellGrid::Key, Excess> cells_;
-};
+constexpr double least_loss = 1e-4;    ///< that counts, a share of all
+constexpr double counted_from = 0.5;   ///< of the mismatch of the first run: smaller differences are none
+constexpr int most_prices = 24;        ///< of time, each twice the one before …
+constexpr int price_steps = 6;         ///< … and so many halvings between the last two
+constexpr double lowest_price = 1e-3;  ///< what all the time of the first run counts, against all its defects
 
 /// Beyond what a difference of speed counts, and how much of that a run has in all [mm/s].
 struct Mismatch {
@@ -66,62 +42,148 @@ struct Mismatch {
     }
 };
 
-/// Adds what a run has to the cells, or takes it away (sign −1), as shares of what the run before has.
-void add(const JudgedRun& run, int sign, const Mismatch& mismatch, std::size_t defects, CellMap& map) {
-    const auto cell_of = [&](PointIndex i) -> Excess& { return map.at(map.key(run.surface.positions.absolute(i))); };
-    for (PointIndex i = 0; i < run.surface.positions.size(); ++i) {
-        Excess& cell = cell_of(i);
-        cell.points += sign;
-        if (mismatch.all > 0)
-            cell.mismatch += sign * mismatch.beyond(run.speed_differences[static_cast<std::size_t>(i)]) / mismatch.all;
+/// Sums of all runs, in cells of space.
+class CellMap {
+public:
+    CellMap(std::span<const JudgedRun* const> runs, double side) : grid_(side), runs_(runs.size()) {
+        const Mismatch mismatch(*runs.front());
+        const auto defects = static_cast<double>(std::max<std::size_t>(1, runs.front()->report.defects.size()));
+        for (std::size_t k = 0; k < runs.size(); ++k) add(*runs[k], k, mismatch, defects);
     }
-    for (const Defect& defect : run.report.defects) {
-        PointIndex points = 0;
-        for (const DefectRun& r : defect.runs) points += r.points.size();
-        const double each =
-            sign / (static_cast<double>(std::max<std::size_t>(1, defects)) * static_cast<double>(points));
-        for (const DefectRun& r : defect.runs) {
-            for (PointIndex i = r.points.first; i <= r.points.last; ++i) cell_of(i).defects += each;
-        }
-    }
-}
 
-std::unordered_set<CellGrid::Key> cells_to_restore(CellMap& map, int aside) {
-    std::unordered_set<CellGrid::Key> restored;
-    std::vector<std::pair<double, CellGrid::Key>> expensive;  // the time that a gain takes, and where
-    std::int64_t longer = 0;                                  // than before, outside the restored cells [periods]
-    for (const auto& [key, sum] : map.sums(aside)) {
-        if (sum.loss() > least_loss) {
-            restored.insert(key);
-            continue;
+    [[nodiscard]] CellGrid::Key key(const Vec3& p) const { return grid_.key(p); }
+    [[nodiscard]] const std::unordered_map<CellGrid::Key, CellSums>& cells() const { return cells_; }
+
+    /// A cell together with those around it.
+    [[nodiscard]] CellSums about(CellGrid::Key key, int aside) const {
+        CellSums sums(runs_);
+        CellGrid::for_each_near(key, aside, [&](CellGrid::Key near) {
+            const auto it = cells_.find(near);
+            if (it == cells_.end()) return;
+            for (std::size_t k = 0; k < runs_; ++k) sums[k] += it->second[k];
+        });
+        return sums;
+    }
+
+private:
+    void add(const JudgedRun& run, std::size_t k, const Mismatch& mismatch, double defects) {
+        for (PointIndex i = 0; i < run.surface.positions.size(); ++i) {
+            CellSum& sum = at(run, i, k);
+            sum.time += 1;
+            if (mismatch.all > 0)
+                sum.loss += mismatch.beyond(run.speed_differences[static_cast<std::size_t>(i)]) / mismatch.all;
         }
-        longer += map.at(key).points;
-        if (sum.points > 0)
-            expensive.emplace_back(static_cast<double>(sum.points) / std::max(-sum.loss(), least_loss), key);
+        for (const Defect& defect : run.report.defects) {
+            PointIndex points = 0;
+            for (const DefectRun& r : defect.runs) points += r.points.size();
+            const double each = 1 / (defects * static_cast<double>(points));
+            for (const DefectRun& r : defect.runs) {
+                for (PointIndex i = r.points.first; i <= r.points.last; ++i) at(run, i, k).loss += each;
+            }
+        }
     }
-    std::stable_sort(expensive.begin(), expensive.end(),
-                     [](const auto& a, const auto& b) { return a.first > b.first; });
-    for (const auto& [time_per_gain, key] : expensive) {
-        if (longer <= 0) break;
-        longer -= map.at(key).points;
-        restored.insert(key);
+
+    CellSum& at(const JudgedRun& run, PointIndex i, std::size_t k) {
+        CellSums& sums = cells_[key(run.surface.positions.absolute(i))];
+        sums.resize(runs_);
+        return sums[k];
     }
-    return restored;
-}
+
+    CellGrid grid_;
+    std::size_t runs_;
+    std::unordered_map<CellGrid::Key, CellSums> cells_;
+};
+
+/// The choice of a run for every cell.
+class CellChoice {
+public:
+    CellChoice(const CellMap& map, std::size_t usual, const RegionRules& rules)
+        : usual_(usual), more_time_(rules.more_time) {
+        for (const auto& [key, own] : map.cells()) {
+            keys_.push_back(key);
+            all_time_ += own.front().time;
+        }
+        std::sort(keys_.begin(), keys_.end());
+        for (const CellGrid::Key key : keys_) {
+            own_.push_back(&map.cells().at(key));
+            about_.push_back(map.about(key, rules.cells_aside));
+        }
+    }
+
+    /// The best runs that together take no more time than there is.
+    [[nodiscard]] std::unordered_map<CellGrid::Key, std::size_t> best() const {
+        std::vector<std::size_t> chosen = at_price(0);
+        if (is_late(chosen)) chosen = at_lowest_price();
+        std::unordered_map<CellGrid::Key, std::size_t> of_cell;
+        for (std::size_t i = 0; i < keys_.size(); ++i) of_cell.emplace(keys_[i], chosen[i]);
+        return of_cell;
+    }
+
+private:
+    /// Those at the lowest price of time at which they are not late.
+    [[nodiscard]] std::vector<std::size_t> at_lowest_price() const {
+        double low = 0, high = lowest_price / all_time_;
+        for (int k = 0; k < most_prices && is_late(at_price(high)); ++k) {
+            low = high;
+            high *= 2;
+        }
+        for (int k = 0; k < price_steps; ++k) {
+            const double middle = 0.5 * (low + high);
+            (is_late(at_price(middle)) ? low : high) = middle;
+        }
+        return at_price(high);
+    }
+
+    /// The runs that are best where a period counts `price`.
+    [[nodiscard]] std::vector<std::size_t> at_price(double price) const {
+        std::vector<std::size_t> chosen;
+        for (const CellSums& sums : about_) {
+            const auto cost = [&](std::size_t k) { return sums[k].loss + price * sums[k].time; };
+            std::size_t best = usual_;
+            double least = cost(usual_) - least_loss;
+            for (std::size_t k = 0; k < sums.size(); ++k) {
+                if (!(cost(k) < least)) continue;
+                least = cost(k);
+                best = k;
+            }
+            chosen.push_back(best);
+        }
+        return chosen;
+    }
+
+    [[nodiscard]] bool is_late(const std::vector<std::size_t>& chosen) const {
+        double longer = 0;
+        for (std::size_t i = 0; i < chosen.size(); ++i) longer += (*own_[i])[chosen[i]].time - own_[i]->front().time;
+        return longer > more_time_;
+    }
+
+    std::size_t usual_;
+    double more_time_;
+    std::vector<CellGrid::Key> keys_;
+    std::vector<const CellSums*> own_;
+    std::vector<CellSums> about_;
+    double all_time_ = 0;  ///< of the first run, in periods
+};
 
 }  // namespace
 
-std::vector<std::uint8_t> worse_motions(const JudgedRun& before, const JudgedRun& after, const Program& program,
-                                        const RegionRules& rules) {
-    CellMap map(std::max(rules.cell * before.surface.step_over, rules.least_cell));
-    const Mismatch mismatch(before);
-    add(before, -1, mismatch, before.report.defects.size(), map);
-    add(after, 1, mismatch, before.report.defects.size(), map);
-    const std::unordered_set<CellGrid::Key> restored = cells_to_restore(map, rules.cells_aside);
-    std::vector<std::uint8_t> marks(static_cast<std::size_t>(before.surface.positions.size()), 0);
-    for (std::size_t i = 0; i < marks.size(); ++i)
-        marks[i] = restored.contains(map.key(before.surface.positions.absolute(static_cast<PointIndex>(i)))) ? 1 : 0;
-    return marked_motions(before, program, marks);
+std::vector<std::uint8_t> best_runs(std::span<const JudgedRun* const> runs, std::size_t usual, const Program& program,
+                                    const RegionRules& rules) {
+    const JudgedRun& first = *runs.front();
+    const CellMap map(runs, std::max(rules.cell * first.surface.step_over, rules.least_cell));
+    const std::unordered_map<CellGrid::Key, std::size_t> chosen = CellChoice(map, usual, rules).best();
+    std::vector<std::uint8_t> best(static_cast<std::size_t>(program.motions.size()), static_cast<std::uint8_t>(usual));
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+        if (k == usual) continue;
+        std::vector<std::uint8_t> marks(static_cast<std::size_t>(first.surface.positions.size()), 0);
+        for (std::size_t i = 0; i < marks.size(); ++i)
+            marks[i] = chosen.at(map.key(first.surface.positions.absolute(static_cast<PointIndex>(i)))) == k ? 1 : 0;
+        const std::vector<std::uint8_t> marked = marked_motions(first, program, marks);
+        for (std::size_t i = 0; i < best.size(); ++i) {
+            if (marked[i] != 0) best[i] = static_cast<std::uint8_t>(k);
+        }
+    }
+    return best;
 }
 
 }  // namespace clsurf

@@ -1,7 +1,8 @@
 #pragma once
-// Regions: where a changed program runs worse than its original, so that the old points are better there.
+// Regions: which of several ways to write a program runs best where.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "repair/judged_run.h"
@@ -11,14 +12,16 @@ namespace clsurf {
 struct RegionRules {
     double cell = 4;        ///< [step-overs] side of the cells that are told apart, …
     double least_cell = 1;  ///< [mm] … at least; …
+    double more_time = 0;   ///< [periods] that all together may take longer than the first run
     int cells_aside = 1;  ///< … what lies so many to each side counts with each: a region covers the passes beside, too
 };
 
-/// Per motion of the program: 1 if `after`, a run of the program with other points, is worse in cells of space than
-/// `before`, the run of the program itself: more defects or larger speed differences to the adjacent passes, each as a
-/// fraction of the total of `before`. If `after` takes longer in total, the cells that cost most time for their benefit
-/// count as well, until the rest takes no longer. O(points).
-[[nodiscard]] std::vector<std::uint8_t> worse_motions(const JudgedRun& before, const JudgedRun& after,
-                                                      const Program& program, const RegionRules& rules);
+/// Per motion of the program: which of the runs is best in the cells of space about it. The first run is that of the program
+/// itself; the others are runs of programs with other points. Best is where defects, and differences of speed to the
+/// adjacent passes, are least, each as a share of the total of the first run. Run `usual` is preferred to those that are
+/// no better, and where the first run has no data. If all together take longer than the first run, time counts as well, at
+/// the lowest price at which they do not. At most 256 runs. O(points · runs).
+[[nodiscard]] std::vector<std::uint8_t> best_runs(std::span<const JudgedRun* const> runs, std::size_t usual,
+                                                  const Program& program, const RegionRules& rules);
 
 }  // namespace clsurf

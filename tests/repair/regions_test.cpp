@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <sstream>
 
 #include "repair/optimizer.h"
@@ -28,6 +29,15 @@ JudgedRun run_of(const Program& program, const std::optional<Thresholds>& thresh
                      diagnostics);
 }
 
+/// Per motion of the program: 1 where another run of it is worse than the first.
+std::vector<std::uint8_t> worse_motions(const JudgedRun& before, const JudgedRun& after, const Program& program,
+                                        const RegionRules& rules = {}) {
+    const std::array<const JudgedRun*, 2> runs{&before, &after};
+    std::vector<std::uint8_t> worse = best_runs(runs, 1, program, rules);
+    for (std::uint8_t& motion : worse) motion = motion == 0 ? 1 : 0;
+    return worse;
+}
+
 bool marked_near(const Program& program, const std::vector<std::uint8_t>& marks, double x, double y) {
     for (std::size_t i = 0; i < marks.size(); ++i) {
         const Vec3 end = program.motions.end[i].vec();
@@ -40,7 +50,7 @@ bool marked_near(const Program& program, const std::vector<std::uint8_t>& marks,
 TEST(Regions, AreWhereTheOtherRunIsWorse) {
     const Program program = crowded_at(10), changed = crowded_at(28);
     const JudgedRun before = run_of(program), after = run_of(changed, before.report.thresholds);
-    const std::vector<std::uint8_t> worse = worse_motions(before, after, program, {});
+    const std::vector<std::uint8_t> worse = worse_motions(before, after, program);
     ASSERT_EQ(worse.size(), static_cast<std::size_t>(program.motions.size()));
     const double y = 4 * 0.4;
     EXPECT_TRUE(marked_near(program, worse, 29, y));
@@ -53,7 +63,7 @@ TEST(Regions, AreWhereTheOtherRunIsWorse) {
 TEST(Regions, AreNoneBetweenARunAndItself) {
     const Program program = crowded_at(10);
     const JudgedRun run = run_of(program);
-    const std::vector<std::uint8_t> worse = worse_motions(run, run, program, {});
+    const std::vector<std::uint8_t> worse = worse_motions(run, run, program);
     EXPECT_EQ(std::count(worse.begin(), worse.end(), 1), 0);
 }
 
@@ -66,10 +76,51 @@ TEST(Regions, ThatCostTimeAreGivenBack) {
     const Program program = of(0.31), changed = of(0.02);
     const JudgedRun before = run_of(program), after = run_of(changed, before.report.thresholds);
     ASSERT_GT(after.duration, before.duration + 9 * 0.2);  // 4 mm at 10 mm/s instead of 50
-    const std::vector<std::uint8_t> worse = worse_motions(before, after, program, {});
+    const std::vector<std::uint8_t> worse = worse_motions(before, after, program);
     for (int pass = 0; pass < 9; ++pass) EXPECT_TRUE(marked_near(program, worse, 20, 0.4 * pass)) << pass;
-    const std::vector<std::uint8_t> reverse = worse_motions(after, before, changed, {});
+    const std::vector<std::uint8_t> reverse = worse_motions(after, before, changed);
     EXPECT_EQ(std::count(reverse.begin(), reverse.end(), 1), 0) << "what saves time is kept";
+}
+
+// One run is bad on the left, the other one on the right: the best of both has the good half of each.
+TEST(Regions, TakeTheBestOfSeveralRuns) {
+    const auto of = [](double from, double to) {
+        return read_text(wavy_zigzag(
+            9, 40, [=](int pass, double x) { return pass == 4 && x > from && x < to ? 0.02 : 0.31; }, 0));
+    };
+    const Program program = of(8, 32), left = of(8, 10), right = of(30, 32);
+    const JudgedRun before = run_of(program), bad_left = run_of(left, before.report.thresholds),
+                    bad_right = run_of(right, before.report.thresholds);
+    const std::array<const JudgedRun*, 3> runs{&before, &bad_left, &bad_right};
+    const std::vector<std::uint8_t> best = best_runs(runs, 0, program, {});
+    const auto best_at = [&](double x) {
+        for (std::size_t i = 0; i < best.size(); ++i) {
+            const Vec3 end = program.motions.end[i].vec();
+            if (std::abs(end.x() - x) < 0.4 && std::abs(end.y() - 4 * 0.4) < 0.01 && end.z() < 5) return int{best[i]};
+        }
+        return -1;
+    };
+    EXPECT_EQ(best_at(9), 2);
+    EXPECT_EQ(best_at(31), 1);
+    EXPECT_EQ(best_at(3), 0) << "is the same in all";
+}
+
+// A slow section of one pass, and the same part slow everywhere: that removes the difference, and takes time.
+TEST(Regions, TakeNoMoreTimeThanThereIs) {
+    const Program program = read_text(wavy_zigzag(
+        9, 40, [](int pass, double x) { return pass == 4 && x > 10 && x < 14 ? 0.07 : 0.31; }, 0));
+    const Program even = read_text(wavy_zigzag(
+        9, 40, [](int, double) { return 0.05; }, 0));
+    const JudgedRun before = run_of(program), slow = run_of(even, before.report.thresholds);
+    ASSERT_GT(slow.duration, before.duration + 1);
+    const std::array<const JudgedRun*, 2> runs{&before, &slow};
+    const double y = 4 * 0.4;
+    RegionRules rules;
+    EXPECT_FALSE(marked_near(program, best_runs(runs, 0, program, rules), 12, y));
+    rules.more_time = (slow.duration - before.duration) / before.log.period;
+    const std::vector<std::uint8_t> best = best_runs(runs, 0, program, rules);
+    EXPECT_TRUE(marked_near(program, best, 12, y));
+    EXPECT_FALSE(marked_near(program, best, 30, y)) << "is as even in the first run";
 }
 
 /// A part that holds both: a crowd of points to be repaired, and bends where every pass has its points where it wants.
