@@ -27,7 +27,7 @@ using CellSums = std::vector<CellSum>;  ///< one a run
 constexpr double least_loss = 1e-4;    ///< that counts, a share of all
 constexpr double counted_from = 0.5;   ///< of the mismatch of the first run: smaller differences are none
 constexpr int most_prices = 24;        ///< of time, each twice the one before …
-constexpr int price_steps = 6;         ///< … and so many halvings between the last two
+constexpr int price_steps = 24;        ///< … and so many halvings between the last two
 constexpr double lowest_price = 1e-3;  ///< what all the time of the first run counts, against all its defects
 
 /// Beyond what a difference of speed counts, and how much of that a run has in all [mm/s].
