@@ -138,10 +138,22 @@ MotionWindow::Value MotionWindow::of_path(std::size_t i, std::size_t stride, Lim
     const double across = (acceleration - along / length * chord).norm();
     // The direction turns within the difference, and rounding turns it: each part takes a share of the other.
     const double lengths = in.norm() * out.norm();
-    const double turn = lengths > 0 ? std::min(1.0, in.cross(out).norm() / lengths) : 1;
+    const bool is_sharp = !(lengths > 0) || in.dot(out) < 0;  // the sine falls again beyond a right angle
+    const double turn = is_sharp ? 1 : std::min(1.0, in.cross(out).norm() / lengths);
     const double slack = 0.5 * turn + std::min(1.0, rounding / (rate * rate) / length);
     if (quantity == LimitedQuantity::tangential_acceleration) return {std::abs(along), across * slack + clock};
+    if (is_sharp && may_stop(i, stride)) return {across, across};
     return {across, std::abs(along) * slack + clock};
+}
+
+/// Whether the path may have stopped in a sharp corner between the records about one: then it has braked and leaves again along
+/// straight lines, and what looks like normal acceleration is tangential. At constant acceleration the step before is at
+/// least 5/3 of the step that leads to the corner, or the step after of that which leaves it.
+bool MotionWindow::may_stop(std::size_t i, std::size_t stride) const {
+    if (i < 2 * stride || i + 2 * stride >= count_) return true;
+    constexpr double braking = 1.5;
+    const auto step = [&](std::size_t from) { return (place(from + stride) - place(from)).norm(); };
+    return step(i - 2 * stride) > braking * step(i - stride) || step(i + stride) > braking * step(i);
 }
 
 /// The second difference of chords: along a bend they are shorter than the path, which changes no speed.

@@ -82,6 +82,7 @@ private:
     [[nodiscard]] double worst_jitter(std::size_t first, std::size_t last) const;
     [[nodiscard]] Value of_axis(std::span<const double> x, std::size_t i, std::size_t stride, int order) const;
     [[nodiscard]] Value of_path(std::size_t i, std::size_t stride, LimitedQuantity quantity, double rounding) const;
+    [[nodiscard]] bool may_stop(std::size_t i, std::size_t stride) const;
     [[nodiscard]] Value path_jerk(std::size_t i, std::size_t stride) const;
     [[nodiscard]] Vec3 place(std::size_t i) const { return {path()[0][i], path()[1][i], path()[2][i]}; }
     [[nodiscard]] const Path& path() const { return tip_[0].empty() ? linear_ : tip_; }

@@ -165,6 +165,36 @@ TEST(JudgeLimits, ACornerAtSpeedChangesNoSpeedAlongThePath) {
     EXPECT_TRUE(report.findings.empty());
 }
 
+// Down to a stop in a sharp corner and away from it. The corner is between records, and nothing bends.
+TEST(JudgeLimits, AStopInASharpCornerIsNoNormalAcceleration) {
+    constexpr double limit = 2000, braking = 3800;
+    for (int degrees = 91; degrees < 180; degrees += 4) {
+        const double turn = degrees * rad_per_deg;
+        const Vec3 out(std::cos(turn), std::sin(turn), 0);
+        for (double phase = 0; phase < 1; phase += 0.05) {
+            Positions positions;
+            for (int i = 0; i < 40; ++i) {
+                const double t = (i - 20 - phase) * period, way = 0.5 * braking * t * t;
+                positions.push_back(t < 0 ? Vec3(-way, 0, 0) : Vec3(way * out));
+            }
+            const LimitReport report = judged(log_of(positions, 0), {{LimitedQuantity::normal_acceleration, 0, limit}});
+            EXPECT_TRUE(report.findings.empty()) << degrees << " deg, phase " << phase;
+        }
+    }
+}
+
+TEST(JudgeLimits, ASharpCornerAtSpeedIsNormalAcceleration) {
+    // 120° inside a period: the velocity changes by √3 of the speed.
+    constexpr double speed = 16 * slow, step = speed * period;
+    const Vec3 out(-0.5, 0.5 * std::sqrt(3.0), 0);
+    Positions positions;
+    for (int i = 0; i < 100; ++i) positions.emplace_back(step * (i - 99), 0, 0);
+    for (int i = 1; i < 100; ++i) positions.push_back(step * i * out);
+    const LimitReport report = judged(log_of(positions), {{LimitedQuantity::normal_acceleration, 0, 2000}});
+    ASSERT_EQ(report.findings.size(), 1u);
+    EXPECT_NEAR(report.findings[0].factor, std::sqrt(3.0) * speed / period / 2000, 0.01);
+}
+
 TEST(JudgeLimits, CoarsePositionsAreLookedAtOverMoreRecords) {
     // Steps of 0.1 µm and 1 ms: 200 mm/s² of rounding, a tenth of the limit. 20 records at 1.2 times the limit show.
     const Log log = log_of(driven({{0, 300}, {2000, 100}, {2400, 20}, {2000, 100}, {0, 300}}), 1e-4);
