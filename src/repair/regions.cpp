@@ -134,15 +134,16 @@ private:
         return at_price(high);
     }
 
-    /// The runs that are best where a period counts `price`.
+    /// The runs that are best where a period counts `price`. None of them loses more than the first one does, to save time.
     [[nodiscard]] std::vector<std::size_t> at_price(double price) const {
         std::vector<std::size_t> chosen;
         for (const CellSums& sums : about_) {
             const auto cost = [&](std::size_t k) { return sums[k].loss + price * sums[k].time; };
-            std::size_t best = usual_;
-            double least = cost(usual_) - least_loss;
+            const auto may_be = [&](std::size_t k) { return sums[k].loss <= sums[0].loss + least_loss; };
+            std::size_t best = may_be(usual_) ? usual_ : 0;
+            double least = cost(best) - least_loss;
             for (std::size_t k = 0; k < sums.size(); ++k) {
-                if (!(cost(k) < least)) continue;
+                if (!may_be(k) || !(cost(k) < least)) continue;
                 least = cost(k);
                 best = k;
             }
