@@ -57,9 +57,9 @@ std::string why_not_better(const EnsembleResult& result, double more_time) {
                 result.runs.size(), run.after.duration, run.before.duration);
         if (run.gain < 0)
             return fmt::format(
-                "on one of {} machines that the machine file allows it would be worse: {:.0f} defects instead of {:.0f}, "
-                "speed differences of {:.0f} instead of {:.0f} mm/min",
-                result.runs.size(), run.after.defects, run.before.defects,
+                "on one of {} machines that the machine file allows, the objective would rise by {:.2g} %: {:.0f} defects instead "
+                "of {:.0f}, speed differences of {:.0f} instead of {:.0f} mm/min",
+                result.runs.size(), -100 * run.gain, run.after.defects, run.before.defects,
                 mismatch_that_counts(run.before, run.after) * seconds_per_minute,
                 mismatch_that_counts(run.before, run.before) * seconds_per_minute);
     }
