@@ -55,6 +55,7 @@ std::vector<float> best_targets(const Proposal& from, const std::vector<TriedPro
     RegionRules rules;
     rules.more_time = (longest - from.run.duration) / from.run.log.period;
     const std::vector<std::uint8_t> best = best_runs(runs, 0, from.draft->program, rules);
+    if (std::ranges::count(best, 0) == std::ssize(best)) return from.targets;
     std::vector<float> targets(best.size(), 0);
     for (std::size_t i = 0; i < best.size(); ++i) {
         const std::vector<float>& of = best[i] == 0 ? from.targets : attempts[best[i] - 1U]->targets;

@@ -17,10 +17,11 @@ struct RegionRules {
 };
 
 /// Per motion of the program: which of the runs is best in the cells of space about it. The first run is that of the program
-/// itself; the others are runs of programs with other points. Best is where defects, and differences of speed to the
+/// itself; the others are runs of it with other points or feeds. Best is where defects, and differences of speed to the
 /// adjacent passes, are least, each as a share of the total of the first run. Run `usual` is preferred to those that are
-/// no better, and where the first run has no data. If all together take longer than the first run, time counts as well, at
-/// the lowest price at which they do not. At most 256 runs. O(points · runs).
+/// no better, and where the first run has no data. If all together take too long, time counts as well, at the lowest price
+/// at which they do not; but no place gets a run that is worse there than the first one. At most 256 runs.
+/// O(points · runs).
 [[nodiscard]] std::vector<std::uint8_t> best_runs(std::span<const JudgedRun* const> runs, std::size_t usual,
                                                   const Program& program, const RegionRules& rules);
 
