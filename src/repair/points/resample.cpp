@@ -16,10 +16,11 @@
 namespace clsurf {
 namespace {
 
-constexpr double narrowest = 0.3;     ///< of what lines may leave the path by: the tube for knots of the curve
-constexpr double most_used = 0.99;    ///< of what decimals leave of the tolerance, by lines
-constexpr double finest_share = 0.2;  ///< of the usual spacing
-constexpr double line_reserve = 1.5;  ///< lines are one to two times as long as the shortest that they may be
+constexpr double narrowest = 0.3;         ///< of what lines may leave the path by: the tube for knots of the curve
+constexpr double most_used = 0.99;        ///< of what decimals leave of the tolerance, by lines
+constexpr double most_turned_used = 0.9;  ///< the same of the turn, which is measured at the nearest place of the path
+constexpr double finest_share = 0.2;      ///< of the usual spacing
+constexpr double line_reserve = 1.5;      ///< lines are one to two times as long as the shortest that they may be
 constexpr std::int64_t passes_a_piece = 4;
 constexpr std::size_t shortest_segment = 3;  ///< motions
 
@@ -43,7 +44,7 @@ LineRules line_rules(const ResampleRules& rules, const Spacings& spacings, doubl
             rules.chord_error,
             most,
             tube_radius(most, rules, spacings),
-            most_used * (rules.most_turned - turn_rounding)};
+            most_turned_used * (rules.most_turned - turn_rounding)};
 }
 
 class Resampler {
