@@ -38,9 +38,9 @@ constexpr int first_rounds = 2, more_rounds = 8;
 constexpr std::size_t most_listed = 8;                    ///< accepted finalists, where all are listed
 constexpr std::array<double, 2> other_steps{0.85, 0.55};  ///< that feed reductions are tried with as well …
 constexpr std::size_t most_drafts_of_other_steps = 2;     ///< … for so many drafts
-constexpr std::array<double, 4> polishing_steps{FeedReduction::usual_step, 0.85, 0.55,
-                                                0.4};  ///< of the best proposal …
-constexpr double least_polished = 1e-3;                ///< … again, while the score falls by so much
+/// Of the best proposal, one after the other …
+constexpr std::array<double, 4> polishing_steps{FeedReduction::usual_step, 0.85, 0.55, 0.4};
+constexpr double least_polished = 1e-3;  ///< … again, while the score falls by so much
 
 /// The median feed of the cutting lines [mm/s].
 double usual_feed(const Program& program) {

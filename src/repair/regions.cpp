@@ -174,11 +174,13 @@ std::vector<std::uint8_t> best_runs(std::span<const JudgedRun* const> runs, std:
     const CellMap map(runs, std::max(rules.cell * first.surface.step_over, rules.least_cell));
     const std::unordered_map<CellGrid::Key, std::size_t> chosen = CellChoice(map, usual, rules).best();
     std::vector<std::uint8_t> best(static_cast<std::size_t>(program.motions.size()), static_cast<std::uint8_t>(usual));
+    std::vector<std::size_t> of_point;  // one lookup each
+    for (PointIndex i = 0; i < first.surface.positions.size(); ++i)
+        of_point.push_back(chosen.at(map.key(first.surface.positions.absolute(i))));
     for (std::size_t k = 0; k < runs.size(); ++k) {
         if (k == usual) continue;
-        std::vector<std::uint8_t> marks(static_cast<std::size_t>(first.surface.positions.size()), 0);
-        for (std::size_t i = 0; i < marks.size(); ++i)
-            marks[i] = chosen.at(map.key(first.surface.positions.absolute(static_cast<PointIndex>(i)))) == k ? 1 : 0;
+        std::vector<std::uint8_t> marks(of_point.size());
+        std::ranges::transform(of_point, marks.begin(), [&](std::size_t run) { return run == k ? 1 : 0; });
         const std::vector<std::uint8_t> marked = marked_motions(first, program, marks);
         for (std::size_t i = 0; i < best.size(); ++i) {
             if (marked[i] != 0) best[i] = static_cast<std::uint8_t>(k);

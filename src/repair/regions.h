@@ -12,8 +12,8 @@ namespace clsurf {
 struct RegionRules {
     double cell = 4;        ///< [step-overs] side of the cells that are told apart, …
     double least_cell = 1;  ///< [mm] … at least; …
-    double more_time = 0;   ///< [periods] that all together may take longer than the first run
     int cells_aside = 1;  ///< … what lies so many to each side counts with each: a region covers the passes beside, too
+    double more_time = 0;  ///< [periods] that all together may take longer than the first run
 };
 
 /// Per motion of the program: which of the runs is best in the cells of space about it. The first run is that of the program

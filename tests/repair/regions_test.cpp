@@ -30,20 +30,24 @@ JudgedRun run_of(const Program& program, const std::optional<Thresholds>& thresh
 }
 
 /// Per motion of the program: 1 where another run of it is worse than the first.
-std::vector<std::uint8_t> worse_motions(const JudgedRun& before, const JudgedRun& after, const Program& program,
-                                        const RegionRules& rules = {}) {
+std::vector<std::uint8_t> worse_motions(const JudgedRun& before, const JudgedRun& after, const Program& program) {
     const std::array<const JudgedRun*, 2> runs{&before, &after};
-    std::vector<std::uint8_t> worse = best_runs(runs, 1, program, rules);
+    std::vector<std::uint8_t> worse = best_runs(runs, 1, program, {});
     for (std::uint8_t& motion : worse) motion = motion == 0 ? 1 : 0;
     return worse;
 }
 
-bool marked_near(const Program& program, const std::vector<std::uint8_t>& marks, double x, double y) {
-    for (std::size_t i = 0; i < marks.size(); ++i) {
+/// Of the cutting motion that ends near a place; −1: none does.
+int value_near(const Program& program, const std::vector<std::uint8_t>& of_motion, double x, double y) {
+    for (std::size_t i = 0; i < of_motion.size(); ++i) {
         const Vec3 end = program.motions.end[i].vec();
-        if (std::abs(end.x() - x) < 0.4 && std::abs(end.y() - y) < 0.01 && end.z() < 5) return marks[i] != 0;
+        if (std::abs(end.x() - x) < 0.4 && std::abs(end.y() - y) < 0.01 && end.z() < 5) return of_motion[i];
     }
-    return false;
+    return -1;
+}
+
+bool marked_near(const Program& program, const std::vector<std::uint8_t>& marks, double x, double y) {
+    return value_near(program, marks, x, y) > 0;
 }
 
 // The slow place moves from x = 11 to x = 29: worse is what lies about the second, on the passes beside as well.
@@ -84,22 +88,14 @@ TEST(Regions, ThatCostTimeAreGivenBack) {
 
 // One run is bad on the left, the other one on the right: the best of both has the good half of each.
 TEST(Regions, TakeTheBestOfSeveralRuns) {
-    const auto of = [](double from, double to) {
-        return read_text(wavy_zigzag(
-            9, 40, [=](int pass, double x) { return pass == 4 && x > from && x < to ? 0.02 : 0.31; }, 0));
-    };
-    const Program program = of(8, 32), left = of(8, 10), right = of(30, 32);
+    const Program left = crowded_at(8), right = crowded_at(30);
+    const Program program = read_text(wavy_zigzag(
+        9, 40, [](int pass, double x) { return pass == 4 && x > 8 && x < 32 ? 0.02 : 0.31; }, 0));
     const JudgedRun before = run_of(program), bad_left = run_of(left, before.report.thresholds),
                     bad_right = run_of(right, before.report.thresholds);
     const std::array<const JudgedRun*, 3> runs{&before, &bad_left, &bad_right};
     const std::vector<std::uint8_t> best = best_runs(runs, 0, program, {});
-    const auto best_at = [&](double x) {
-        for (std::size_t i = 0; i < best.size(); ++i) {
-            const Vec3 end = program.motions.end[i].vec();
-            if (std::abs(end.x() - x) < 0.4 && std::abs(end.y() - 4 * 0.4) < 0.01 && end.z() < 5) return int{best[i]};
-        }
-        return -1;
-    };
+    const auto best_at = [&](double x) { return value_near(program, best, x, 4 * 0.4); };
     EXPECT_EQ(best_at(9), 2);
     EXPECT_EQ(best_at(31), 1);
     EXPECT_EQ(best_at(3), 0) << "is the same in all";
