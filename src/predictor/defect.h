@@ -85,7 +85,6 @@ struct QualityRules {
     std::optional<Thresholds> fixed;  ///< those that another run was judged by, instead of the run's own
     SeverityRule severity;
     std::optional<FoundInShards> found;  ///< of the whole log; nothing: it is looked for
-    bool group_systematic = true;        ///< systematic lag is one defect; else each of its places is
 };
 
 struct QualityReport {

@@ -428,9 +428,7 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
         rules.found ? find_candidates(surface, signals, arc_length, report.thresholds, rules.found->starts, forget)
                     : find_candidates(surface, signals, arc_length, report.thresholds);
     const SystematicLag systematic =
-        rules.group_systematic
-            ? take_systematic_lag(surface, signals, arc_length, report.thresholds, joined, found, forget)
-            : SystematicLag{};
+        take_systematic_lag(surface, signals, arc_length, report.thresholds, joined, found, forget);
     take_chord_effects(surface.passes, arc_length, joined, found, forget);
     const DefectCandidates& candidates = found.candidates;
     const double smallest = smallest_area * surface.step_over * surface.step_over;

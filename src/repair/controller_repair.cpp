@@ -47,7 +47,7 @@ public:
             runs_.push_back({.candidate = 0});
         }
         logs_.push_back({text, *measured});
-        before_ = judged(Log(*measured), program_, rules_.quality);
+        before_ = judged(Log(*measured), program_);
         if (const std::string reason = why_unusable(before_); !reason.empty()) refuse(reason);
         if (before_.surface.step_over <= 0)
             throw InputError(Place::of_file(measured->name),
@@ -104,9 +104,8 @@ private:
         return gain;
     }
 
-    [[nodiscard]] JudgedRun judged(Log log, const Program& program, const QualityRules& quality) {
-        return judge_run(std::move(log), program, quality, diagnostics_, nullptr, ProgramIdentity::unknown,
-                         rules_.derivative);
+    [[nodiscard]] JudgedRun judged(Log log, const Program& program) {
+        return judge_run(std::move(log), program, diagnostics_, nullptr, ProgramIdentity::unknown, rules_.derivative);
     }
 
     /// Why a log does not show how the program ran; empty: it does.
@@ -124,10 +123,8 @@ private:
 
     /// Takes the log of an earlier round into account.
     void take_round(const EarlierRound& round) {
-        QualityRules as_before = rules_.quality;
-        as_before.fixed = before_.report.thresholds;
         const Program changed = read_(round.run.text);
-        const JudgedRun after = judged(Log(round.run.log), changed, as_before);
+        const JudgedRun after = judged(Log(round.run.log), changed);
         if (const std::string reason = why_unusable(after); !reason.empty())
             throw InputError(Place::of_file(round.run.log.name), "is not a run of " + round.name + ": " + reason);
         logs_.push_back(round.run);
@@ -207,9 +204,7 @@ private:
     std::string take_outcome(const Finalist& finalist, const Optimized& found, ControllerOutcome outcome,
                              ControllerRun& run, Optimized& result) {
         if (!outcome.log) return refusal_ = outcome.failure;
-        QualityRules as_before = rules_.quality;
-        as_before.fixed = before_.report.thresholds;
-        JudgedRun after = judged(Log(*outcome.log), read_(finalist.text), as_before);
+        JudgedRun after = judged(Log(*outcome.log), read_(finalist.text));
         if (const std::string reason = why_unusable(after); !reason.empty()) return refusal_ = reason;
         logs_.push_back({finalist.text, std::move(*outcome.log)});
         run.measured = after.measures();

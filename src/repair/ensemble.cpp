@@ -70,15 +70,12 @@ Ensemble::Ensemble(const Program& program, std::vector<Machine> machines, const 
                    std::shared_ptr<const Kinematics> kinematics)
     : program_(program), machines_(std::move(machines)), rules_(rules), kinematics_(std::move(kinematics)) {}
 
-JudgedRun Ensemble::judged(const Program& program, const Machine& machine, const QualityRules& quality) const {
+JudgedRun Ensemble::judged(const Program& program, const Machine& machine) const {
     Diagnostics of_mapping;  // those of the nominal machine are reported
-    // The places of a systematic lag differ from machine to machine, by more than a repair changes them.
-    QualityRules as_check = quality;
-    as_check.group_systematic = true;
     const std::shared_ptr<const Kinematics> kinematics =
         kinematics_ == nullptr ? nullptr : std::make_shared<const Kinematics>(machine.kinematics);
-    return judge_run(simulate_to_log(program, machine, rules_.start, {}, rules_.zero).log, program, as_check,
-                     of_mapping, kinematics, ProgramIdentity::same, rules_.derivative);
+    return judge_run(simulate_to_log(program, machine, rules_.start, {}, rules_.zero).log, program, of_mapping,
+                     kinematics, ProgramIdentity::same, rules_.derivative);
 }
 
 EnsembleResult Ensemble::run(const Program& changed) {
@@ -89,15 +86,10 @@ EnsembleResult Ensemble::run(const Program& changed) {
     const double ratio = line_ratio(program_, changed);
     parallel_for(static_cast<std::int64_t>(machines_.size()), 1, [&](std::int64_t from, std::int64_t to) {
         for (auto k = static_cast<std::size_t>(from); k < static_cast<std::size_t>(to); ++k) {
-            if (first) {
-                const JudgedRun run = judged(program_, machines_[k], rules_.quality);
-                before_[k] = {run.measures(), run.report.thresholds};
-            }
-            QualityRules as_before = rules_.quality;
-            as_before.fixed = before_[k].thresholds;
+            if (first) before_[k] = judged(program_, machines_[k]).measures();
             EnsembleRun& run = result.runs[k];
-            run.before = before_[k].measures;
-            run.after = judged(changed, machines_[k], as_before).measures();
+            run.before = before_[k];
+            run.after = judged(changed, machines_[k]).measures();
             run.gain = gain_of(run.before, run.after, ratio, rules_.more_time);
         }
     });

@@ -43,16 +43,12 @@ public:
     [[nodiscard]] EnsembleResult run(const Program& changed);
 
 private:
-    [[nodiscard]] JudgedRun judged(const Program& program, const Machine& machine, const QualityRules& quality) const;
+    [[nodiscard]] JudgedRun judged(const Program& program, const Machine& machine) const;
     const Program& program_;
     std::vector<Machine> machines_;
     const OptimizeRules& rules_;
     std::shared_ptr<const Kinematics> kinematics_;
-    struct Before {
-        RunMeasures measures;
-        Thresholds thresholds;
-    };
-    std::vector<Before> before_;
+    std::vector<RunMeasures> before_;  ///< of the program, one a machine
 };
 
 }  // namespace clsurf

@@ -25,11 +25,7 @@ double largest_speed_jump(const QualityReport& report) {
     return largest;
 }
 
-std::size_t defects_by_check(const JudgedRun& run, const Program& program) {
-    return find_defects(run.surface, run.signals, *run.lines, program, run.log.period, QualityRules{}).defects.size();
-}
-
-JudgedRun judge_run(Log log, const Program& program, const QualityRules& rules, Diagnostics& diagnostics,
+JudgedRun judge_run(Log log, const Program& program, Diagnostics& diagnostics,
                     std::shared_ptr<const Kinematics> kinematics, ProgramIdentity identity, DerivativeMethod derivative,
                     bool with_motion) {
     JudgedRun run;
@@ -41,7 +37,7 @@ JudgedRun judge_run(Log log, const Program& program, const QualityRules& rules, 
     const std::shared_ptr<const MotionEstimate> estimate =
         estimate_motion(derivative, run.log, run.path, run.surface.passes);
     run.signals = signals_along(run.log, run.path, run.surface, std::nullopt, estimate.get()).signals;
-    run.report = find_defects(run.surface, run.signals, *run.lines, program, run.log.period, rules);
+    run.report = find_defects(run.surface, run.signals, *run.lines, program, run.log.period, {});
     run.duration = time_in_motion(run.surface, run.log.period);
     run.speed_differences = speed_differences(run.surface, run.signals);
     if (with_motion) run.motion = motion_quality(run.log, run.path, run.surface, run.speed_differences, estimate);

@@ -43,14 +43,11 @@ struct JudgedRun {
     }
 };
 
-/// How many defects `check` finds in a run: systematic lag is one of them, and the thresholds are the run's own.
-[[nodiscard]] std::size_t defects_by_check(const JudgedRun& run, const Program& program);
-
-/// Stitches the surface of a log and judges it by `rules`. Adds diagnostics about lines to `diagnostics`. `kinematics`: of a
+/// Stitches the surface of a log and judges it as `check` does. Adds diagnostics about lines to `diagnostics`. `kinematics`: of a
 /// machine whose rotary axes the log has; the program's motions are then those of the tip. `identity`: what is known of
 /// the program that ran; `same` for a simulation. `derivative`: how speeds and accelerations are derived. `with_motion`: asks for
 /// JudgedRun::motion. O(points), parallel.
-[[nodiscard]] JudgedRun judge_run(Log log, const Program& program, const QualityRules& rules, Diagnostics& diagnostics,
+[[nodiscard]] JudgedRun judge_run(Log log, const Program& program, Diagnostics& diagnostics,
                                   std::shared_ptr<const Kinematics> kinematics = nullptr,
                                   ProgramIdentity identity = ProgramIdentity::same,
                                   DerivativeMethod derivative = DerivativeMethod::savgol, bool with_motion = false);

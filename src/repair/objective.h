@@ -14,7 +14,7 @@ namespace clsurf {
 /// What a run of a program is judged by. Lower is better in each.
 struct RunMeasures {
     double mismatch = 0;                 ///< [mm/s] 95th percentile of the speed differences between adjacent passes
-    double defects = 0;                  ///< their number, by the thresholds of the run before; not whole in a mean
+    double defects = 0;                  ///< their number, as `check` counts them; not whole in a mean
     double duration = 0;                 ///< [s]
     double speed = 0;                    ///< [mm/s] usual speed of the cuts
     double roughness = missing<double>;  ///< [mm] Ra of the as-machined surface; NaN: not known

@@ -8,7 +8,6 @@
 #include "core/units.h"
 #include "machined/tool.h"
 #include "mapping/program_match.h"
-#include "predictor/defect.h"
 #include "toolpath/motion_estimate.h"
 
 namespace clsurf {
@@ -16,13 +15,6 @@ namespace clsurf {
 /// Largest angle between the new and the programmed tool axis: a hundredth of a degree moves the centre of a ball of 6
 /// mm radius by 1 µm.
 inline constexpr double most_turned = 0.01 * rad_per_deg;
-
-/// Each place of a systematic lag counts, because each may be equalised.
-[[nodiscard]] inline QualityRules judged_place_by_place() {
-    QualityRules rules;
-    rules.group_systematic = false;
-    return rules;
-}
 
 /// Which feeds a new program gets.
 enum class FeedChoice : unsigned char {
@@ -38,7 +30,6 @@ struct OptimizeRules {
     int least_decimals = 0;     ///< of new coordinates; 0: as many as the program has
     Vec3 start = Vec3::Zero();  ///< [mm] where the axes stand before the program
     Vec3 zero = Vec3::Zero();   ///< [mm] machine position of its zero, on five axes
-    QualityRules quality = judged_place_by_place();
     DerivativeMethod derivative = DerivativeMethod::savgol;  ///< of the runs that are judged
     std::optional<CuttingTool> tool;                         ///< whose surface must not get rougher; three axes
     int machines = 4;                ///< of the ensemble that must be better; 0: the nominal machine alone decides

@@ -112,11 +112,7 @@ private:
             const Program changed = read_(each->text);
             if (rules_.machines > 0) evaluator_.say("the best candidates on other machines");
             const EnsembleResult runs = ensemble.run(changed);
-            std::string reason = why_not_better(runs, rules_.more_time);
-            const std::size_t found =
-                each->found_by_check ? *each->found_by_check : defects_by_check(each->run, changed);
-            if (reason.empty() && found > evaluator_.found_before())
-                reason = fmt::format("check would find {} defects instead of {}", found, evaluator_.found_before());
+            const std::string reason = why_not_better(runs, rules_.more_time);
             if (!reason.empty()) {
                 if (refusal.empty()) refused = runs;
                 if (refusal.empty()) refusal = reason;

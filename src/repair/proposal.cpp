@@ -57,9 +57,8 @@ Evaluator::Evaluator(const Program& program, const ReadProgram& read, const Mach
     }
     SimulatedRun simulated = simulate_to_log(program_, machine_, rules_.start, progress_, rules_.zero);
     summary_before_ = std::move(simulated.summary);
-    before_ = judge_run(std::move(simulated.log), program_, rules_.quality, diagnostics_, kinematics_,
-                        ProgramIdentity::same, rules_.derivative, rules_.keeps_front);
-    found_before_ = defects_by_check(before_, program_);
+    before_ = judge_run(std::move(simulated.log), program_, diagnostics_, kinematics_, ProgramIdentity::same,
+                        rules_.derivative, rules_.keeps_front);
 }
 
 bool Evaluator::has_time(double share) const {
@@ -138,11 +137,8 @@ Proposal Evaluator::prove(const std::shared_ptr<const Draft>& draft, std::vector
                     [&] { evaluation.deviation = deviation_of(changed); });
     result.summary = std::move(simulated.summary);
     points_ += static_cast<double>(result.summary.points);
-    // A cleaner run must not be judged more strictly for being cleaner.
-    QualityRules as_before = rules_.quality;
-    as_before.fixed = before_.report.thresholds;
-    result.run = judge_run(std::move(simulated.log), changed, as_before, diagnostics_, kinematics_,
-                           ProgramIdentity::same, rules_.derivative, rules_.keeps_front);
+    result.run = judge_run(std::move(simulated.log), changed, diagnostics_, kinematics_, ProgramIdentity::same,
+                           rules_.derivative, rules_.keeps_front);
     evaluation.defects_before = before_.report.defects.size();
     evaluation.defects_after = result.run.report.defects.size();
     evaluation.reason = objection(result);
@@ -188,26 +184,13 @@ void Evaluator::keep_finalist(const TriedProposal& proposal, std::vector<TriedPr
     const std::size_t most = points >= large_run
                                  ? most_finalists_of_large
                                  : std::min(most_finalists, static_cast<std::size_t>(most_finalist_points / points));
-    // A more even run is judged by lower thresholds. What check would refuse only fills the places that nothing else takes.
-    const bool full = finalists.size() == most;
-    if (full && passes_check(*finalists.back()) && !(score(*proposal) < score(*finalists.back()))) return;
+    if (finalists.size() == most && !(score(*proposal) < score(*finalists.back()))) return;
     const auto same_run = [&](const TriedProposal& other) { return runs_alike(*proposal, *other); };
     if (std::any_of(finalists.begin(), finalists.end(), same_run)) return;
-    proposal->found_by_check = defects_by_check(proposal->run, read_(proposal->text));
-    const auto place =
-        std::upper_bound(finalists.begin(), finalists.end(), proposal,
-                         [&](const TriedProposal& a, const TriedProposal& b) { return comes_before(*a, *b); });
+    const auto place = std::upper_bound(finalists.begin(), finalists.end(), proposal,
+                                        [&](const TriedProposal& a, const TriedProposal& b) { return better(*a, *b); });
     finalists.insert(place, proposal);
     if (finalists.size() > most) finalists.pop_back();
-}
-
-bool Evaluator::passes_check(const Proposal& finalist) const {
-    return !finalist.found_by_check || *finalist.found_by_check <= found_before_;
-}
-
-bool Evaluator::comes_before(const Proposal& a, const Proposal& b) const {
-    const bool passes = passes_check(a);
-    return passes != passes_check(b) ? passes : better(a, b);
 }
 
 RunMeasures Proposal::measures() const {
@@ -233,7 +216,7 @@ std::vector<TriedProposal> Evaluator::finalists() const {
     std::vector<TriedProposal> all = with_feeds_;
     all.insert(all.end(), without_feeds_.begin(), without_feeds_.end());
     std::stable_sort(all.begin(), all.end(),
-                     [&](const TriedProposal& a, const TriedProposal& b) { return comes_before(*a, *b); });
+                     [&](const TriedProposal& a, const TriedProposal& b) { return better(*a, *b); });
     return all;
 }
 

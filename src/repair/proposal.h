@@ -25,8 +25,8 @@ struct Evaluation {
     std::size_t intervals = 0;  ///< sections that were changed
     std::size_t splines = 0;    ///< of them, written as splines
     LineNumber lines_before = 0, lines_after = 0;
-    std::size_t changed_lines = 0;                      ///< of the old program
-    std::size_t defects_before = 0, defects_after = 0;  ///< by the thresholds of the run before
+    std::size_t changed_lines = 0;  ///< of the old program
+    std::size_t defects_before = 0, defects_after = 0;
 };
 
 /// A draft with feeds, its run, and the comparison with the run of the program.
@@ -37,9 +37,8 @@ struct Proposal {
     std::string text;
     JudgedRun run;
     SimulationSummary summary;
-    std::optional<RoughnessChange> roughness{};   ///< from the program to a finalist, where the tool is known
-    int number = 0;                               ///< in the order in which they were tried, from 1
-    std::optional<std::size_t> found_by_check{};  ///< defects_by_check(), of a finalist
+    std::optional<RoughnessChange> roughness{};  ///< from the program to a finalist, where the tool is known
+    int number = 0;                              ///< in the order in which they were tried, from 1
 
     [[nodiscard]] RunMeasures measures() const;
 };
@@ -64,8 +63,6 @@ public:
     /// nullptr: the program is not run on five axes.
     [[nodiscard]] const Orientation* orientation() const { return orientation_.get(); }
     [[nodiscard]] const std::shared_ptr<const Kinematics>& kinematics() const { return kinematics_; }
-    /// defects_by_check() of the run of the program.
-    [[nodiscard]] std::size_t found_before() const { return found_before_; }
     /// Whether one more proposal may be tried (always for the first one). The total number of simulated points is
     /// limited, of which a share may be used, and so is the number of consecutive proposals without improvement.
     [[nodiscard]] bool has_time(double share = 1) const;
@@ -73,8 +70,8 @@ public:
     /// `targets`: as those of a Proposal, or none at all.
     TriedProposal propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
     [[nodiscard]] const TriedProposal& best() const { return best_; }
-    /// The accepted proposals with the lowest scores: first those in which `check` finds no more defects than in the program; of
-    /// these and of the others the lowest score first, and last those that measure_roughness() refused. Few where runs are long.
+    /// The accepted proposals with the lowest scores, the lowest first, and last those that measure_roughness() refused. Few where
+    /// runs are long.
     /// Some of them have no feeds, where there are such.
     [[nodiscard]] std::vector<TriedProposal> finalists() const;
 
@@ -127,8 +124,6 @@ private:
     [[nodiscard]] std::string objection(const Evaluation& evaluation, const RunMeasures& before,
                                         const RunMeasures& after, bool limits_ok) const;
     void keep_finalist(const TriedProposal& proposal, std::vector<TriedProposal>& finalists) const;
-    [[nodiscard]] bool passes_check(const Proposal& finalist) const;
-    [[nodiscard]] bool comes_before(const Proposal& a, const Proposal& b) const;  ///< of finalists
     const Program& program_;
     const ReadProgram& read_;
     const Machine& machine_;
@@ -139,7 +134,6 @@ private:
     std::unique_ptr<const Orientation> orientation_;
     JudgedRun before_;
     SimulationSummary summary_before_;
-    std::size_t found_before_ = 0;  ///< by check
     std::optional<PartRoughness> roughness_before_;
     TriedProposal best_;
     std::vector<TriedProposal> with_feeds_, without_feeds_;  ///< finalists

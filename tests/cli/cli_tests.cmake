@@ -451,6 +451,11 @@ clsurf_cli_test(NAME optimize_says_what_it_tries SETUP "${crowded}" ARGS optimiz
 clsurf_cli_test(NAME optimize_draws_svg SETUP "${crowded} && $CLSURF optimize part.nc --machine @DATA@/machines/linuxcnc_logs.toml -o better.nc --picture better.svg -q && python3 ${CMAKE_CURRENT_LIST_DIR}/read_svg.py better.svg images 2 'Path speed before and after' 'Speed difference to the adjacent pass' 'after: [0-9.]+ s'" ARGS --version)
 clsurf_cli_test(NAME optimize_accepts_what_is_better SETUP "${crowded}" ARGS optimize part.nc --machine @DATA@/machines/linuxcnc_logs.toml --json -o better.nc
   STDOUT "\"accepted\": true" "\"deviation_mm\": 0.00[0-4]" "\"lines_before\": 263" "\"defects_by_quantity\"" "\"defects_left\"" FILE better.nc)
+# What is promised is what check finds in a simulation of the new program: each run has its own thresholds. (The part is small: exit
+# code 5.)
+clsurf_cli_test(NAME optimize_counts_defects_as_check_does
+  SETUP "${crowded}; $CLSURF optimize part.nc --machine @DATA@/machines/linuxcnc_logs.toml --json -o better.nc > promised.json; for part in part better; do $CLSURF simulate $part.nc --machine @DATA@/machines/linuxcnc_logs.toml -o $part.biip -q; $CLSURF check $part.nc $part.biip --tool none --json > $part.json || test $? = 5; done; python3 -c \"import json; read = lambda name: json.load(open(name + '.json')); promised = read('promised'); assert [promised['defects_before'], promised['defects_after']] == [len(read(part)['defects']) for part in ('part', 'better')], promised\""
+  ARGS --version)
 clsurf_cli_test(NAME optimize_tells_what_defects_show_in SETUP "${crowded}" ARGS optimize part.nc --machine @DATA@/machines/linuxcnc_logs.toml -o better.nc
   STDOUT "defects +4 +[0-3] " "  of speed +1 +0 " "  of lag +3 +[0-3] " "accepted")
 clsurf_cli_test(NAME optimize_measures_the_roughness SETUP "${crowded}" ARGS optimize part.nc --machine @DATA@/machines/linuxcnc_logs.toml --tool ball:6 -o better.nc

@@ -259,14 +259,6 @@ TEST(SystematicLag, IsNoFaultOfAFewPasses) {
     for (const Defect& defect : report.defects) EXPECT_FALSE(defect.systematic);
 }
 
-TEST(SystematicLag, MayBeLeftInItsPlaces) {
-    QualityRules rules;
-    rules.group_systematic = false;
-    const QualityReport report = planted::judge(alternating_zigzag(), rules);
-    ASSERT_FALSE(report.defects.empty());
-    for (const Defect& defect : report.defects) EXPECT_FALSE(defect.systematic);
-}
-
 TEST(SystematicLag, NamesTheAxesThatDiffer) {
     // A zigzag over a slope: X trails by 0.4 ms, Z by 1.8 ms. Speeds are even, so that an axis is where it was to be before.
     planted::Recipe recipe = planted::random_recipe(3, Shape::zigzag, true, false);

@@ -26,17 +26,14 @@ TEST(Ensemble, ASystematicLagCountsOnceAsInCheck) {
     const Machine machine = uneven_loops();
     const OptimizeRules rules;
     Diagnostics diagnostics;
-    const auto defects_by = [&](const QualityRules& quality) {
-        Log log = simulate_to_log(program, machine).log;
-        return judge_run(std::move(log), program, quality, diagnostics).report.defects.size();
-    };
-    const std::size_t places = defects_by(rules.quality), as_check = defects_by({});
-    ASSERT_GT(places, as_check) << "the part has no systematic lag";
+    const std::vector<Defect> defects =
+        judge_run(simulate_to_log(program, machine).log, program, diagnostics).report.defects;
+    ASSERT_TRUE(std::ranges::any_of(defects, &Defect::systematic)) << "the part has no systematic lag";
     Ensemble ensemble(program, {machine}, rules, nullptr);
     const EnsembleResult result = ensemble.run(program);
     ASSERT_EQ(result.runs.size(), 1U);
-    EXPECT_DOUBLE_EQ(result.runs[0].before.defects, static_cast<double>(as_check));
-    EXPECT_DOUBLE_EQ(result.runs[0].after.defects, static_cast<double>(as_check));
+    EXPECT_DOUBLE_EQ(result.runs[0].before.defects, static_cast<double>(defects.size()));
+    EXPECT_DOUBLE_EQ(result.runs[0].after.defects, static_cast<double>(defects.size()));
 }
 
 }  // namespace

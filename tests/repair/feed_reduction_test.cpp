@@ -35,7 +35,7 @@ struct SlowSection {
         for (MachineAxis& axis : machine.axes) axis.max_jerk = 2e6;
         machine.controller.block_time = 0.002;
         Diagnostics diagnostics;
-        run = judge_run(simulate_to_log(program, machine, Vec3::Zero(), {}).log, program, {}, diagnostics);
+        run = judge_run(simulate_to_log(program, machine, Vec3::Zero(), {}).log, program, diagnostics);
     }
 };
 
@@ -61,7 +61,7 @@ TEST(FeedEqualisation, LinesThatNoRecordNamesHaveASpeed) {
     Machine machine;
     machine.controller.block_time = 0;
     Diagnostics diagnostics;
-    const JudgedRun run = judge_run(simulate_to_log(program, machine, Vec3::Zero(), {}).log, program, {}, diagnostics);
+    const JudgedRun run = judge_run(simulate_to_log(program, machine, Vec3::Zero(), {}).log, program, diagnostics);
     const std::vector<float> peaks = peaks_by_motion(run, program, compared_speeds(run));
     std::set<LineNumber> named;
     for (PointIndex i = 0; i < run.surface.positions.size(); ++i) named.insert(run.lines->line_at(i));

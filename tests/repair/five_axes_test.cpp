@@ -57,7 +57,7 @@ TEST(FiveAxisRun, IsThatOfSimulateAndCheck) {
     Diagnostics diagnostics;
     const auto kinematics = std::make_shared<const Kinematics>(machine.kinematics);
     SimulatedRun simulated = simulate_to_log(program, machine, Vec3::Zero(), {}, zero);
-    const JudgedRun run = judge_run(std::move(simulated.log), program, {}, diagnostics, kinematics);
+    const JudgedRun run = judge_run(std::move(simulated.log), program, diagnostics, kinematics);
 
     const test::TemporaryFolder folder;
     const std::string file = folder / "run.biip";

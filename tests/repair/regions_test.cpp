@@ -21,12 +21,9 @@ Program crowded_at(double from) {
         9, 40, [=](int pass, double x) { return pass == 4 && x > from && x < from + 2 ? 0.02 : 0.31; }, 0));
 }
 
-JudgedRun run_of(const Program& program, const std::optional<Thresholds>& thresholds = {}) {
+JudgedRun run_of(const Program& program) {
     Diagnostics diagnostics;
-    QualityRules rules;
-    rules.fixed = thresholds;
-    return judge_run(simulate_to_log(program, slow_at_short_blocks(), Vec3::Zero(), {}).log, program, rules,
-                     diagnostics);
+    return judge_run(simulate_to_log(program, slow_at_short_blocks(), Vec3::Zero(), {}).log, program, diagnostics);
 }
 
 /// Per motion of the program: 1 where another run of it is worse than the first.
@@ -53,7 +50,7 @@ bool marked_near(const Program& program, const std::vector<std::uint8_t>& marks,
 // The slow place moves from x = 11 to x = 29: worse is what lies about the second, on the passes beside as well.
 TEST(Regions, AreWhereTheOtherRunIsWorse) {
     const Program program = crowded_at(10), changed = crowded_at(28);
-    const JudgedRun before = run_of(program), after = run_of(changed, before.report.thresholds);
+    const JudgedRun before = run_of(program), after = run_of(changed);
     const std::vector<std::uint8_t> worse = worse_motions(before, after, program);
     ASSERT_EQ(worse.size(), static_cast<std::size_t>(program.motions.size()));
     const double y = 4 * 0.4;
@@ -78,7 +75,7 @@ TEST(Regions, ThatCostTimeAreGivenBack) {
             9, 40, [=](int, double x) { return x > 18 && x < 22 ? spacing : 0.31; }, 0));
     };
     const Program program = of(0.31), changed = of(0.02);
-    const JudgedRun before = run_of(program), after = run_of(changed, before.report.thresholds);
+    const JudgedRun before = run_of(program), after = run_of(changed);
     ASSERT_GT(after.duration, before.duration + 9 * 0.2);  // 4 mm at 10 mm/s instead of 50
     const std::vector<std::uint8_t> worse = worse_motions(before, after, program);
     for (int pass = 0; pass < 9; ++pass) EXPECT_TRUE(marked_near(program, worse, 20, 0.4 * pass)) << pass;
@@ -91,8 +88,7 @@ TEST(Regions, TakeTheBestOfSeveralRuns) {
     const Program left = crowded_at(8), right = crowded_at(30);
     const Program program = read_text(wavy_zigzag(
         9, 40, [](int pass, double x) { return pass == 4 && x > 8 && x < 32 ? 0.02 : 0.31; }, 0));
-    const JudgedRun before = run_of(program), bad_left = run_of(left, before.report.thresholds),
-                    bad_right = run_of(right, before.report.thresholds);
+    const JudgedRun before = run_of(program), bad_left = run_of(left), bad_right = run_of(right);
     const std::array<const JudgedRun*, 3> runs{&before, &bad_left, &bad_right};
     const std::vector<std::uint8_t> best = best_runs(runs, 0, program, {});
     const auto best_at = [&](double x) { return value_near(program, best, x, 4 * 0.4); };
@@ -107,7 +103,7 @@ TEST(Regions, TakeNoMoreTimeThanThereIs) {
         9, 40, [](int pass, double x) { return pass == 4 && x > 10 && x < 14 ? 0.07 : 0.31; }, 0));
     const Program even = read_text(wavy_zigzag(
         9, 40, [](int, double) { return 0.05; }, 0));
-    const JudgedRun before = run_of(program), slow = run_of(even, before.report.thresholds);
+    const JudgedRun before = run_of(program), slow = run_of(even);
     ASSERT_GT(slow.duration, before.duration + 1);
     const std::array<const JudgedRun*, 2> runs{&before, &slow};
     const double y = 4 * 0.4;
