@@ -13,9 +13,17 @@ namespace {
 constexpr std::array<double, 3> steps_between_passes{0.1, 0.05, 0.02};
 constexpr double feed_tolerance = 0.003;  ///< a motion this little too fast (a share) gets no feed
 constexpr int equalising_rounds = 3;      ///< with the time that there is
-constexpr double most_share = 0.65;     ///< of the time there is, that a round may reckon with: feeds hold whole lines
-constexpr int most_mixed_attempts = 2;  ///< of the attempts of a round, place by place
+constexpr double most_share = 0.65;  ///< of the time there is, that a round may reckon with: feeds hold whole lines
+/// Of the machine's acceleration. A feed holds a whole line: along a steep ramp, adjacent passes whose lines end elsewhere differ.
+constexpr std::array<double, 2> gentle_ramps{0.3, 0.1};
+constexpr int most_mixed_attempts = 3;  ///< of the attempts of a round, place by place
+constexpr double more_than_late = 1.5;  ///< times what the last one was late, that the next one takes less
 constexpr double time_used = 0.95;      ///< of what is there: enough
+
+Ramp gentle(Ramp ramp, double share) {
+    ramp.acceleration *= share;
+    return ramp;
+}
 
 /// The targets of a proposal, and lower ones from a speed per point of its run [mm/s]; its own where none is lower.
 std::vector<float> lowered_targets(const Proposal& proposal, const std::vector<float>& speeds) {
@@ -99,10 +107,11 @@ void FeedSearch::equalise(const TriedProposal& from) {
 void FeedSearch::equalise_in_time(const TriedProposal& from) {
     const double there = evaluator_.longest() - from->run.duration;
     const FeedEqualiser equaliser(from->run);
+    const Ramp ramp = gentle(ramp_, gentle_ramps.back());
     double budget = most_share * there;
     for (int round = 0; round < equalising_rounds && budget > 0 && evaluator_.has_time(); ++round) {
         const std::vector<float> targets =
-            lowered_targets(*from, equaliser.everywhere({0, equaliser.affordable_step(ramp_, budget), ramp_}));
+            lowered_targets(*from, equaliser.everywhere({0, equaliser.affordable_step(ramp, budget), ramp}));
         if (targets == from->targets) return;
         const TriedProposal equalised = evaluator_.propose(from->draft, targets);
         const double taken = equalised->run.duration - from->run.duration;
@@ -113,20 +122,19 @@ void FeedSearch::equalise_in_time(const TriedProposal& from) {
 }
 
 void FeedSearch::mix(const TriedProposal& from, std::vector<TriedProposal>& attempts) {
+    double aim = evaluator_.longest();
     for (int k = 0; k < most_mixed_attempts && evaluator_.has_time(); ++k) {
-        std::vector<float> mixed = best_targets(*from, attempts, evaluator_.longest());
+        std::vector<float> mixed = best_targets(*from, attempts, aim);
         const auto is_mixed = [&](const TriedProposal& tried) { return tried->targets == mixed; };
         if (mixed == from->targets || std::ranges::any_of(attempts, is_mixed)) return;
         attempts.push_back(evaluator_.propose(from->draft, std::move(mixed)));
+        aim -= more_than_late * std::max(0.0, attempts.back()->run.duration - evaluator_.longest());
     }
 }
 
 void FeedSearch::reduce_feeds(FeedReduction& reduction, int rounds) {
-    const JudgedRun& before = evaluator_.before();
     FeedReductionRules rules;
-    rules.step = reduction.step * before.report.thresholds.of[index_of(Quantity::speed)];
     rules.lag_power = lag_power_;
-    rules.ramp = ramp_;
     TriedProposal last_from;
     std::vector<float> last_targets;
     for (int round = 0; round < rounds && evaluator_.has_time(); ++round) {
@@ -134,6 +142,8 @@ void FeedSearch::reduce_feeds(FeedReduction& reduction, int rounds) {
         rules.budget = reduction.share * (evaluator_.longest() - from->run.duration);
         if (rules.budget <= 0) return;
         rules.abandoned = reduction.abandoned;
+        rules.ramp = ramp_;
+        rules.step = reduction.step * from->run.report.thresholds.of[index_of(Quantity::speed)];
         ReducedSpeeds speeds = reduced_speeds(from->run, rules);
         std::vector<float> targets = lowered_targets(*from, speeds.speeds);
         if (targets == from->targets) {
@@ -155,6 +165,12 @@ void FeedSearch::reduce_feeds(FeedReduction& reduction, int rounds) {
         }
         if (evaluator_.has_time())
             attempts.push_back(evaluator_.propose(from->draft, eased_targets(*from, *attempts.back(), speeds.speeds)));
+        for (const double share : gentle_ramps) {
+            rules.ramp = gentle(ramp_, share);
+            targets = lowered_targets(*from, reduced_speeds(from->run, rules).speeds);
+            if (targets != from->targets && evaluator_.has_time())
+                attempts.push_back(evaluator_.propose(from->draft, std::move(targets)));
+        }
         mix(from, attempts);
         for (const TriedProposal& tried : attempts) {
             if (tried->run.duration <= evaluator_.longest() &&

@@ -31,6 +31,7 @@ constexpr std::size_t most_sections_alone = 24;  ///< that are tried one by one 
 constexpr double share_of_drafts = 0.35;         ///< of all runs, that points alone may take; the others seek feeds
 constexpr double most_time_to_regain = 0.01;     ///< a share, by motions that get their old points back
 constexpr std::size_t most_fed = 5;              ///< drafts that feeds are sought for
+constexpr std::size_t most_equalised_early = 2;  ///< of them
 constexpr double most_behind = 0.2;   ///< the best, by score, after the first rounds: others are not repaired on
 constexpr double small_share = 0.3;   ///< of the time, for a feed reduction that begins with the cheap defects …
 constexpr double large_share = 0.65;  ///< … and for one that takes all it can
@@ -151,7 +152,7 @@ private:
     }
 
     Measured judge_measured(Log log) {
-        const JudgedRun run = judge_run(std::move(log), program_, rules_.quality, diagnostics_, evaluator_.kinematics(),
+        const JudgedRun run = judge_run(std::move(log), program_, diagnostics_, evaluator_.kinematics(),
                                         rules_.identity, rules_.derivative);
         if (run.surface.step_over <= 0)
             throw InputError(Place::of_file(run.log.name),
@@ -247,12 +248,17 @@ private:
         std::stable_sort(fed.begin(), fed.end(), [&](const Fed& a, const Fed& b) {
             return evaluator_.score(*a.reduction.from) < evaluator_.score(*b.reduction.from);
         });
+        const double best_so_far = evaluator_.score(*evaluator_.best());
+        // Early: where a program is long, the search ends before all is tried.
+        for (std::size_t k = 0; k < std::min(fed.size(), most_equalised_early); ++k)
+            feeds.equalise_in_time(fed[k].points);
+        feeds.equalise_in_time(evaluator_.best());
         for (Fed& each : fed) {
-            if (evaluator_.score(*each.reduction.from) < evaluator_.score(*evaluator_.best()) + most_behind)
+            if (evaluator_.score(*each.reduction.from) < best_so_far + most_behind)
                 feeds.reduce_feeds(each.reduction, more_rounds - first_rounds);
         }
         feeds.equalise_in_time(evaluator_.best());
-        for (const Fed& each : fed) feeds.equalise_in_time(each.points);
+        for (std::size_t k = most_equalised_early; k < fed.size(); ++k) feeds.equalise_in_time(fed[k].points);
         for (const double step : other_steps) {
             for (std::size_t k = 0; k < std::min(fed.size(), most_drafts_of_other_steps); ++k) {
                 FeedReduction other{fed[k].points, small_share, step};
