@@ -55,6 +55,10 @@ std::string why_not_better(const EnsembleResult& result, double more_time) {
             return fmt::format(
                 "on one of {} machines that the machine file allows, it would take {:.3f} instead of {:.3f} s",
                 result.runs.size(), run.after.duration, run.before.duration);
+        if (run.after.defects > run.before.defects)
+            return fmt::format(
+                "on one of {} machines that the machine file allows, there would be {:.0f} defects instead of {:.0f}",
+                result.runs.size(), run.after.defects, run.before.defects);
         if (run.gain < 0)
             return fmt::format(
                 "on one of {} machines that the machine file allows, the objective would rise by {:.2g} %: {:.0f} defects instead "

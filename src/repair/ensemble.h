@@ -30,7 +30,7 @@ struct EnsembleResult {
 inline constexpr double most_time_on_one_machine = 0.005;
 
 /// Why the new program is not better: on the mean, in mismatch, defects and time and by least_gain; on every machine, in
-/// the objective and, up to most_time_on_one_machine, in time. Empty: it is, or there are no machines.
+/// defects, in the objective and, up to most_time_on_one_machine, in time. Empty: it is, or there are no machines.
 [[nodiscard]] std::string why_not_better(const EnsembleResult& result, double more_time);
 
 class Ensemble {

@@ -36,5 +36,16 @@ TEST(Ensemble, ASystematicLagCountsOnceAsInCheck) {
     EXPECT_DOUBLE_EQ(result.runs[0].after.defects, static_cast<double>(defects.size()));
 }
 
+// A promise that one machine would break may be broken by the real one: the mean is no comfort then.
+TEST(Ensemble, NoMachineMayHaveMoreDefects) {
+    const RunMeasures before{.mismatch = 10, .defects = 20, .duration = 100, .speed = 50};
+    const auto with = [&](double defects) {
+        return EnsembleRun{before, {.mismatch = 4, .defects = defects, .duration = 100, .speed = 50}, 0.2};
+    };
+    EXPECT_EQ(why_not_better(EnsembleResult{{with(10), with(20)}}, 0), "");
+    EXPECT_EQ(why_not_better(EnsembleResult{{with(10), with(21)}}, 0),
+              "on one of 2 machines that the machine file allows, there would be 21 defects instead of 20");
+}
+
 }  // namespace
 }  // namespace clsurf::ensemble_test
