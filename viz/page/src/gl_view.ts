@@ -62,6 +62,23 @@ function cells(corners: Uint32Array, size: number): Uint32Array {
     return out;
 }
 
+/**
+ * Of a pixel that a triangle covers in part, the colour is that of a place inside the triangle. Else it is that of the middle
+ * of the pixel, which may lie outside, where the ramp goes on to the colours of values beyond its ends: dots along each edge.
+ */
+function keepToCovered(mapper: vtkMapper): void {
+    const declared = 'varying vec2 tcoordVCVSOutput';
+    const replacement = {
+        originalValue: declared,
+        replaceFirst: false,
+        replacementValue: `centroid ${declared}`,
+        replaceAll: true,
+    };
+    mapper.setViewSpecificProperties({
+        OpenGL: { ShaderReplacements: ['Vertex', 'Fragment'].map((shaderType) => ({ shaderType, ...replacement })) },
+    });
+}
+
 export class GlView {
     readonly canvas: HTMLCanvasElement;
     private readonly window = vtkRenderWindow.newInstance();
@@ -105,6 +122,7 @@ export class GlView {
         this.path.setMapper(lines);
         this.path.getProperty().setLighting(false);
         this.path.getProperty().setLineWidth(1);
+        for (const mapper of [this.mapper, points, lines]) keepToCovered(mapper);
         this.renderer.addActor(this.path);
         this.renderer.addActor(this.coarse);
         this.renderer.addActor(this.actor);
