@@ -82,3 +82,9 @@ export function tickText(value: number, step: number): string {
     const text = value.toFixed(decimals);
     return Number(text) === 0 ? text.replace('-', '') : text;
 }
+
+/** "#rrggbb" → three numbers. */
+export function rgbOf(colour: string): [number, number, number] {
+    const value = Number.parseInt(colour.replace('#', ''), 16);
+    return [(value >> 16) & 255, (value >> 8) & 255, value & 255];
+}

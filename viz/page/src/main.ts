@@ -138,6 +138,7 @@ async function begin(app: HTMLElement): Promise<void> {
             defect.bounds_mm[1].map((c, k) => c - origin[k]),
         );
     };
+    view.showDefect = goToDefect;
     const goToGone = (index: number) => {
         const gone = manifest.gone[index];
         const origin = manifest.surfaces[0].origin_mm;

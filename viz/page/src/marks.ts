@@ -8,6 +8,7 @@ import type { State } from './store';
 import type { Surface } from './surface';
 
 const mostTags = 40; // numbers of defects in the picture
+const fewRuns = 8; // of a defect, that hide nothing
 const mostRuns = 200; // of a line
 const mostCorners = 5000; // of a run
 
@@ -30,20 +31,21 @@ export function marksOf(
     if (judged) addDefects(manifest, state, marks);
     if (state.shown !== 'after') addGone(manifest, marks);
 
-    const addRun = ([begin, end]: [number, number], colour: string, width: number) => {
+    const addRun = ([begin, end]: [number, number], colour: string, width: number, between = 0) => {
         const corners: number[] = [];
         const step = Math.max(1, Math.floor((end - begin) / mostCorners));
         for (let i = begin; i < end; i += step) corners.push(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
         if (corners.length === 3) corners.push(...corners);
-        marks.polylines.push({ xyz: corners, closed: false, colour, width });
+        marks.polylines.push({ xyz: corners, closed: false, colour, width, between });
     };
     const beside = styleValue('--second');
     if (state.pass > 0)
         addRun(surface.range(surface.passes[2 * state.pass - 2], surface.passes[2 * state.pass - 1]), beside, 2);
     if (state.defect !== null && judged) {
         const defect = manifest.defects[state.defect];
-        for (const run of defect.neighbours) addRun(surface.range(...run.points), beside, 2);
-        for (const run of defect.runs) addRun(surface.range(...run.points), accent, 2);
+        const between = defect.runs.length > fewRuns ? surface.info.step_over_mm : 0;
+        for (const run of defect.neighbours) addRun(surface.range(...run.points), beside, 2, between);
+        for (const run of defect.runs) addRun(surface.range(...run.points), accent, 2, between);
     }
     const runs = state.line > 0 ? surface.runsOfLine(state.line, mostRuns) : [];
     for (const run of runs) addRun(run, accent, 4);
@@ -65,7 +67,13 @@ export function marksOf(
 function addGone(manifest: Manifest, marks: Marks): void {
     const origin = manifest.surfaces[0].origin_mm;
     for (const { id, severity, tip_mm } of manifest.gone.slice(0, mostTags))
-        marks.tags.push({ at: tip_mm.map((c, k) => c - origin[k]), text: `gone ${id}`, severity, chosen: false });
+        marks.tags.push({
+            at: tip_mm.map((c, k) => c - origin[k]),
+            text: `gone ${id}`,
+            severity,
+            chosen: false,
+            defect: null,
+        });
 }
 
 /** Whether one of its passes is. */
@@ -87,6 +95,7 @@ function addDefects(manifest: Manifest, state: Readonly<State>, marks: Marks): v
                 text: String(defect.id),
                 severity: manifest.judged && !state.accepted.get(defect.id)?.accepted ? defect.severity : 0,
                 chosen,
+                defect: k,
             });
         if (!chosen && !state.defects) return;
         for (const corners of outlines) {

@@ -4,12 +4,14 @@
 import { views, type Camera } from './camera';
 import { colourAlong, cssColour, niceTicks, tickText, type ColourScale } from './colour';
 import { styleValue } from './dom';
+import { boxAt, labelPlace, markerPlace, meet, type Box } from './label_place';
 
 export interface Polyline {
     xyz: number[]; // 3 per corner [mm] from the origin
     closed: boolean;
     colour: string;
     width: number;
+    between?: number; // [mm] to the next of many such lines
 }
 
 export interface Ring {
@@ -25,6 +27,7 @@ export interface Tag {
     text: string;
     severity: number;
     chosen: boolean;
+    defect: number | null; // its index; null: of one that is gone
 }
 
 export interface OverlayScene {
@@ -43,9 +46,19 @@ export interface OverlayScene {
 }
 
 export const legendWidth = 104; // px beside the map
+const crowdedRoom = 14; // px from line to line
 const wipeLabels = 56; // px from the top: below the title and its caption
 
+/** The length of the scale bar: a round number [mm]. */
+function barLength(camera: Camera): number {
+    const most = 160 * camera.mmPerPixel;
+    const power = 10 ** Math.floor(Math.log10(most));
+    return power * ([5, 2, 1].find((factor) => factor * power <= most) ?? 1);
+}
+
 export class Overlay {
+    private markers: { box: Box; tag: Tag }[] = []; // that are drawn
+
     constructor(readonly canvas: HTMLCanvasElement) {}
 
     draw(camera: Camera, scene: OverlayScene, ratio: number): void {
@@ -58,9 +71,13 @@ export class Overlay {
         const ink = styleValue('--ink');
         const halo = styleValue('--view');
         for (const line of scene.polylines) this.polyline(g, camera, line, halo);
-        this.tags(g, camera, scene.tags, halo);
+        // A marker is over the ring of its point: its number stays readable.
         for (const ring of scene.rings) this.ring(g, camera, ring, halo);
-        if (scene.measure.length > 0) this.measure(g, camera, scene.measure, ink, halo);
+        const reserved = this.reserved(g, camera, scene);
+        this.tags(g, camera, scene.tags, reserved, halo);
+        const taken = [...reserved, ...this.markers.map(({ box }) => box)];
+        for (const ring of scene.rings) if (ring.label) this.ringLabel(g, camera, ring, taken, halo);
+        if (scene.measure.length > 0) this.measure(g, camera, scene.measure, taken, ink, halo);
         if (scene.box) {
             const [x0, y0, x1, y1] = scene.box;
             g.setLineDash([5, 4]);
@@ -96,27 +113,54 @@ export class Overlay {
         if (line.closed) path.closePath();
         g.lineJoin = 'round';
         g.lineCap = 'round';
-        g.strokeStyle = halo;
-        g.lineWidth = line.width + 2.5;
-        g.stroke(path);
+        // Many lines close together would hide the map.
+        const room = line.between ? line.between / camera.mmPerPixel : Infinity;
+        const crowded = room < crowdedRoom;
+        if (!crowded) {
+            g.strokeStyle = halo;
+            g.lineWidth = line.width + 2.5;
+            g.stroke(path);
+        }
         g.strokeStyle = line.colour;
-        g.lineWidth = line.width;
+        g.lineWidth = crowded ? Math.max(0.7, Math.min(line.width, room / 6)) : line.width;
         g.stroke(path);
         g.lineWidth = 1;
     }
 
-    /** Where two would lie on each other, the worse one stays. */
-    private tags(g: CanvasRenderingContext2D, camera: Camera, tags: Tag[], halo: string): void {
-        const placed: number[][] = [];
+    /** What stands at fixed places: the title, the axes, the scale bar. */
+    private reserved(g: CanvasRenderingContext2D, camera: Camera, scene: OverlayScene): Box[] {
+        const font = styleValue('--font');
+        g.font = `600 12px ${font}`;
+        const title = 16 + g.measureText(scene.title).width;
+        g.font = `12px ${font}`;
+        const caption = 16 + g.measureText(scene.caption).width;
+        const { height } = camera;
+        return [
+            { left: 0, top: 0, right: title, bottom: 27 },
+            { left: 0, top: 27, right: caption, bottom: scene.caption ? 45 : 27 },
+            { left: 0, top: height - 96, right: 96, bottom: height },
+            { left: 96, top: height - 46, right: 110 + barLength(camera) / camera.mmPerPixel, bottom: height },
+        ];
+    }
+
+    /** Where two would lie on each other, the worse one stays. A marker that is moved keeps a line to its place. */
+    private tags(g: CanvasRenderingContext2D, camera: Camera, tags: Tag[], reserved: Box[], halo: string): void {
+        this.markers = [];
+        const size = [camera.width, camera.height];
         for (const tag of [...tags].sort((a, b) => Number(b.chosen) - Number(a.chosen))) {
-            const [x, y] = camera.project(tag.at);
-            if (placed.some(([px, py]) => Math.abs(px - x) < 22 && Math.abs(py - y) < 17)) continue;
-            placed.push([x, y]);
+            const place = camera.project(tag.at);
+            if (place[0] < 0 || place[1] < 0 || place[0] > size[0] || place[1] > size[1]) continue;
             g.font = `600 11px ${styleValue('--font')}`;
             const half = Math.max(8, g.measureText(tag.text).width / 2 + 4);
+            const [x, y] = markerPlace(place, [half + 2, 10], reserved, size);
+            const box = boxAt(x, y, half + 2, 10);
+            if (this.markers.some((other) => meet(other.box, box))) continue;
+            this.markers.push({ box, tag });
+            const colour = tag.chosen ? styleValue('--accent') : styleValue(`--severity-${tag.severity}`);
+            if (Math.hypot(x - place[0], y - place[1]) > 9) leader(g, place, [x, y], colour, halo);
             g.beginPath();
             g.roundRect(x - half, y - 8, 2 * half, 16, 8);
-            g.fillStyle = tag.chosen ? styleValue('--accent') : styleValue(`--severity-${tag.severity}`);
+            g.fillStyle = colour;
             g.strokeStyle = halo;
             g.lineWidth = 3;
             g.stroke();
@@ -127,6 +171,12 @@ export class Overlay {
             g.fillText(tag.text, x, y + 0.5);
         }
         g.lineWidth = 1;
+    }
+
+    /** The marker at a pixel. */
+    tagAt(x: number, y: number): Tag | null {
+        const found = this.markers.find(({ box }) => meet(box, boxAt(x, y, 1, 1)));
+        return found?.tag ?? null;
     }
 
     private ring(g: CanvasRenderingContext2D, camera: Camera, ring: Ring, halo: string): void {
@@ -142,22 +192,21 @@ export class Overlay {
             g.stroke();
         }
         g.lineWidth = 1;
-        if (!ring.label) return;
+    }
+
+    private ringLabel(g: CanvasRenderingContext2D, camera: Camera, ring: Ring, taken: Box[], halo: string): void {
+        const [x, y] = camera.project(ring.at);
         g.font = `600 12px ${styleValue('--font')}`;
-        const room = g.measureText(ring.label).width + 18;
-        const [align, at] =
-            x + room < camera.width
-                ? (['left', x + 13] as const)
-                : x > room
-                  ? (['right', x - 13] as const)
-                  : (['center', Math.max(room / 2, Math.min(camera.width - room / 2, x))] as const);
-        label(g, ring.label, at, y - (align === 'center' ? 17 : 12), ring.colour, halo, align, true);
+        const size = [g.measureText(ring.label).width + 4, 17];
+        const box = labelPlace([x, y], size, taken, [camera.width, camera.height]);
+        label(g, ring.label, box.left + 2, (box.top + box.bottom) / 2, ring.colour, halo, 'left', true);
     }
 
     private measure(
         g: CanvasRenderingContext2D,
         camera: Camera,
         places: readonly number[][],
+        taken: Box[],
         ink: string,
         halo: string,
     ): void {
@@ -175,7 +224,10 @@ export class Overlay {
             g.stroke();
             const d = places[1].map((c, k) => c - places[0][k]);
             const text = `${Math.hypot(...d).toFixed(4)} mm   ΔX ${d[0].toFixed(4)}  ΔY ${d[1].toFixed(4)}  ΔZ ${d[2].toFixed(4)}`;
-            label(g, text, (x0 + x1) / 2, (y0 + y1) / 2 - 12, ink, halo, 'center', true);
+            g.font = `600 12px ${styleValue('--font')}`;
+            const size = [g.measureText(text).width + 4, 17];
+            const box = labelPlace([(x0 + x1) / 2, (y0 + y1) / 2], size, taken, [camera.width, camera.height]);
+            label(g, text, box.left + 2, (box.top + box.bottom) / 2, ink, halo, 'left', true);
         }
         for (const [x, y] of pixels) {
             g.fillStyle = ink;
@@ -248,9 +300,7 @@ export class Overlay {
     }
 
     private scaleBar(g: CanvasRenderingContext2D, camera: Camera, ink: string, halo: string): void {
-        const most = 160 * camera.mmPerPixel;
-        const power = 10 ** Math.floor(Math.log10(most));
-        const length = power * ([5, 2, 1].find((factor) => factor * power <= most) ?? 1);
+        const length = barLength(camera);
         const [x, y] = [104.5, camera.height - 22.5];
         g.strokeStyle = ink;
         g.beginPath();
@@ -268,6 +318,27 @@ export class Overlay {
             halo,
             'center',
         );
+    }
+}
+
+/** A line from a place to its marker. */
+function leader(
+    g: CanvasRenderingContext2D,
+    [x0, y0]: readonly number[],
+    [x1, y1]: readonly number[],
+    ink: string,
+    halo: string,
+): void {
+    for (const [colour, width] of [
+        [halo, 4],
+        [ink, 1.5],
+    ] as const) {
+        g.strokeStyle = colour;
+        g.lineWidth = width;
+        g.beginPath();
+        g.moveTo(x0, y0);
+        g.lineTo(x1, y1);
+        g.stroke();
     }
 }
 

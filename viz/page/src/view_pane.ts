@@ -1,8 +1,9 @@
 // The view: the surfaces of one or two logs on canvases of their own, what stands over them, and the
 // pointer. Left of the wipe lies the log before.
 
-import { Camera, extentAlong, views, type Extent } from './camera';
-import type { ColourMap, ColourScale } from './colour';
+import { Camera, extentAlong, views, wholeScale, type Extent } from './camera';
+import { shownCells, waySegments } from './cells';
+import { rgbOf, type ColourMap, type ColourScale } from './colour';
 import { afterRest, baseName, element, oncePerFrame, styleValue } from './dom';
 import { GlView, normalsOf } from './gl_view';
 import type { Manifest } from './manifest';
@@ -27,23 +28,6 @@ interface Layer {
     normals: Map<number, Float32Array>; // by role
 }
 
-/** Corners of the way as pairs, for style lines. */
-function waySegments(surface: Surface): Uint32Array {
-    const pairs: number[] = [];
-    for (let i = 1; i < surface.count; ++i) if (surface.joined(i)) pairs.push(i - 1, i);
-    return Uint32Array.from(pairs);
-}
-
-/** The cells of `size` corners whose corners are all shown. */
-function shownCells(corners: Uint32Array, size: number, shows: (vertex: number) => boolean): Uint32Array {
-    const out: number[] = [];
-    for (let at = 0; at + size <= corners.length; at += size) {
-        const cell = corners.subarray(at, at + size);
-        if (cell.every(shows)) out.push(...cell);
-    }
-    return Uint32Array.from(out);
-}
-
 export class ViewPane {
     readonly element = element('div', {
         class: 'view',
@@ -52,6 +36,7 @@ export class ViewPane {
         'aria-label': 'the surface; drag to turn, shift and drag to move, wheel to zoom',
     });
     readonly camera = new Camera();
+    showDefect: (index: number) => void = () => undefined; // whose marker is clicked
     private readonly layers: Layer[] = [];
     private readonly overlay: Overlay;
     private readonly shown: ShownValues;
@@ -261,6 +246,8 @@ export class ViewPane {
         this.camera.centre = [0, 1, 2].map((k) => (low[k] + high[k]) / 2) as [number, number, number];
         const size = Math.max(Math.hypot(...[0, 1, 2].map((k) => high[k] - low[k])), 12 * step);
         this.camera.mmPerPixel = (2.2 * size) / Math.min(this.camera.width, this.camera.height);
+        const whole = this.extent();
+        if (this.camera.mmPerPixel > wholeScale(whole, this.camera.width, this.camera.height)) this.camera.fit(whole);
         this.draw();
     }
     /** Moves the picture so that a vertex lies in it, if it does not. */
@@ -443,6 +430,8 @@ export class ViewPane {
             return;
         }
         if (!drag || drag.moved) return;
+        const defect = this.defectAt(x, y);
+        if (defect !== null) return this.showDefect(defect);
         const vertex = this.pick(x, y);
         if (this.store.state.tool === 'measure') {
             if (vertex === null) return;
@@ -453,12 +442,20 @@ export class ViewPane {
         if (vertex !== null) this.store.set({ vertex, line: this.surface.line[vertex], defect: null, pass: 0 });
     }
 
+    /** The defect whose marker is there. */
+    private defectAt(x: number, y: number): number | null {
+        return this.store.state.tool === 'turn' ? (this.overlay.tagAt(x, y)?.defect ?? null) : null;
+    }
+
     private hoverAt: [number, number] | null = null;
     private readonly hoverLater = oncePerFrame(() =>
         this.store.set({ hover: this.hoverAt ? this.pick(...this.hoverAt) : null }),
     );
     private hover(x: number, y: number): void {
         this.hoverAt = [x, y];
+        const defect = this.defectAt(x, y);
+        this.overlay.canvas.style.cursor = defect === null ? '' : 'pointer';
+        this.overlay.canvas.title = defect === null ? '' : `show defect ${this.manifest.defects[defect].id}`;
         this.hoverLater();
     }
 
@@ -483,10 +480,4 @@ export class ViewPane {
             canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('no picture'))), 'image/png'),
         );
     }
-}
-
-/** "#rrggbb" → three numbers. */
-function rgbOf(colour: string): [number, number, number] {
-    const value = Number.parseInt(colour.replace('#', ''), 16);
-    return [(value >> 16) & 255, (value >> 8) & 255, value & 255];
 }

@@ -1,0 +1,151 @@
+// What is drawn over the surface: no label covers a marker, no marker stands behind the title, and the surface has no
+// colours that its values do not have.
+
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+
+import {
+    checkedBottle,
+    closeReport,
+    goTo,
+    numbers,
+    openReport,
+    press,
+    reports,
+    settled,
+    startBrowser,
+} from './browser.mjs';
+
+let browser;
+before(async () => (browser = await startBrowser()));
+after(() => browser?.close());
+
+const { defects } = checkedBottle();
+
+/** From here on the page notes each picture: boxes of markers, and of texts by what they say. */
+async function watchDrawing(page) {
+    await page.evaluate(() => {
+        const drawn = (window.drawn = { markers: [], texts: [] });
+        const overlay = document.querySelector('.overlay');
+        const { roundRect, fillText } = window.CanvasRenderingContext2D.prototype;
+        const size = Object.getOwnPropertyDescriptor(window.HTMLCanvasElement.prototype, 'width');
+        Object.defineProperty(overlay, 'width', {
+            get: () => size.get.call(overlay),
+            set(value) {
+                drawn.markers.length = drawn.texts.length = 0; // a new picture begins
+                size.set.call(overlay, value);
+            },
+        });
+        window.CanvasRenderingContext2D.prototype.roundRect = function (x, y, width, height, radius) {
+            if (this.canvas === overlay)
+                drawn.markers.push({ left: x, top: y, right: x + width, bottom: y + height, text: '' });
+            return roundRect.call(this, x, y, width, height, radius);
+        };
+        window.CanvasRenderingContext2D.prototype.fillText = function (text, x, y, ...rest) {
+            if (this.canvas === overlay) {
+                const { width } = this.measureText(text);
+                const left = this.textAlign === 'center' ? x - width / 2 : this.textAlign === 'right' ? x - width : x;
+                drawn.texts.push({ text, left, top: y - 7, right: left + width, bottom: y + 7 });
+                const marker = drawn.markers.at(-1);
+                if (marker && !marker.text && /^\d+$/.test(text)) marker.text = text;
+            }
+            return fillText.call(this, text, x, y, ...rest);
+        };
+    });
+}
+
+const meet = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+const drawn = (page) => page.evaluate(() => window.drawn);
+const names = (boxes) => boxes.map(({ text }) => text);
+
+test('the label of a point covers no marker', async () => {
+    const page = await openReport(browser, reports.ball);
+    await watchDrawing(page);
+    for (const point of [4848, ...defects.map((defect) => defect.point)]) {
+        await goTo(page, 'point', point);
+        const { markers, texts } = await drawn(page);
+        const label = texts.find(({ text }) => text.startsWith(`point ${point},`));
+        assert.ok(markers.length > 5 && label, `point ${point}`);
+        assert.deepEqual(names(markers.filter((box) => meet(box, label))), [], `under "${label.text}"`);
+    }
+    await closeReport(page);
+});
+
+test('no marker stands behind the title or another one', async () => {
+    const page = await openReport(browser, reports.ball);
+    await watchDrawing(page);
+    for (const { id } of defects.map((_, k) => ({ id: k + 1 }))) {
+        await press(page, 'd');
+        const { markers, texts } = await drawn(page);
+        assert.ok(names(markers).includes(String(id)), `defect ${id} has no marker in its own view`);
+        const title = texts.filter(({ left }) => left === 12);
+        assert.equal(title.length, 2);
+        for (const text of title)
+            assert.deepEqual(names(markers.filter((box) => meet(box, text))), [], `behind "${text.text}"`);
+        markers.forEach((box, k) =>
+            assert.deepEqual(names(markers.slice(k + 1).filter((other) => meet(box, other))), [], `on ${box.text}`),
+        );
+    }
+    await closeReport(page);
+});
+
+test('a marker that is clicked shows its defect', async () => {
+    const page = await openReport(browser, reports.ball);
+    await watchDrawing(page);
+    await press(page, 't');
+    for (const text of (await drawn(page)).markers.slice(0, 3).map((marker) => marker.text)) {
+        await press(page, 't');
+        const box = (await drawn(page)).markers.find((marker) => marker.text === text);
+        const position = { x: (box.left + box.right) / 2, y: (box.top + box.bottom) / 2 };
+        await page.locator('.overlay').hover({ position });
+        assert.equal(await page.getAttribute('.overlay', 'title'), `show defect ${text}`);
+        await page.locator('.overlay').click({ position });
+        await page.mouse.move(2, 2);
+        assert.equal(Number((await numbers(page)).Point), defects[Number(text) - 1].point);
+        assert.match(await page.textContent('.card h2'), new RegExp(`^Defect ${text}$`));
+    }
+    await closeReport(page);
+});
+
+/** How many pixels of the view are more green than red, as no colour of magma is; that of values beyond its upper end is. */
+async function strangePixels(page) {
+    const png = await page.locator('.view').screenshot();
+    return page.evaluate(async (data) => {
+        const image = new Image();
+        image.src = `data:image/png;base64,${data}`;
+        await image.decode();
+        const canvas = document.createElement('canvas');
+        [canvas.width, canvas.height] = [image.width, image.height];
+        const g = canvas.getContext('2d');
+        g.drawImage(image, 0, 0);
+        const { data: rgba } = g.getImageData(0, 0, image.width, image.height);
+        let found = 0;
+        for (let i = 0; i < rgba.length; i += 4) if (rgba[i + 1] > rgba[i] + 25) ++found;
+        return found;
+    }, png.toString('base64'));
+}
+
+test('edges have no dots in the colour of values that are not there', async () => {
+    const page = await openReport(browser, reports.ball);
+    assert.equal(await page.getByLabel('colour map').inputValue(), 'magma');
+    assert.equal(await strangePixels(page), 0);
+    // Where there are values beyond the end their colour is seen.
+    await page.getByLabel('upper end of the range').fill('50');
+    await page.getByLabel('upper end of the range').press('Enter');
+    await settled(page);
+    assert.ok((await strangePixels(page)) > 1000);
+    await closeReport(page);
+});
+
+test('the view of a defect all over the part shows the part, no less', async () => {
+    const page = await openReport(browser, reports.ball);
+    await watchDrawing(page);
+    const barOf = async () => Number.parseFloat((await drawn(page)).texts.find(({ text }) => / mm$/.test(text)).text);
+    await press(page, 'h');
+    const whole = await barOf();
+    for (let k = 0; k < defects.length; ++k) {
+        await press(page, 'd');
+        assert.ok((await barOf()) <= 2 * whole, `defect ${k + 1}`);
+    }
+    await closeReport(page);
+});
