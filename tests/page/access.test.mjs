@@ -86,6 +86,22 @@ test('one-letter keys are switched off, and stay so', async () => {
     await closeReport(page);
 });
 
+test('the view turns, moves and zooms by keys', async () => {
+    const page = await openReport(browser, file);
+    const view = () => page.getAttribute('.view', 'data-view');
+    await page.locator('.view').focus();
+    let before_ = await page.locator('.overlay').screenshot();
+    for (const key of ['+', 'Shift+ArrowLeft', 'ArrowUp']) {
+        await page.keyboard.press(key);
+        await settled(page);
+        const after_ = await page.locator('.overlay').screenshot();
+        assert.notDeepEqual(after_, before_, key);
+        before_ = after_;
+    }
+    assert.equal(await view(), '45°, 29°');
+    await closeReport(page);
+});
+
 test('on a phone everything stands in one column', async () => {
     const page = await openReport(browser, file, { width: 390, height: 844 });
     assert.deepEqual(await tooWide(page), []);

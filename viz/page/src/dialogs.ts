@@ -40,6 +40,9 @@ export function showKeys(actions: Action[], store: Store): void {
         ['shift and drag, or the right button', 'move'],
         ['wheel', 'zoom'],
         ['double click', 'show the whole part'],
+        ['arrow keys, in the view', 'turn'],
+        ['shift and arrow keys, in the view', 'move'],
+        ['+ and −, in the view', 'zoom'],
         ['click', 'select the place, its line and its point on the curves'],
     ].map(([what, does]) => element('tr', {}, element('td', {}, what), element('td', {}, does)));
     const on = element('input', { type: 'checkbox', name: 'keys' });

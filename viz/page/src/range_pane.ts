@@ -13,9 +13,9 @@ const beside = 0.25; // of the usual range, seen to each side of it
 export class RangePane {
     readonly element = element('div', { class: 'range' });
     private readonly canvas = element('canvas', {
-        title: 'drag either end of the range',
+        title: 'drag either end of the range; arrow keys move the high end, with shift the low one',
         tabindex: '0',
-        'aria-label': 'colour range',
+        'aria-label': 'colour range; arrow keys move the high end, with shift the low one',
     });
     private readonly low = element('input', { type: 'number', step: 'any', 'aria-label': 'lower end of the range' });
     private readonly high = element('input', { type: 'number', step: 'any', 'aria-label': 'upper end of the range' });

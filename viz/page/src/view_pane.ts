@@ -10,6 +10,7 @@ import type { Manifest } from './manifest';
 import { marksOf } from './marks';
 import { legendWidth, Overlay, viewName, type OverlayScene } from './overlay';
 import { drawTool } from './tool_shape';
+import { listenToKeys } from './view_keys';
 import { Picker } from './picker';
 import type { ProgrammedPath } from './programmed';
 import type { Relief } from './relief';
@@ -33,7 +34,7 @@ export class ViewPane {
         class: 'view',
         tabindex: '0',
         role: 'group',
-        'aria-label': 'the surface; drag to turn, shift and drag to move, wheel to zoom',
+        'aria-label': 'the surface; arrow keys turn, with shift they move, plus and minus zoom',
     });
     readonly camera = new Camera();
     showDefect: (index: number) => void = () => undefined; // whose marker is clicked
@@ -69,6 +70,7 @@ export class ViewPane {
         this.element.append(canvas);
         this.overlay = new Overlay(canvas);
         this.listen(canvas);
+        listenToKeys(this.element, this.camera, () => this.drawMoving());
         store.on((_, changed) => this.update(changed));
         new ResizeObserver(() => this.resize()).observe(this.element);
     }
