@@ -17,6 +17,7 @@
 #include "log/log.h"
 #include "mapping/line_map.h"
 #include "pipeline/roughness_gauge.h"
+#include "pipeline/speed_reasons.h"
 #include "surface/cl_surface.h"
 #include "surface/path_location.h"
 #include "toolpath/trajectory.h"
@@ -35,6 +36,7 @@ struct PageSurface {
     std::span<const std::uint8_t> joined;      ///< per kept point: goes on from the one before
     std::span<const std::uint32_t> triangles;  ///< numbers of kept points
     std::span<const std::uint32_t> segments;
+    const SlowWords* slow = nullptr;                   ///< of the kept points
     std::span<const PathLocation> places_before = {};  ///< per point of the log: the same place of the log before
 };
 

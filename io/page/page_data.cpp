@@ -151,6 +151,24 @@ std::string kinds_of(const PageSurface& s) {
     return kinds;
 }
 
+/// Why the tool is slow: pieces of text, one a line, and for each kept point which of them are joined. Without slow points nothing.
+void add_slow_words(Blocks& blocks, Json& json, const std::string& base, const PageSurface& s) {
+    if (s.slow == nullptr || s.slow->columns.empty()) return;
+    json["slow"]["columns"] = Json::array();
+    blocks.add(at(base + "/slow", "speed"), [&s] { return pack_integers(s.slow->speeds); });
+    blocks.add(at(base + "/slow", "pieces"), [&s] {
+        std::string text;
+        for (const std::string& piece : s.slow->pieces) text += piece + '\n';
+        return pack_bytes(text);
+    });
+    for (const std::vector<std::uint32_t>& column : s.slow->columns) {
+        const std::string here = std::to_string(json["slow"]["columns"].size());
+        json["slow"]["columns"].push_back(nullptr);
+        blocks.add(at(base + "/slow/columns", here),
+                   [&column] { return pack_numbers(std::span<const std::uint32_t>(column), 1); });
+    }
+}
+
 Json surface_json(Blocks& blocks, const std::string& base, const ReportPage& page, const PageSurface& s,
                   const std::string& name) {
     const ClSurface& surface = *s.surface;
@@ -198,6 +216,7 @@ Json surface_json(Blocks& blocks, const std::string& base, const ReportPage& pag
             });
         });
     }
+    add_slow_words(blocks, json, base, s);
     for (std::size_t k = 0; k < s.fields.size(); ++k)
         add_field(blocks, json["fields"], base, s, s.fields[k], page.ranges[k]);
     return json;

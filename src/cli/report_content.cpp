@@ -15,7 +15,6 @@
 #include "field/field_set.h"
 #include "log/health.h"
 #include "pipeline/contacts.h"
-#include "pipeline/part_fields.h"
 #include "pipeline/signals_of.h"
 #include "pipeline/speed_reasons.h"
 #include "predictor/outline.h"
@@ -61,14 +60,6 @@ std::string first_field(const std::vector<Field>& fields, const std::string& wan
         infos.push_back(field.info);
     }
     unknown_field(wanted, infos);
-}
-
-/// [mm/s]; of the fields that are shown, which were computed once, else computed at the point.
-double speed_at(const ReportLog& shown, PointIndex point) {
-    for (const Field& field : shown.fields) {
-        if (field.info.name == "speed") return field.values[static_cast<std::size_t>(point)];
-    }
-    return path_fields_of(shown.part, shown.surface).get_all({"speed"}, {point, point}).front().values[0];
 }
 
 }  // namespace
@@ -118,7 +109,7 @@ void add_report_pictures(io::ReportPage& page, const ReportLog& shown, const Rep
         page.defects[i].picture = picture_of_defect(pictured, read.signals, i);
         const Defect& defect = shown.quality.report.defects[i];
         if (!(defect.speed_mismatch < 0)) continue;
-        const double speed = speed_at(shown, defect.point);
+        const double speed = speeds_of(shown)[static_cast<std::size_t>(defect.point)];
         page.defects[i].slow = words_of(speed_reasons(shown.part, defect.point, speed), speed);
     }
 }

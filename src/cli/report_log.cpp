@@ -26,6 +26,7 @@ void choose_points(ReportLog& shown, PointIndex most) {
     // The ends of passes are among the points, so the nearer one stands for those between, however far.
     shown.bands =
         viz::join_passes(shown.surface, shown.vertices, viz::NearnessFrame(), std::numeric_limits<float>::max());
+    shown.slow = slow_words(shown.part, shown.kept.points, speeds_of(shown));
 }
 
 io::PageSurface page_surface(const ReportLog& shown) {
@@ -40,6 +41,7 @@ io::PageSurface page_surface(const ReportLog& shown) {
     page.joined = shown.vertices.joined;
     page.triangles = shown.bands.triangles;
     page.segments = shown.bands.segments;
+    page.slow = &shown.slow;
     page.places_before = shown.places_before;
     return page;
 }
@@ -61,6 +63,13 @@ bool has_values(const Field& field, const Passes& passes) {
 }
 
 }  // namespace
+
+std::span<const float> speeds_of(const ReportLog& shown) {
+    for (const Field& field : shown.fields) {
+        if (field.info.name == "speed") return field.values;
+    }
+    return shown.speed;
+}
 
 ReportLog load_report_log(const PartOptions& part_options, const ReportOptions& options, StageClock& clock) {
     ReportLog shown;
@@ -85,6 +94,7 @@ ReportLog load_report_log(const PartOptions& part_options, const ReportOptions& 
         // What was asked for by name must be there; of the usual ones a log has some.
         if (!usual || has_values(field, shown.surface.passes)) shown.fields.push_back(std::move(field));
     }
+    if (speeds_of(shown).empty()) shown.speed = std::move(fields->get("speed").values);
     shown.other_roles = other_roles(shown.part);
     clock.end();
     return shown;

@@ -2,6 +2,7 @@
 // ReportLog: what a report shows of one log, and the page that holds as much of it as may be.
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "cli/report_options.h"
@@ -9,6 +10,7 @@
 #include "io/page/report_page.h"
 #include "io/reports/acceptance.h"
 #include "pipeline/judge.h"
+#include "pipeline/speed_reasons.h"
 #include "surface/path_location.h"
 #include "viz/bands.h"
 
@@ -21,12 +23,17 @@ struct ReportLog {
     Quality quality;
     std::optional<io::Acceptance> acceptance;  ///< of the log that is shown, where there is a file
     std::vector<Field> fields;
+    Column<float> speed;  ///< per point [mm/s], where it is none of the fields
     std::vector<Trajectory> other_roles;
     Column<PathLocation> places_before;  ///< per point, on the log before; empty: there is none
     KeptPoints kept;
+    SlowWords slow;
     viz::SectionVertices vertices;
     viz::Bands bands;
 };
+
+/// The path speed at every point [mm/s].
+[[nodiscard]] std::span<const float> speeds_of(const ReportLog& shown);
 
 /// Reads and judges a log, and computes its fields. Throws InputError, UsageError.
 [[nodiscard]] ReportLog load_report_log(const PartOptions& part_options, const ReportOptions& options,

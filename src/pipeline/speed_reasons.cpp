@@ -1,15 +1,16 @@
 #include "pipeline/speed_reasons.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/block.h"
 #include "core/units.h"
 #include "pipeline/channel_classes.h"
 #include "pipeline/feed_fields.h"
@@ -24,49 +25,82 @@ constexpr std::int64_t blocks_nearby = 10;  ///< to each side
 constexpr double least_corner = 20;         ///< [deg]
 constexpr double corner_time = 0.02;  ///< [s] at the programmed feed: as far ahead and behind a corner is looked for
 constexpr double least_share = 0.9;   ///< of a limit
+constexpr PointIndex points_at_once = 16 * block_points;  ///< whose shares of limits are in memory together
 
-/// What the channel `limit` says.
-std::optional<std::string> named_limit(const Part& part, PointIndex point) {
-    const Channel* channel = part.log.find("limit");
-    if (channel == nullptr) return std::nullopt;
-    const auto value = static_cast<float>(channel->values.at(point));
-    for (const ChannelClasses& known : channel_classes()) {
-        if (known.channel != channel->name) continue;
-        for (const FieldClass& factor : known.classes) {
+/// What the channels `limit` and `override` say.
+class LogReasons {
+public:
+    explicit LogReasons(const Log& log) : limit_(log.find("limit")), override_(log.find("override")) {
+        if (limit_ == nullptr) return;
+        for (ChannelClasses& known : channel_classes()) {
+            if (known.channel == limit_->name) factors_ = std::move(known.classes);
+        }
+    }
+
+    [[nodiscard]] bool has_override() const { return override_ != nullptr; }
+    [[nodiscard]] std::optional<std::string> named_limit(PointIndex point) const {
+        if (limit_ == nullptr) return std::nullopt;
+        const auto value = static_cast<float>(limit_->values.at(point));
+        for (const FieldClass& factor : factors_) {
             if (factor.value == value && !factor.good) return "limited by: " + factor.name;
         }
+        return std::nullopt;
     }
-    return std::nullopt;
-}
+    [[nodiscard]] std::optional<std::string> override_below_full(PointIndex point) const {
+        if (override_ == nullptr) return std::nullopt;
+        const double percent = override_->values.at(point);
+        if (!(percent < 100)) return std::nullopt;
+        return fmt::format("feed override {:.0f} %", percent);
+    }
 
-std::optional<std::string> override_below_full(const Part& part, PointIndex point) {
-    const Channel* channel = part.log.find("override");
-    if (channel == nullptr) return std::nullopt;
-    const double percent = channel->values.at(point);
-    if (!(percent < 100)) return std::nullopt;
-    return fmt::format("feed override {:.0f} %", percent);
-}
+private:
+    const Channel* limit_;
+    const Channel* override_;
+    std::vector<FieldClass> factors_;
+};
 
-/// The axis that is nearest to a limit, or beyond it.
-std::optional<std::string> nearest_limit(const Part& part, PointIndex point) {
-    if (part.limits.empty()) return std::nullopt;
-    const std::shared_ptr<const LimitFields> fields = limit_fields(part);
-    double most = least_share;
-    std::optional<std::string> words;
-    for (const std::string_view quantity : {"speed", "acceleration", "jerk"}) {
-        for (const char axis : {'x', 'y', 'z', 'a', 'b', 'c'}) {
-            const std::string name = fmt::format("{}_share.{}", quantity, axis);
-            if (!fields->can_compute(name)) continue;
-            const std::array<std::string_view, 1> names{name};
-            const double share = fields->compute(names, {point, point}).front().values[0];
-            if (!(share >= most)) continue;
-            most = share;
-            words = fmt::format("{} of {} at {:.0f} % of its limit", quantity, static_cast<char>(axis - 'a' + 'A'),
-                                100 * share);
+/// How near each axis is to its limits.
+class AxisShares {
+public:
+    explicit AxisShares(const Part& part) {
+        if (part.limits.empty()) return;
+        fields_ = limit_fields(part);
+        for (const std::string_view quantity : {"speed", "acceleration", "jerk"}) {
+            for (const char axis : {'x', 'y', 'z', 'a', 'b', 'c'}) {
+                const std::string name = fmt::format("{}_share.{}", quantity, axis);
+                if (!fields_->can_compute(name)) continue;
+                names_.push_back(name);
+                words_.push_back(fmt::format("{} of {}", quantity, static_cast<char>(axis - 'a' + 'A')));
+            }
         }
     }
-    return words;
-}
+
+    /// Computes those of some points, for nearest().
+    void read(PointRange points) {
+        if (names_.empty() || points.size() == 0) return;
+        first_ = points.first;
+        shares_ = fields_->compute(std::vector<std::string_view>(names_.begin(), names_.end()), points);
+    }
+    /// The axis that is nearest to a limit, or beyond it.
+    [[nodiscard]] std::optional<std::string> nearest(PointIndex point) const {
+        double most = least_share;
+        std::optional<std::size_t> found;
+        for (std::size_t k = 0; k < shares_.size(); ++k) {
+            const double share = shares_[k].values[static_cast<std::size_t>(point - first_)];
+            if (!(share >= most)) continue;
+            most = share;
+            found = k;
+        }
+        if (!found) return std::nullopt;
+        return fmt::format("{} at {:.0f} % of its limit", words_[*found], 100 * most);
+    }
+
+private:
+    std::shared_ptr<const LimitFields> fields_;
+    std::vector<std::string> names_, words_;
+    PointIndex first_ = 0;
+    std::vector<Field> shares_;  ///< of the points that were read
+};
 
 /// The motions round one, and where the tool turns between them.
 class BlocksNearby {
@@ -124,31 +158,100 @@ private:
     double feed_;
 };
 
+/// The programmed feed at a point [mm/s] where the tool is slower than that; nothing: it is not.
+std::optional<double> feed_above(const Part& part, PointIndex point, double speed) {
+    const double feed = programmed_feed_at(part, point);
+    return speed < slow * feed ? std::optional(feed) : std::nullopt;
+}
+
+/// All that explains a slow point, the surest first.
+std::vector<std::string> reasons_at(const Part& part, PointIndex point, double feed, const LogReasons& log,
+                                    const AxisShares& shares) {
+    std::vector<std::string> reasons;
+    const auto add = [&](std::optional<std::string> reason) {
+        if (reason) reasons.push_back(std::move(*reason));
+    };
+    const BlocksNearby blocks(part.program.motions, part.lines->motion_at(point), feed);
+    add(log.named_limit(point));
+    add(log.override_below_full(point));
+    add(blocks.short_blocks());
+    add(blocks.corner());
+    add(shares.nearest(point));
+    if (reasons.empty())
+        reasons.emplace_back(log.has_override()
+                                 ? "nothing in program and log explains it: a ramp or a feed hold?"
+                                 : "nothing in program and log explains it: a ramp, a feed override or a feed hold?");
+    return reasons;
+}
+
+/// What words_of() says after the speed: "of F3000 mm/min", ": blocks of 0.02 mm", "; a corner of 35° before line 12".
+std::vector<std::string> pieces_of(const SpeedReasons& why) {
+    std::vector<std::string> pieces{fmt::format("of F{:.0f} mm/min", why.programmed_feed * seconds_per_minute)};
+    for (const std::string& reason : why.reasons) pieces.push_back((pieces.size() == 1 ? ": " : "; ") + reason);
+    return pieces;
+}
+
+/// From the first to the last of these points that is slow; empty: none is.
+PointRange slow_range(const Part& part, std::span<const PointIndex> points, std::span<const float> speeds) {
+    PointRange range{0, -1};
+    for (const PointIndex point : points) {
+        if (!feed_above(part, point, speeds[static_cast<std::size_t>(point)])) continue;
+        if (range.size() == 0) range.first = point;
+        range.last = point;
+    }
+    return range;
+}
+
 }  // namespace
 
 SpeedReasons speed_reasons(const Part& part, PointIndex point, double speed) {
     SpeedReasons result{programmed_feed_at(part, point), {}};
-    if (!(speed < slow * result.programmed_feed)) return result;
-    const auto add = [&](std::optional<std::string> reason) {
-        if (reason) result.reasons.push_back(std::move(*reason));
-    };
-    const BlocksNearby blocks(part.program.motions, part.lines->motion_at(point), result.programmed_feed);
-    add(named_limit(part, point));
-    add(override_below_full(part, point));
-    add(blocks.short_blocks());
-    add(blocks.corner());
-    add(nearest_limit(part, point));
-    if (result.reasons.empty())
-        result.reasons.push_back(part.log.find("override") == nullptr
-                                     ? "nothing in program and log explains it: a ramp, a feed override or a feed hold?"
-                                     : "nothing in program and log explains it: a ramp or a feed hold?");
+    if (!feed_above(part, point, speed)) return result;
+    AxisShares shares(part);
+    shares.read({point, point});
+    result.reasons = reasons_at(part, point, result.programmed_feed, LogReasons(part.log), shares);
     return result;
 }
 
 std::string words_of(const SpeedReasons& why, double speed) {
     if (why.reasons.empty()) return {};
-    return fmt::format("{:.0f} of F{:.0f} mm/min: {}", speed * seconds_per_minute,
-                       why.programmed_feed * seconds_per_minute, fmt::join(why.reasons, "; "));
+    return fmt::format("{:.0f} {}", speed * seconds_per_minute, fmt::join(pieces_of(why), ""));
+}
+
+SlowWords slow_words(const Part& part, std::span<const PointIndex> points, std::span<const float> speeds) {
+    SlowWords all{{}, {{}}, {}};
+    if (speeds.empty()) return all;
+    std::int64_t rounded = 0;
+    std::unordered_map<std::string, std::uint32_t> known;
+    const LogReasons log(part.log);
+    AxisShares shares(part);
+    for (std::size_t first = 0; first < points.size();) {
+        std::size_t end = first;
+        while (end < points.size() && points[end] - points[first] < points_at_once) ++end;
+        shares.read(slow_range(part, points.subspan(first, end - first), speeds));
+        std::vector<std::vector<std::string>> pieces(end - first);
+        parallel_for(static_cast<std::int64_t>(pieces.size()), block_points, [&](std::int64_t from, std::int64_t to) {
+            for (auto k = static_cast<std::size_t>(from); k < static_cast<std::size_t>(to); ++k) {
+                const PointIndex point = points[first + k];
+                const std::optional<double> feed = feed_above(part, point, speeds[static_cast<std::size_t>(point)]);
+                if (feed) pieces[k] = pieces_of({*feed, reasons_at(part, point, *feed, log, shares)});
+            }
+        });
+        for (std::size_t k = 0; k < pieces.size(); ++k) {
+            const double speed = speeds[static_cast<std::size_t>(points[first + k])];
+            if (!pieces[k].empty()) rounded = std::llrint(speed * seconds_per_minute);  // as fmt rounds
+            all.speeds.push_back(rounded);
+            for (std::size_t c = 0; c < pieces[k].size(); ++c) {
+                const auto [piece, is_new] =
+                    known.try_emplace(pieces[k][c], static_cast<std::uint32_t>(all.pieces.size()));
+                if (is_new) all.pieces.push_back(pieces[k][c]);
+                if (c == all.columns.size()) all.columns.emplace_back(points.size(), 0U);
+                all.columns[c][first + k] = piece->second;
+            }
+        }
+        first = end;
+    }
+    return all;
 }
 
 std::string slow_points(const std::vector<PointIndex>& points, const Part& part, const FieldSet& fields) {

@@ -59,6 +59,11 @@ test('a small page keeps what it says it keeps, and says what it leaves out', as
         await goTo(page, 'line', 12_000);
         assert.equal(Number((await numbers(page)).Point), query('--line', '12000')[0].point);
     }
+    // So are the reasons of what is slow, of the points that are kept.
+    await goTo(page, 'point', 123_456);
+    const kept = await numbers(page);
+    const reasons = query('--point', kept.Point)[0].slow_because ?? [];
+    assert.equal(kept.Slow.replace(/^.*?: /, ''), reasons.join('; ') || 'no');
     // The place where a defect is strongest is there.
     const { defects } = JSON.parse(run('check', part.program, part.log, '--json', '-q'));
     for (const k of [0, defects.length - 1]) {

@@ -45,6 +45,19 @@ test('a place that is clicked shows its line, as query says', async () => {
     }
 });
 
+test('why the tool is slow at any point, in the words of query', async () => {
+    let slow = 0;
+    for (const point of [560, 4848, 4822, 9100, 13_500, 20_000, 23_519]) {
+        await goTo(page, 'point', point);
+        const [match] = query('--point', String(point));
+        const reasons = match.slow_because ?? [];
+        const words = `${match.speed_mm_min.toFixed(0)} of F${match.feed_mm_min} mm/min: ${reasons.join('; ')}`;
+        assert.equal((await numbers(page)).Slow, reasons.length > 0 ? words : 'no');
+        slow += Number(reasons.length > 0);
+    }
+    assert.ok(slow > 1 && slow < 7, `${slow} points are slow`);
+});
+
 test('from above, a pixel to the right is X, a pixel down is Y, both alike', async () => {
     await page.click('[data-action="top"]');
     const places = [];

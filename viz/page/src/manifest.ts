@@ -69,6 +69,13 @@ export interface Defect {
     outlines: number[][]; // x, y, z of the corners of closed lines
 }
 
+/** Why the tool is slow: pieces of text, one a line, and for each vertex which of them are joined. */
+export interface SlowInfo {
+    speed: PackedColumn; // [mm/min] before the pieces
+    pieces: PackedColumn;
+    columns: PackedColumn[];
+}
+
 export interface SurfaceInfo {
     log: string;
     role: string;
@@ -96,6 +103,7 @@ export interface SurfaceInfo {
         passes: PackedColumn;
         before?: PackedColumn; // place on the log before, in sixteenths of a step, from 1; 0: none
     };
+    slow?: SlowInfo; // where the tool is slow anywhere
     roles: { name: string; x: PackedColumn; y: PackedColumn; z: PackedColumn }[];
     fields: { name: string; quantum: number; values: PackedColumn; missing?: PackedColumn }[];
 }

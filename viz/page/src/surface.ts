@@ -3,6 +3,7 @@
 
 import { readBytes, readIndices, readNumbers } from './columns';
 import type { Manifest, SurfaceInfo } from './manifest';
+import { readSlowWords, type SlowWords } from './slow_words';
 import { lowerBound } from './thin';
 
 export const enum Kind {
@@ -31,6 +32,7 @@ export class Surface {
         readonly segments: Uint32Array,
         readonly fields: Float32Array[], // shown units; NaN: no value
         readonly passes: Float64Array, // first and last point of each cut pass
+        readonly slow: SlowWords | null, // null: the tool is slow nowhere, or it is not known
         readonly before: Float64Array | null, // the same place on the log before, in points; < 0: none
     ) {
         this.line = new Uint32Array(point.length);
@@ -202,6 +204,7 @@ export async function readSurface(manifest: Manifest, index: number): Promise<Su
         await readIndices(columns.segments),
         fields,
         await readNumbers(columns.passes),
+        info.slow ? await readSlowWords(info.slow) : null,
         columns.before ? (await readNumbers(columns.before)).map((n) => n / 16 - 1) : null,
     );
 }

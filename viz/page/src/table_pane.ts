@@ -27,6 +27,13 @@ export class TablePane {
         this.draw();
     }
 
+    /** Why the tool is slow there, where the page knows it of any point. */
+    private slowRow(surface: Surface, vertex: number): HTMLElement[] {
+        if (!surface.slow) return [];
+        const text = surface.slow.at(vertex) || 'no';
+        return [element('tr', {}, element('th', {}, 'Slow'), element('td', { class: 'words', colspan: '2' }, text))];
+    }
+
     private draw(): void {
         const { vertex, hover, role } = this.store.state;
         const at = hover ?? vertex;
@@ -64,7 +71,13 @@ export class TablePane {
             ),
             row('Time', surface.time[at].toFixed(4), 's'),
             row('Pass', String(surface.passOf(at) || '–'), `of ${surface.info.pass_count}`),
-            row('X Y Z', place, 'mm'),
+            ...this.slowRow(surface, at),
+            element(
+                'tr',
+                {},
+                element('th', {}, 'X Y Z'),
+                element('td', { class: 'words', colspan: '2' }, `${place} mm`),
+            ),
             ...this.manifest.fields.map((field, k) => row(field.label, numberText(surface.fields[k][at]), field.unit)),
         ];
         this.element.replaceChildren(element('table', {}, element('tbody', {}, ...rows)));
