@@ -60,7 +60,8 @@ export class DefectCard {
                 ' ',
             );
         }
-        if (known.length > mostRuns) list.append(`and ${known.length - mostRuns} more`);
+        if (known.length > mostRuns)
+            list.append(element('span', { class: 'more' }, `and ${known.length - mostRuns} more`));
         return [element('div', { class: 'lines' }, element('dt', {}, name), list)];
     }
 
