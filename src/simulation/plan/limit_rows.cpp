@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Core>
-
 #include "core/vectorised.h"
 
 namespace clsurf {
@@ -38,8 +36,7 @@ struct LimitRows::Kernels {
         multiply(g.w, about, at);
         multiply(g.v, about, root);
         root += g.unit;
-        Eigen::Map<Eigen::Array4d> lanes(reinterpret_cast<double*>(&root));
-        lanes = lanes.sqrt();  // side by side: a loop over std::sqrt, which sets errno, is not vectorised
+        root = Four{std::sqrt(root[0]), std::sqrt(root[1]), std::sqrt(root[2]), std::sqrt(root[3])};
         bound = 1 / root;
         g.fall = -0.5 * bound * bound * bound;
     }
