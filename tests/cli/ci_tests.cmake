@@ -3,7 +3,7 @@ clsurf_cli_test(NAME ci_fail_on ARGS check ${part} ${run} --tool none --fail-on 
 clsurf_cli_test(NAME ci_fail_on_a_word ARGS check ${part} ${run} --tool none --fail-on visible EXIT 1 STDOUT "max_severity +[234] of 1 +NOT HELD")
 clsurf_cli_test(NAME ci_fail_on_what_is_not_there ARGS check @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip --fail-on reject STDOUT "max_severity +[0-3] of 3 +held")
 clsurf_cli_test(NAME ci_fail_on_an_unknown_word ARGS check ${part} ${run} --fail-on bad EXIT 2 STDERR "--fail-on: 'bad' is not one of trace, visible, distinct, reject, 1, 2, 3, 4")
-clsurf_cli_test(NAME ci_max_depth ARGS check ${part} ${run} --max-depth 5um EXIT 1 STDOUT "max_depth_um +[0-9.]+ of 5 +NOT HELD")
+clsurf_cli_test(NAME ci_max_depth ARGS check ${part} ${run} --tool none --max-depth 5um EXIT 1 STDOUT "max_depth_um +[0-9.]+ of 5 +NOT HELD")
 clsurf_cli_test(NAME ci_max_depth_in_mm ARGS check ${part} ${run} --tool none --max-depth 0.5mm STDOUT "max_depth_um +[0-9.]+ of 500 +held")
 clsurf_cli_test(NAME ci_max_depth_before_the_budget SETUP "echo 'max_depth_um = 1000' > part.toml" ARGS check ${part} ${run} --tool none --budget part.toml --max-depth 5µm EXIT 1 STDOUT " of 5 +NOT HELD")
 foreach(length 5 5in um -5um)

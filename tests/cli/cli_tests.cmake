@@ -273,12 +273,12 @@ clsurf_cli_test(NAME check_planted_loops ARGS check @DATA@/programs/planted_loop
          "1 visible +feed_drop .*-23[.]0 .* 2263-2270, 2537-2543" "3 defects on 25 passes")
 clsurf_cli_test(NAME check_json ARGS check ${part} ${run} --json
   STDOUT "\"cause\": \"point_spacing\"" "\"quantity\": \"speed\"" "\"within_budget\": true" "\"worst_severity\": 4")
-clsurf_cli_test(NAME check_csv ARGS check ${part} ${run} --format csv -o marks.csv FILE marks.csv)
-clsurf_cli_test(NAME check_sarif ARGS check ${part} ${run} --format sarif
+clsurf_cli_test(NAME check_csv ARGS check ${part} ${run} --tool none --format csv -o marks.csv FILE marks.csv)
+clsurf_cli_test(NAME check_sarif ARGS check ${part} ${run} --tool none --format sarif
   STDOUT "\"version\": \"2.1.0\"" "\"startLine\": 2408" "\"ruleId\": \"point_spacing\"")
-clsurf_cli_test(NAME check_budget_held SETUP "echo 'max_defects = 1000' > part.toml" ARGS check ${part} ${run} --budget part.toml
+clsurf_cli_test(NAME check_budget_held SETUP "echo 'max_defects = 1000' > part.toml" ARGS check ${part} ${run} --tool none --budget part.toml
   STDOUT "max_defects .* held")
-clsurf_cli_test(NAME check_budget_not_held SETUP "echo 'max_depth_um = 5' > part.toml" ARGS check ${part} ${run} --budget part.toml -o report.txt
+clsurf_cli_test(NAME check_budget_not_held SETUP "echo 'max_depth_um = 5' > part.toml" ARGS check ${part} ${run} --tool none --budget part.toml -o report.txt
   EXIT 1 FILE report.txt)
 clsurf_cli_test(NAME check_budget_unknown_key SETUP "echo 'max_dept_um = 5' > part.toml" ARGS check ${part} ${run} --budget part.toml
   EXIT 3 STDERR "part.toml:1" "unknown key 'max_dept_um'" "did you mean 'max_depth_um'")
@@ -392,13 +392,13 @@ clsurf_cli_test(NAME simulate_outside_the_travel SETUP "printf 'G1 X1000 F9000\\
 
 # ---- runs against each other ----
 set(as_recorded "$CLSURF convert @LOGS@/mixed.csv --period 0.001 -o a.biip; cp a.biip again.biip; $CLSURF convert @LOGS@/mixed.csv --period 0.002 -o slow.biip")
-clsurf_cli_test(NAME diff_of_equal_runs ARGS diff ${run} ${run} --program ${part}
+clsurf_cli_test(NAME diff_of_equal_runs ARGS diff ${run} ${run} --tool none --program ${part}
   STDOUT "100.0 % of" "speed .mm/min. +0.00 +0.00 +0.00 +0.00 +0.00 +0.00 +0.0 +0" "height .µm. +0.00 +0.00 +0.00 +0.00 +0.00 +0.00 +0.0 +0")
-clsurf_cli_test(NAME diff_of_another_format ARGS diff @LOGS@/dome_loops.biip @LOGS@/dome_loops.twincat.csv --json
+clsurf_cli_test(NAME diff_of_another_format ARGS diff @LOGS@/dome_loops.biip @LOGS@/dome_loops.twincat.csv --tool none --json
   STDOUT "\"aligned_percent\": 100.0" "\"differences\": .." "\"within_budget\": true")
 clsurf_cli_test(NAME diff_of_half_the_speed SETUP "${as_recorded}" ARGS diff a.biip slow.biip --program @DATA@/programs/mixed.ngc
   STDOUT "100.0 % of" "speed +-(49.9|50.0) % +-49.9 %")
-clsurf_cli_test(NAME diff_lists_three_of_each_quantity ARGS diff @LOGS@/bottle_uneven.biip @LOGS@/bottle_uneven_repaired.biip --program @DATA@/programs/bottle_uneven.nc
+clsurf_cli_test(NAME diff_lists_three_of_each_quantity ARGS diff @LOGS@/bottle_uneven.biip @LOGS@/bottle_uneven_repaired.biip --tool none --program @DATA@/programs/bottle_uneven.nc
   STDOUT "4 speed" "9 lag" "16 height" "[0-9]+ acceleration" "and [0-9]+ more: --json")
 clsurf_cli_test(NAME diff_budget_not_held SETUP "${as_recorded}; echo 'max_speed_difference_percent = 10' > runs.toml"
   ARGS diff a.biip slow.biip --budget runs.toml --json EXIT 1 STDOUT "\"within_budget\": false" "\"max_speed_difference_percent\"")
@@ -495,7 +495,7 @@ clsurf_cli_test(NAME optimize_wrong_tolerance ARGS optimize ${uneven} -o better.
 # ---- the linked page (what it does in a browser: tests/page) ----
 clsurf_cli_test(NAME report_writes_one_file SETUP "$CLSURF report ${part} ${run} --tool none -o r.html -q && grep -q '<p>Slow: [0-9]* of F3000 mm/min: blocks of 0.02' r.html"
   ARGS --version)
-clsurf_cli_test(NAME report_of_chosen_fields ARGS report ${part} ${run} -o r.html --fields speed,jerk --color jerk --tool ball:6 --max-size 4 FILE r.html)
+clsurf_cli_test(NAME report_of_chosen_fields ARGS report ${part} ${run} -o r.html --fields speed,jerk --color jerk --tool none --max-size 4 FILE r.html)
 clsurf_cli_test(NAME report_without_output ARGS report ${part} ${run} EXIT 2 STDERR "output")
 clsurf_cli_test(NAME report_unknown_field ARGS report ${part} ${run} -o r.html --tool none --fields sped EXIT 2 STDERR "did you mean 'speed'")
 clsurf_cli_test(NAME report_colours_what_it_does_not_have ARGS report ${part} ${run} -o r.html --tool none --fields speed,jerk --color height EXIT 2 STDERR "height")

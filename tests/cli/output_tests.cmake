@@ -39,8 +39,8 @@ clsurf_cli_test(NAME overwrite_what_is_no_input SETUP "${inputs}; cp part.nc cop
 
 # ---- streams ----
 clsurf_cli_test(NAME output_to_nowhere ARGS convert ${run} -o /dev/null NO_FILE -)
-clsurf_cli_test(NAME output_to_standard_output ARGS check ${part} ${run} --format csv -o - STDOUT "^id," NO_FILE -)
-clsurf_cli_test(NAME output_to_dev_stdout ARGS check ${part} ${run} --format csv -o /dev/stdout STDOUT "^id,")
+clsurf_cli_test(NAME output_to_standard_output ARGS check ${part} ${run} --tool none --format csv -o - STDOUT "^id," NO_FILE -)
+clsurf_cli_test(NAME output_to_dev_stdout ARGS check ${part} ${run} --tool none --format csv -o /dev/stdout STDOUT "^id,")
 clsurf_cli_test(NAME output_to_a_pipe SETUP "mkfifo pipe; (cat pipe > ../piped) &" ARGS convert ${run} -o pipe FILE ../piped)
 
 # ---- the ending chooses the format, or is an error ----
@@ -76,15 +76,15 @@ clsurf_cli_test(NAME svg_map SETUP "$CLSURF render ${part} ${run} --defects --si
 clsurf_cli_test(NAME svg_plot SETUP "$CLSURF plot ${part} ${run} --fields speed,acceleration -o curve.svg && ${read_svg} curve.svg images 0 'Path speed .mm/min.' 'time .s.'" ARGS --version)
 # The words of `query` for a slow point; none where the tool is as fast as programmed.
 clsurf_cli_test(NAME svg_plot_says_why_it_is_slow SETUP "$CLSURF plot ${part} ${run} --line 600 -o slow.svg && ${read_svg} slow.svg images 0 'slow at point 4911: 622 of F3000 mm/min: blocks of 0.024 mm' && $CLSURF plot ${part} ${run} --mark-point 4500 -o fast.svg && ! grep -q 'slow at' fast.svg" ARGS --version)
-clsurf_cli_test(NAME svg_card SETUP "$CLSURF plot ${part} ${run} --defect 1 -o card.svg && ${read_svg} card.svg images 1 'Defect 1' 'Speed .mm/min.' 'line 1178'" ARGS --version)
-clsurf_cli_test(NAME svg_diff SETUP "$CLSURF diff ${run} ${run} -o map.svg && ${read_svg} map.svg images 1 'minus'" ARGS --version)
+clsurf_cli_test(NAME svg_card SETUP "$CLSURF plot ${part} ${run} --tool none --defect 1 -o card.svg && ${read_svg} card.svg images 1 'Defect 1' 'Speed .mm/min.' 'line 1178'" ARGS --version)
+clsurf_cli_test(NAME svg_diff SETUP "$CLSURF diff ${run} ${run} --tool none -o map.svg && ${read_svg} map.svg images 1 'minus'" ARGS --version)
 clsurf_cli_test(NAME svg_profile SETUP "$CLSURF plot ${part} ${run} --profile 0,-2,0,2 --tool ball:6 -o cut.svg && ${read_svg} cut.svg images 0 'Roughness'" ARGS --version)
-clsurf_cli_test(NAME svg_before SETUP "$CLSURF render ${part} ${run} --before ${run} --size 800x600 -o map.svg && ${read_svg} map.svg images 2 'before: ' 'after: ' 'after minus before'" ARGS --version)
-clsurf_cli_test(NAME svg_identify SETUP "$CLSURF identify ${part} ${run} -o m.toml --picture residual.svg -q && ${read_svg} residual.svg images 1 'simulation minus' 'used for the fit'" ARGS --version)
+clsurf_cli_test(NAME svg_before SETUP "$CLSURF render ${part} ${run} --before ${run} --tool none --size 800x600 -o map.svg && ${read_svg} map.svg images 2 'before: ' 'after: ' 'after minus before'" ARGS --version)
+clsurf_cli_test(NAME svg_identify SETUP "(head -n 200 @DATA@/programs/dome_loops.nc; echo M2) > p.nc; $CLSURF simulate p.nc -o r.biip -q; $CLSURF identify p.nc r.biip -o m.toml --picture residual.svg -q && ${read_svg} residual.svg images 1 'simulation minus' 'used for the fit'" ARGS --version)
 if(PDFTOTEXT AND PDFTOPPM)
   clsurf_cli_test(NAME pdf_map SETUP "$CLSURF render ${part} ${run} --size 800x600 -o map.pdf && ${PDFTOTEXT} map.pdf map.txt && grep -q 'bottle_uneven.nc' map.txt && ${PDFTOPPM} -r 96 -png -singlefile map.pdf map && $CLSURF render ${part} ${run} --size 800x600 -o same.png"
     ARGS compare map.png same.png --json EXIT 1 STDOUT "\"mean_error\": 0.0[01]")
-  clsurf_cli_test(NAME pdf_card SETUP "$CLSURF plot ${part} ${run} --defect 1 -o card.pdf && ${PDFTOTEXT} card.pdf card.txt && grep -q 'Defect 1' card.txt && grep -q 'Height across the feed .µm.' card.txt && grep -q 'line 1178' card.txt" ARGS --version)
+  clsurf_cli_test(NAME pdf_card SETUP "$CLSURF plot ${part} ${run} --tool none --defect 1 -o card.pdf && ${PDFTOTEXT} card.pdf card.txt && grep -q 'Defect 1' card.txt && grep -q 'Height across the feed .µm.' card.txt && grep -q 'line 1178' card.txt" ARGS --version)
   clsurf_cli_test(NAME pdf_is_the_same_every_time SETUP "$CLSURF plot ${part} ${run} -o a.pdf && sleep 1 && $CLSURF plot ${part} ${run} -o b.pdf && cmp a.pdf b.pdf" ARGS --version)
 endif()
 clsurf_ending_test(simulate_csv ".biip" simulate ${part} -o s.csv)
@@ -106,7 +106,7 @@ clsurf_cli_test(NAME intervals_into_a_file SETUP "$CLSURF intervals ${part} -o a
 clsurf_cli_test(NAME quiet_check ARGS check ${part} ${run} --tool none -q NO_STDOUT ".")
 clsurf_cli_test(NAME quiet_check_json ARGS check ${part} ${run} --tool none -q --json STDOUT "\"defects\"")
 clsurf_cli_test(NAME quiet_lint ARGS lint ${part} -q EXIT 1 NO_STDOUT ".")
-clsurf_cli_test(NAME quiet_diff ARGS diff ${run} ${run} -q NO_STDOUT ".")
+clsurf_cli_test(NAME quiet_diff ARGS diff ${run} ${run} --tool none -q NO_STDOUT ".")
 clsurf_cli_test(NAME quiet_simulate ARGS simulate ${part} -o s.biip -q NO_STDOUT "." FILE s.biip)
 clsurf_cli_test(NAME quiet_info ARGS info ${part} ${run} -q NO_STDOUT ".")
 clsurf_cli_test(NAME quiet_query ARGS query ${part} ${run} --point 5 -q NO_STDOUT ".")
@@ -118,7 +118,7 @@ clsurf_cli_test(NAME simulate_json_and_log_to_standard_output ARGS simulate ${pa
 # ---- one JSON shape ----
 clsurf_cli_test(NAME json_of_one_file ARGS info ${run} --json STDOUT "\"schema_version\": 2" "\"records\": 27517.*\"files\": " NO_STDOUT "schema_version.*schema_version")
 clsurf_cli_test(NAME json_of_two_files ARGS info ${run} ${run} --json STDOUT "^.[^a-z]*\"schema_version\": 2[^a-z]*\"files\": " NO_STDOUT "schema_version.*schema_version")
-foreach(words "check ${part} ${run} --tool none --json" "lint ${part} --json" "query ${part} ${run} --point 5 --json" "intervals ${part} --json" "diff ${run} ${run} --json"
+foreach(words "check ${part} ${run} --tool none --json" "lint ${part} --json" "query ${part} ${run} --point 5 --json" "intervals ${part} --json" "diff ${run} ${run} --tool none --json"
               "compare ${shot}/speed_iso.png ${shot}/speed_iso.png --json" "help fields --json" "simulate ${part} -o s.biip --json")
   string(REPLACE " " ";" words "${words}")
   list(GET words 0 name)

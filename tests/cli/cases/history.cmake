@@ -5,7 +5,7 @@ set(recorded "$CLSURF history shop.db add ${bottle} @LOGS@/bottle_uneven.biip --
 # The same without the as-machined surface, which takes seconds.
 string(REPLACE "--tool ball:6" "--tool none" two_parts "${recorded}")
 clsurf_cli_test(NAME history_add SETUP "cp ${bottle} part.nc; cp @LOGS@/bottle_uneven.biip run.biip"
-  ARGS history shop.db add part.nc run.biip --tool ball:6 --param tool=D6R3 FILE shop.db STDOUT "^run 1 of shop.db" "part.nc" "tool=D6R3")
+  ARGS history shop.db add part.nc run.biip --tool none --param tool=D6R3 FILE shop.db STDOUT "^run 1 of shop.db" "part.nc" "tool=D6R3")
 clsurf_cli_test(NAME history_row_is_what_check_says
   SETUP "${recorded}; $CLSURF check ${bottle} @LOGS@/bottle_uneven.biip --tool ball:6 -o check.json; python3 @DATA@/../tests/cli/read_history.py shop.db check.json ${bottle} @LOGS@/bottle_uneven.biip"
   ARGS history shop.db show 1 STDOUT "^run 1 of 2026-11-02 00:00" "feed_drop +distinct")
@@ -78,7 +78,7 @@ clsurf_cli_test(NAME history_report_as_a_picture SETUP "${two_parts}" ARGS histo
 clsurf_cli_test(NAME history_in_a_folder_that_is_not_there ARGS history no/shop.db add ${planted} @LOGS@/planted_loops.biip EXIT 4 STDERR "no/shop.db: unable to open database file")
 
 # ---- check --record ----
-clsurf_cli_test(NAME record_check SETUP "$CLSURF check ${bottle} @LOGS@/bottle_uneven.biip --record shop.db --param tool=D6R3 -q" ARGS history shop.db list STDOUT "bottle_uneven.nc.*tool=D6R3")
+clsurf_cli_test(NAME record_check SETUP "$CLSURF check ${bottle} @LOGS@/bottle_uneven.biip --tool none --record shop.db --param tool=D6R3 -q" ARGS history shop.db list STDOUT "bottle_uneven.nc.*tool=D6R3")
 clsurf_cli_test(NAME record_says_where ARGS check ${planted} @LOGS@/planted_loops.biip --record shop.db FILE shop.db STDERR "recorded as run 1 of shop.db")
 clsurf_cli_test(NAME record_without_a_history ARGS check ${planted} @LOGS@/planted_loops.biip --param tool=D6R3 EXIT 2 STDERR "--param is for runs that are recorded" "--record shop.db")
 clsurf_cli_test(NAME record_into_no_database SETUP "cp ${bottle} shop.db" ARGS check ${planted} @LOGS@/planted_loops.biip --record shop.db EXIT 3 STDERR "shop.db: error: is not a history of clsurf")

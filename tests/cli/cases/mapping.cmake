@@ -11,7 +11,7 @@ foreach(subcommand "check" "query --point 9" "render -o out.png" "report -o out.
   clsurf_cli_test(NAME foreign_log_in_${name} ARGS ${name} ${zigzag} ${uneven_log} ${words} EXIT 3 STDERR "${foreign_error}" "--force")
 endforeach()
 clsurf_cli_test(NAME foreign_log_in_info ARGS info ${zigzag} ${uneven_log} EXIT 3 STDOUT "error: .*does not belong to .*bottle_zigzag.nc")
-clsurf_cli_test(NAME foreign_log_forced ARGS check ${zigzag} ${uneven_log} --force EXIT 5
+clsurf_cli_test(NAME foreign_log_forced ARGS check ${zigzag} ${uneven_log} --tool none --force EXIT 5
   STDOUT "NOT JUDGED: The log does not belong to this program" STDERR "warning: does not belong to")
 clsurf_cli_test(NAME info_of_a_log_without_positions EXIT 3
   SETUP "printf '[log]\\nformat = \"delimited\"\\nperiod_s = 0.001\\n[[column]]\\nfrom = \"a\"\\nname = \"cmd.x\"\\nunit = \"mm\"\\n' > map.toml; (echo a; seq 1 50) > run.csv"
@@ -58,7 +58,7 @@ clsurf_cli_test(NAME lines_deleted_near_the_end_without_a_hash SETUP "sed '11323
   STDOUT "confidence 0[.]95" STDERR "5 lines deleted before line 113[23][0-9]")
 
 # ---- a log that ends early ----
-foreach(subcommand "check" "render -o out.png --size 160x120" "report -o out.html")
+foreach(subcommand "check --tool none" "render -o out.png --size 160x120" "report --tool none -o out.html")
   separate_arguments(words UNIX_COMMAND "${subcommand}")
   list(POP_FRONT words name)
   clsurf_cli_test(NAME truncated_log_in_${name} SETUP "head -c 1000000 @LOGS@/bottle_uneven.biip > run.biip"

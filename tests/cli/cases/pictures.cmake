@@ -52,17 +52,17 @@ clsurf_cli_test(NAME query_names_the_limit_of_a_simulated_log
   ARGS query @DATA@/programs/bottle_uneven.nc run.biip --line 1260 STDOUT "limited by: ")
 
 # The card of a defect.
-clsurf_cli_test(NAME plot_defect ARGS plot ${bottle} --defect 1 -o card.png --size 800x380 FILE card.png)
+clsurf_cli_test(NAME plot_defect ARGS plot ${bottle} --tool none --defect 1 -o card.png --size 800x380 FILE card.png)
 clsurf_cli_test(NAME plot_defect_with_a_tool
   SETUP "$CLSURF plot @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip --tool ball:6 --defect 1 -o card.svg -q && python3 ${CMAKE_CURRENT_LIST_DIR}/../read_svg.py card.svg images 1 'contact X' 'formed [0-9.]+ µm (deep|high)' '^feed$' '^[0-9.]+ mm$' '^X$'"
   ARGS plot ${bottle} --tool ball:6 -o curve.png EXIT 2 STDERR "--tool is of --profile and --defect")
 clsurf_cli_test(NAME plot_defect_without_a_tool SETUP "$CLSURF plot @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip --tool none --defect 1 -o card.svg -q && grep -q 'tool tip X' card.svg" ARGS --version)
-clsurf_cli_test(NAME plot_defect_of_a_region ARGS plot ${bottle} --defect 6 -o card.png --size 800x380 FILE card.png)
+clsurf_cli_test(NAME plot_defect_of_a_region ARGS plot ${bottle} --tool none --defect 6 -o card.png --size 800x380 FILE card.png)
 # The sentence of a systematic lag is longer than the card is wide: both lines together have all of it.
 clsurf_cli_test(NAME plot_defect_wraps_its_sentence
   SETUP "$CLSURF plot @DATA@/programs/bottle_zigzag.nc @LOGS@/bottle_zigzag.biip --defect 1 -o card.svg -q && python3 ${CMAKE_CURRENT_LIST_DIR}/../read_svg.py card.svg images 1 '^Axes lag, forward against backward: .* Z differ .Z trails X by [0-9.]* ms. · contact X' ' · bottle_zigzag.nc · bottle_zigzag.biip$' && ! grep -q '…' card.svg"
   ARGS --version)
-clsurf_cli_test(NAME plot_defect_that_is_none ARGS plot ${bottle} --defect 99 -o card.png EXIT 2 STDERR "`clsurf check` finds 15 of them")
+clsurf_cli_test(NAME plot_defect_that_is_none ARGS plot ${bottle} --tool none --defect 99 -o card.png EXIT 2 STDERR "`clsurf check` finds 15 of them")
 clsurf_cli_test(NAME plot_defect_is_no_curve ARGS plot ${bottle} --defect 1 --fields speed -o card.png EXIT 2 STDERR "--fields does not apply to --defect")
 clsurf_cli_test(NAME plot_defect_needs_the_program ARGS plot @LOGS@/bottle_uneven.biip --defect 1 -o card.png EXIT 2 STDERR "--defect needs the program")
 
