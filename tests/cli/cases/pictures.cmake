@@ -4,14 +4,15 @@ set(bottle @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip)
 set(draw "cp @LOGS@/bottle_uneven.biip renamed.biip; $CLSURF render @DATA@/programs/bottle_uneven.nc renamed.biip -q -o renamed.png --size 640x480; $CLSURF render @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip -q -o map.png --size 640x480")
 
 clsurf_cli_test(NAME compare_sees_another_name SETUP "${draw}" ARGS compare renamed.png map.png EXIT 1 STDOUT "^different: ")
-clsurf_cli_test(NAME compare_ignores_text SETUP "${draw}" ARGS compare renamed.png map.png --ignore-text STDOUT "^equal: 0 pixels")
-clsurf_cli_test(NAME compare_ignores_no_more_than_text
-  SETUP "${draw}; $CLSURF render @DATA@/programs/bottle_uneven.nc renamed.biip -q -o other.png --size 640x480 --color height"
+set(drawn "cp @AFTER@/renamed.biip @AFTER@/renamed.png @AFTER@/map.png .")
+clsurf_cli_test(NAME compare_ignores_text AFTER compare_sees_another_name SETUP "${drawn}" ARGS compare renamed.png map.png --ignore-text STDOUT "^equal: 0 pixels")
+clsurf_cli_test(NAME compare_ignores_no_more_than_text AFTER compare_sees_another_name
+  SETUP "${drawn}; $CLSURF render @DATA@/programs/bottle_uneven.nc renamed.biip -q -o other.png --size 640x480 --color height"
   ARGS compare other.png map.png --ignore-text EXIT 1 STDOUT "^different: ")
-clsurf_cli_test(NAME compare_ignore_text_needs_to_know_it
-  SETUP "${draw}; $CLSURF render @DATA@/programs/bottle_uneven.nc renamed.biip -q -o bare.png --size 640x480 --no-legend"
+clsurf_cli_test(NAME compare_ignore_text_needs_to_know_it AFTER compare_sees_another_name
+  SETUP "${drawn}; $CLSURF render @DATA@/programs/bottle_uneven.nc renamed.biip -q -o bare.png --size 640x480 --no-legend"
   ARGS compare bare.png map.png --ignore-text EXIT 3 STDERR "bare.png" "does not say where its texts are")
-clsurf_cli_test(NAME compare_draws_differences SETUP "${draw}" ARGS compare renamed.png map.png --diff difference.png EXIT 1)
+clsurf_cli_test(NAME compare_draws_differences AFTER compare_sees_another_name SETUP "${drawn}" ARGS compare renamed.png map.png --diff difference.png EXIT 1)
 
 # The default field, and the speed where numbers of a range are given.
 clsurf_cli_test(NAME render_default_is_the_share_of_the_feed

@@ -114,12 +114,12 @@ clsurf_map_of_shards_test(planted planted_loops.nc planted_loops 7 --zoom 0.2,0.
 clsurf_map_of_shards_test(lines bottle_uneven.nc bottle_uneven 2 --style lines --range 0,3000)
 clsurf_map_of_shards_test(steep transition_g61.nc transition_g61 4 --view 200,20)
 set(map_args render @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip -o map.png)
-clsurf_cli_test(NAME shards_map_without_a_range SETUP "${shards_made}" ARGS ${map_args} --survey run.survey --color speed EXIT 2 STDERR "the range of 'speed' depends on all points of the log.*--range MIN,MAX, in mm/min")
-clsurf_cli_test(NAME shards_map_of_a_field_of_the_whole SETUP "${shards_made}" ARGS ${map_args} --survey run.survey --color speed_mismatch EXIT 2 STDERR "'speed_mismatch' is a field of the whole log, not of a shard")
-clsurf_cli_test(NAME shards_map_of_classes SETUP "${shards_made}" ARGS ${map_args} --survey run.survey --color line EXIT 2 STDERR "'line' has classes")
-clsurf_cli_test(NAME shards_map_with_marks SETUP "${shards_made}" ARGS ${map_args} --survey run.survey --mark-point 7 EXIT 2 STDERR "--mark-point needs the whole log: leave out --survey")
+clsurf_cli_test(NAME shards_map_without_a_range AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${map_args} --survey run.survey --color speed EXIT 2 STDERR "the range of 'speed' depends on all points of the log.*--range MIN,MAX, in mm/min")
+clsurf_cli_test(NAME shards_map_of_a_field_of_the_whole AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${map_args} --survey run.survey --color speed_mismatch EXIT 2 STDERR "'speed_mismatch' is a field of the whole log, not of a shard")
+clsurf_cli_test(NAME shards_map_of_classes AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${map_args} --survey run.survey --color line EXIT 2 STDERR "'line' has classes")
+clsurf_cli_test(NAME shards_map_with_marks AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${map_args} --survey run.survey --mark-point 7 EXIT 2 STDERR "--mark-point needs the whole log: leave out --survey")
 clsurf_cli_test(NAME shards_map_without_a_survey ARGS ${map_args} --shards 3 EXIT 2 STDERR "--shards goes with --survey")
-clsurf_cli_test(NAME shards_map_of_no_shards SETUP "${shards_made}" ARGS ${map_args} --survey run.survey --shards 0 EXIT 2 STDERR "--shards: 0 is not 1")
+clsurf_cli_test(NAME shards_map_of_no_shards AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${map_args} --survey run.survey --shards 0 EXIT 2 STDERR "--shards: 0 is not 1")
 
 # ---- the page: the same byte for byte, but for the rounding of few pixels of its map ----
 set(split_page "/usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/cli/split_page.py")
