@@ -28,17 +28,17 @@ double quantum_of(const ChannelView& channel) {
         if (step > least_change && std::isfinite(step)) steps.push_back(step);
     }
     if (steps.size() < 100) return 0;
-    std::sort(steps.begin(), steps.end());
-    const double candidate = steps[steps.size() / 100];
+    const auto hundredth = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 100);
+    std::nth_element(steps.begin(), hundredth, steps.end());
+    const double smallest = *std::min_element(steps.begin(), hundredth + 1);
+    if (*hundredth >= 50 * smallest || smallest <= least_quantum) return 0;
     // A grid: nearly all steps are whole multiples of the smallest one.
-    const double smallest = steps.front();
     std::size_t on_grid = 0;
     for (const double step : steps) {
         const double ratio = step / smallest;
         if (std::abs(ratio - std::round(ratio)) < 0.02) ++on_grid;
     }
-    const bool grid = candidate < 50 * smallest && on_grid > steps.size() * 98 / 100 && smallest > least_quantum;
-    return grid ? smallest : 0;
+    return on_grid > steps.size() * 98 / 100 ? smallest : 0;
 }
 
 namespace {
