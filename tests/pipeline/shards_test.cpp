@@ -10,6 +10,8 @@
 #include <limits>
 #include <numeric>
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include "core/column_file.h"
 #include "core/error.h"
@@ -32,18 +34,23 @@ public:
 protected:
     static void SetUpTestSuite() {
         folder = new test::TemporaryFolder();
-        const std::string text = wavy_zigzag(
-            300, 24, [](int pass, double x) { return pass % 40 == 3 && x > 6 && x < 8 ? 0.02 : 0.31; }, 0.8);
-        program = folder->write("part.nc", text);
-        Machine machine;
-        machine.controller.block_time = 0.002;
-        const Log run = simulate_to_log(read_text(text), machine).log;
-        log = *folder / "run.biip";
-        io::write_biip(log, run.channels, run.records, run.period, run.metadata);
+        std::tie(program, log) = write_run("part.nc", "run.biip", 300);
         kept = *folder / "run.survey";
         io::write_survey(kept, make_survey(whole()), origin);
     }
     static void TearDownTestSuite() { delete folder; }
+
+    /// Writes a program of so many passes, and the log of its run.
+    static std::pair<std::string, std::string> write_run(const char* program_name, const char* log_name, int passes) {
+        const std::string text = wavy_zigzag(
+            passes, 24, [](int pass, double x) { return pass % 40 == 3 && x > 6 && x < 8 ? 0.02 : 0.31; }, 0.8);
+        const std::string program_file = folder->write(program_name, text), log_file = *folder / log_name;
+        Machine machine;
+        machine.controller.block_time = 0.002;
+        const Log run = simulate_to_log(read_text(text), machine).log;
+        io::write_biip(log_file, run.channels, run.records, run.period, run.metadata);
+        return {program_file, log_file};
+    }
 
     struct Surveyed {
         Survey survey;
@@ -261,10 +268,15 @@ void read_all_of(const std::string& file) {
 }
 
 TEST_F(Shards, EveryDamagedByteOfASurveyIsFound) {
-    io::PartFiles files{program, log, {}, {}, true};
+    // A small log, since the file is read as often as it is damaged.
+    const auto [small_program, small_log] = write_run("small.nc", "small.biip", 80);
+    io::PartFiles files{small_program, small_log, {}, {}, true};
     PartRules by_geometry;
     by_geometry.use_line_channel = false;
-    for (const Part& part : {whole(), io::read_part(files, by_geometry)}) {
+    Part at_once = io::read_part(small_program, small_log);
+    at_once.tool = parse_tool("ball:6");
+    ASSERT_GT(at_once.path.count, block_points);
+    for (const Part& part : {at_once, io::read_part(files, by_geometry)}) {
         const std::string file = *folder / "flipped.survey";
         io::write_survey(file, make_survey(part), origin);
         EXPECT_NO_THROW(read_all_of(file));
