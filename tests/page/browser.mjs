@@ -173,6 +173,28 @@ export async function chosenLine(page) {
     return Number(await page.getAttribute('.program .row.chosen', 'data-line'));
 }
 
+/** How many pixels of an element's picture have red, green and blue as `counts` wants them. */
+export async function countPixels(page, locator, counts) {
+    const shot = (await locator.screenshot()).toString('base64');
+    const text = await page.evaluate(async (data) => {
+        const image = new Image();
+        image.src = `data:image/png;base64,${data}`;
+        await image.decode();
+        const canvas = document.createElement('canvas');
+        [canvas.width, canvas.height] = [image.width, image.height];
+        const g = canvas.getContext('2d');
+        g.drawImage(image, 0, 0);
+        const { data: rgba } = g.getImageData(0, 0, image.width, image.height);
+        let bytes = '';
+        for (let i = 0; i < rgba.length; i += 32768) bytes += String.fromCharCode(...rgba.subarray(i, i + 32768));
+        return btoa(bytes);
+    }, shot);
+    const rgba = Buffer.from(text, 'base64');
+    let found = 0;
+    for (let i = 0; i < rgba.length; i += 4) if (counts(rgba[i], rgba[i + 1], rgba[i + 2])) ++found;
+    return found;
+}
+
 /** Compares a screenshot with its baseline by `clsurf compare`: on the mean, since letters are drawn otherwise elsewhere. */
 export async function comparePicture(page, name, most = 0.012) {
     const made = path.join(folder, `${name}.png`);

@@ -7,6 +7,7 @@ import { after, before, test } from 'node:test';
 import {
     checkedBottle,
     closeReport,
+    countPixels,
     goTo,
     numbers,
     openReport,
@@ -109,20 +110,7 @@ test('a marker that is clicked shows its defect', async () => {
 
 /** How many pixels of the view are more green than red, as no colour of magma is; that of values beyond its upper end is. */
 async function strangePixels(page) {
-    const png = await page.locator('.view').screenshot();
-    return page.evaluate(async (data) => {
-        const image = new Image();
-        image.src = `data:image/png;base64,${data}`;
-        await image.decode();
-        const canvas = document.createElement('canvas');
-        [canvas.width, canvas.height] = [image.width, image.height];
-        const g = canvas.getContext('2d');
-        g.drawImage(image, 0, 0);
-        const { data: rgba } = g.getImageData(0, 0, image.width, image.height);
-        let found = 0;
-        for (let i = 0; i < rgba.length; i += 4) if (rgba[i + 1] > rgba[i] + 25) ++found;
-        return found;
-    }, png.toString('base64'));
+    return countPixels(page, page.locator('.view'), (r, g) => g > r + 25);
 }
 
 test('edges have no dots in the colour of values that are not there', async () => {

@@ -5,7 +5,7 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { test } from 'node:test';
 
-import { bottle, folder, goTo, numbers, run, settled, useReport, writeReport } from './browser.mjs';
+import { bottle, countPixels, folder, goTo, numbers, run, settled, useReport, writeReport } from './browser.mjs';
 
 let page;
 useReport(
@@ -16,20 +16,7 @@ useReport(
 /** Pixels of the map that are as dark as the lines. */
 async function darkPixels() {
     await settled(page);
-    const shot = (await page.locator('.layer').first().screenshot()).toString('base64');
-    return page.evaluate(async (data) => {
-        const image = new Image();
-        image.src = `data:image/png;base64,${data}`;
-        await image.decode();
-        const canvas = document.createElement('canvas');
-        [canvas.width, canvas.height] = [image.width, image.height];
-        const g = canvas.getContext('2d');
-        g.drawImage(image, 0, 0);
-        const { data: rgba } = g.getImageData(0, 0, image.width, image.height);
-        let dark = 0;
-        for (let i = 0; i < rgba.length; i += 4) if (rgba[i] < 90 && rgba[i + 1] < 90 && rgba[i + 2] < 90) ++dark;
-        return dark;
-    }, shot);
+    return countPixels(page, page.locator('.layer').first(), (r, g, b) => r < 90 && g < 90 && b < 90);
 }
 
 test('the node draws thin lines over the surface, and takes them away again', async () => {
