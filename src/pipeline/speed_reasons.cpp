@@ -219,7 +219,7 @@ std::string words_of(const SpeedReasons& why, double speed) {
 }
 
 SlowWords slow_words(const Part& part, std::span<const PointIndex> points, std::span<const float> speeds) {
-    SlowWords all{{}, {{}}, {}};
+    SlowWords all;
     if (speeds.empty()) return all;
     std::int64_t rounded = 0;
     std::unordered_map<std::string, std::uint32_t> known;

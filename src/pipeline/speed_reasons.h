@@ -25,8 +25,8 @@ struct SpeedReasons {
 [[nodiscard]] std::string words_of(const SpeedReasons& why, double speed);
 /// Why the tool is slow at each of many points, as pieces of text: each different one is there once.
 struct SlowWords {
-    std::vector<std::int64_t> speeds;  ///< [mm/min] rounded; where the tool is not slow, that of the point before
-    std::vector<std::string> pieces;   ///< the first is empty
+    std::vector<std::int64_t> speeds;     ///< [mm/min] rounded; where the tool is not slow, that of the point before
+    std::vector<std::string> pieces{""};  ///< the first is empty
     std::vector<std::vector<std::uint32_t>> columns;  ///< each has the number of a piece for each point
 };
 /// Of rising `points`. Speed and pieces of a point, one from each column, are what words_of() says; all pieces are empty

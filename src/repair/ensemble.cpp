@@ -49,23 +49,22 @@ std::string why_not_better(const EnsembleResult& result, double more_time) {
     const std::string what =
         fmt::format("the mean gain on {} machines that the machine file allows", result.runs.size());
     if (std::string reason = too_little_gain(what, mean.gain); !reason.empty()) return reason;
+    const std::string on_one = fmt::format("on one of {} machines that the machine file allows, ", result.runs.size());
     for (const EnsembleRun& run : result.runs) {
         const double longest = run.before.duration * (1 + more_time + most_time_on_one_machine);
         if (run.after.duration > longest)
-            return fmt::format(
-                "on one of {} machines that the machine file allows, it would take {:.3f} instead of {:.3f} s",
-                result.runs.size(), run.after.duration, run.before.duration);
+            return on_one +
+                   fmt::format("it would take {:.3f} instead of {:.3f} s", run.after.duration, run.before.duration);
         if (run.after.defects > run.before.defects)
-            return fmt::format(
-                "on one of {} machines that the machine file allows, there would be {:.0f} defects instead of {:.0f}",
-                result.runs.size(), run.after.defects, run.before.defects);
+            return on_one + fmt::format("there would be {:.0f} defects instead of {:.0f}", run.after.defects,
+                                        run.before.defects);
         if (run.gain < 0)
-            return fmt::format(
-                "on one of {} machines that the machine file allows, the objective would rise by {:.2g} %: {:.0f} defects instead "
-                "of {:.0f}, speed differences of {:.0f} instead of {:.0f} mm/min",
-                result.runs.size(), -100 * run.gain, run.after.defects, run.before.defects,
-                mismatch_that_counts(run.before, run.after) * seconds_per_minute,
-                mismatch_that_counts(run.before, run.before) * seconds_per_minute);
+            return on_one + fmt::format(
+                                "the objective would rise by {:.2g} %: {:.0f} defects instead of {:.0f}, speed "
+                                "differences of {:.0f} instead of {:.0f} mm/min",
+                                -100 * run.gain, run.after.defects, run.before.defects,
+                                mismatch_that_counts(run.before, run.after) * seconds_per_minute,
+                                mismatch_that_counts(run.before, run.before) * seconds_per_minute);
     }
     return {};
 }

@@ -71,8 +71,7 @@ public:
     TriedProposal propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
     [[nodiscard]] const TriedProposal& best() const { return best_; }
     /// The accepted proposals with the lowest scores, the lowest first, and last those that measure_roughness() refused. Few where
-    /// runs are long.
-    /// Some of them have no feeds, where there are such.
+    /// runs are long. Some of them have no feeds, where there are such.
     [[nodiscard]] std::vector<TriedProposal> finalists() const;
 
     /// Makes those candidates of the front the finalists that a weight prefers, the best one first, and runs them again. Domain:
