@@ -64,7 +64,9 @@ test('the file is what check reads', async () => {
     const [download] = await Promise.all([page.waitForEvent('download'), page.click('[data-action="save-accepted"]')]);
     assert.equal(download.suggestedFilename(), 'bottle_uneven.nc.accepted.json');
     await download.saveAs(accepted);
-    const report = JSON.parse(run('check', bottle.program, bottle.log, '--tool', 'none', '--accepted', accepted, '--json'));
+    const report = JSON.parse(
+        run('check', bottle.program, bottle.log, '--tool', 'none', '--accepted', accepted, '--json'),
+    );
     assert.deepEqual(
         report.defects.filter((d) => d.accepted).map((d) => d.id),
         [1, 2],

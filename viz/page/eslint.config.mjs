@@ -32,6 +32,7 @@ export default tseslint.config(
                         'MouseEvent',
                         'innerWidth',
                         'innerHeight',
+                        'btoa',
                     ])
                     .map((name) => [name, 'readonly']),
             ),
