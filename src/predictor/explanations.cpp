@@ -10,6 +10,7 @@ namespace clsurf {
 namespace {
 
 constexpr double effect_seconds = 0.020;  ///< by which an effect may outlast what makes it
+constexpr int severe = 3;                 ///< a motion of this severity has it by its speed alone
 
 /// Sections that explain what lies in them.
 class Explanations {
@@ -66,6 +67,12 @@ bool is_programmed(const BuiltDefect& built) {
            built.defect.cause != Cause::path_tolerance;
 }
 
+/// Whether a height of the program may be the reason of a defect at its place.
+bool explains(const Defect& height, const Defect& other) {
+    if (other.severity > height.severity) return false;
+    return other.severity < severe || other.score <= height.score;
+}
+
 }  // namespace
 
 std::vector<BuiltDefect> unexplained(std::span<std::vector<BuiltDefect>> of_family, double period) {
@@ -91,7 +98,7 @@ std::vector<BuiltDefect> unexplained(std::span<std::vector<BuiltDefect>> of_fami
         Explanations program(room);
         program.add(height.defect.runs);
         std::erase_if(all, [&](const BuiltDefect& built) {
-            return !built.expected && built.defect.severity <= height.defect.severity && program.explain(built.core);
+            return !built.expected && explains(height.defect, built.defect) && program.explain(built.core);
         });
         all.push_back(std::move(height));
     }

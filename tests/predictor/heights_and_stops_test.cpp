@@ -85,8 +85,10 @@ TEST(Defects, OfAPointThatTheControllerRoundsOffAreThePrograms) {
 TEST(Defects, OfAProgrammedHeightHaveItsDepthWhateverTheSpeedDoes) {
     for (const double speed : {49.0, 36.0, 10.0}) {
         const QualityReport report = planted::judge(raised_pass(true, speed));
-        ASSERT_EQ(report.defects.size(), 1U) << speed;
-        const Defect& defect = report.defects.front();
+        // 80 % slower is a finding of its own, which the height does not explain.
+        ASSERT_EQ(report.defects.size(), speed < 20 ? 2U : 1U) << speed;
+        if (speed < 20) { EXPECT_EQ(report.defects.front().quantity, Quantity::speed); }
+        const Defect& defect = report.defects.back();
         EXPECT_EQ(defect.quantity, Quantity::relief);
         EXPECT_EQ(defect.cause, Cause::point_spacing);
         EXPECT_NEAR(defect.depth, 0.008, 0.001);
