@@ -196,6 +196,11 @@ TEST(FeedEqualisation, FeedsAreThoseOfIntervals) {
               (std::vector<float>{0, 100, 100, 104, 0, 0}));
 }
 
+TEST(FeedEqualisation, MergedMotionsShareTheHighestTarget) {
+    EXPECT_EQ(block_targets({0, 40, 30, 20, 10, 0}, {0, 1, 1, 0, 1, 0}), (std::vector<float>{0, 40, 40, 40, 10, 10}));
+    EXPECT_EQ(block_targets({}, {}), std::vector<float>{});
+}
+
 TEST(JudgedRun, IsJudgedByTheThresholdsOfAnother) {
     const SlowSection slow;
     QualityRules rules;

@@ -212,6 +212,15 @@ TEST(BlockMerging, JoinsLinesWithinTheTolerance) {
     EXPECT_EQ(lines("G61\n").size(), 5U);
 }
 
+// The first line has no length. The next two become one, and so do the last two: a change of feed between them would part them.
+TEST(BlockMerging, SaysWhichMotionsBecomeOne) {
+    const std::string lines = "G1 X0 F600\nX1 Y0.004\nX2\nX3 Y0.1\nX4 F500\nX5\nM2\n";
+    EXPECT_EQ(merged_with_next(program_of("G64 P0.01 Q0.005\n" + lines), plain()),
+              (std::vector<std::uint8_t>{1, 1, 0, 0, 1, 0}));
+    EXPECT_EQ(merged_with_next(program_of("G64 P0.01 Q0\n" + lines), plain()),
+              (std::vector<std::uint8_t>{1, 0, 0, 0, 0, 0}));
+}
+
 // The lines of the test before: the machine's tolerance counts in place of that of the program, but not on an exact path.
 TEST(BlockMerging, AMachineMayMergeOtherwiseThanTheProgramSays) {
     const auto left = [](const std::string& mode, const Machine& machine) {

@@ -184,6 +184,16 @@ std::vector<float> peaks_by_motion(const JudgedRun& run, const Program& program,
     return peaks;
 }
 
+std::vector<float> block_targets(std::vector<float> targets, const std::vector<std::uint8_t>& merged) {
+    for (auto first = targets.begin(); first != targets.end();) {
+        auto last = first;
+        while (last + 1 != targets.end() && merged[static_cast<std::size_t>(last - targets.begin())] != 0) ++last;
+        std::fill(first, last + 1, *std::max_element(first, last + 1));
+        first = last + 1;
+    }
+    return targets;
+}
+
 std::vector<float> equalised_feeds(const std::vector<float>& target, const std::vector<std::uint8_t>& may_slow,
                                    double width) {
     std::vector<float> feeds(target.size(), 0);

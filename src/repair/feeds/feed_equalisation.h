@@ -75,6 +75,10 @@ private:
 [[nodiscard]] std::vector<float> peaks_by_motion(const JudgedRun& run, const Program& program,
                                                  const std::vector<float>& values);
 
+/// Targets as those of peaks_by_motion(), of blocks: motions that the controller merges (merged_with_next()) share the highest of
+/// theirs. 0: none.
+[[nodiscard]] std::vector<float> block_targets(std::vector<float> targets, const std::vector<std::uint8_t>& merged);
+
 /// Feeds that keep motions at a target [mm/s]; targets and feeds of 0: none. Motions whose entry in `may_slow` is 0 get
 /// none; empty: all may. Consecutive motions with a feed form constant-speed intervals, in which targets differ by less
 /// than `width` (a fraction). Each interval gets its lowest target.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 #include <utility>
 
 #include "program/motion_source.h"
@@ -68,6 +69,16 @@ std::vector<LineNumber> merged_lines(const Program& program, const Machine& mach
     while (blocks.begin_section())
         while (merged.next(element)) lines.push_back(element.line);
     return lines;
+}
+
+std::vector<std::uint8_t> merged_with_next(const Program& program, const Machine& machine) {
+    const std::vector<LineNumber> lines = merged_lines(program, machine);
+    const std::unordered_set<LineNumber> left(lines.begin(), lines.end());
+    const Motions& motions = program.motions;
+    std::vector<std::uint8_t> merged(static_cast<std::size_t>(motions.size()), 0);
+    for (std::size_t i = 0; i < merged.size(); ++i)
+        merged[i] = motions.kind[i] == MotionKind::feed && !left.contains(motions.line[i]) ? 1 : 0;
+    return merged;
 }
 
 }  // namespace clsurf

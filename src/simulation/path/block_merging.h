@@ -31,4 +31,8 @@ private:
 /// The lines of a program that are left after merging, by their numbers. Throws what BlockStream throws. O(motions).
 [[nodiscard]] std::vector<LineNumber> merged_lines(const Program& program, const Machine& machine);
 
+/// Per motion, whether it becomes one block with the motion behind it: a change of feed between them would part them. Throws what
+/// BlockStream throws. O(motions).
+[[nodiscard]] std::vector<std::uint8_t> merged_with_next(const Program& program, const Machine& machine);
+
 }  // namespace clsurf
