@@ -330,7 +330,8 @@ private:
     void add_name(const DefectMark& mark, const Vec2& from, const Vec2& at, double line_end) {
         const double t = layout_.text;
         const std::vector<Vec2> leader{from, Vec2(line_end, at.y()), Vec2(at.x() - 0.3 * t, at.y())};
-        sheet_.lines.push_back({leader, 0.2 * t, look_.background, Level::edge});
+        // It parts the leader from the lines of the scales, and lies below the marks: a leader may run along one.
+        sheet_.lines.push_back({leader, 0.2 * t, look_.background, Level::casing});
         sheet_.lines.push_back({leader, 0.06 * t, faint(ink_, look_.background)});
         add_anchor(from);
         // A wide picture has room for a second column.

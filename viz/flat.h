@@ -35,7 +35,7 @@ struct FlatQuad {
     Rgb rgb{0, 0, 0};
 };
 /// What lies above what among lines; within a level they have no order.
-enum class Level : std::uint8_t { area, mark, inlay, edge, line, halo, dot, dot_fill };
+enum class Level : std::uint8_t { area, casing, mark, inlay, edge, line, halo, dot, dot_fill };
 
 struct FlatLine {
     std::vector<Vec2> points;
