@@ -38,7 +38,8 @@ double shown_size(const Defect& d) {
 bool same_kind(const Defect& a, const Defect& b) {
     const bool same_sign = a.quantity != Quantity::speed || (a.speed_mismatch < 0) == (b.speed_mismatch < 0);
     const bool same_way = (a.cause == Cause::oscillation) == (b.cause == Cause::oscillation);
-    return a.quantity == b.quantity && same_sign && same_way && !a.systematic && !b.systematic;
+    const bool same_fault = (a.cause == Cause::path_tolerance) == (b.cause == Cause::path_tolerance);
+    return a.quantity == b.quantity && same_sign && same_way && same_fault && !a.systematic && !b.systematic;
 }
 
 Group group_of(const QualityReport& report) {
@@ -62,9 +63,16 @@ std::string range_text(const Group& group, int digits) {
     return low == high ? low : low + " to " + high;
 }
 
+/// "Pass 12", "Five passes".
 std::string passes_text(const Group& group) {
     if (group.passes.size() == 1) return fmt::format("Pass {}", *group.passes.begin());
     return number_word(group.passes.size()) + " passes";
+}
+
+/// The same within a sentence: "pass 12", "5 passes".
+std::string subject_of(const Group& group) {
+    if (group.passes.size() == 1) return fmt::format("pass {}", *group.passes.begin());
+    return fmt::format("{} passes", group.passes.size());
 }
 
 }  // namespace
@@ -82,20 +90,18 @@ std::string headline_of(const QualityReport& report) {
     switch (d.quantity) {
         case Quantity::speed:
             if (d.cause == Cause::oscillation)
-                return fmt::format(
-                    "The speed of {} oscillates by {} %",
-                    one ? fmt::format("pass {}", *group.passes.begin()) : fmt::format("{} passes", group.passes.size()),
-                    range_text(group, 0));
+                return fmt::format("The speed of {} oscillates by {} %", subject_of(group), range_text(group, 0));
             return fmt::format("{} {} {} % {} than {} neighbours", who, one ? "runs" : "run", range_text(group, 0),
                                d.speed_mismatch < 0 ? "slower" : "faster", whose);
         case Quantity::acceleration:
             return fmt::format("{} {} differently from {} neighbours", who, one ? "accelerates" : "accelerate", whose);
         case Quantity::lag:
-            return fmt::format(
-                "Axis lag on {} differs from the neighbours by {} µm",
-                one ? fmt::format("pass {}", *group.passes.begin()) : fmt::format("{} passes", group.passes.size()),
-                range_text(group, 1));
+            return fmt::format("Axis lag on {} differs from the neighbours by {} µm", subject_of(group),
+                               range_text(group, 1));
         case Quantity::relief:
+            if (d.cause == Cause::path_tolerance)
+                return fmt::format("The controller leaves the program: {} {} {} µm off {} neighbours",
+                                   subject_of(group), one ? "runs" : "run", range_text(group, 1), whose);
             return fmt::format("{} {} {} µm off {} neighbours in the program", who, one ? "is" : "are",
                                range_text(group, 1), whose);
     }

@@ -54,6 +54,23 @@ TEST(Headline, LeavesOutWhatIsLessThanHalfAsStrongOrOfAnotherKind) {
     EXPECT_EQ(headline_of(report), "Pass 2 runs 40 % slower than its neighbours");
 }
 
+TEST(Headline, SaysWhoLeavesTheProgram) {
+    QualityReport report;
+    Defect d = slow(3, 0, 10);
+    d.quantity = Quantity::relief;
+    d.depth = 0.009;
+    report.defects = {d};
+    EXPECT_EQ(headline_of(report), "Pass 3 is 9.0 µm off its neighbours in the program");
+    report.defects[0].cause = Cause::path_tolerance;
+    EXPECT_EQ(headline_of(report), "The controller leaves the program: pass 3 runs 9.0 µm off its neighbours");
+    d.runs[0].pass = 5;
+    report.defects.push_back(d);
+    EXPECT_EQ(headline_of(report), "The controller leaves the program: pass 3 runs 9.0 µm off its neighbours")
+        << "the fifth pass is off in the program";
+    report.defects[1].cause = Cause::path_tolerance;
+    EXPECT_EQ(headline_of(report), "The controller leaves the program: 2 passes run 9.0 µm off their neighbours");
+}
+
 TEST(Headline, NamesSystematicLagFirst) {
     QualityReport report;
     Defect d;
