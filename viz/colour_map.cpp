@@ -226,12 +226,16 @@ std::vector<double> nice_ticks(double low, double high, int wanted) {
 }
 
 std::string tick_text(double value, double step) {
-    const double size = std::max(std::abs(value), step);
-    if (size >= 1e6 || step < 1e-5) return fmt::format("{:.3g}", value);
-    const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 6);
-    std::string text = fmt::format("{:.{}f}", value, decimals);
-    if (text.find_first_not_of("-0.") == std::string::npos && text[0] == '-') text.erase(0, 1);  // no "-0"
-    return text;
+    const double size = std::abs(value);
+    std::string text;
+    if (std::max(size, step) >= 1e6 || step < 1e-5) {
+        text = fmt::format("{:.3g}", size);
+    } else {
+        const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 6);
+        text = fmt::format("{:.{}f}", size, decimals);
+    }
+    const bool is_zero = text.find_first_not_of("0.") == std::string::npos;  // no "−0"
+    return value < 0 && !is_zero ? "−" + text : text;
 }
 
 }  // namespace clsurf::viz

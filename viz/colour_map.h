@@ -86,7 +86,7 @@ struct ColourScale {
 
 /// Round tick values in [low, high], about `wanted` of them (steps of 1, 2, 5 · 10^n).
 [[nodiscard]] std::vector<double> nice_ticks(double low, double high, int wanted);
-/// The tick's text with as many decimals as its step needs.
+/// The tick's text with as many decimals as its step needs, and the minus sign of all pictures, "−0.5".
 [[nodiscard]] std::string tick_text(double value, double step);
 
 }  // namespace clsurf::viz

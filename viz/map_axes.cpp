@@ -174,7 +174,7 @@ private:
         const double step = 0.1 * (high - low);
         FlatText text{0, middle.y(), "", size_, Align::left, false, ink_};
         text.text = high > low ? fmt::format("{} {} to {} mm", "XYZ"[axis], tick_text(low, step), tick_text(high, step))
-                               : fmt::format("{} {:.3f} mm", "XYZ"[axis], low);
+                               : fmt::format("{} {} mm", "XYZ"[axis], tick_text(low, 1e-3));
         const double width = text_width(text);
         const double left = std::max(corner_.x(), margin_);
         text.x = std::clamp(middle.x() - 0.5 * width, left, std::max(left, corner_.x() + panel_.rect.width - width));

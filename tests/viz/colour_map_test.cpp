@@ -145,6 +145,9 @@ TEST(Ticks, AreRound) {
     EXPECT_EQ(tick_text(0.25, 0.05), "0.25");
     EXPECT_EQ(tick_text(1500, 500), "1500");
     EXPECT_EQ(tick_text(-0.3, 10), "0");
+    EXPECT_EQ(tick_text(-300, 100), "−300");
+    EXPECT_EQ(tick_text(-0.25, 0.05), "−0.25");
+    EXPECT_EQ(tick_text(-2e6, 1e6), "−2e+06");
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 #include "viz/map_axes.h"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -21,11 +23,13 @@ const Box3 part(Vec3(-10, -4, 2), Vec3(30, 16, 12));
 
 /// The number of a label.
 double number_of(const FlatText& text) {
+    constexpr std::string_view minus = "−";
+    const bool is_negative = text.text.starts_with(minus);
+    const std::string digits = text.text.substr(is_negative ? minus.size() : 0);
     double value = 0;
-    const auto [end, error] = std::from_chars(text.text.data(), text.text.data() + text.text.size(), value);
-    return error == std::errc() && end == text.text.data() + text.text.size()
-               ? value
-               : std::numeric_limits<double>::quiet_NaN();
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc() || end != digits.data() + digits.size()) return std::numeric_limits<double>::quiet_NaN();
+    return is_negative ? -value : value;
 }
 
 TEST(MapAxes, ATickStandsWhereItsNumberSays) {
@@ -106,7 +110,7 @@ TEST(MapAxes, AScaleTooShortForNumbersTellsItsRange) {
     Sheet sheet;
     add_scales(sheet, panel_of(look, flat), flat, "", look, MapLayout(look));
     bool told = false;
-    for (const FlatText& text : sheet.texts) told = told || text.text == "Z -0.30 to 0.10 mm";
+    for (const FlatText& text : sheet.texts) told = told || text.text == "Z −0.30 to 0.10 mm";
     EXPECT_TRUE(told);
 }
 
