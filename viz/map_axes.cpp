@@ -156,14 +156,18 @@ private:
         name_axis(corner_ + a, corner_ + b, axis, outwards, of, beside, widest);
     }
 
-    /// Whether no number is there yet, with a gap as wide as a digit.
-    bool take(const Rect& number) {
+    /// Whether a number is there, or nearer at the left or right than a digit is wide.
+    [[nodiscard]] bool meets_number(const Rect& rect) const {
         const double gap = 0.6 * size_;
-        for (const Rect& other : numbers_) {
-            if (number.x < other.x + other.width + gap && other.x < number.x + number.width + gap &&
-                number.y < other.y + other.height && other.y < number.y + number.height)
-                return false;
-        }
+        return std::any_of(numbers_.begin(), numbers_.end(), [&](const Rect& number) {
+            return rect.x < number.x + number.width + gap && number.x < rect.x + rect.width + gap &&
+                   rect.y < number.y + number.height && number.y < rect.y + rect.height;
+        });
+    }
+
+    /// Whether no number is there yet.
+    bool take(const Rect& number) {
+        if (meets_number(number)) return false;
         numbers_.push_back(number);
         return true;
     }
@@ -219,6 +223,11 @@ private:
 
     /// Edges of the box, and lines to the names of defects, are interrupted where they pass behind a text.
     void add_words(FlatText text) {
+            constexpr int most_steps = 6;
+            for (int k = 0; k < most_steps && meets_number(text_rect(text)); ++k) {
+                text.x += 0.3 * size_ * outwards.x();
+                text.y += 0.3 * size_ * outwards.y();
+            }
         sheet_.lines.push_back(halo_of(text, background_));
         sheet_.texts.push_back(std::move(text));
     }
