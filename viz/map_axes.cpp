@@ -29,21 +29,22 @@ int axis_along(const Vec3& direction) {
 
 class ScaleDrawer {
 public:
-    ScaleDrawer(Sheet& sheet, const MeshPanel& panel, const Look& look, const MapLayout& layout)
+    ScaleDrawer(Sheet& sheet, const MeshPanel& panel, const Box3& part, const Look& look, const MapLayout& layout)
         : sheet_(sheet),
           panel_(panel),
+          part_(part),
           size_(layout.small_text),
           margin_(layout.margin),
           background_(look.background),
           ink_(faint(ink_for(look.background), look.background)),
           corner_(panel.rect.x, panel.rect.y) {}
 
-    void frame(const Box3& part, const std::string& of) {
+    void frame(const std::string& of) {
         const Camera& camera = panel_.camera;
         Vec2 low(1e30, 1e30);
         Vec2 high = -low;
         for (int k = 0; k < 8; ++k) {
-            const Vec2 at = camera.pixel(part.corner(static_cast<Box3::CornerType>(k)));
+            const Vec2 at = camera.pixel(part_.corner(static_cast<Box3::CornerType>(k)));
             low = low.cwiseMin(at);
             high = high.cwiseMax(at);
         }
@@ -57,7 +58,10 @@ public:
         scale(place_of(corners[0]), place_of(corners[3]), axis_along(camera.up), Vec2(-1, 0), of);
     }
 
-    void box(const Box3& part, const std::string& of, const DepthBuffer& depth) {
+    /// With `room` [mm] about the part in X and Y.
+    void box(double room, const std::string& of, const DepthBuffer& depth) {
+        const Vec3 aside(room, room, 0);
+        const Box3 part(part_.min() - aside, part_.max() + aside);
         const Camera& camera = panel_.camera;
         for (int axis = 0; axis < 3; ++axis) {
             std::vector<std::pair<Vec3, Vec3>> outer;  // edges that no other edge crosses in the picture
@@ -172,9 +176,11 @@ private:
         return true;
     }
 
-    /// "Z −0.4 to 0.1 mm", at a scale that is too short for numbers, or "Z 0.000 mm" of a flat part. Where an edge of the box
-    /// runs through it, in the lower left corner of the map.
-    void tell_range(const Vec2& middle, int axis, double low, double high) {
+    /// "Z −0.4 to 0.1 mm", at a scale that is too short for numbers, or "Z 0.000 mm" of a flat part: what is shown of the part,
+    /// without the room about it. Where an edge of the box runs through it, in the lower left corner of the map.
+    void tell_range(const Vec2& middle, int axis, double scale_low, double scale_high) {
+        const double low = std::max(scale_low, part_.min()[axis]);
+        const double high = std::max(low, std::min(scale_high, part_.max()[axis]));
         const double step = 0.1 * (high - low);
         FlatText text{0, middle.y(), "", size_, Align::left, false, ink_};
         text.text = high > low ? fmt::format("{} {} to {} mm", "XYZ"[axis], tick_text(low, step), tick_text(high, step))
@@ -217,23 +223,24 @@ private:
                 0.5 * (a + b) + (label_distance + 1.35 + 0.5 * std::abs(outwards.x()) * 3) * size_ * outwards;
             text.x = middle.x();
             text.y = middle.y();
+            constexpr int most_steps = 6;
+            for (int k = 0; k < most_steps && meets_number(text_rect(text)); ++k) {
+                text.x += 0.3 * size_ * outwards.x();
+                text.y += 0.3 * size_ * outwards.y();
+            }
         }
         add_words(std::move(text));
     }
 
     /// Edges of the box, and lines to the names of defects, are interrupted where they pass behind a text.
     void add_words(FlatText text) {
-            constexpr int most_steps = 6;
-            for (int k = 0; k < most_steps && meets_number(text_rect(text)); ++k) {
-                text.x += 0.3 * size_ * outwards.x();
-                text.y += 0.3 * size_ * outwards.y();
-            }
         sheet_.lines.push_back(halo_of(text, background_));
         sheet_.texts.push_back(std::move(text));
     }
 
     Sheet& sheet_;
     const MeshPanel& panel_;
+    const Box3& part_;
     double size_, margin_;  ///< [px]
     Rgb background_;
     Rgb ink_;
@@ -264,13 +271,13 @@ AxesRoom axes_room(const Look& look, const MapLayout& layout) {
 }
 
 void add_scales(Sheet& sheet, const MeshPanel& panel, const Box3& part, const std::string& frame, const Look& look,
-                const MapLayout& layout, const DepthBuffer* depth) {
+                const MapLayout& layout, const DepthBuffer* depth, double room) {
     if (part.isEmpty()) return;
-    ScaleDrawer drawer(sheet, panel, look, layout);
+    ScaleDrawer drawer(sheet, panel, part, look, layout);
     if (has_frame(look))
-        drawer.frame(part, frame);
+        drawer.frame(frame);
     else if (has_box(look))
-        drawer.box(part, frame, depth != nullptr ? *depth : DepthBuffer(panel.geometry, panel.camera));
+        drawer.box(room, frame, depth != nullptr ? *depth : DepthBuffer(panel.geometry, panel.camera));
 }
 
 }  // namespace clsurf::viz

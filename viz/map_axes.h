@@ -23,8 +23,9 @@ struct AxesRoom {
 [[nodiscard]] AxesRoom axes_room(const Look& look, const MapLayout& layout);
 
 /// Frame or box of what is shown of `part` [mm]. `frame` names the coordinates, "G54"; it may be empty. `depth`: what the
-/// part hides, of a panel whose geometry came in parts; nullptr: of its geometry.
+/// part hides, of a panel whose geometry came in parts; nullptr: of its geometry. `room` [mm] lies between the part and its
+/// box, in X and Y.
 void add_scales(Sheet& sheet, const MeshPanel& panel, const Box3& part, const std::string& frame, const Look& look,
-                const MapLayout& layout, const DepthBuffer* depth = nullptr);
+                const MapLayout& layout, const DepthBuffer* depth = nullptr, double room = 0);
 
 }  // namespace clsurf::viz

@@ -117,15 +117,10 @@ void paint_relief(Detail& detail, MeshPanel& panel) {
 /// No pass has another one beside it: only lines are seen.
 bool is_path(const MapPanel& map) { return map.relief == nullptr && map.surface->step_over <= 0; }
 
-/// What is shown of a part, with room [mm] about a path: lines of the box would cover those that lie along its edges.
-Box3 shown_box(const MapPanel& map, const Look& look, double room) {
-    Box3 all = extent_of_panel(map, ViewAxes::Identity());
-    if (!look.box.isEmpty()) return all.intersection(look.box);
-    if (is_path(map) && !all.isEmpty()) {
-        const Vec3 beside(room, room, 0);
-        all = Box3(all.min() - beside, all.max() + beside);
-    }
-    return all;
+/// What is shown of a part.
+Box3 shown_box(const MapPanel& map, const Look& look) {
+    const Box3 all = extent_of_panel(map, ViewAxes::Identity());
+    return look.box.isEmpty() ? all : all.intersection(look.box);
 }
 
 Beyond paint_panel(Detail& detail, const MapPanel& map, const ColourScale& scale, const Look& look, MeshPanel& panel) {
@@ -232,8 +227,9 @@ void add_scales_of(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, co
                    const Look& look, const MapLayout& layout, const DepthBuffer* depth = nullptr) {
     if (!look.legend) return;
     const Rgb ink = ink_for(look.background);
-    const double room = has_box(look) ? path_room * panel.camera.mm_per_pixel : 0;
-    add_scales(sheet, panel, shown_box(map, look, room), frame, look, layout, depth);
+    // Lines of the box would cover those of a path that lie along its edges.
+    const double room = is_path(map) && look.box.isEmpty() ? path_room * panel.camera.mm_per_pixel : 0;
+    add_scales(sheet, panel, shown_box(map, look), frame, look, layout, depth, room);
     if (!last || has_frame(look)) return;
     add_axes(sheet, panel, look, layout, ink);
     if (!has_box(look)) add_scale_bar(sheet, panel, layout, ink);

@@ -114,6 +114,21 @@ TEST(MapAxes, AScaleTooShortForNumbersTellsItsRange) {
     EXPECT_TRUE(told);
 }
 
+TEST(MapAxes, ARangeIsThatOfThePartAndNotOfItsFrame) {
+    // 1 px is 0.4 mm: the frame lies several millimetres off the part.
+    const Box3 strip(Vec3(0, 0, -2), Vec3(220, 5.75, 5));
+    for (const std::string view : {"top", "front"}) {
+        Look look;
+        look.view = parse_view(view);
+        Sheet sheet;
+        add_scales(sheet, panel_of(look, strip), strip, "", look, MapLayout(look));
+        const std::string wanted = view == "top" ? "Y 0.0 to 5.8 mm" : "Z −2.0 to 5.0 mm";
+        EXPECT_TRUE(std::any_of(sheet.texts.begin(), sheet.texts.end(), [&](const FlatText& text) {
+            return text.text == wanted;
+        })) << wanted;
+    }
+}
+
 TEST(MapAxes, NumbersOfTwoScalesDoNotRunIntoEachOther) {
     Look look;
     look.view = parse_view("iso");
