@@ -40,13 +40,4 @@ struct DefectMap {
 /// Most defects that are named beside the part.
 inline constexpr std::size_t most_named_defects = 12;
 
-/// For each anchor the slot of its label, so that no two lines from anchors to slots cross. `anchors` [px], `slots`: heights
-/// [px] at `slot_x`, as many as anchors, all anchors on one side of slot_x. O(n³) steps at most for n anchors in practice.
-[[nodiscard]] std::vector<std::size_t> assign_slots(const std::vector<Vec2>& anchors, const std::vector<double>& slots,
-                                                    double slot_x);
-
-/// Where a column of `height` [px] begins so that it is beside its anchors, in a room from `lowest` to `highest` [px]. Domain:
-/// the column fits.
-[[nodiscard]] double top_of_names(const std::vector<Vec2>& anchors, double height, double lowest, double highest);
-
 }  // namespace clsurf::viz

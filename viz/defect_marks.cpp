@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -12,6 +10,7 @@
 
 #include "viz/depth_buffer.h"
 #include "viz/label_placer.h"
+#include "viz/leader_slots.h"
 
 namespace clsurf::viz {
 namespace {
@@ -24,7 +23,8 @@ constexpr double dot_every = 0.4;          ///< from one dot to the next, in tex
 constexpr double axes_height = 6.2;        ///< of the picture's axes beside the key, in text sizes
 constexpr double name_width = 15;          ///< of a name in a column, in text sizes
 constexpr double with_lines = 2.5, with_place = 3.45, with_cause = 4.4;  ///< heights of names in columns, in text sizes
-constexpr double lightest = 0.45;  ///< share of the colour in the weakest mark; the rest is white
+constexpr double leader_clearance = 0.5;  ///< from a leader to the anchor of another one, in text sizes
+constexpr double lightest = 0.45;         ///< share of the colour in the weakest mark; the rest is white
 
 Rgb mixed(const Rgb& rgb, double share) {
     Rgb result;
@@ -54,13 +54,6 @@ double length_of(const std::vector<Vec2>& line) {
     double length = 0;
     for (std::size_t i = 1; i < line.size(); ++i) length += (line[i] - line[i - 1]).norm();
     return length;
-}
-
-bool cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-    const auto side = [](const Vec2& from, const Vec2& to, const Vec2& p) {
-        return (to - from).x() * (p - from).y() - (to - from).y() * (p - from).x();
-    };
-    return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
 }
 
 /// A section of a pass in the picture, all of it seen or all of it hidden.
@@ -229,15 +222,12 @@ private:
         }
         std::vector<Vec2> from;
         for (const std::size_t k : named) from.push_back(*anchors[k]);
-        const double top = top_of_names(from, slot * static_cast<double>(named.size()), bottom + 0.8 * t, highest);
-        std::vector<double> slots;
-        for (std::size_t k = 0; k < named.size(); ++k) slots.push_back(top - slot * (static_cast<double>(k) + 0.5));
         const double line_end = x - 1.2 * t;
-        const std::vector<std::size_t> slot_of = assign_slots(from, slots, line_end);
+        const NameColumn column = place_names(from, slot, bottom + 0.8 * t, highest, line_end, leader_clearance * t);
         for (std::size_t k = 0; k < named.size(); ++k)
-            add_name(map_.defects->marks[named[k]], from[k], Vec2(x, slots[slot_of[k]]), line_end);
+            add_name(marks_[named[k]], from[k], Vec2(x, column.slots[column.slot_of[k]]), line_end);
         tell_rest(anchors.size() - outside - named.size(), outside, x,
-                  top - slot * static_cast<double>(named.size()) - 0.5 * t);
+                  column.top - slot * static_cast<double>(named.size()) - 0.5 * t);
     }
 
     void tell_rest(std::size_t more, std::size_t outside, double x, double y) {
@@ -390,41 +380,6 @@ private:
 };
 
 }  // namespace
-
-std::vector<std::size_t> assign_slots(const std::vector<Vec2>& anchors, const std::vector<double>& slots,
-                                      double slot_x) {
-    // From top to bottom; then two lines that cross exchange their slots, which makes their total length shorter, so that
-    // this ends.
-    std::vector<std::size_t> order(anchors.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return anchors[a].y() > anchors[b].y(); });
-    std::vector<std::size_t> high_to_low(slots.size());
-    std::iota(high_to_low.begin(), high_to_low.end(), std::size_t{0});
-    std::stable_sort(high_to_low.begin(), high_to_low.end(),
-                     [&](std::size_t a, std::size_t b) { return slots[a] > slots[b]; });
-    std::vector<std::size_t> slot_of(anchors.size());
-    for (std::size_t k = 0; k < order.size(); ++k) slot_of[order[k]] = high_to_low[k];
-    const auto end_of = [&](std::size_t k) { return Vec2(slot_x, slots[slot_of[k]]); };
-    for (bool changed = true; changed;) {
-        changed = false;
-        for (std::size_t a = 0; a < anchors.size(); ++a) {
-            for (std::size_t b = a + 1; b < anchors.size(); ++b) {
-                if (!cross(anchors[a], end_of(a), anchors[b], end_of(b))) continue;
-                std::swap(slot_of[a], slot_of[b]);
-                changed = true;
-            }
-        }
-    }
-    return slot_of;
-}
-
-double top_of_names(const std::vector<Vec2>& anchors, double height, double lowest, double highest) {
-    if (anchors.empty()) return highest;
-    double middle = 0;
-    for (const Vec2& anchor : anchors) middle += anchor.y() / static_cast<double>(anchors.size());
-    return std::clamp(middle + 0.5 * height, std::min(lowest + height, highest), highest);
-}
 
 void add_defects(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const Rect& room, const Look& look,
                  const MapLayout& layout) {

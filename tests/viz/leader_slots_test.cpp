@@ -1,11 +1,11 @@
-#include "viz/defect_map.h"
+#include "viz/leader_slots.h"
 
 #include <random>
 #include <set>
 
 #include <gtest/gtest.h>
 
-namespace clsurf::viz::defect_map_test {
+namespace clsurf::viz::leader_slots_test {
 namespace {
 
 /// Twice the signed area of a triangle.
@@ -26,7 +26,7 @@ TEST(AssignSlots, LeadersNeverCrossAndEverySlotIsUsedOnce) {
         for (Vec2& anchor : anchors) anchor = Vec2(across(random), across(random));
         std::vector<double> slots(n);
         for (std::size_t k = 0; k < n; ++k) slots[k] = 800 - 40.0 * static_cast<double>(k);
-        const std::vector<std::size_t> slot_of = assign_slots(anchors, slots, 1000);
+        const std::vector<std::size_t> slot_of = assign_slots(anchors, slots, 1000, 0);
         EXPECT_EQ(std::set<std::size_t>(slot_of.begin(), slot_of.end()).size(), n);
         for (std::size_t a = 0; a < n; ++a) {
             for (std::size_t b = a + 1; b < n; ++b)
@@ -40,8 +40,31 @@ TEST(AssignSlots, LeadersNeverCrossAndEverySlotIsUsedOnce) {
 TEST(AssignSlots, OrderOfHeightsAloneWouldCross) {
     // The lower anchor lies to the right, close to the slots: in order of heights its leader would be cut by the other one.
     const std::vector<Vec2> anchors{{0, 10}, {90, 9}};
-    const std::vector<std::size_t> slot_of = assign_slots(anchors, {0, -100}, 100);
+    const std::vector<std::size_t> slot_of = assign_slots(anchors, {0, -100}, 100, 0);
     EXPECT_EQ(slot_of, (std::vector<std::size_t>{1, 0}));
+}
+
+TEST(AssignSlots, ALeaderKeepsClearOfOtherAnchors) {
+    // In order of heights the leader of the left anchor would run through the right one.
+    const std::vector<Vec2> anchors{{0, 50}, {50, 39}};
+    const std::vector<double> slots{30, 0};
+    EXPECT_EQ(assign_slots(anchors, slots, 100, 0), (std::vector<std::size_t>{0, 1}));
+    EXPECT_EQ(assign_slots(anchors, slots, 100, 5), (std::vector<std::size_t>{1, 0}));
+}
+
+TEST(PlaceNames, MovesTheColumnWhereNoOrderIsClear) {
+    // The three lie on a level with the middle slot.
+    const std::vector<Vec2> anchors{{0, 500}, {300, 500}, {600, 500}};
+    const NameColumn column = place_names(anchors, 40, 0, 1000, 1000, 10);
+    for (std::size_t a = 0; a < anchors.size(); ++a) {
+        const Vec2 end(1000, column.slots[column.slot_of[a]]);
+        for (std::size_t b = 0; b < anchors.size(); ++b) {
+            if (b <= a) continue;  // the others lie behind
+            const double share = (anchors[b].x() - anchors[a].x()) / (end.x() - anchors[a].x());
+            const Vec2 beside = anchors[a] + share * (end - anchors[a]);
+            EXPECT_GE((beside - anchors[b]).norm(), 10) << a << ' ' << b;
+        }
+    }
 }
 
 TEST(TopOfNames, IsBesideTheAnchorsAndInTheRoom) {
@@ -53,4 +76,4 @@ TEST(TopOfNames, IsBesideTheAnchorsAndInTheRoom) {
 }
 
 }  // namespace
-}  // namespace clsurf::viz::defect_map_test
+}  // namespace clsurf::viz::leader_slots_test
