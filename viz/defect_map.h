@@ -22,6 +22,7 @@ struct DefectKind {
 
 struct DefectMark {
     std::vector<PointRange> sections;  ///< of the passes at fault
+    PointIndex point = -1;             ///< where it is strongest; −1: not known
     std::size_t kind = 0;              ///< index into DefectMap::kinds
     double strength = 1;               ///< 0 light … 1 dark
     bool region = false;               ///< thin lines, a hatched region: many passes together

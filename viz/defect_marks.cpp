@@ -72,18 +72,18 @@ public:
           room_(room),
           look_(look),
           layout_(layout),
+          marks_(map.defects->marks),
           ink_(ink_for(look.background)),
           corner_(panel.rect.x, panel.rect.y),
           depth_(panel.geometry, panel.camera) {}
 
     void draw() {
-        const std::vector<DefectMark>& marks = map_.defects->marks;
-        std::vector<std::optional<Vec2>> anchors(marks.size());
+        std::vector<std::optional<Vec2>> anchors(marks_.size());
         const std::size_t before = sheet_.lines.size();
         // The strongest last, on top of the others; regions below all.
         for (const bool region : {true, false}) {
-            for (std::size_t k = marks.size(); k-- > 0;) {
-                if (marks[k].region == region) anchors[k] = draw_mark(marks[k]);
+            for (std::size_t k = marks_.size(); k-- > 0;) {
+                if (marks_[k].region == region) anchors[k] = draw_mark(marks_[k]);
             }
         }
         // A mark is as wide as its strip of the part; where it runs along an edge of the picture, half of it is outside.
@@ -167,36 +167,51 @@ private:
         }
     }
 
-    /// Where its name's line begins: the middle of the longest part that is seen, else of one that is hidden; nothing: it
-    /// is not in the picture.
-    std::optional<Vec2> draw_mark(const DefectMark& mark) {
-        const DefectKind& kind = kind_of(mark);
-        const Rgb rgb = mixed(kind.rgb, mark.region ? region_share : lightest + (1 - lightest) * mark.strength);
+    /// Where its name's line begins: on the section that its words are of, where that is in the picture. Nothing: no section
+    /// is.
+    std::optional<Vec2> draw_mark(DefectMark& mark) {
+        const Rgb rgb =
+            mixed(kind_of(mark).rgb, mark.region ? region_share : lightest + (1 - lightest) * mark.strength);
         std::optional<Vec2> anchor;
-        double longest = -1;
+        double highest = -1;
+        bool names_told = false;
         for (const PointRange& section : mark.sections) {
-            const double strip = width_at((section.first + section.last) / 2);
-            const double width =
-                mark.region ? region_width * layout_.text : std::max(least_mark_width * layout_.text, strip);
+            const bool told = mark.point < 0 || (mark.point >= section.first && mark.point <= section.last);
             for (const Stroke& stroke : strokes_of(section)) {
-                // Of a region only what is seen: dots of its many lines would tangle.
-                if (stroke.hidden && mark.region) continue;
-                if (stroke.hidden)
-                    add_dots(stroke.line, hidden_width * layout_.text, hidden_width * layout_.text,
-                             dot_every * layout_.text, rgb);
-                else if (mark.region)
-                    sheet_.lines.push_back({stroke.line, width, rgb, Level::area});
-                else
-                    add_stroke(stroke.line, kind, width, rgb);
+                // Of the other sections of a region only what is seen: dots of its many lines would tangle.
+                if (stroke.hidden && mark.region && !told) continue;
+                draw_stroke(mark, section, stroke, rgb);
+                // The longest part; what is seen before what is hidden.
                 const double length = length_of(stroke.line);
-                // What is seen is named before what is hidden.
-                const double rank = stroke.hidden ? length / (1 + length) : 1 + length;
-                if (rank <= longest) continue;
-                longest = rank;
+                const double rank = (told ? 2 : 0) + (stroke.hidden ? 0 : 1) + length / (1 + length);
+                if (rank <= highest) continue;
+                highest = rank;
+                names_told = told;
                 anchor = part_of(stroke.line, 0.5 * length, length).front();
             }
         }
+        if (!anchor) return anchor;
+        if (!names_told) {
+            mark.lines = "strongest outside the picture";
+            mark.place.clear();
+        } else if (mark.region && mark.point >= 0) {
+            // A section of a region may be as long as its pass.
+            const Vec3 place = map_.surface->positions.absolute(mark.point);
+            if (shows(panel_.camera, look_, place)) anchor = corner_ + panel_.camera.pixel(place);
+        }
         return anchor;
+    }
+
+    void draw_stroke(const DefectMark& mark, const PointRange& section, const Stroke& stroke, const Rgb& rgb) {
+        const double t = layout_.text;
+        if (stroke.hidden) {
+            add_dots(stroke.line, hidden_width * t, hidden_width * t, dot_every * t, rgb);
+        } else if (mark.region) {
+            sheet_.lines.push_back({stroke.line, region_width * t, rgb, Level::area});
+        } else {
+            const double strip = width_at((section.first + section.last) / 2);
+            add_stroke(stroke.line, kind_of(mark), std::max(least_mark_width * t, strip), rgb);
+        }
     }
 
     void text(double x, double y, const std::string& words, double size, bool bold, const Rgb& rgb,
@@ -272,7 +287,7 @@ private:
             const auto place = static_cast<double>(k);
             const double x = layout_.margin + std::fmod(place, columns) * width / columns;
             const double y = top - row * t * std::floor(place / columns);
-            const DefectMark& mark = map_.defects->marks[named[k]];
+            const DefectMark& mark = marks_[named[k]];
             add_texts_of(mark, Vec2(x, y - 1.0 * t), width / columns - t);
             const Rgb grey = faint(ink_, look_.background);
             if (row >= with_place)
@@ -293,7 +308,7 @@ private:
         for (const std::size_t k : named)
             placer.take({anchors[k]->x() - 0.3 * t, anchors[k]->y() - 0.3 * t, 0.6 * t, 0.6 * t});
         for (const std::size_t k : named) {
-            const DefectMark& mark = map_.defects->marks[k];
+            const DefectMark& mark = marks_[k];
             FlatText flat{0, 0, mark.number, 0.92 * t, Align::centre, true, ink_of(mark)};
             const Vec2 size(text_width(flat) + 0.3 * t, 1.15 * t);
             const std::optional<Rect> rect = placer.place(*anchors[k] + Vec2(0, t), size);
@@ -376,6 +391,7 @@ private:
     const MapLayout& layout_;
     Rgb ink_;
     Vec2 corner_;
+    std::vector<DefectMark> marks_;  ///< as they are told: one whose strongest section is outside the picture says so
     DepthBuffer depth_;
 };
 

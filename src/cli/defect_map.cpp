@@ -24,6 +24,14 @@ viz::DefectKind kind_of(Quantity quantity) {
     return {};
 }
 
+/// Where it is strongest; of many sections only the longest are kept, and io::lines_label() is then of the first one.
+PointIndex named_point(const Defect& d) {
+    const bool is_kept = std::any_of(d.runs.begin(), d.runs.end(), [&](const DefectRun& run) {
+        return d.point >= run.points.first && d.point <= run.points.last;
+    });
+    return is_kept || d.runs.empty() ? d.point : d.runs.front().points.first;
+}
+
 }  // namespace
 
 viz::DefectMap defect_map_of(const QualityReport& report) {
@@ -42,6 +50,7 @@ viz::DefectMap defect_map_of(const QualityReport& report) {
             static_cast<std::size_t>(std::find(quantities.begin(), quantities.end(), d.quantity) - quantities.begin());
         viz::DefectMark mark;
         for (const DefectRun& run : d.runs) mark.sections.push_back(run.points);
+        mark.point = named_point(d);
         mark.kind = index[q];
         mark.strength = std::clamp(std::log2(std::max(1.0, double{d.score})) / std::log2(darkest_score), 0.0, 1.0);
         mark.region = d.systematic;

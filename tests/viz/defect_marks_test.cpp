@@ -20,8 +20,9 @@ public:
     Part() : surface_(test::surface_of(test::zigzag(21, 10, 0.5, 0.1), 0.5)) {
         field_.values = Column<float>(static_cast<std::size_t>(surface_.positions.size()), 1.0F);
     }
-    [[nodiscard]] Sheet sheet(const DefectMap& defects) const {
+    [[nodiscard]] Sheet sheet(const DefectMap& defects, const Zoom& zoom = {}) const {
         Look look;
+        look.zoom = zoom;
         look.view = parse_view("top");
         look.names = true;
         MapPanel panel;
@@ -29,6 +30,10 @@ public:
         panel.field = &field_;
         panel.defects = &defects;
         return map_sheet({panel}, placed_map({panel}, look), {}, {}, look);
+    }
+    [[nodiscard]] Vec2 pixel(const Sheet& sheet, PointIndex point) const {
+        const MeshPanel& panel = sheet.panels[0];
+        return Vec2(panel.rect.x, panel.rect.y) + panel.camera.pixel(surface_.positions.absolute(point));
     }
 
 private:
@@ -61,6 +66,45 @@ TEST(DefectMarks, TheCasingOfALeaderIsBelowTheMarks) {
         EXPECT_LT(line.level, Level::mark) << "it would erase a mark that the leader runs along";
     }
     EXPECT_TRUE(cased);
+}
+
+/// Middle of the white dot where a leader begins.
+Vec2 anchor_in(const Sheet& sheet) {
+    Vec2 sum = Vec2::Zero();
+    int count = 0;
+    for (const FlatLine& line : sheet.lines) {
+        if (line.level != Level::dot_fill) continue;
+        sum += 0.5 * (line.points.front() + line.points.back());
+        ++count;
+    }
+    return sum / std::max(1, count);
+}
+
+bool has_text(const Sheet& sheet, const std::string& words) {
+    return std::any_of(sheet.texts.begin(), sheet.texts.end(),
+                       [&](const FlatText& text) { return text.text == words; });
+}
+
+TEST(DefectMarks, ALeaderBeginsWhereTheWordsAreOf) {
+    const Part part;
+    // The strongest point lies in the shorter section.
+    DefectMark mark = mark_of("1", {{1020, 1030}, {1220, 1290}});
+    mark.point = 1022;
+    const Sheet section = part.sheet(map_of({mark}));
+    EXPECT_LT((anchor_in(section) - part.pixel(section, 1025)).norm(), 2) << "in the middle of its section";
+    mark.region = true;
+    const Sheet region = part.sheet(map_of({mark}));
+    EXPECT_LT((anchor_in(region) - part.pixel(region, 1022)).norm(), 2) << "at the point itself";
+}
+
+TEST(DefectMarks, SayWhereTheirStrongestSectionIsNotInThePicture) {
+    const Part part;
+    DefectMark mark = mark_of("1", {{10, 30}, {2020, 2060}});
+    mark.point = 20;
+    EXPECT_TRUE(has_text(part.sheet(map_of({mark})), "line 1"));
+    const Sheet upper = part.sheet(map_of({mark}), {0, 0, 1, 0.5});
+    EXPECT_FALSE(has_text(upper, "line 1"));
+    EXPECT_TRUE(has_text(upper, "strongest outside the picture"));
 }
 
 }  // namespace
