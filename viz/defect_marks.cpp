@@ -205,6 +205,7 @@ private:
     void draw_stroke(const DefectMark& mark, const PointRange& section, const Stroke& stroke, const Rgb& rgb) {
         const double t = layout_.text;
         if (stroke.hidden) {
+            any_hidden_ = true;
             add_dots(stroke.line, hidden_width * t, hidden_width * t, dot_every * t, rgb);
         } else if (mark.region) {
             sheet_.lines.push_back({stroke.line, region_width * t, rgb, Level::area});
@@ -372,15 +373,17 @@ private:
         double y = bottom + 0.5 * row;
         const Rgb grey = faint(ink_, look_.background);
         const auto line = [&] { return std::vector<Vec2>{{x, y}, {x + 2.2 * t, y}}; };
-        add_dots(line(), hidden_width * t, hidden_width * t, dot_every * t, grey);
-        text(x + 2.6 * t, y, "hidden", layout_.small_text, false, grey);
-        for (std::size_t k = map_.defects->kinds.size(); k-- > 0;) {
+        if (any_hidden_) {
+            add_dots(line(), hidden_width * t, hidden_width * t, dot_every * t, grey);
+            text(x + 2.6 * t, y, "hidden", layout_.small_text, false, grey);
             y += row;
+        }
+        for (std::size_t k = map_.defects->kinds.size(); k-- > 0; y += row) {
             const DefectKind& kind = map_.defects->kinds[k];
             add_stroke(line(), kind, 0.4 * t, kind.rgb);
             text(x + 2.6 * t, y, kind.name, layout_.small_text, false, grey);
         }
-        return y + row;
+        return y;
     }
 
     Sheet& sheet_;
@@ -389,10 +392,11 @@ private:
     Rect room_;
     const Look& look_;
     const MapLayout& layout_;
+    std::vector<DefectMark> marks_;  ///< as they are told: one whose strongest section is outside the picture says so
     Rgb ink_;
     Vec2 corner_;
-    std::vector<DefectMark> marks_;  ///< as they are told: one whose strongest section is outside the picture says so
     DepthBuffer depth_;
+    bool any_hidden_ = false;  ///< a part of a mark is dotted
 };
 
 }  // namespace

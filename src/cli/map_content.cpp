@@ -65,7 +65,8 @@ void note_judgement(const QualityReport& report, std::string_view which, viz::Ma
 
 /// Reports name contact points where the tool is known; a map has tool tips.
 void note_axes(const Shown& shown, std::vector<std::string>& notes) {
-    if (shown.part.tool && !shown.relief) notes.emplace_back("axes: positions of the tool tip");
+    if (shown.part.tool && !shown.relief)
+        notes.emplace_back("axes show the tool tip; `clsurf check --tool` lists contact points");
 }
 
 }  // namespace
@@ -112,9 +113,12 @@ viz::Image draw_defect_map(const Shown& shown, const RenderOptions& options) {
     texts.title = io::headline_of(shown.defects.report);
     if (!shown.defects.report.judgement.judged() && !shown.defects.report.defects.empty())
         texts.title = "Not judged: " + texts.title;
-    texts.subtitle = fmt::format("{} · {} · {} · {}", count, file_name(options.part.program), run_name(shown, options),
-                                 viz::counts_of(shown.surface));
-    texts.notes = {"coloured: the sections at fault", "darker: farther above the threshold; 1: the farthest"};
+    // "0 defects" would clear a part that was not judged.
+    const bool is_known = shown.defects.report.judgement.judged() || !defects.marks.empty();
+    texts.subtitle = fmt::format("{}{} · {} · {}", is_known ? count + " · " : "", file_name(options.part.program),
+                                 run_name(shown, options), viz::counts_of(shown.surface));
+    if (!defects.marks.empty())
+        texts.notes = {"colour: sections at fault", "darker: further above the threshold", "1: highest score"};
     note_axes(shown, texts.notes);
     note_judgement(shown.defects.report, "", texts);
     if (options.programmed) texts.notes.emplace_back("thin lines: the programmed path");

@@ -107,5 +107,12 @@ TEST(DefectMarks, SayWhereTheirStrongestSectionIsNotInThePicture) {
     EXPECT_TRUE(has_text(upper, "strongest outside the picture"));
 }
 
+TEST(DefectMarks, TheKeyHasWhatIsInThePicture) {
+    const Part part;
+    const Sheet sheet = part.sheet(map_of({mark_of("1", {{1020, 1060}})}));
+    EXPECT_TRUE(has_text(sheet, "speed"));
+    EXPECT_FALSE(has_text(sheet, "hidden")) << "nothing hides a flat part";
+}
+
 }  // namespace
 }  // namespace clsurf::viz::defect_marks_test
