@@ -13,7 +13,6 @@
 #include "cli/stage_clock.h"
 #include "core/file_name.h"
 #include "core/not_finite.h"
-#include "core/statistics.h"
 #include "core/units.h"
 #include "io/reports/defect_names.h"
 #include "io/reports/quality_words.h"
@@ -149,22 +148,19 @@ viz::CardChart chart_across(const DefectProfile& profile, float threshold, const
         at_fault.values.push_back(profile.across[i] == 0 ? height : missing<double>);
     }
     chart.curves = {std::move(all), std::move(at_fault)};
-    std::vector<double> others;
-    for (std::size_t i = 0; i < profile.across.size(); ++i) {
-        if (profile.across[i] != 0 && std::isfinite(profile.across_height[i]))
-            others.push_back(profile.across_height[i]);
-    }
-    if (others.empty()) return chart;
-    const double usual = quantile_below(others, 0.5);
+    const double usual = profile.usual_across;
+    if (!std::isfinite(usual)) return chart;
     chart.band_low.assign(profile.across.size(), (usual - threshold) * um_per_mm);
     chart.band_high.assign(profile.across.size(), (usual + threshold) * um_per_mm);
     return chart;
 }
 
-std::string title_of(DefectProfile::HeightOf height) {
+std::string title_of(DefectProfile::HeightOf height, Cause cause) {
     switch (height) {
         case DefectProfile::HeightOf::measured: return "Height of the measured path [µm]";
-        case DefectProfile::HeightOf::programmed: return "Height of the programmed path [µm]";
+        case DefectProfile::HeightOf::programmed:
+            return cause == Cause::path_tolerance ? "Height of the commanded path [µm]"
+                                                  : "Height of the programmed path [µm]";
         case DefectProfile::HeightOf::relief: return "Height over adjacent passes [µm]";
     }
     return {};
@@ -185,8 +181,9 @@ std::string formed_text(const JudgedPart& judged, std::size_t index) {
 viz::Image draw_defect_card(const JudgedPart& judged, std::size_t index, int width, int height, const std::string& gl,
                             bool keep_drawing) {
     const Defect& d = judged.report.defects[index];
+    const HeightPeers peers = height_peers_of(d, judged.report);
     const DefectProfile profile = profile_of(d, judged.surface, judged.signals, *judged.part.lines,
-                                             ProgrammedMarks(judged.surface, judged.signals, judged.report));
+                                             ProgrammedMarks(judged.surface, judged.signals, judged.report), peers);
     const Thresholds& thresholds = judged.report.thresholds;
     QualityReport one;
     one.defects = {d};
@@ -200,7 +197,8 @@ viz::Image draw_defect_card(const JudgedPart& judged, std::size_t index, int wid
                     file_name(judged.part.program.main().name()), file_name(judged.part.log.name));
     draw_place(judged, index, viz::card_map_size(width, height), gl, keep_drawing, card);
     card.key = {{pass_name(d), rgb}, {"next passes", near_colour}, {"second next", far_colour}};
-    card.band_name = "usual ± threshold";
+    card.band_name = peers == HeightPeers::same_direction ? "usual ± threshold; heights: in the same direction"
+                                                          : "usual ± threshold";
     std::vector<double> speed_threshold;
     for (const float usual : profile.usual_speed)
         speed_threshold.push_back(thresholds.of[index_of(Quantity::speed)] * std::max(usual, thresholds.least_speed));
@@ -212,7 +210,7 @@ viz::Image draw_defect_card(const JudgedPart& judged, std::size_t index, int wid
     const float height_threshold = thresholds.of[index_of(by_lag ? Quantity::lag : Quantity::relief)];
     viz::CardChart heights = chart_along(profile, profile.height, profile.usual_height, um_per_mm,
                                          std::vector<double>(profile.along.size(), height_threshold), rgb);
-    heights.title = title_of(profile.height_of);
+    heights.title = title_of(profile.height_of, d.cause);
     card.charts = {std::move(speed), std::move(heights), chart_across(profile, height_threshold, rgb)};
     return viz::draw_card(card, width, height, gl);
 }

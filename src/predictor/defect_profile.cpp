@@ -67,8 +67,24 @@ float height_at(HeightOf of, const PathLocation& at, const Compared& there, cons
     return of == HeightOf::measured ? there.lag + above : above;
 }
 
+/// What height is usual at a point; `height` gives that of a place.
+template <typename Height>
+float usual_height_at(const ClSurface& surface, const Signals& signals, PointIndex point, HeightPeers peers,
+                      const Height& height) {
+    constexpr int aside_of_direction = 4;  // of a zigzag two passes on each side run the same way
+    const bool all = peers == HeightPeers::nearest;
+    std::vector<float> heights;
+    for (const Side side : {Side::left, Side::right}) {
+        for (const PathLocation& at :
+             places_beside(surface, signals, point, side, all ? DefectProfile::aside : aside_of_direction)) {
+            if (all || signals.feed(at.nearest()).dot(signals.feed(point)) > 0) heights.push_back(height(at));
+        }
+    }
+    return median_known(std::move(heights));
+}
+
 void add_across(DefectProfile& profile, const ClSurface& surface, const Signals& signals, const ProgrammedMarks& marks,
-                PointIndex point) {
+                PointIndex point, HeightPeers peers) {
     const Eigen::Vector3f normal = signals.normal(point);
     const auto height = [&](const PathLocation& at) {
         return height_at(profile.height_of, at, compared_at(signals, at, normal), normal, marks);
@@ -89,14 +105,23 @@ void add_across(DefectProfile& profile, const ClSurface& surface, const Signals&
         profile.across.push_back(across);
         profile.across_height.push_back(high);
     }
+    profile.usual_across = usual_height_at(surface, signals, point, peers, height);
 }
 
 }  // namespace
 
+HeightPeers height_peers_of(const Defect& defect, const QualityReport& report) {
+    // A relief is one of the commanded positions, which have no lag.
+    if (defect.systematic || defect.quantity == Quantity::relief) return HeightPeers::nearest;
+    const bool alternates =
+        std::any_of(report.defects.begin(), report.defects.end(), [](const Defect& other) { return other.systematic; });
+    return alternates ? HeightPeers::same_direction : HeightPeers::nearest;
+}
+
 DefectProfile profile_of(const Defect& defect, const ClSurface& surface, const Signals& signals, const LineMap& lines,
-                         const ProgrammedMarks& marks) {
+                         const ProgrammedMarks& marks, HeightPeers peers) {
     DefectProfile profile;
-    if (signals.measured)
+    if (signals.measured && defect.quantity != Quantity::relief)
         profile.height_of = HeightOf::measured;
     else if (!marks.at(defect.point).isZero(0))
         profile.height_of = HeightOf::programmed;
@@ -129,7 +154,6 @@ DefectProfile profile_of(const Defect& defect, const ClSurface& surface, const S
                     found[k];
         }
         std::vector<float> other_speeds;
-        std::vector<float> other_heights;
         for (std::size_t k = 0; k < places.size(); ++k) {
             float speed = missing<float>;
             float height = missing<float>;
@@ -142,12 +166,14 @@ DefectProfile profile_of(const Defect& defect, const ClSurface& surface, const S
             profile.height[k].push_back(height);
             if (k == DefectProfile::at_fault) continue;
             other_speeds.push_back(speed);
-            other_heights.push_back(height);
         }
         profile.usual_speed.push_back(median_known(std::move(other_speeds)));
-        profile.usual_height.push_back(median_known(std::move(other_heights)));
+        profile.usual_height.push_back(usual_height_at(surface, signals, i, peers, [&](const PathLocation& at) {
+            const Eigen::Vector3f normal = signals.normal(i);
+            return height_at(profile.height_of, at, compared_at(signals, at, normal), normal, marks);
+        }));
     }
-    add_across(profile, surface, signals, marks, defect.point);
+    add_across(profile, surface, signals, marks, defect.point, peers);
     return profile;
 }
 

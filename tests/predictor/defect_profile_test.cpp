@@ -89,6 +89,32 @@ TEST(DefectProfile, ShowsAPassThatLiesLower) {
     }
 }
 
+TEST(DefectProfile, OfAlternatingLagComparesPassesOfOneDirection) {
+    // Passes along X lie 6 µm higher than those against it, and the sixth, against it, 3 µm higher than the others.
+    const auto alternating = [](const Vec3& p, const Vec3& feed) {
+        const double fault = std::abs(p.y() - 5 * apart) < 0.01 ? 0.003 : 0.0;
+        return Vec3(p.x(), p.y(), (feed.x() > 0 ? 0.006 : 0.0) + fault);
+    };
+    const test::MadeSurface made = test::flat_zigzag(11, length, apart, 50, alternating);
+    const Signals signals = made.signals();
+    std::vector<std::uint32_t> columns;
+    const LineMap lines = lines_of(made, columns);
+    QualityReport report;
+    report.defects = {middle_of(made, 5, 4), middle_of(made, 3, 4)};
+    EXPECT_EQ(height_peers_of(report.defects[0], report), HeightPeers::nearest);
+    report.defects[1].systematic = true;
+    EXPECT_EQ(height_peers_of(report.defects[0], report), HeightPeers::same_direction);
+    EXPECT_EQ(height_peers_of(report.defects[1], report), HeightPeers::nearest) << "it is the difference itself";
+    const DefectProfile profile =
+        profile_of(report.defects[0], made.surface, signals, lines, {}, HeightPeers::same_direction);
+    EXPECT_NEAR(profile.usual_across, 0, 1e-5);
+    const std::size_t middle = profile.along.size() / 2;
+    EXPECT_NEAR(profile.usual_height[middle], profile.usual_across, 1e-5) << "both charts have one level";
+    EXPECT_NEAR(profile.height[DefectProfile::at_fault][middle], 0.003, 1e-5);
+    const DefectProfile all = profile_of(report.defects[1], made.surface, signals, lines, {});
+    EXPECT_NEAR(all.usual_across, all.usual_height[all.along.size() / 2], 1e-5);
+}
+
 TEST(DefectProfile, ShowsThePassesOfAProgrammedMarkOverThoseThatAreNotOnIt) {
     // Two passes are programmed 8 µm higher on a cylinder across the feed. The machine follows them, or nothing was measured.
     const auto place = [](const Vec3& p) {
@@ -108,8 +134,7 @@ TEST(DefectProfile, ShowsThePassesOfAProgrammedMarkOverThoseThatAreNotOnIt) {
         report.defects[0].runs.push_back(middle_of(made, 6, 4).runs[0]);
         const ProgrammedMarks marks(made.surface, signals, report);
         const DefectProfile profile = profile_of(report.defects[0], made.surface, signals, lines, marks);
-        EXPECT_EQ(profile.height_of,
-                  measured ? DefectProfile::HeightOf::measured : DefectProfile::HeightOf::programmed);
+        EXPECT_EQ(profile.height_of, DefectProfile::HeightOf::programmed) << "a relief is one of the program";
         ASSERT_EQ(profile.across.size(), 11U);
         // The sixth pass runs against X: the seventh is on its right, at +0.4 mm.
         for (std::size_t k = 0; k < profile.across.size(); ++k)
