@@ -21,6 +21,7 @@ constexpr Rgb marked_colour{235, 170, 90};
 constexpr double title_share = 0.15;  ///< of the height
 constexpr double map_share = 0.36;    ///< of the width
 constexpr double foot_share = 0.02;
+constexpr double axes_room = 3.2;       ///< from the middle of the axes to the right end of the strip, in text sizes
 constexpr double bearings_lines = 3.4;  ///< height of what stands below the map, in text sizes
 
 double text_size(int width, int height) { return std::clamp(std::min(width * 0.4, height * 1.0) / 34.0, 8.0, 40.0); }
@@ -106,13 +107,7 @@ public:
             arrow(middle - half, middle + half);
             words({middle.x() + 1.7 * text_, y}, "feed", Align::left);
         }
-        const Vec2 origin(width - 3.2 * text_, y - 0.9 * text_);
-        for (std::size_t k = 0; k < b.axes.size(); ++k) {
-            if (b.axes[k].norm() < 0.35) continue;  // towards the eye
-            const Vec2 end = origin + 1.5 * text_ * b.axes[k];
-            stroke(origin, end, 0.1);
-            words(origin + 2.1 * text_ * b.axes[k], std::string(1, "XYZ"[k]), Align::centre);
-        }
+        axes(b.axes, Vec2(width - axes_room * text_, y));
     }
 
     void key(const DefectCard& card, double right, double y) {
@@ -129,6 +124,23 @@ public:
     }
 
 private:
+    /// The axes of the part with their letters, all of it with its middle at a place, whichever way the axes point.
+    void axes(const std::array<Vec2, 3>& directions, const Vec2& middle) {
+        constexpr double length = 1.3, to_letter = 1.85, least_seen = 0.35;
+        Vec2 low = Vec2::Zero(), high = Vec2::Zero();
+        for (const Vec2& direction : directions) {
+            if (direction.norm() < least_seen) continue;  // towards the eye
+            low = low.cwiseMin(to_letter * text_ * direction);
+            high = high.cwiseMax(to_letter * text_ * direction);
+        }
+        const Vec2 origin = middle - 0.5 * (low + high);
+        for (std::size_t k = 0; k < directions.size(); ++k) {
+            if (directions[k].norm() < least_seen) continue;
+            stroke(origin, origin + length * text_ * directions[k], 0.1);
+            words(origin + to_letter * text_ * directions[k], std::string(1, "XYZ"[k]), Align::centre);
+        }
+    }
+
     void stroke(const Vec2& from, const Vec2& to, double width) {
         sheet_.lines.push_back({{from, to}, width * text_, chart_ink, Level::line});
     }
