@@ -16,14 +16,29 @@ constexpr double shortest_pass = 2.0;         ///< step-overs of arc length; a s
 constexpr float vertical_slope = 0.02F;       ///< horizontal per vertical arc length of an approach
 constexpr float vertical_tolerance = 0.005F;  ///< [mm]
 constexpr float least_approach = 0.1F;        ///< [mm]; a shorter vertical piece is left alone
+constexpr float rounded_corner = 0.1F;        ///< [mm] aside, of a controller that rounds the corner before an approach
+
+float aside(const Eigen::Vector3f& offset) { return std::hypot(offset.x(), offset.y()); }
+
+/// Where a rounded corner between a rapid and a vertical approach ends, from its middle on: it is steep, and becomes vertical.
+PointIndex end_of_corner(const Positions& p, PointIndex from, PointIndex to, int direction) {
+    PointIndex i = from;
+    while (i != to && aside(p[i + direction] - p[from]) < rounded_corner) {
+        const Eigen::Vector3f step = p[i + direction] - p[i];
+        const float down = std::abs(step.z());
+        if (aside(step) <= vertical_slope * down || aside(step) > down) break;
+        i += direction;
+    }
+    return i;
+}
 
 /// Points of [from, to] in steps of `direction` that only move along z, counted from `from`.
 PointIndex vertical_points(const Positions& p, PointIndex from, PointIndex to, int direction) {
-    const Eigen::Vector3f start = p[from];
-    PointIndex i = from;
+    PointIndex i = end_of_corner(p, from, to, direction);
+    const Eigen::Vector3f start = p[i];
     while (i != to) {
         const Eigen::Vector3f offset = p[i + direction] - start;
-        if (std::hypot(offset.x(), offset.y()) > vertical_tolerance + vertical_slope * std::abs(offset.z())) break;
+        if (aside(offset) > vertical_tolerance + vertical_slope * std::abs(offset.z())) break;
         i += direction;
     }
     if (std::abs((p[i] - start).z()) < least_approach) return 0;

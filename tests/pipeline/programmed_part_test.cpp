@@ -109,5 +109,24 @@ TEST(SimulatedPart, IsThePartOfTheSimulatedLog) {
     EXPECT_NE(made.log.find("limit"), nullptr);
 }
 
+TEST(SimulatedPart, APlungeBehindARoundedCornerIsNoPass) {
+    // The controller rounds the corner from the rapid to the plunge: the plunge begins some micrometres aside.
+    std::string text = "G0 X520 Y-310 Z31.5\nG1 Z1.5 F4000\n";
+    for (int pass = 0; pass < 8; ++pass) {
+        text += "Y" + std::to_string(-310 + 0.4 * pass) + "\n";
+        text += pass % 2 == 0 ? "X560\n" : "X520\n";
+    }
+    const Part part = simulated_part(program_of(text), {}).part;
+    const ClSurface surface = stitch(part);
+    int cuts = 0;
+    for (const Pass& pass : surface.passes) {
+        if (!is_of_surface(pass.kind)) continue;
+        cuts += pass.kind == PassKind::cut ? 1 : 0;
+        for (PointIndex i = pass.first; i <= pass.last; ++i)
+            ASSERT_LT(surface.positions.absolute(i).z(), 2) << "point " << i;
+    }
+    EXPECT_EQ(cuts, 8);
+}
+
 }  // namespace
 }  // namespace clsurf::programmed_part_test
