@@ -11,8 +11,23 @@ constexpr double cell = 3;             ///< [px]
 constexpr double reach = 12;           ///< heights of a label from where it is wanted
 constexpr double ring_distance = 0.5;  ///< heights between two rings of tries
 constexpr int tries_a_ring = 16;
+constexpr double start_of_line = 2.5 * cell;  ///< [px] that its own mark takes
+
+/// Calls visit(a place on a line) from cell to cell until it says false; whether it never did.
+template <typename Visit>
+bool every_place(const Vec2& from, const Vec2& to, Visit&& visit) {
+    const int steps = 1 + static_cast<int>((to - from).norm() / cell);
+    for (int k = 0; k <= steps; ++k) {
+        if (!visit(Vec2(from + (to - from) * k / steps))) return false;
+    }
+    return true;
+}
 
 }  // namespace
+
+Vec2 nearest_in(const Rect& rect, const Vec2& to) {
+    return {std::clamp(to.x(), rect.x, rect.x + rect.width), std::clamp(to.y(), rect.y, rect.y + rect.height)};
+}
 
 LabelPlacer::LabelPlacer(const Rect& panel)
     : panel_(panel),
@@ -52,19 +67,38 @@ Rect LabelPlacer::inside(const Vec2& centre, const Vec2& size) const {
             hold(centre.y() - 0.5 * size.y(), panel_.y, panel_.height - size.y()), size.x(), size.y()};
 }
 
-std::optional<Rect> LabelPlacer::place(const Vec2& centre, const Vec2& size) {
-    const auto is_free = [&](const Rect& rect) { return every_cell(rect, [](bool flag) { return !flag; }); };
+bool LabelPlacer::is_free(const Rect& rect) {
+    return every_cell(rect, [](bool flag) { return !flag; });
+}
+
+bool LabelPlacer::is_free(const Vec2& from, const Vec2& to) {
+    const auto is_near = [&](const Vec2& at) { return (at - from).norm() < start_of_line; };
+    return every_place(from, to, [&](const Vec2& at) { return is_near(at) || is_free({at.x(), at.y(), 0, 0}); });
+}
+
+void LabelPlacer::take_line(const Vec2& from, const Vec2& to) {
+    every_place(from, to, [&](const Vec2& at) {
+        take({at.x(), at.y(), 0, 0});
+        return true;
+    });
+}
+
+std::optional<Rect> LabelPlacer::place(const Vec2& centre, const Vec2& size, const std::optional<Vec2>& anchor) {
+    std::optional<Rect> nearest;
     for (double radius = 0; radius <= reach; radius += ring_distance) {
         for (int k = 0; k < (radius > 0 ? tries_a_ring : 1); ++k) {
             const double angle = 0.5 * std::numbers::pi + 2 * std::numbers::pi * k / tries_a_ring;
             const Vec2 aside = radius * size.y() * Vec2(std::cos(angle), std::sin(angle));
             const Rect rect = inside(centre + aside, size);
             if (!is_free(rect)) continue;
+            if (!nearest) nearest = rect;
+            if (anchor && !is_free(*anchor, nearest_in(rect, *anchor))) continue;
             take(rect);
             return rect;
         }
     }
-    return std::nullopt;
+    if (nearest) take(*nearest);
+    return nearest;
 }
 
 }  // namespace clsurf::viz

@@ -67,12 +67,13 @@ public:
         }
         for (const LineMark& mark : map_.lines) add_line(mark);
         for (const PointMark& mark : map_.points) add_point(mark);
-        for (const OutlineMark& mark : map_.outlines) add_outline(mark);
+        add_outlines();
         return without_room_;
     }
 
 private:
     static constexpr double hiding_step_overs = 2;  ///< so far above a line must be what hides it
+    static constexpr double label_lines = 1.24;     ///< height of a label, in text sizes
     static constexpr Rgb white{255, 255, 255};
     static constexpr Rgb black{0, 0, 0};
 
@@ -93,21 +94,23 @@ private:
     /// A label near its anchor, with its middle at `centre` where there is room; a line leads to one farther away.
     void add_label(const Vec2& anchor, const Vec2& middle, const std::string& text) {
         FlatText flat{0, 0, text, layout_.small_text, Align::centre, true, black};
-        const Vec2 size(text_width(flat) + 6, 1.24 * layout_.small_text);
-        const std::optional<Rect> rect = placer_.place(middle, size);
+        const Vec2 size(text_width(flat) + 6, label_lines * layout_.small_text);
+        const std::optional<Rect> rect = placer_.place(middle, size, anchor);
         if (!rect) {
             ++without_room_;
             return;
         }
         flat.x = rect->x + 0.5 * rect->width;
         flat.y = rect->y + 0.5 * rect->height;
-        const Vec2 nearest(std::clamp(anchor.x(), rect->x, rect->x + rect->width),
-                           std::clamp(anchor.y(), rect->y, rect->y + rect->height));
+        const Vec2 nearest = nearest_in(*rect, anchor);
         if ((Vec2(flat.x, flat.y) - middle).norm() > size.y()) {
             sheet_.lines.push_back({{anchor, nearest}, 0.2 * layout_.text, white, Level::edge});
             sheet_.lines.push_back({{anchor, nearest}, 0.06 * layout_.text, black, Level::line});
+            placer_.take_line(anchor, nearest);
         }
-        sheet_.quads.push_back({*rect, white});
+        // Over the outlines of other marks, which would run through the words.
+        sheet_.lines.push_back(
+            {{{rect->x, flat.y}, {rect->x + rect->width, flat.y}}, rect->height, white, Level::halo});
         sheet_.texts.push_back(std::move(flat));
     }
 
@@ -178,22 +181,35 @@ private:
         close();
     }
 
-    /// An outline with its number above it.
-    void add_outline(const OutlineMark& mark) {
-        Vec2 top(0, -1);
+    /// Draws an outline and keeps labels off it. Its highest place; nothing: it is not in the picture.
+    std::optional<Vec2> add_outline(const OutlineMark& mark) {
+        std::optional<Vec2> top;
         for (const std::vector<Vec3>& corners : mark.lines) {
             const auto position = [&](PointIndex i) -> const Vec3& { return corners[static_cast<std::size_t>(i)]; };
             for (std::vector<Vec2>& stroke :
                  strokes(static_cast<PointIndex>(corners.size()), position, panel_.camera, look_, corner_)) {
                 if (stroke.size() < 2) continue;
-                for (const Vec2& p : stroke) {
-                    if (p.y() > top.y()) top = p;
+                for (std::size_t k = 0; k < stroke.size(); ++k) {
+                    if (!top || stroke[k].y() > top->y()) top = stroke[k];
+                    if (k > 0) placer_.take_line(stroke[k - 1], stroke[k]);
                 }
                 sheet_.lines.push_back({stroke, 0.2 * layout_.text, white, Level::edge});
                 sheet_.lines.push_back({std::move(stroke), 0.08 * layout_.text, black, Level::line});
             }
         }
-        if (top.y() >= 0 && !mark.label.empty()) add_label(top, top + Vec2(0, 0.75 * layout_.small_text), mark.label);
+        return top;
+    }
+
+    /// Outlines with their numbers above them.
+    void add_outlines() {
+        constexpr double above = 6;  // [px] from an outline to its label
+        std::vector<std::optional<Vec2>> tops;
+        for (const OutlineMark& mark : map_.outlines) tops.push_back(add_outline(mark));
+        for (std::size_t k = 0; k < tops.size(); ++k) {
+            const std::string& label = map_.outlines[k].label;
+            if (tops[k] && !label.empty())
+                add_label(*tops[k], *tops[k] + Vec2(0, 0.5 * label_lines * layout_.small_text + above), label);
+        }
     }
 
     Sheet& sheet_;
