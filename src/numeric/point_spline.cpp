@@ -22,6 +22,29 @@ struct ChordSlopes {
     }
 };
 
+/// low s_{i−1} + middle s_i + high s_{i+1} = right for the slopes s.
+struct Row {
+    double low, middle, high;
+    Vec3 right;
+};
+
+/// The second derivative is the same at both ends of the span.
+Row even_row(const Vec3& slope) { return {1, 1, 1, 2 * slope}; }
+
+/// What holds at an end. `outer`: the span there; `inner`: the one beside it, the same if there is none.
+Row end_row(const PointSplineEnd& of, const ChordSlopes& chords, std::size_t outer, std::size_t inner) {
+    const Vec3& slope = chords.slope[outer];
+    switch (of.kind) {
+        case EndKind::tangent: return {0, 1, 0, of.direction};
+        case EndKind::natural: return {1, 2, 1, 3 * slope};
+        case EndKind::free: break;
+    }
+    if (outer == inner) return even_row(slope);
+    // The third derivative is the same in both spans.
+    const double h = chords.length[outer], beside = chords.length[inner], both = h + beside;
+    return {both, beside, both, ((h + 2 * both) * beside * slope + h * h * chords.slope[inner]) / both};
+}
+
 std::vector<BezierCurve> spans_with(std::span<const Vec3> points, const ChordSlopes& chords,
                                     const std::vector<Vec3>& slopes) {
     std::vector<BezierCurve> spans;
@@ -40,24 +63,13 @@ std::vector<BezierCurve> cubic_spline(std::span<const Vec3> points, const PointS
                                       const PointSplineEnd& end) {
     const ChordSlopes chords(points);
     const std::size_t last = points.size() - 1;
-    // low s_{i−1} + middle s_i + high s_{i+1} = right for the slopes s.
-    struct Row {
-        double low, middle, high;
-        Vec3 right;
-    };
-    const auto end_row = [](const PointSplineEnd& of, const Vec3& slope, double beside, bool alone) -> Row {
-        switch (of.kind) {
-            case EndKind::tangent: return {0, 1, 0, of.direction};
-            case EndKind::natural: return {beside, 2, beside, 3 * slope};
-            // Two free ends of one span say the same: a line.
-            case EndKind::free: return alone ? Row{0, 1, 0, slope} : Row{beside, 1, beside, 2 * slope};
-        }
-        return {};
-    };
-    const bool line = last == 1 && begin.kind == EndKind::free && end.kind == EndKind::free;
+    const bool free = begin.kind == EndKind::free && end.kind == EndKind::free;
     std::vector<Row> rows(last + 1);
-    rows[0] = end_row(begin, chords.slope.front(), 1, line);
-    rows[last] = end_row(end, chords.slope.back(), 1, line);
+    rows[0] = end_row(begin, chords, 0, std::min<std::size_t>(1, last - 1));
+    rows[last] = end_row(end, chords, last - 1, last > 1 ? last - 2 : 0);
+    // Two free ends of one span say the same, and so do those of two: a line, and a parabola.
+    if (free && last == 1) rows[0] = {0, 1, 0, chords.slope[0]};
+    if (free && last == 2) rows[0] = even_row(chords.slope[0]);
     for (std::size_t i = 1; i < last; ++i) {
         const double before = chords.length[i - 1], behind = chords.length[i];
         rows[i] = {behind, 2 * (before + behind), before,

@@ -11,7 +11,7 @@ namespace clsurf {
 /// What holds at an end.
 struct PointSplineEnd {
     enum class Kind : unsigned char {
-        free,     ///< cubic: the second derivative is the same at both ends of the first span; Akima: as Akima has it
+        free,     ///< cubic: the span there and the next are one cubic (not-a-knot); Akima: as Akima has it
         natural,  ///< second derivative 0
         tangent,  ///< first derivative, the unit vector `direction`
     };

@@ -75,5 +75,18 @@ TEST(PointSpline, TwoPointsAreALine) {
     }
 }
 
+TEST(PointSpline, AFreeEndOfTwoSpansLeavesOneCubic) {
+    const PointSplineEnd natural{PointSplineEnd::Kind::natural, {}};
+    const std::vector<Vec3> bent{{0, 0, 0}, {3, 4, 0}, {3, 4, 5}};
+    // Over u = 0, 5, 10: z = a u³ + b u with z(5) = 0, z(10) = 5.
+    const double a = 5.0 / 750, b = -25 * a;
+    const std::vector<BezierCurve> spans = cubic_spline(bent, natural, {});
+    EXPECT_NEAR(spans[0].at(0.5).z(), a * 2.5 * 2.5 * 2.5 + b * 2.5, 1e-12);
+    EXPECT_NEAR(spans[1].at(0.5).z(), a * 7.5 * 7.5 * 7.5 + b * 7.5, 1e-12);
+    // The other way round it is the same.
+    const std::vector<Vec3> back(bent.rbegin(), bent.rend());
+    EXPECT_NEAR(cubic_spline(back, {}, natural)[1].at(0.5).z(), spans[0].at(0.5).z(), 1e-12);
+}
+
 }  // namespace
 }  // namespace clsurf::point_spline_test

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include "program/motion_rows.h"
 
@@ -156,6 +157,89 @@ TEST(Curves, SplinesThroughPointsEndWithTheMotionsBesideThem) {
         if (event.name == "coolant") places.push_back(event.motion);
     }
     EXPECT_EQ(places, (std::vector<std::int64_t>{3, 5}));
+}
+
+// Four spans after G1 X4 Y1, before G1 X40 Y0.
+constexpr const char* five_points = "X10 Y8 Z1\nX16 Y3 Z2\nX25 Y11 Z0\nX31 Y2 Z1\n";
+
+Program cubic(const std::string& ends, const std::string& points, const std::string& behind) {
+    return parse("G71 G90\nG0 X0 Y0 Z0\nG1 X4 Y1 F1000\n" + ends + " CSPLINE\n" + points + behind, "siemens");
+}
+
+/// What is between the points, and that the curvature goes on at each of them.
+void expect_cubic(const Program& program, const std::vector<Vec3>& middles) {
+    ASSERT_EQ(program.motions.curves.size(), middles.size());
+    CurveJet before;
+    for (std::size_t i = 0; i < middles.size(); ++i) {
+        const BezierCurve& span = *program.motions.curves[i].span;
+        expect_at(program, i, 0.5, middles[i]);
+        // The parameter is the length of the chord.
+        const double chord = (span.at(1) - span.at(0)).norm();
+        const CurveJet begin = span.jet(0), end = span.jet(1);
+        if (i > 0) {
+            EXPECT_LE((begin.first / chord - before.first).norm(), 1e-12) << "span " << i;
+            EXPECT_LE((begin.second / (chord * chord) - before.second).norm(), 1e-12) << "span " << i;
+        }
+        before.first = end.first / chord;
+        before.second = end.second / (chord * chord);
+    }
+}
+
+// What is expected of five points: cubic polynomials over the lengths of the chords. numpy.linalg.solve gives the 16
+// coefficients of each coordinate from points, slopes, second derivatives and ends; SciPy (interpolate, cubic spline) says the
+// same to 1e-13.
+std::vector<Vec3> natural_middles() {
+    return {{6.891398592434, 6.228999026127, 0.405462707420},
+            {12.923136995222, 5.421233588086, 1.672097044180},
+            {20.726524874753, 6.454756312558, 1.114721077529},
+            {28.176671959013, 8.590454043176, 0.133599438599}};
+}
+
+TEST(CubicSplines, GoThroughAllPointsWithOneCurvature) {
+    const std::string line = "G1 X40 Y0\n";
+    expect_cubic(cubic("BNAT ENAT", five_points, line), natural_middles());
+    expect_cubic(cubic("BTAN ETAN", five_points, line), {{7.414113932983, 4.785793492554, 0.285092137981},
+                                                         {12.772816746031, 5.666714278065, 1.711937704112},
+                                                         {21.021016691799, 6.882622550018, 1.008663449704},
+                                                         {27.356470718757, 6.663577792489, 0.451641703335}});
+    // Not-a-knot.
+    const std::vector<Vec3> free{{6.777726906652, 8.530401414842, 0.190381144927},
+                                 {12.955484051233, 5.014680703022, 1.700078819899},
+                                 {20.664987870079, 5.882964525808, 1.241447253572},
+                                 {28.346577499071, 11.289903828000, -0.366220902408}};
+    expect_cubic(cubic("BAUTO EAUTO", five_points, line), free);
+    const std::vector<Vec3> mixed{{6.888486985320, 6.174579540318, 0.415119561794},
+                                  {12.930180412873, 5.552878810772, 1.648736317308},
+                                  {20.679461487359, 5.575116566502, 1.270815035474},
+                                  {28.334661241728, 11.543357780456, -0.390399657449}};
+    expect_cubic(cubic("BNAT EAUTO", five_points, line), mixed);
+    // Without a motion behind it, ETAN is EAUTO.
+    expect_cubic(cubic("BNAT ETAN", five_points, "M30\n"), mixed);
+}
+
+TEST(CubicSplines, OfFewPoints) {
+    // Two ends that say the same of two spans: a parabola; of one span: a line.
+    expect_cubic(cubic("BAUTO EAUTO", "X10 Y8 Z1\nX16 Y3 Z2\n", "M30\n"),
+                 {{6.855805778217, 6.242593719722, 0.475967629703}, {12.896046026156, 6.756288495613, 1.482674337693}});
+    expect_cubic(cubic("BAUTO EAUTO", "X10 Y9\n", "M30\n"), {{7, 5, 0}});
+    expect_cubic(cubic("BNAT ENAT", "X10 Y9\n", "M30\n"), {{7, 5, 0}});
+    // From (4, 1) along (4, 1)/√17 to (10, 9) along Y, over 10 mm: (P0 + P1)/2 + 10 (s0 − s1)/8.
+    const double root = std::sqrt(17.0);
+    expect_cubic(cubic("BTAN ETAN", "X10 Y9\n", "G1 Y20\n"), {{7 + 5 / root, 5 + 1.25 * (1 / root - 1), 0}});
+}
+
+// A spline ends where another one begins, with the words that are in force in its own blocks.
+TEST(CubicSplines, KeepTheirEndsBeforeAnotherSpline) {
+    for (const std::string next :
+         {"BTAN ETAN ASPLINE X40 Y0\n", "BTAN ETAN BSPLINE X40 Y0\n", "G1\nBAUTO EAUTO CSPLINE X40 Y0\n",
+          "ASPLINE\nCSPLINE X40 Y0\n", "G1 ETAN X40 Y0\n"}) {
+        Program p = cubic("BNAT ENAT", five_points, next + "M30\n");
+        ASSERT_EQ(p.motions.curves.size(), next.starts_with("G1 E") ? 4U : 5U) << next;
+        p.motions.curves.resize(4);
+        expect_cubic(p, natural_middles());
+    }
+    // The word ENAT of a block of its own, before the spline is left, is still one of the spline.
+    expect_cubic(cubic("BNAT", std::string(five_points) + "ENAT\n", "G1 X40 Y0\n"), natural_middles());
 }
 
 TEST(Curves, ControlPointsOfBspline) {

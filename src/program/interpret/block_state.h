@@ -53,15 +53,16 @@ struct OpenSpline {
     std::vector<SplinePoint> points;
     std::vector<double> last_knots;  ///< of blocks without a point, behind those of the points
     Vec3 begin_tangent = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< NaN: there is none
+    SplineEnd begin = SplineEnd::tangent, end = SplineEnd::tangent;
     std::vector<std::size_t> events;  ///< of each event that came in between, how many points stood before it
     bool left = false;                ///< a block in another mode stood behind it: the next point begins a new one
 };
 
 struct CurveState {
     OpenSpline open;
-    Vec2 spline_out = Vec2::Zero();  ///< P Q of the cubic spline before
-    SplineEnd begin = SplineEnd::tangent, end = SplineEnd::tangent;
-    int degree = 3;  ///< SD
+    Vec2 spline_out = Vec2::Zero();                                  ///< P Q of the cubic spline before
+    SplineEnd begin = SplineEnd::tangent, end = SplineEnd::tangent;  ///< in force
+    int degree = 3;                                                  ///< SD
 
     [[nodiscard]] bool is_open() const { return open.kind != SplineKind::none; }
 };

@@ -40,9 +40,14 @@ std::vector<double> coefficients_to(double end, const std::vector<double>& value
     return a;
 }
 
-/// Siemens: blocks are points of a spline.
-bool is_point_mode(MotionMode mode) {
-    return mode == MotionMode::akima_spline || mode == MotionMode::basis_spline || mode == MotionMode::cubic_spline;
+/// The spline whose points are the blocks of that mode; none: they are no points.
+SplineKind kind_of_points(MotionMode mode) {
+    switch (mode) {
+        case MotionMode::akima_spline: return SplineKind::akima;
+        case MotionMode::basis_spline: return SplineKind::basis;
+        case MotionMode::point_spline: return SplineKind::cubic;
+        default: return SplineKind::none;
+    }
 }
 
 /// A line times a denominator, so that the quotient is the line.
@@ -119,6 +124,8 @@ void Interpreter::spline(const Block& block) {
 void Interpreter::begin_spline(SplineKind kind) {
     if (curves_.is_open()) close_spline(Vec3::Constant(missing<double>));
     curves_.open.kind = kind;
+    curves_.open.begin = curves_.begin;
+    curves_.open.end = curves_.end;
     curves_.open.points.push_back({state_.position, 1, missing<double>, place_.line, state_.feed});
     // The direction in which the motion before ends.
     Vec3 tangent = Vec3::Zero();
@@ -269,9 +276,7 @@ void Interpreter::move_events(const OpenSpline& open, std::int64_t first, std::s
 /// A block of ASPLINE, BSPLINE and CSPLINE.
 void Interpreter::spline_point(const Block& block) {
     refuse_beside_spline(block);
-    const SplineKind kind = state_.motion == MotionMode::akima_spline   ? SplineKind::akima
-                            : state_.motion == MotionMode::basis_spline ? SplineKind::basis
-                                                                        : SplineKind::cubic;
+    const SplineKind kind = kind_of_points(state_.motion);
     if (const NamedWord* degree = block.find("SD")) {
         if (degree->value != 2 && degree->value != 3) fail("the degree of a spline (SD) is 2 or 3", degree->column);
         if (kind == SplineKind::basis) curves_.degree = static_cast<int>(degree->value);
@@ -342,8 +347,8 @@ void Interpreter::finish_point_spline(const Vec3& end_tangent) {
         if (kind == SplineEnd::tangent && tangent.allFinite()) end = {PointSplineEnd::Kind::tangent, tangent};
         return end;
     };
-    const PointSplineEnd begin = end_of(curves_.begin, open.begin_tangent);
-    const PointSplineEnd end = end_of(curves_.end, end_tangent);
+    const PointSplineEnd begin = end_of(open.begin, open.begin_tangent);
+    const PointSplineEnd end = end_of(open.end, end_tangent);
     std::vector<BezierCurve> spans =
         open.kind == SplineKind::akima ? akima_spline(points, begin, end) : cubic_spline(points, begin, end);
     const std::int64_t first = program_.motions.size();
@@ -378,12 +383,15 @@ void Interpreter::close_spline_before(const Vec3& next) { close_spline(next - st
 void Interpreter::settle_spline(const Block& block) {
     if (!block.polynomials.empty() && state_.motion != MotionMode::polynomial)
         fail("PO moves axes, but POLY is not in force", block.polynomials.front().column);
-    const SplineKind kind = curves_.open.kind;
-    if ((kind == SplineKind::uniform && state_.motion != MotionMode::nurbs) ||
-        (kind == SplineKind::knotted && state_.motion != MotionMode::knotted_nurbs))
+    OpenSpline& open = curves_.open;
+    if ((open.kind == SplineKind::uniform && state_.motion != MotionMode::nurbs) ||
+        (open.kind == SplineKind::knotted && state_.motion != MotionMode::knotted_nurbs))
         close_spline(Vec3::Zero());
+    if (!curves_.is_open() || open.left) return;
     // The direction of the motion behind the others is not known yet.
-    curves_.open.left = curves_.open.left || (curves_.is_open() && !is_point_mode(state_.motion));
+    open.left = kind_of_points(state_.motion) != open.kind;
+    // The words of the blocks behind it say nothing of this one.
+    if (!open.left) open.end = curves_.end;
 }
 
 /// The value of PO[axis] in the block; nullptr: none.

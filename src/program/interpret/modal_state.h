@@ -23,14 +23,14 @@ enum class MotionMode : std::uint8_t {
     ccw,
     thread,
     tap,
-    cubic_spline,
-    quadratic_spline,
-    nurbs,
-    knotted_nurbs,
-    akima_spline,
-    basis_spline,
-    point_spline,
-    polynomial,
+    cubic_spline,      ///< G5
+    quadratic_spline,  ///< G5.1
+    nurbs,             ///< G5.2
+    knotted_nurbs,     ///< G6.2
+    akima_spline,      ///< ASPLINE
+    basis_spline,      ///< BSPLINE
+    point_spline,      ///< CSPLINE
+    polynomial,        ///< POLY
     probe,
     cycle,
 };
