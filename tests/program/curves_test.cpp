@@ -81,7 +81,11 @@ TEST(Curves, KnottedSplinesRefuseWhatTheControlRefuses) {
     expect_refused(begin + "K1\nK1\nG1 X5\n", "fanuc", "7:", "ends with 3 blocks of K alone, here are 2");
     expect_refused(begin + "K1\nK1\n", "fanuc", "", "ends with 3 blocks of K alone, here are 2");
     expect_refused(begin + "X3 Y3\n", "fanuc", "5:", "needs its knot (K)");
-    expect_refused(begin + "K-1\nK1\nK1\n", "fanuc", "7:", "may not fall");
+    // In the block of the knot that falls, whether or not it has a point.
+    expect_refused(begin + "K-1\nK1\nK1\n", "fanuc", "5:1:", "may not fall: -1 behind 0");
+    expect_refused(begin + "K2\nN1 K1\nK2\n", "linuxcnc", "6:4:", "may not fall: 1 behind 2");
+    expect_refused(begin + "X3 Y0 K-1\nK1\nK1\nK1\n", "fanuc", "5:7:", "may not fall: -1 behind 0");
+    expect_refused("G0 X0 Y0 Z0\nG6.2 P3 X0 Y0 F60\nK1 X1 Y1\nK0 X2 Y0\n", "fanuc", "4:1:", "may not fall: 0 behind 1");
     expect_refused(begin + "K1\nK1\nK2\n", "fanuc", "7:", "the last 3");
     expect_refused(begin + "K1\nK1 A5\nK1\n", "fanuc", "6:", "rotary axes");
     expect_refused("G0 X0 Y0 Z0\nG6.2 P1 K0 X0 Y0 F60\n", "fanuc", "2:", "order of a spline (P)");

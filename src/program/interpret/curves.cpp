@@ -211,6 +211,10 @@ void Interpreter::knotted_point(const Block& block) {
     if (first) return;
     // A first block without K has the knot of the second.
     if (std::isnan(open.points.front().knot)) open.points.front().knot = w.of('K');
+    const double before = open.last_knots.empty() ? open.points.back().knot : open.last_knots.back();
+    if (!(w.of('K') >= before)) {
+        fail(fmt::format("knots of a spline (K) may not fall: {} behind {}", w.of('K'), before), w.column['K' - 'A']);
+    }
     if (is_point) {
         if (!open.last_knots.empty()) fail("a point behind the last knots of a spline (G6.2)");
         add_spline_point(target(block, false), weight, w.of('K'));
@@ -229,11 +233,8 @@ void Interpreter::finish_knotted() {
     for (const SplinePoint& point : open.points) knots.push_back(point.knot);
     knots.insert(knots.end(), open.last_knots.begin(), open.last_knots.end());
     const double tolerance = same_knot * std::abs(knots.back() - knots.front());
-    for (std::size_t i = 1; i < knots.size(); ++i) {
-        if (!(knots[i] >= knots[i - 1]))
-            fail(fmt::format("knots of a spline (K) may not fall: {} behind {}", knots[i], knots[i - 1]));
-        const bool inside = i >= order && i < open.points.size();
-        if (inside && knots[i] - knots[i - order + 1] <= tolerance)
+    for (std::size_t i = order; i < open.points.size(); ++i) {
+        if (knots[i] - knots[i - order + 1] <= tolerance)
             fail(fmt::format("a knot of a spline (K{}) may stand {} times at most", knots[i], order - 1));
     }
     if (knots[order - 1] - knots[0] > tolerance || knots.back() - knots[knots.size() - order] > tolerance)
