@@ -13,6 +13,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -29,6 +30,8 @@ namespace {
 constexpr double seconds_per_millisecond = 1e-3;
 constexpr std::int64_t deepest_call = 64;
 constexpr const char* unknown_program = "(not recorded)";
+constexpr double full_turn = 360;   ///< [deg]
+constexpr double turn_play = 0.05;  ///< [deg] noise of an encoder
 
 /// Signals whose channel is known; the axis letter follows.
 struct Known {
@@ -36,14 +39,23 @@ struct Known {
     std::string_view channel;
     std::string_view unit;
     std::string_view rotary_unit;
+    bool position = false;
 };
 constexpr auto known_signals = std::to_array<Known>({
-    {"DES_POS", "cmd.", "mm", "deg"},
-    {"ENC_POS", "fb.", "mm", "deg"},
+    {"DES_POS", "cmd.", "mm", "deg", true},
+    {"ENC_POS", "fb.", "mm", "deg", true},
     {"LOAD", "load.", "%", "%"},
     {"CURRENT", "current.", "A", "A"},
     {"TORQUE", "torque.", "N·m", "N·m"},
 });
+
+/// nullptr: its channel is not known.
+const Known* known_of(const EdgeRecording::Signal& signal) {
+    const std::size_t bar = signal.name.find('|');
+    if (bar == std::string::npos) return nullptr;
+    const auto* found = std::ranges::find(known_signals, std::string_view(signal.name).substr(0, bar), &Known::signal);
+    return found == known_signals.end() ? nullptr : found;
+}
 
 /// "X1" → 'x'; a spindle or an unknown name: '\0'.
 char axis_letter(std::string_view axis) {
@@ -53,16 +65,52 @@ char axis_letter(std::string_view axis) {
     return digits ? static_cast<char>(std::tolower(static_cast<unsigned char>(axis[0]))) : '\0';
 }
 
-SourceColumn column_of(const EdgeRecording::Signal& signal) {
-    SourceColumn column{signal.name, {}, {.name = signal.name, .unit = {}}};
-    const std::size_t bar = signal.name.find('|');
-    const char axis = axis_letter(signal.axis);
-    for (const Known& known : known_signals) {
-        if (bar == std::string::npos || axis == '\0' || signal.name.compare(0, bar, known.signal) != 0) continue;
-        const bool rotary = axis >= 'a' && axis <= 'c';
-        column.known = {.name = std::string(known.channel) + axis,
-                        .unit = std::string(rotary ? known.rotary_unit : known.unit)};
+bool is_rotary(char letter) { return letter >= 'a' && letter <= 'c'; }
+
+/// Whether a position goes on from one end of a turn to the other: a step is a full turn more or less than the steps
+/// before and after it. No length does so, whatever its axis is called. Only steps of one cycle count: behind a gap an
+/// axis may be anywhere.
+bool wraps_at_a_turn(const std::vector<double>& position, const std::vector<double>& cycles) {
+    for (std::size_t i = 2; i + 1 < position.size(); ++i) {
+        const double step = position[i] - position[i - 1];
+        if (!(std::abs(step) > full_turn / 2) || cycles[i + 1] - cycles[i - 2] != 3) continue;
+        // The next step may go back over the end of the turn.
+        const auto [low, high] = std::minmax({std::remainder(position[i - 1] - position[i - 2], full_turn),
+                                              std::remainder(position[i + 1] - position[i], full_turn)});
+        const double moved = step - std::copysign(full_turn, step);
+        if (moved >= low - turn_play && moved <= high + turn_play) return true;
     }
+    return false;
+}
+
+/// The axes with the name of a linear one that turn, such as a spindle Z1.
+std::set<std::string> turning_axes(const EdgeRecording& recording, const std::vector<double>& cycles, Log& log) {
+    std::set<std::string> axes;
+    for (std::size_t i = 0; i < recording.signals.size(); ++i) {
+        const EdgeRecording::Signal& signal = recording.signals[i];
+        const Known* known = known_of(signal);
+        const char letter = axis_letter(signal.axis);
+        if (known == nullptr || !known->position || letter == '\0' || is_rotary(letter)) continue;
+        if (!wraps_at_a_turn(recording.columns[i], cycles) || !axes.insert(signal.axis).second) continue;
+        log.diagnostics.add(
+            {Severity::note,
+             "log.rotary-axis",
+             Place::of_file(log.name),
+             fmt::format(
+                 "axis '{}' turns: {} jumps by 360 while it moves on. It is no {}: its signals keep their names",
+                 signal.axis, signal.name, static_cast<char>(std::toupper(static_cast<unsigned char>(letter)))),
+             {}});
+    }
+    return axes;
+}
+
+SourceColumn column_of(const EdgeRecording::Signal& signal, bool turns) {
+    SourceColumn column{signal.name, {}, {.name = signal.name, .unit = {}}};
+    const char letter = axis_letter(signal.axis);
+    const Known* known = known_of(signal);
+    if (known == nullptr || letter == '\0') return column;
+    column.known.unit = turns || is_rotary(letter) ? known->rotary_unit : known->unit;
+    if (!turns) column.known.name = std::string(known->channel) + letter;
     return column;
 }
 
@@ -176,16 +224,18 @@ Log open_edge(const Source& source, const LogOptions& options) {
     log.records = static_cast<PointIndex>(recording.rows);
     log.diagnostics = std::move(recording.diagnostics);
     OwnedColumns owned(log);
-    std::vector<SourceColumn> columns;
-    std::size_t cycle_column = recording.signals.size();
-    for (std::size_t i = 0; i < recording.signals.size(); ++i) {
-        if (recording.signals[i].name == "CYCLE") cycle_column = i;
-        columns.push_back(column_of(recording.signals[i]));
-    }
+    const auto cycle_signal = std::ranges::find(recording.signals, "CYCLE", &EdgeRecording::Signal::name);
+    const auto cycle_column = static_cast<std::size_t>(cycle_signal - recording.signals.begin());
     if (cycle_column == recording.signals.size())
         throw InputError(Place::of_file(source.name), "there is no signal 'CYCLE', which counts the records",
                          "expected it in Header.SignalListHFData");
     const std::vector<double> cycles = recording.columns[cycle_column];
+    // A mapping says itself what the axes are.
+    const std::set<std::string> turning =
+        map == nullptr ? turning_axes(recording, cycles, log) : std::set<std::string>{};
+    std::vector<SourceColumn> columns;
+    for (const EdgeRecording::Signal& signal : recording.signals)
+        columns.push_back(column_of(signal, turning.contains(signal.axis)));
     const std::vector<ColumnPlan> plans = plan_columns(columns, map, Place::of_file(source.name));
     for (std::size_t i = 0; i < plans.size(); ++i) {
         if (plans[i].name.empty() || (i == cycle_column && map == nullptr)) continue;

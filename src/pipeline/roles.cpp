@@ -1,5 +1,6 @@
 #include "pipeline/roles.h"
 
+#include <string>
 #include <utility>
 
 #include "core/error.h"
@@ -16,6 +17,12 @@ Role shown_role(const Log& log, std::optional<Role> wanted) {
     if (wanted) return *wanted;
     for (const Role role : all_roles) {
         if (log.has(role)) return role;
+    }
+    // None is complete: the one of which a part is there, so that an error names the axis that is missing.
+    for (const Role role : all_roles) {
+        for (const char* axis : {".x", ".y", ".z"}) {
+            if (log.find(std::string(prefix_of(role)) + axis) != nullptr) return role;
+        }
     }
     return Role::actual;
 }

@@ -148,8 +148,10 @@ foreach(form halscope.csv twincat.csv trace.xml)
 endforeach()
 clsurf_cli_test(NAME query_of_events ARGS query @DATA@/programs/dome_loops.nc @LOGS@/dome_loops.signals.csv --mapping @DATA@/logs/dome_loops.events.mapping.toml --point 9000 --json
   STDOUT "\"line\": 863" "\"confidence\": 1.0")
-clsurf_cli_test(NAME info_of_edge ARGS info @LOGS@/edge_300.json STDOUT "log, format edge" "300 records every 2 ms" "cmd.x .mm., .*cmd.b .deg." "program")
-clsurf_cli_test(NAME convert_edge SETUP "$CLSURF convert @LOGS@/edge_300.json -o edge.biip" ARGS info edge.biip --json STDOUT "\"records\": 300" "\"program\"")
+clsurf_cli_test(NAME info_of_edge ARGS info @LOGS@/edge_300.json EXIT 3 STDOUT "log, format edge" "300 records every 2 ms" "cmd.x .mm., .*cmd.b .deg." "DES_POS.3 .deg." "program" "axis .Z1. turns: " "no role has x, y and z" NO_STDOUT "cmd.z" "jumps by [0-9]+[.]")
+# What needs positions says which one the recording lacks.
+clsurf_cli_test(NAME check_edge_without_z ARGS check @DATA@/programs/keychain.mpf @LOGS@/edge_300.json EXIT 3 STDERR "no commanded positions: channel .cmd.z. is missing")
+clsurf_cli_test(NAME convert_edge SETUP "$CLSURF convert @LOGS@/edge_300.json -o edge.biip" ARGS info edge.biip --json EXIT 3 STDOUT "\"records\": 300" "\"program\"" "DES_POS.3")
 clsurf_cli_test(NAME info_of_compressed ARGS info @DATA@/logs/dome_loops.biip.xz STDOUT "18531 records")
 clsurf_cli_test(NAME info_of_compressed_program SETUP "gzip -c @DATA@/programs/dome_loops.nc > part.nc" ARGS info part.nc STDOUT "program, dialect")
 clsurf_cli_test(NAME compressed_cut SETUP "head -c 1000 @DATA@/logs/dome_loops.biip.xz > run.biip" ARGS info run.biip EXIT 3 STDERR "run.biip: byte 1000: error: the compressed data end here")

@@ -25,7 +25,7 @@ clsurf_cli_test(NAME tape_with_leaders SETUP "head -c 4 /dev/zero > part.nc; for
 # ---- logs with fewer axes, and without a program ----
 set(lathe "printf 'time,cmd.x,cmd.z\\n0,20,0\\n0.001,20,-1\\n0.002,20,-2\\n0.003,21,-3\\n' > turn.csv; printf 'G18\\nG0 X20 Z0\\nG1 Z-2 F60000\\nX21 Z-3\\n' > turn.nc")
 clsurf_cli_test(NAME log_of_x_and_z SETUP "${lathe}" ARGS export turn.nc turn.csv -o - --columns x,y,z,speed STDOUT "x .mm.,y .mm.,z .mm.,speed .mm/min.\n20,0,0,.*\n21,0,-3," STDERR "no channel 'cmd.y': this axis is assumed to stay at 0")
-clsurf_cli_test(NAME log_of_x_alone SETUP "printf 'time,cmd.x\\n0,20\\n0.001,20\\n' > turn.csv; echo 'G1 X20 F100' > turn.nc" ARGS export turn.nc turn.csv -o - EXIT 3 STDERR "no actual positions: channel")
+clsurf_cli_test(NAME log_of_x_alone SETUP "printf 'time,cmd.x\\n0,20\\n0.001,20\\n' > turn.csv; echo 'G1 X20 F100' > turn.nc" ARGS export turn.nc turn.csv -o - EXIT 3 STDERR "no commanded positions: channel .cmd.y. is missing")
 clsurf_cli_test(NAME log_alone_exported SETUP "$CLSURF export ${part} ${run} -o with.csv --columns point,time,x,y,z; $CLSURF export ${run} -o alone.csv --columns point,time,x,y,z; cmp with.csv alone.csv"
   ARGS export ${run} -o - --columns line,cmd.x STDOUT "line,cmd.x .mm.")
 clsurf_cli_test(NAME log_alone_plotted ARGS plot ${run} -o curve.png --size 320x240 --fields speed,acceleration FILE curve.png)

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
 #include "core/error.h"
 #include "support/temporary_folder.h"
 
@@ -91,6 +96,39 @@ TEST(Edge, CountsTimeFromTheFirstKnownCycle) {
     EXPECT_DOUBLE_EQ(log.find("time")->values.at(2), 0.004);
 }
 
+/// A recording of Z1, a position for each cycle.
+Log open_z(const std::vector<std::pair<int, double>>& rows, const LogOptions& options = {}) {
+    std::string text =
+        "{\"Header\":{\"CycleTimeMs\":2,\"SignalListHFData\":[{\"Name\":\"CYCLE\",\"Axis\":\"Cycle\"},"
+        "{\"Name\":\"DES_POS|3\",\"Axis\":\"Z1\"},{\"Name\":\"LOAD|3\",\"Axis\":\"Z1\"}]},\"Payload\":[{\"HFData\":[";
+    for (const auto& [cycle, position] : rows) text += fmt::format("[{},{},7],", cycle, position);
+    text.back() = ']';
+    return open(text + "}]}", options);
+}
+
+TEST(Edge, AnAxisThatGoesOnAtTheEndOfATurnIsNoLength) {
+    for (const double sign : {1.0, -1.0}) {
+        const Log log = open_z({{1, sign * 343}, {2, sign * 351.5}, {3, sign * 0.1}, {4, sign * 8.8}, {5, sign * 17}});
+        EXPECT_EQ(log.find("cmd.z"), nullptr);
+        EXPECT_EQ(log.find("load.z"), nullptr);
+        EXPECT_EQ(log.find("DES_POS|3")->unit, "deg");
+        EXPECT_EQ(log.find("LOAD|3")->unit, "%");
+    }
+    // At rest beside the end of a turn.
+    EXPECT_EQ(open_z({{1, 0.001}, {2, 0}, {3, 359.999}, {4, 0}, {5, 0.001}}).find("cmd.z"), nullptr);
+    // A length: a jump of another size, a wrong record, a gap in the cycles, a rapid motion within 0 … 360.
+    for (const std::vector<std::pair<int, double>>& rows :
+         {std::vector<std::pair<int, double>>{{1, 343}, {2, 351.5}, {3, 2}, {4, 10.5}, {5, 19}},
+          {{1, 343}, {2, 343}, {3, 0}, {4, 343}, {5, 343}},
+          {{1, 343}, {2, 351.5}, {40, 0}, {41, 8.5}, {42, 17}},
+          {{1, 0}, {2, 120}, {3, 240}, {4, 360}, {5, 360}}}) {
+        const Log log = open_z(rows);
+        ASSERT_NE(log.find("cmd.z"), nullptr);
+        EXPECT_EQ(log.find("cmd.z")->unit, "mm");
+        EXPECT_EQ(log.diagnostics.count("log.rotary-axis"), 0u);
+    }
+}
+
 TEST(Edge, RefusesWhatIsNoRecording) {
     EXPECT_THROW((void)open("{\"SignalListHFData\":[]}"), InputError);
     EXPECT_THROW((void)open("{\"Payload\":[{\"HFData\":[[1,2]]}]}"), InputError);
@@ -106,8 +144,14 @@ TEST(Edge, RefusesWhatIsNoRecording) {
 TEST(Edge, SampleHasItsGapsAndPrograms) {
     const Log log = open_log(SAMPLE_LOGS "/edge_300.json", LogOptions{});
     EXPECT_EQ(log.records, 300);
-    EXPECT_TRUE(log.has(Role::commanded));
-    EXPECT_TRUE(log.has(Role::feedback));
+    // Z1 is a spindle: at 700 1/min its position goes from one end of a turn to the other once in these 0.6 s.
+    EXPECT_EQ(log.find("cmd.z"), nullptr);
+    EXPECT_EQ(log.find("fb.z"), nullptr);
+    EXPECT_EQ(log.find("load.z"), nullptr);
+    EXPECT_EQ(log.find("DES_POS|3")->unit, "deg");
+    EXPECT_EQ(log.find("ENC_POS|3")->unit, "deg");
+    EXPECT_EQ(log.find("cmd.x")->unit, "mm");
+    EXPECT_EQ(log.diagnostics.count("log.rotary-axis"), 1u);
     EXPECT_DOUBLE_EQ(log.period, 0.002);
     ASSERT_EQ(log.programs.size(), 3u);
     EXPECT_EQ(log.programs[1].name, "/_CUTTING");
