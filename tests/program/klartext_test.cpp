@@ -32,6 +32,27 @@ TEST(Klartext, ReadsLinesWithFeedsThatStay) {
     EXPECT_EQ(rows("L X+1 Y+1 Z+1 R0 FMAX\nZ+50 R0 F100\n"), (Rows{"rapid 1 1 1", "feed 1 1 50"}));
 }
 
+// TNC 620: F is effective until a positioning block or a TOOL CALL block has a new one.
+TEST(Klartext, TakesTheFeedOfToolCallUntilTheNextOne) {
+    const Program p = program_of(
+        "TOOL CALL 1 Z S1000 F600\nL X+0 Y+0 Z+0 FMAX\nL X+10\nL X+20 F120\nTOOL CALL 2 Z S1000\nL X+30\n"
+        "TOOL CALL 3 Z S1000 F900\nL X+40\n");
+    EXPECT_EQ(p.motions.feed[1] * 60, 600);
+    EXPECT_EQ(p.motions.feed[2] * 60, 120);
+    EXPECT_EQ(p.motions.feed[3] * 60, 120);
+    EXPECT_EQ(p.motions.feed[4] * 60, 900);
+    EXPECT_EQ(p.diagnostics.count("program.no-feed"), 0U);
+}
+
+TEST(Klartext, DwellsInAnyLanguage) {
+    for (const char* word : {"DWELL 1.5", "V.ZEIT 1.5", "V.ZEIT1,5", "DWELL Q1", "Q1"}) {
+        const Program p =
+            program_of(std::string("Q1 = 1.5\nL X+1 Y+2 Z+3 FMAX\nCYCL DEF 9.0 DWELL\nCYCL DEF 9.1 ") + word + "\n");
+        EXPECT_EQ(motions(p), (Rows{"rapid 1 2 3", "dwell 1 2 3"})) << word;
+        EXPECT_EQ(p.motions.feed[1], 1.5F) << word;
+    }
+}
+
 TEST(Klartext, CountsInInchesAndTenthsOfThemForTheFeed) {
     const Program p = program_of("BEGIN PGM PART INCH\nL X+1 Y+0 Z+0 R0 FMAX\nL X+2 F100\nEND PGM PART INCH\n");
     EXPECT_EQ(motions(p), (Rows{"rapid 25.4 0 0", "feed 50.8 0 0"}));

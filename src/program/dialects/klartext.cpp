@@ -59,7 +59,7 @@ void define_tool(Line& line) {
     line.in.tools_.table.tools[tool.number] = tool;
 }
 
-/// TOOL CALL 5 Z S8000 F500 DL+0.1 DR-0.05: the axis sets the working plane.
+/// TOOL CALL 5 Z S8000 F500 DL+0.1 DR-0.05: the axis sets the working plane; F holds until the next F.
 void call_tool(Line& line) {
     Interpreter& in = line.in;
     Block& block = in.block_;
@@ -92,7 +92,7 @@ void call_tool(Line& line) {
             ++line.c.at;
             const double value = line.value();
             if (letter == 'S') block.words.set('S', value, column);
-            if (letter == 'F') in.klartext_.tool_feed = value;
+            if (letter == 'F') in.state_.feed = in.klartext_.tool_feed = value;
         } else {
             throw ReadError{"expected Z, S, F, DL or DR of TOOL CALL", column, {}};
         }

@@ -116,8 +116,11 @@ void scale_by_axis(Line& line) {
     line.in.event("scaling", fmt::format("CYCL DEF 26 X{:g} Y{:g} Z{:g}", factors.x(), factors.y(), factors.z()));
 }
 
+/// CYCL DEF 9.1 DWELL 1.5, V.ZEIT 1.5: the word is in the control's language.
 void dwell(Line& line) {
-    (void)line.c.take_word(line.c.identifier());  // DWELL, in the control's language
+    Cursor& c = line.c;
+    if (is_letter(c.peek()) && upper(c.peek()) != 'Q')
+        c.at = std::min(c.text.find_first_of(" +0123456789", c.at), c.text.size());
     line.in.dwell(line.value());
 }
 
