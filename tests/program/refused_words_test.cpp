@@ -61,9 +61,13 @@ TEST(RefusedWords, TurnsOfArcsOfOtherDialects) {
 }
 
 TEST(RefusedWords, PositioningCodesOfFanucAreCarriedOut) {
-    // G27 and G29 end where they say, G60 comes from one side, G31 stops where it touches.
-    EXPECT_EQ(motions(parse("G0 X0 Y0 Z0\nG27 X5\nG60 Y5\nG29 X1 Y1\nG1 Z-1 F60\nG31 Z-9\nG0 X3\n", "fanuc")),
-              (Rows{"rapid 0 0 0", "rapid 5 0 0", "rapid 5 5 0", "rapid 1 1 0", "feed 1 1 -1", "rapid 3 1 -9"}));
+    // G27 and G29 end where they say, G60 comes from one side, G31 is taken to touch at its end.
+    const Program p = parse("G0 X0 Y0 Z0\nG27 X5\nG60 Y5\nG29 X1 Y1\nG1 Z-1 F60\nG31 P1 Z-9 F120\nX3\n", "fanuc");
+    EXPECT_EQ(motions(p), (Rows{"rapid 0 0 0", "rapid 5 0 0", "rapid 5 5 0", "rapid 1 1 0", "feed 1 1 -1",
+                                "feed 1 1 -9", "feed 3 1 -9"}));
+    // Its F stays.
+    EXPECT_FLOAT_EQ(p.motions.feed[5], 2);
+    EXPECT_FLOAT_EQ(p.motions.feed[6], 2);
 }
 
 TEST(RefusedWords, MessagesHoldNoControlCharacters) {

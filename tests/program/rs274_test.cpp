@@ -165,10 +165,18 @@ TEST(LatheCycles, SayWhatTheyDoNotCut) {
     EXPECT_NE(error_of("G18 F60\nG71 Q9 X1 Z1 I1\n", "linuxcnc").find("subprogram '9' is neither"), std::string::npos);
 }
 
-TEST(Probing, EndsAtTheProgrammedPoint) {
-    // The stand-alone interpreter's probe touches there, 5061 … tell, and stops 0.254 mm before.
-    EXPECT_EQ(motions(parse("G38.2 Z-2 F60\nG0 X#5063\nG0 Z#5070\n", "linuxcnc")),
-              (Rows{"rapid -2 0 -1.746", "rapid -2 0 0"}));
+TEST(Probing, IsAMotionToTheProgrammedPoint) {
+    // It touches there, as 5061 … tell: the next motion begins there and is level.
+    const Program p = parse("G64 P0.1\nG38.2 Z-2 F120\nG0 X#5063\nG0 Z#5070\n", "linuxcnc");
+    EXPECT_EQ(motions(p), (Rows{"feed 0 0 -2", "rapid -2 0 -2", "rapid -2 0 0"}));
+    EXPECT_FLOAT_EQ(p.motions.feed[0], 2);
+    EXPECT_EQ(p.motions.line[0], 2U);
+    // It comes to rest; then corners are rounded again.
+    std::vector<std::pair<std::int64_t, BlockEnd>> modes;
+    for (const ProgramEvent& e : p.events) {
+        if (e.path_mode) modes.emplace_back(e.motion, e.path_mode->block_end);
+    }
+    EXPECT_EQ(modes, (decltype(modes){{0, BlockEnd::rounded}, {0, BlockEnd::exact_stop}, {1, BlockEnd::rounded}}));
 }
 
 TEST(Modes, AreKeptAndComeBack) {

@@ -62,7 +62,6 @@ struct MotionRules {
     bool separate_uvw = false;                         ///< U, V, W are axes of their own, which leave X, Y, Z true
     bool splines_by_last_block = false;                ///< all spans of a spline stand in the block that ends it
     bool refuses_curve_codes = true;                   ///< G5.2, G5.3, G6.1 … move axes elsewhere: an error
-    double probe_retreat = 0;                          ///< [mm] a probing move stops so far before its end
     std::string_view idle_letters = "IJKLPQR";         ///< without meaning beside a straight motion: reported
     std::span<const RefusedLetter> refused_at_arcs{};  ///< P, L, Q as another dialect gives turns
     std::span<const int> forbidden_in_compensation{};  ///< codes, in tenths

@@ -146,9 +146,8 @@ bool go_at_rapid(Interpreter& in, const CodeWord& w) {
     in.event("mode", code_text(w.code));
     return true;
 }
-bool skip(Interpreter& in, const CodeWord& w) {
-    in.probe(in.target(w.block, in.this_block_.machine_coordinates), in.rotary_target(w.block));
-    in.this_block_.motion_suppressed = true;
+bool skip(Interpreter& in, const CodeWord&) {
+    in.this_block_.probes = true;
     return true;
 }
 bool high_speed(Interpreter& in, const CodeWord& w) {

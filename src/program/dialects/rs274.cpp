@@ -390,7 +390,6 @@ const DialectRules linuxcnc_rules{
                .turns_by_p = true,
                .separate_uvw = true,
                .splines_by_last_block = true,
-               .probe_retreat = 0.01 * mm_per_inch,
                .forbidden_in_compensation = rs274::forbidden_in_compensation},
     .tools = {.m61 = true, .always_looks_up = true, .length_of = LengthOf::tool_in_spindle},
     .offsets = {.rotary = true, .rotation = true, .tool_data = true, .always_by_point = true},

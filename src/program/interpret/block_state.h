@@ -79,6 +79,7 @@ struct Corner {
 struct BlockFlags {
     bool machine_coordinates = false;  ///< G53, SUPA
     bool motion_suppressed = false;    ///< the axis words belong to G10, G92, G28 …
+    bool probes = false;               ///< G31: the motion is a probing move
     bool path_mode_returns = false;    ///< G9: the mode in force comes back behind the block
     std::string unknown_name;          ///< of a variable of the control that the block has read
     int unknown_parameter = 0;         ///< that the block has read

@@ -272,6 +272,7 @@ bool count_in_mm(Interpreter& in, const CodeWord&) {
 void Interpreter::execute(Block& block) {
     this_block_.machine_coordinates = false;
     this_block_.motion_suppressed = false;
+    this_block_.probes = false;
     if (rules_->begin_block != nullptr && rules_->begin_block(*this, block)) return;
     if (ended_) return;
     change_tool(block);

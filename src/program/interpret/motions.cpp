@@ -159,7 +159,7 @@ void Interpreter::move(const Block& block) {
                       block.polar_radius || block.polar_angle ||
                       (arcs_.polar_line && (block.words.has & (Words::bit('R') | Words::bit('H'))) != 0);
     settle_spline(block);
-    switch (state_.motion) {
+    switch (this_block_.probes ? MotionMode::probe : state_.motion) {
         case MotionMode::none:
             if (!axes) return;
             if (rules_->motion.needs_mode) fail("axis words without a motion mode (G80 is active)");
@@ -344,19 +344,16 @@ void Interpreter::push_arc(Arc arc, bool clockwise, const Vec3& begin, const Vec
     push(clockwise ? MotionKind::cw : MotionKind::ccw, end, rotary, feed_for(arc_length(arc, clockwise, begin, end)));
 }
 
-/// A probing move cuts nothing and ends where it touches. It becomes an event, not a motion. It is taken to touch
-/// at its end, and to stop a little before, as LinuxCNC's stand-alone interpreter has it.
+/// A probing move is taken to touch at its end: where it really does, only the machine knows. Its stop is exact.
 void Interpreter::probe(const Vec3& end, const Vec3& rotary) {
-    const Vec3 displacement = end - state_.position;
     for (int axis = 0; axis < 3; ++axis) {
         variables_.set(first_probed_parameter + axis, end[axis] / state_.unit_mm);
         variables_.set(first_probed_parameter + 3 + axis, rotary[axis]);
     }
     variables_.set(probe_result_parameter, 0);
-    const double retreat = rules_->motion.probe_retreat;
-    state_.position = displacement.norm() > 0 ? Vec3(end - retreat * displacement.normalized()) : end;
-    state_.rotary = rotary;
     event("probe", fmt::format("{:.4f} {:.4f} {:.4f}", end.x(), end.y(), end.z()));
+    set_path_mode("path-mode", "probing", {BlockEnd::exact_stop, 0}, true);
+    straight(MotionKind::feed, end, rotary);
 }
 
 void Interpreter::push(MotionKind kind, const Vec3& end, const Vec3& rotary, float feed) {
