@@ -134,6 +134,11 @@ TEST(FanucMacro, JumpsLoopsAndReturnsToABlock) {
               (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 1 1 0", "rapid 1 2 0", "rapid 9 2 0", "rapid 2 2 0"}));
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nM98 P7 L1\nX9\nN50 X2\nM30\nO7\nX5\nM99 P50\n"),
               (Rows{"rapid 0 0 0", "rapid 5 0 0", "rapid 2 0 0"}));
+    // In the main program M99 P is a jump, forward and back.
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\n#1=0\nN10 #1=#1+1\nX#1\nIF [#1 GE 2] GOTO 20\nM99 P10\nN20 M99 P30\nX77\n"
+                   "N30 Y5\nM30\n"),
+              (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 2 0 0", "rapid 2 5 0"}));
+    EXPECT_NE(error_of("G0 X0 Y0 Z0\nM99 P7\n", "fanuc").find("there is no block N7"), std::string::npos);
     EXPECT_EQ(rows("G0 X0 Y0 Z0\n#1=0\nWHILE[#1LT2]DO1\n#1=#1+1\nIF[#1EQ2]THEN #2=5\nX#1\nEND1\nX#2\n"),
               (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 2 0 0", "rapid 5 0 0"}));
 }

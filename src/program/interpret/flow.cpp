@@ -295,11 +295,14 @@ void Interpreter::call_by_number(const Block& block, int least_repeats, bool cou
     if (repeats > 0) call(fmt::format("{}", number), repeats, false, {});
 }
 
-/// M99 P: back to that block of the caller; M99: behind the call.
+/// M99 P: back to that block of the caller, in the main program a jump to it; M99: behind the call.
 void Interpreter::return_to_block(const Block& block) {
     if (!block.words.given('P')) return leave(false);
     const double number = block.words.of('P');
-    leave(false);
+    if (calls_.frames.empty())
+        count_jump();
+    else
+        leave(false);
     const LineNumber line = find_block(number, 0, 0);
     if (line == 0) fail(fmt::format("M99 P{:g}: there is no block N{:g}", number, number));
     go_to(place_.file, line);
