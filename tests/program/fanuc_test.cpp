@@ -105,6 +105,15 @@ TEST(FanucMacro, PassesArgumentsAndKnowsVacantOnes) {
     // Specification II: the second I is #7, its K #9.
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nG1 F60\nG65 P9 I1 J2 K3 I4 K6\nM30\nO9\nX#4 Y#7 Z#9\nM99\n"),
               (Rows{"rapid 0 0 0", "feed 1 4 6"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG65 P9 I1 J2 K3\nM30\nO9\nX#4 Y#5 Z#6\nM99\n"), (Rows{"rapid 0 0 0", "rapid 1 2 3"}));
+    // I twice and thrice: #4, #7 and #10.
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG65 P9 I1. I2. I3.\nM30\nO9\nX#4 Y#7 Z#10\nM99\n"),
+              (Rows{"rapid 0 0 0", "rapid 1 2 3"}));
+    // The manual's own example: I4. and D5. are both #7, the later one holds.
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG65 A1. B2. I-3. I4. D5. P9\nM30\nO9\nX#2 Y#4 Z#7\nM99\n"),
+              (Rows{"rapid 0 0 0", "rapid 2 -3 5"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG65 A1. B2. D5. I-3. I4. P9\nM30\nO9\nX#2 Y#4 Z#7\nM99\n"),
+              (Rows{"rapid 0 0 0", "rapid 2 -3 4"}));
     // The words of G65 are arguments: F is not a feed.
     EXPECT_NEAR(parse("G1 F60 X1\nG65 P9 F600\nM30\nO9\nX2\nM99\n", "fanuc").motions.feed[1], 1, 1e-6);
 }

@@ -2,6 +2,7 @@
 // Facts: Fanuc, operator's manual of the series 30i (B-63944EN).
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -16,6 +17,20 @@ namespace {
 constexpr double most_factor = 50;  ///< above it a factor of G51 is in thousandths
 constexpr double full_turn = 360;   ///< above it an angle of G68 is in thousandths
 constexpr std::size_t argument_count = 26;
+
+/// Every I, J and K of a block in its order; a block of plain words has none of them twice and does not keep the order.
+std::vector<CentreWord> centres_of(const Block& block) {
+    std::vector<CentreWord> centres = block.centres;
+    if (!centres.empty()) return centres;
+    for (const char letter : {'I', 'J', 'K'}) {
+        if (block.words.given(letter))
+            centres.push_back(
+                {letter, block.words.of(letter), block.words.column[static_cast<std::size_t>(letter - 'A')]});
+    }
+    std::sort(centres.begin(), centres.end(),
+              [](const CentreWord& a, const CentreWord& b) { return a.column < b.column; });
+    return centres;
+}
 
 double factor_of(double value) { return std::abs(value) > most_factor ? value / 1000 : value; }
 
@@ -110,26 +125,31 @@ long Interpreter::macro_program(const Block& block, int code, std::size_t column
     return static_cast<long>(std::clamp(block.words.of('P'), 0.0, 99999999.0));
 }
 
-/// #1 … #33 of a macro call; NaN: not given. Where I, J or K stand more than once they count on:
-/// the second I is #7 (argument specification II).
+/// #1 … #33 of a macro call; NaN: not given. Where I, J and K stand again or in another order they count on: the second
+/// I is #7 (argument specification II). Of two words for one variable the later one holds.
 std::vector<double> Interpreter::macro_arguments(const Block& block) const {
-    static constexpr std::pair<char, int> numbers[] = {
-        {'A', 1},  {'B', 2},  {'C', 3},  {'I', 4},  {'J', 5},  {'K', 6},  {'D', 7},  {'E', 8},  {'F', 9},  {'H', 11},
-        {'Q', 17}, {'R', 18}, {'S', 19}, {'T', 20}, {'U', 21}, {'V', 22}, {'W', 23}, {'X', 24}, {'Y', 25}, {'Z', 26}};
-    std::vector<double> arguments(33, missing<double>);
+    static constexpr std::pair<char, std::size_t> numbers[] = {
+        {'A', 1},  {'B', 2},  {'C', 3},  {'D', 7},  {'E', 8},  {'F', 9},  {'H', 11}, {'Q', 17}, {'R', 18},
+        {'S', 19}, {'T', 20}, {'U', 21}, {'V', 22}, {'W', 23}, {'X', 24}, {'Y', 25}, {'Z', 26}};
+    constexpr std::size_t number_of_m = 13, first_of_centres = 4, last = 33;
+    std::vector<double> arguments(last, missing<double>);
+    std::array<std::size_t, last> columns{};
+    const auto pass = [&](std::size_t number, double value, std::size_t column) {
+        if (number > last || columns[number - 1] > column) return;
+        arguments[number - 1] = value;
+        columns[number - 1] = column;
+    };
     for (const auto& [letter, number] : numbers) {
-        if (block.words.given(letter)) arguments[static_cast<std::size_t>(number - 1)] = block.words.of(letter);
+        if (block.words.given(letter))
+            pass(number, block.words.of(letter), block.words.column[static_cast<std::size_t>(letter - 'A')]);
     }
-    if (block.words.m_count > 0) arguments[12] = block.words.m[0];
-    if (block.centres.size() > 3) {
-        std::size_t group = 0;
-        char before = 0;
-        for (const auto& [letter, value] : block.centres) {
-            if (before != 0 && letter <= before) ++group;
-            before = letter;
-            const std::size_t at = 3 + 3 * group + static_cast<std::size_t>(letter - 'I');
-            if (at < arguments.size()) arguments[at] = value;
-        }
+    if (block.words.m_count > 0) pass(number_of_m, block.words.m[0], 0);
+    std::size_t group = 0;
+    char before = 0;
+    for (const CentreWord& word : centres_of(block)) {
+        if (word.letter <= before) ++group;
+        before = word.letter;
+        pass(first_of_centres + 3 * group + static_cast<std::size_t>(word.letter - 'I'), word.value, word.column);
     }
     return arguments;
 }

@@ -245,7 +245,7 @@ private:
             }
             block_.words.set(letter, value, column);
             const bool counted = rules_.counts_centres && letter >= 'I' && letter <= 'K';
-            if (counted) block_.centres.emplace_back(letter, value);
+            if (counted) block_.centres.push_back({letter, value, column});
         }
     }
 

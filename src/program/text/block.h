@@ -37,6 +37,13 @@ struct NamedWord {
     std::optional<bool> increment;  ///< IC(…) true, AC(…) false
 };
 
+/// An I, J or K that may stand more than once.
+struct CentreWord {
+    char letter = 'I';
+    double value = 0;
+    std::size_t column = 0;
+};
+
 struct Block {
     Words words;
     std::uint32_t absolute = 0, incremental = 0;  ///< letters given as AC(…), IC(…)
@@ -46,7 +53,7 @@ struct Block {
     std::optional<double> polar_radius, polar_angle;  ///< @ and ^ of LinuxCNC, RP= and AP= of Siemens, as written
     bool polar_radius_incremental = false, polar_angle_incremental = false;  ///< IC(…)
     std::vector<NamedWord> named;
-    std::vector<std::pair<char, double>> centres;  ///< every I, J, K of Fanuc, which macro calls count
+    std::vector<CentreWord> centres;  ///< every I, J, K of Fanuc, which macro calls count
     std::vector<PolynomialWord> polynomials;
     std::vector<Keyword> keywords;
     std::vector<UnknownWord> unknown;
