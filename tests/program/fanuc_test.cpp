@@ -198,6 +198,21 @@ TEST(FanucPolar, AnAngleAloneTurnsAboutTheSamePole) {
               (Rows{"feed 86.6025 50 -20", "feed -86.6025 50 -20", "feed 0 -100 -20"}));
 }
 
+TEST(FanucCycles, KeepTheirWordsUntilTheyEnd) {
+    // Another cycle goes on with R, Z and P, G80 and G1 end them.
+    EXPECT_EQ(rows("G0 X0 Y0 Z5\nG99 G82 X1. Y1. Z-1. R1. P500 F50\nG85 X2.\nG89 X3. Z-2.\nG80\n"),
+              (Rows{"rapid 0 0 5", "rapid 1 1 5", "rapid 1 1 1", "feed 1 1 -1", "dwell 1 1 -1", "rapid 1 1 1",
+                    "rapid 2 1 1", "rapid 2 1 1", "feed 2 1 -1", "feed 2 1 1", "rapid 3 1 1", "rapid 3 1 1",
+                    "feed 3 1 -2", "dwell 3 1 -2", "feed 3 1 1"}));
+    EXPECT_EQ(cuts("G0 X0 Y0 Z5\nG99 G83 X1 Z-4 R0 Q3 F50\nG73 X2\nG80\n"),
+              (Rows{"feed 1 0 -3", "feed 1 0 -4", "feed 2 0 -3", "feed 2 0 -4"}));
+    EXPECT_EQ(parse("G0 X0 Y0 Z5\nG81 X1 Z-1 R1 F50\nG82 X2\nG80\n", "fanuc").diagnostics.count("program.cycle"), 0u);
+    const Program p = parse("G0 X0 Y0 Z5\nG81 X1 Z-1 R1 F50\nG80\nG81 X2 R3\nX3\nG80\n", "fanuc");
+    EXPECT_EQ(motions(p)[7], "feed 2 0 0");
+    ASSERT_EQ(p.diagnostics.count("program.cycle"), 1u);
+    EXPECT_EQ(p.diagnostics.kept()[0].text, "G81 without Z: read as Z0");
+}
+
 TEST(FanucCycles, BoreFineAndFromBehind) {
     // G76: aside by Q along X, out, back. G87: aside, to R below, back, up to Z.
     EXPECT_EQ(rows("G0 X0 Y0 Z10\nG98 G76 X1 R2 Z-5 Q0.5 F60\n"),

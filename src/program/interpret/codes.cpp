@@ -171,9 +171,10 @@ bool end_compensation(Interpreter& in, const CodeWord& w) {
 bool note_spindle_mode(Interpreter& in, const CodeWord& w) { return note_mode(in, w, "spindle-mode"); }
 bool note_unused(Interpreter& in, const CodeWord& w) { return note_mode(in, w, "unused"); }
 bool start_cycle(Interpreter& in, const CodeWord& w) {
-    // Another cycle needs its own words; the level where the first of them began stays.
     if (in.state_.motion != MotionMode::cycle) in.cycle_ = {};
-    if (in.state_.cycle != w.code) in.cycle_ = CycleState{.initial = in.cycle_.initial};
+    // RS274: another cycle needs its own words; the level where the first of them began stays.
+    const bool begins_anew = in.rules_->cycles.rs274 && in.state_.cycle != w.code;
+    if (begins_anew) in.cycle_ = CycleState{.initial = in.cycle_.initial};
     in.state_.motion = MotionMode::cycle;
     in.state_.cycle = w.code;
     return true;

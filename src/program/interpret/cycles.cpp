@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -53,9 +54,16 @@ void Interpreter::read_cycle_words(const Block& block, const Stroke& stroke) {
     word("XYZ"[state_.plane_axis], cycle_.z);
     word('Q', cycle_.q);
     if (block.words.given('P')) cycle_.p = block.words.of('P') * rules_->cycles.dwell_unit;
-    for (int k = 0; k < 3; ++k) word("IJK"[k], cycle_.ijk[k]);
-    if (!stroke.pecks || cycle_.q > 0) return;
     const int code = state_.cycle / 10;
+    // In other cycles K says how often.
+    const bool steps_aside = code == 76 || code == 87;
+    for (int k = 0; steps_aside && k < 3; ++k) word("IJK"[k], cycle_.ijk[k]);
+    for (const auto& [letter, kept] : {std::pair('R', &cycle_.r), std::pair("XYZ"[state_.plane_axis], &cycle_.z)}) {
+        if (!std::isnan(*kept)) continue;
+        note(Severity::warning, "program.cycle", fmt::format("G{0} without {1}: read as {1}0", code, letter));
+        *kept = 0;
+    }
+    if (!stroke.pecks || cycle_.q > 0) return;
     if (rules_->cycles.rs274) fail(fmt::format("G{} needs Q greater than 0", code));
     note(Severity::warning, "program.cycle", fmt::format("G{} without Q: read as one stroke", code));
 }

@@ -25,12 +25,13 @@
 namespace clsurf {
 
 struct CycleState {
-    double r = 0, z = 0, q = 0;  ///< sticky words, as programmed
-    /// R and bottom where they were programmed [mm]; NaN: not yet. RS274 counts the words again in each block instead.
-    double r_height = std::numeric_limits<double>::quiet_NaN(), bottom = std::numeric_limits<double>::quiet_NaN();
-    Vec3 ijk = Vec3::Zero();  ///< of G87: the way aside, and the height to bore to, as programmed
-    double p = 0;             ///< dwell [s]
-    double initial = std::numeric_limits<double>::quiet_NaN();  ///< level where the cycle began [mm]
+    static constexpr double not_yet = std::numeric_limits<double>::quiet_NaN();
+    double r = not_yet, z = not_yet, q = 0;  ///< sticky words, as programmed
+    /// R and bottom where they were programmed [mm]. RS274 counts the words again in each block instead.
+    double r_height = not_yet, bottom = not_yet;
+    Vec3 ijk = Vec3::Zero();   ///< of G87: the way aside, and the height to bore to, as programmed
+    double p = 0;              ///< dwell [s]
+    double initial = not_yet;  ///< level where the cycle began [mm]
 };
 
 /// What a cycle does between R and its bottom.
