@@ -19,11 +19,11 @@
 namespace clsurf::cli {
 namespace {
 
-void note_foreign(const Log& log, const Program& program, const std::string& reason, bool forced,
+void note_foreign(const Log& log, const Program& program, const ProgramMatch& match, bool forced,
                   Diagnostics& diagnostics) {
     diagnostics.add({forced ? Severity::warning : Severity::error, "map.foreign", Place::of_file(log.name),
-                     "does not belong to " + program.main().name() + ": " + reason,
-                     "--work-offset or --machine may be missing"});
+                     "does not belong to " + program.main().name() + ": " + match.foreign,
+                     match.foreign_hint.empty() ? "--work-offset or --machine may be missing" : match.foreign_hint});
 }
 
 /// A program with its motions as programmed.
@@ -54,7 +54,7 @@ CheckedLog check_log(const io::Source& source, const io::LogOptions& options, co
     const ProgramIdentity identity = io::check_identity(read->source, log, diagnostics);
     const ProgramMatch match = match_log(program, log, read_work_offset(values), kinematics, identity, diagnostics);
     if (!match.foreign.empty() && (kinematics || diagnostics.count("path.rotary") == 0))
-        note_foreign(log, program, match.foreign, values.count("force") > 0, diagnostics);
+        note_foreign(log, program, match, values.count("force") > 0, diagnostics);
     checked.verdict = log_verdict(log, diagnostics, file_name(program.main().name()), identity);
     return checked;
 }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/block.h"
+#include "core/counted.h"
 #include "mapping/alignment.h"
 #include "mapping/allowed_motions.h"
 #include "mapping/feed_edits.h"
@@ -17,6 +18,7 @@
 #include "mapping/program_course.h"
 #include "mapping/program_lines.h"
 #include "mapping/program_runs.h"
+#include "mapping/unknown_lines.h"
 #include "mapping/work_offset.h"
 
 namespace clsurf {
@@ -29,9 +31,9 @@ constexpr double offset_share = 0.5;
 constexpr PointIndex least_checked = 10;  ///< points that can tell a foreign log
 /// A log of another program, as its hash says, may differ from this one by this much.
 constexpr double other_share = 0.05;
-/// Runs of points whose middle lies off its line: an edit may have moved the lines behind it.
+/// Runs of points whose middle lies off its line, and points on unknown lines: an edit may have moved the lines behind it.
 constexpr double displaced = 0.02;
-/// Edits that explain the displaced runs leave no more than this share of them.
+/// Edits that explain the displaced points leave no more than this share of them.
 constexpr double unexplained_share = 0.5;
 /// So many that the lines mean nothing where no edit explains them.
 constexpr double all_displaced = 0.3;
@@ -75,8 +77,7 @@ public:
         match_.off = off;
         const bool explained =
             off > offset_share && !find_other_unit() && note_pose(path_, program_, nullptr, diagnostics_);
-        const double foreign_at = identity_ == ProgramIdentity::other ? other_share : offset_share;
-        if (identity_ != ProgramIdentity::same && !explained && off > foreign_at && match_.foreign.empty())
+        if (identity_ != ProgramIdentity::same && !explained && off > foreign_share() && match_.foreign.empty())
             match_.foreign = fmt::format("{:.0f} % of its points lie off the programmed path", 100 * off);
         if (off <= offset_share) match_.missing = note_course(path_, log_, program_, map, runs_, diagnostics_);
         return finish(std::move(map));
@@ -85,7 +86,7 @@ public:
     LineMap by_channel(const Channel& channel, const ProgramLines& own) {
         LineMap map = own.lines ? reported(channel.values, view_of(*own.lines), own.lines)
                                 : reported(channel.values, channel.values, log_.keep_alive);
-        const double off_line = identity_ == ProgramIdentity::same ? 0.0 : displaced_share(path_, program_, map);
+        const double off_line = identity_ == ProgramIdentity::same ? 0.0 : off_line_share(map);
         if (match_.edited || off_line > displaced) {
             if (std::optional<LineMap> moved = look_for_edits(channel, own, map, off_line)) {
                 map = std::move(*moved);
@@ -99,12 +100,12 @@ public:
         if (agreement.checked >= least_checked) match_.off = share_of(agreement);
         const bool explained =
             share_of(agreement) > offset_share && !find_other_unit() && note_pose(path_, program_, &map, diagnostics_);
-        const double foreign_at = identity_ == ProgramIdentity::other ? other_share : offset_share;
         if (identity_ != ProgramIdentity::same && !explained && agreement.checked >= least_checked &&
-            share_of(agreement) > foreign_at && match_.foreign.empty()) {
+            share_of(agreement) > foreign_share() && match_.foreign.empty()) {
             match_.foreign = fmt::format("{:.0f} % of {} checked points lie farther than {} mm from their lines",
                                          100 * share_of(agreement), agreement.checked, agreement.tolerance);
         }
+        judge_unknown_lines(map);
         if (share_of(agreement) <= offset_share)
             match_.missing = note_course(path_, log_, program_, map, runs_, diagnostics_);
         return finish(std::move(map));
@@ -113,6 +114,16 @@ public:
 private:
     static double share_of(const LineAgreement& a) {
         return a.checked > 0 ? static_cast<double>(a.disagreeing) / static_cast<double>(a.checked) : 0.0;
+    }
+
+    /// More of the points than this off the program's path, or on lines that it does not have: the log is of another one.
+    [[nodiscard]] double foreign_share() const {
+        return identity_ == ProgramIdentity::other ? other_share : offset_share;
+    }
+
+    /// Points whose line is not where they are: it lies elsewhere, or the program does not have it.
+    [[nodiscard]] double off_line_share(const LineMap& map) const {
+        return displaced_share(path_, program_, map) + find_unknown_lines(path_, program_, map).share();
     }
 
     /// The program's runs in this log, and how the tool came back between them.
@@ -146,10 +157,10 @@ private:
         return {lines, program_, std::move(keep_alive), std::move(motions)};
     }
 
-    /// Whether lines that were moved fit the path much better than those `before`, of which a share `off_line` is
-    /// displaced. Short lines next to each other may look displaced without any edit; an edit near the end displaces few.
+    /// Whether lines that were moved fit the path much better than those `before`, with a share `off_line` of points off
+    /// their lines. Short lines next to each other may look displaced without any edit; an edit near the end displaces few.
     [[nodiscard]] bool explains(const LineMap& moved, const LineMap& before, double off_line) const {
-        if (displaced_share(path_, program_, moved) <= unexplained_share * off_line) return true;
+        if (off_line_share(moved) <= unexplained_share * off_line) return true;
         const double disagreed = share_of(check_lines(path_, program_, before));
         return disagreed > disagreeing_share &&
                share_of(check_lines(path_, program_, moved)) <= unexplained_share * disagreed;
@@ -212,6 +223,23 @@ private:
         find_runs(map);
         match_.missing = note_course(path_, log_, program_, map, runs_, diagnostics_);
         return map;
+    }
+
+    /// Nothing compares a point with a line that the program does not have: their share alone tells a foreign log.
+    void judge_unknown_lines(const LineMap& map) {
+        const UnknownLines lines = find_unknown_lines(path_, program_, map);
+        if (lines.share() <= disagreeing_share) return;
+        const std::string text = fmt::format("{} of {} have line numbers that the program of {} does not have: {} … {}",
+                                             lines.unknown, counted(lines.moving, "moving point"),
+                                             counted(program_.main().line_count(), "line"), lines.low, lines.high);
+        if (identity_ != ProgramIdentity::same && lines.unknown >= least_checked && lines.share() > foreign_share()) {
+            if (!match_.foreign.empty()) return;
+            match_.foreign = text;
+            match_.foreign_hint = "the program was cut off, or it is another one; --force continues anyway";
+        } else if (diagnostics_.count("log.line-range") == 0) {  // else info has said so
+            diagnostics_.add({Severity::warning, "map.line-range", Place::of_point(log_.name, lines.first), text,
+                              "another program, or another version of it?"});
+        }
     }
 
     void note_disagreement(const LineAgreement& agreement) {

@@ -94,14 +94,94 @@ void run(Recorded& r, int first, int last) {
     r.z.assign(r.x.size(), 0);
 }
 
-Diagnostics course_of(const Recorded& r, ProgramIdentity identity = ProgramIdentity::unknown) {
+/// Its first `lines` lines.
+std::string text_of(int lines) {
     std::string text;
-    for (int line = 1; line <= 100; ++line) text += "G1 X" + std::to_string(line) + " F100\n";
-    const Program program = parse("part.nc", text);
+    for (int line = 1; line <= lines; ++line) text += "G1 X" + std::to_string(line) + " F100\n";
+    return text;
+}
+
+ProgramMatch match_of(const Recorded& r, const Program& program, Diagnostics& diagnostics,
+                      ProgramIdentity identity = ProgramIdentity::unknown) {
     const Log log = log_of(r, {});
+    return map_lines(reconstruct(log, Role::commanded, Vec3::Zero()), log, program, true, diagnostics, identity)
+        .match();
+}
+
+Diagnostics course_of(const Recorded& r, ProgramIdentity identity = ProgramIdentity::unknown) {
     Diagnostics diagnostics;
-    (void)map_lines(reconstruct(log, Role::commanded, Vec3::Zero()), log, program, true, diagnostics, identity);
+    (void)match_of(r, parse("part.nc", text_of(100)), diagnostics, identity);
     return diagnostics;
+}
+
+TEST(UnknownLines, TellALogOfAnotherProgram) {
+    Recorded r;
+    run(r, 1, 100);
+    Diagnostics diagnostics;
+    const ProgramMatch match = match_of(r, parse("part.nc", text_of(30)), diagnostics);
+    EXPECT_EQ(match.foreign,
+              "280 of 399 moving points have line numbers that the program of 30 lines does not have: 31 … 100");
+}
+
+TEST(UnknownLines, OfAnEndThatIsMissingAreAWarning) {
+    Recorded r;
+    run(r, 1, 100);
+    Diagnostics diagnostics;
+    EXPECT_EQ(match_of(r, parse("part.nc", text_of(80)), diagnostics).foreign, "");
+    ASSERT_EQ(diagnostics.count("map.line-range"), 1u);
+    EXPECT_EQ(diagnostics.kept()[0].where.number, 320u);
+    EXPECT_NE(diagnostics.kept()[0].text.find("80 of 399 moving points"), std::string::npos)
+        << diagnostics.kept()[0].text;
+}
+
+TEST(UnknownLines, OfAnotherProgramByItsHashNeedFewerPoints) {
+    Recorded r;
+    run(r, 1, 100);
+    Diagnostics diagnostics;
+    EXPECT_NE(match_of(r, parse("part.nc", text_of(80)), diagnostics, ProgramIdentity::other).foreign, "");
+}
+
+TEST(UnknownLines, AtRestBehindTheProgramAreNoFinding) {
+    Recorded r;
+    run(r, 1, 100);
+    for (int i = 0; i < 900; ++i) {  // the tool stands still, on a line of a program that is loaded next
+        r.x.push_back(100);
+        r.line.push_back(500);
+    }
+    r.y.assign(r.x.size(), 0);
+    r.z.assign(r.x.size(), 0);
+    const Diagnostics found = course_of(r);
+    EXPECT_EQ(found.count("map.line-range"), 0u);
+    EXPECT_EQ(found.count("map.foreign"), 0u);
+}
+
+TEST(UnknownLines, OneLineMoreAtTheEndIsNoFinding) {
+    Recorded r;
+    run(r, 1, 100);
+    r.line.back() = 101;
+    EXPECT_TRUE(course_of(r).empty());
+}
+
+TEST(UnknownLines, OfABlockNumberAreNoneWhereThePathFits) {
+    Recorded r;
+    run(r, 1, 100);
+    for (std::uint32_t& line : r.line) line *= 10;
+    Diagnostics diagnostics;
+    EXPECT_EQ(match_of(r, parse("part.nc", text_of(100)), diagnostics).foreign, "");
+    EXPECT_EQ(diagnostics.count("map.line-numbers"), 1u);
+}
+
+TEST(UnknownLines, OfASubprogramsFileBelongToTheProgram) {
+    const std::string text = text_of(100) + "RET\n";
+    InterpreterOptions options;
+    options.load = [&](const std::string&) { return std::optional(SourceText("sub.spf", text, nullptr)); };
+    options.dialect = find_dialect("siemens");
+    const Program program = parse_program(SourceText("part.mpf", "G90\nSUB\nM30\n", nullptr), options);
+    Recorded r;
+    run(r, 1, 100);
+    Diagnostics diagnostics;
+    EXPECT_EQ(match_of(r, program, diagnostics).foreign, "");
+    EXPECT_EQ(diagnostics.count("map.line-range"), 0u);
 }
 
 TEST(ProgramCourse, SaysNothingOfAWholeRun) {

@@ -13,6 +13,16 @@ endforeach()
 clsurf_cli_test(NAME foreign_log_in_info ARGS info ${zigzag} ${uneven_log} EXIT 3 STDOUT "error: .*does not belong to .*bottle_zigzag.nc")
 clsurf_cli_test(NAME foreign_log_forced ARGS check ${zigzag} ${uneven_log} --tool none --force EXIT 5
   STDOUT "NOT JUDGED: The log does not belong to this program" STDERR "warning: does not belong to")
+# A program that lacks most of its lines, and the log of all of it.
+set(cut_off "head -n 1000 ${uneven} > cut.nc; $CLSURF export ${uneven} ${uneven_log} --columns time,line,x,y,z -o run.csv -q")
+set(cut_off_error "moving points have line numbers that the program of 1000 lines does not have: 100[1-9] … 371[0-9]")
+clsurf_cli_test(NAME log_of_a_program_that_was_cut_off SETUP "${cut_off}" ARGS check cut.nc run.csv EXIT 3
+  STDERR "run.csv: error: does not fit cut.nc: [0-9]+ of [0-9]+ ${cut_off_error}" "the program was cut off")
+clsurf_cli_test(NAME info_of_a_program_that_was_cut_off SETUP "${cut_off}" ARGS info cut.nc run.csv EXIT 3
+  STDOUT "error: .*does not belong to cut.nc: [0-9]+ of [0-9]+ ${cut_off_error}")
+clsurf_cli_test(NAME log_of_a_program_that_lacks_its_end
+  SETUP "head -n 3000 ${uneven} > cut.nc; $CLSURF export ${uneven} ${uneven_log} --columns time,line,x,y,z -o run.csv -q"
+  ARGS check cut.nc run.csv --tool none STDERR "warning: [0-9]+ of [0-9]+ moving points have line numbers that the program of 3000 lines does not have")
 clsurf_cli_test(NAME info_of_a_log_without_positions EXIT 3
   SETUP "printf '[log]\\nformat = \"delimited\"\\nperiod_s = 0.001\\n[[column]]\\nfrom = \"a\"\\nname = \"cmd.x\"\\nunit = \"mm\"\\n' > map.toml; (echo a; seq 1 50) > run.csv"
   ARGS info run.csv --mapping map.toml STDOUT "error: .*no role has x, y and z")
