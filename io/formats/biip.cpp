@@ -203,14 +203,14 @@ RecordFrame frame_biip(const Source& beginning, const LogOptions&) {
     return Header(beginning).frame();
 }
 
-Log open_biip(const Source& source, const LogOptions&) {
+Log open_biip(const Source& source, const LogOptions& options) {
     refuse_damaged_signature(source);
     const Header header(source);
     refuse_too_many_channels(header.channel_count(), Place::of_file(source.name));
     Log log;
     log.name = source.name;
     log.format = "biip";
-    log.period = header.period();
+    log.period = options.period.value_or(header.period());
     log.keep_alive = source.keep_alive;
     const std::uint64_t there = header.records_there();
     const std::uint64_t said = header.record_count();

@@ -39,7 +39,7 @@ struct LogFormat {
 struct LogOptions {
     std::string layout;            ///< file: layout of a foreign fixed-record log (TOML); empty: none
     std::string mapping;           ///< file: column mapping of a text log (TOML); empty: none
-    std::optional<double> period;  ///< [s]; where the log has none
+    std::optional<double> period;  ///< [s]; instead of what the log, its layout or its mapping states
     std::span<const LogFormat> more_formats =
         {};  ///< besides log_formats(), recognised like them; must outlive the call
 };

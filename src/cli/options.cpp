@@ -65,7 +65,7 @@ void declare_log_options(po::options_description& options) {
     options.add_options()
         ("layout", po::value<std::string>()->value_name("FILE"), "layout of a foreign fixed-record log (TOML)")
         ("mapping", po::value<std::string>()->value_name("FILE"), "names, units and roles of the columns of a text log (TOML)")
-        ("period", po::value<double>()->value_name("S"), "sampling period, if the log does not state it [s]");
+        ("period", po::value<double>()->value_name("S"), "sampling period [s], instead of the one that the log or its mapping states (default: that one, else the median step of time)");
     // clang-format on
 }
 

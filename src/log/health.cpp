@@ -32,14 +32,13 @@ void check_channels(const Log& log, Diagnostics& found) {
 double check_period(const Log& log, Diagnostics& found) {
     const double measured = log.measured_period();
     if (measured == 0 || std::abs(measured - log.period) < period_share * log.period) return log.period;
-    found.add(
-        {Severity::warning,
-         "log.period",
-         Place::of_file(log.name),
-         fmt::format(
-             "the clock steps by {:.6f} s, the log states a period of {:.6f} s: speeds are wrong by a factor of {:.4g}",
-             measured, log.period, measured / log.period),
-         {}});
+    found.add({Severity::warning,
+               "log.period",
+               Place::of_file(log.name),
+               fmt::format(
+                   "the clock steps by {:.6f} s, the stated period is {:.6f} s: speeds are wrong by a factor of {:.4g}",
+                   measured, log.period, measured / log.period),
+               {}});
     return measured;
 }
 

@@ -57,6 +57,13 @@ TEST(Biip, ReadsBackWhatItWrote) {
     EXPECT_TRUE(log.diagnostics.empty());
 }
 
+TEST(Biip, HasThePeriodOfTheOptions) {
+    const test::TemporaryFolder folder;
+    LogOptions options;
+    options.period = 0.002;
+    EXPECT_DOUBLE_EQ(open_log(write_made(folder), options).period, 0.002);
+}
+
 TEST(Biip, HoldsShortNamesOfChannelsThatHaveLongOnes) {
     Log log;
     log.channels.push_back({"/Nck/!SD/nckServoDataCmdTorque32 [u1, 4]", "Newtonmetre", {}});

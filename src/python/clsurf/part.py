@@ -109,7 +109,7 @@ class Part:
         tools: tool table.
         block_delete: skip blocks that begin with `/`.
         layout, mapping: files that describe a foreign log.
-        period: [s] of a log that does not tell it.
+        period: [s], instead of the one that the log or its mapping states.
         work_offset: machine position of the program's zero: (x, y, z) [mm], or with the rotation about Z [deg].
         ignore_lines: find lines by geometry, even if the log has them.
         force: go on with a log that does not belong to the program.
