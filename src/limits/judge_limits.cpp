@@ -141,8 +141,7 @@ double pose_error(const Trajectory& path, const PathTolerance& tolerance) {
 }
 
 Comparison compare_tolerance(const StatedLimit& limit, const CommandedMotion& motion, const PathTolerance& tolerance) {
-    const double error =
-        std::sqrt(3.0) * 0.5 * motion.resolution() + program_rounding + pose_error(motion.path(), tolerance);
+    const double error = 0.5 * motion.resolution() + program_rounding + pose_error(motion.path(), tolerance);
     return {limit, [limit, error, &tolerance](PointRange points, const MotionWindow&) {
                 const std::vector<PathDeviation> deviations = tolerance.read(points);
                 RunFinder finder(limit);

@@ -36,6 +36,7 @@ CommandedMotion::CommandedMotion(const Log& log, const Trajectory& path, std::sp
         axes_.push_back(axis);
     }
     for (const StatedLimit& limit : limits) {
+        limits_path_ = limits_path_ || limit.axis == 0;
         if (row_of(limit.quantity).order == 2 && (limit.axis == 0 || limit.axis >= 'x'))
             rules_.acceleration = std::max(rules_.acceleration, limit.value);
     }
@@ -48,17 +49,43 @@ const CommandedAxis* CommandedMotion::find(char letter) const {
     return found == axes_.end() ? nullptr : &*found;
 }
 
+double CommandedMotion::tip_resolution(const Vec3& linear, const Vec3& rotary) const {
+    const Kinematics& kinematics = *path_->kinematics;
+    const LeverArms arms = kinematics.lever_arms(linear, kinematics.angles_of(rotary));
+    // The tip of a ball that stands upright moves with its axis, too.
+    return resolution() + find(kinematics.tilt.letter)->resolution * (arms.tilt + path_->ball) +
+           find(kinematics.rotation.letter)->resolution * (arms.rotation + path_->ball);
+}
+
+double CommandedMotion::path_resolution() const {
+    if (!has_tip()) return resolution();
+    constexpr PointIndex samples = 64;
+    double coarsest = 0;
+    for (PointIndex s = 0; s < samples && log_->records > 0; ++s) {
+        const PointIndex point = (log_->records - 1) * s / (samples - 1);
+        Vec3 linear = Vec3::Zero(), rotary = Vec3::Zero();
+        for (const CommandedAxis& axis : axes_) {
+            const double position = axis.positions.at(point) * axis.to_inside;
+            if (axis.letter >= 'x')
+                linear[axis.letter - 'x'] = position;
+            else
+                rotary[axis.letter - 'a'] = position;
+        }
+        coarsest = std::max(coarsest, tip_resolution(linear, rotary));
+    }
+    return coarsest;
+}
+
 std::vector<Stride> strides_for(const StatedLimit& limit, const CommandedMotion& motion) {
     const int order = row_of(limit.quantity).order;
     const CommandedAxis* axis = motion.find(limit.axis);
-    // Three axes are off at once.
-    const double resolution = axis != nullptr ? axis->resolution : std::sqrt(3.0) * motion.resolution();
+    const double resolution = axis != nullptr ? axis->resolution : motion.path_resolution();
     std::vector<Stride> strides;
     for (const std::size_t records : stride_steps) {
         const double time = static_cast<double>(records) * motion.log().period;
-        const double rounding = roundings[static_cast<std::size_t>(order)] * resolution / std::pow(time, order);
-        strides.push_back({records, rounding});
-        if (rounding < small_share * limit.value) break;
+        const double at_once = roundings[static_cast<std::size_t>(order)] / std::pow(time, order);
+        strides.push_back({records, at_once});
+        if (at_once * resolution < small_share * limit.value) break;
     }
     return strides;
 }
@@ -75,13 +102,33 @@ MotionWindow::MotionWindow(const CommandedMotion& motion, PointRange records) : 
             for (double& value : column) value *= axis.to_inside;
         if (axis.letter >= 'x') linear_[static_cast<std::size_t>(axis.letter - 'x')] = column;
     }
-    if (motion.has_tip()) {
-        for (std::vector<double>& column : tip_) column.resize(count_);
-        motion.path().read(begin_, tip_[0], tip_[1], tip_[2]);
-    }
+    if (motion.has_tip() && motion.limits_path()) read_tip();
     steps_ = judge_steps(motion.log(), motion.clock(), begin_, linear_[0], linear_[1], linear_[2]);
     breaks_.resize(count_);
     for (std::size_t i = 1; i < count_; ++i) breaks_[i] = breaks_[i - 1] + static_cast<std::uint32_t>(steps_.broken[i]);
+}
+
+void MotionWindow::read_tip() {
+    for (std::vector<double>& column : tip_) column.resize(count_);
+    motion_->path().read(begin_, tip_[0], tip_[1], tip_[2]);
+    tip_resolutions_.resize(count_);
+    const std::array rotary{column_of('a'), column_of('b'), column_of('c')};
+    for (std::size_t i = 0; i < count_; ++i) {
+        Vec3 angles = Vec3::Zero();
+        for (std::size_t axis = 0; axis < rotary.size(); ++axis)
+            if (rotary[axis] != nullptr) angles[static_cast<Eigen::Index>(axis)] = (*rotary[axis])[i];
+        tip_resolutions_[i] = motion_->tip_resolution({linear_[0][i], linear_[1][i], linear_[2][i]}, angles);
+    }
+}
+
+const std::vector<double>* MotionWindow::column_of(char letter) const {
+    const CommandedAxis* axis = motion_->find(letter);
+    return axis == nullptr ? nullptr : &axes_[static_cast<std::size_t>(axis - motion_->axes().data())];
+}
+
+double MotionWindow::path_resolution(std::size_t first, std::size_t i, std::size_t last) const {
+    if (tip_resolutions_.empty()) return motion_->resolution();
+    return std::max({tip_resolutions_[first], tip_resolutions_[i], tip_resolutions_[last]});
 }
 
 std::vector<PointIndex> MotionWindow::broken() const {
@@ -182,8 +229,7 @@ MeasuredMotion MotionWindow::measure(const StatedLimit& limit, std::span<const S
     MeasuredMotion measured{std::vector<double>(n, missing<double>), std::vector<double>(n, missing<double>)};
     const int order = row_of(limit.quantity).order;
     const CommandedAxis* axis = motion_->find(limit.axis);
-    const std::vector<double>* column =
-        axis != nullptr ? &axes_[static_cast<std::size_t>(axis - motion_->axes().data())] : nullptr;
+    const std::vector<double>* column = column_of(limit.axis);
     const auto offset = static_cast<std::size_t>(records_.first - begin_);
     for (const Stride& stride : strides) {
         const std::size_t s = stride.records;
@@ -191,11 +237,12 @@ MeasuredMotion MotionWindow::measure(const StatedLimit& limit, std::span<const S
         for (std::size_t k = 0; k < n; ++k) {
             const std::size_t i = offset + k;
             if (i < before || i + after >= count_ || !clean(i - before, i + after)) continue;
-            Value value = column != nullptr ? of_axis(*column, i, s, order)
-                          : limit.quantity == LimitedQuantity::path_jerk
-                              ? path_jerk(i, s)
-                              : of_path(i, s, limit.quantity, stride.rounding);
-            value.error += stride.rounding;
+            const double rounding =
+                stride.roundings * (axis != nullptr ? axis->resolution : path_resolution(i - before, i, i + after));
+            Value value = column != nullptr                              ? of_axis(*column, i, s, order)
+                          : limit.quantity == LimitedQuantity::path_jerk ? path_jerk(i, s)
+                                                                         : of_path(i, s, limit.quantity, rounding);
+            value.error += rounding;
             const double proved = measured.value[k] - measured.uncertainty[k];
             if (proved >= value.value - value.error || !std::isfinite(value.value)) continue;
             measured.value[k] = value.value;

@@ -7,6 +7,7 @@
 // 2^(order − 1) q / (stride · period)^order. Where that is much for steps of one record, longer steps are taken as well.
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -33,23 +34,30 @@ public:
     [[nodiscard]] const Trajectory& path() const { return *path_; }
     [[nodiscard]] std::span<const CommandedAxis> axes() const { return axes_; }
     [[nodiscard]] const CommandedAxis* find(char letter) const;
-    /// Of the path: the coarsest of the linear axes [mm].
-    [[nodiscard]] double resolution() const { return rules_.resolution; }
+    /// Of positions of the linear axes: three are off at once [mm].
+    [[nodiscard]] double resolution() const { return std::sqrt(3.0) * rules_.resolution; }
+    /// Of the tip at these positions [mm and rad]: rounding of a rotary axis moves it by the lever arm, too [mm].
+    [[nodiscard]] double tip_resolution(const Vec3& linear, const Vec3& rotary) const;
+    /// Of the path: the coarsest of some records from all over the log [mm].
+    [[nodiscard]] double path_resolution() const;
     [[nodiscard]] const ClockRules& clock() const { return rules_; }
     /// Whether the path's positions are not simply those of the linear axes.
     [[nodiscard]] bool has_tip() const { return path_->kinematics != nullptr; }
+    /// Whether any of the limits is one of the path.
+    [[nodiscard]] bool limits_path() const { return limits_path_; }
 
 private:
     const Log* log_;
     const Trajectory* path_;
     std::vector<CommandedAxis> axes_;
     ClockRules rules_;
+    bool limits_path_ = false;
 };
 
-/// Steps in records that one limit is looked at with, and what rounding adds to a value.
+/// Steps in records that one limit is looked at with, and how many of the resolution rounding adds to a value.
 struct Stride {
     std::size_t records = 1;
-    double rounding = 0;
+    double roundings = 0;
 };
 /// From one record on, until rounding is less than a percent of the limit. At most 16 records.
 [[nodiscard]] std::vector<Stride> strides_for(const StatedLimit& limit, const CommandedMotion& motion);
@@ -78,6 +86,10 @@ private:
         double value, error;
     };
 
+    void read_tip();
+    [[nodiscard]] const std::vector<double>* column_of(char letter) const;
+    /// Of the path in the records about i [mm]: on a straight way the arms are longest at its ends.
+    [[nodiscard]] double path_resolution(std::size_t first, std::size_t i, std::size_t last) const;
     [[nodiscard]] bool clean(std::size_t first, std::size_t last) const { return breaks_[last] == breaks_[first]; }
     [[nodiscard]] double worst_jitter(std::size_t first, std::size_t last) const;
     [[nodiscard]] Value of_axis(std::span<const double> x, std::size_t i, std::size_t stride, int order) const;
@@ -92,7 +104,8 @@ private:
     PointIndex begin_ = 0;  ///< record of the columns' first value
     std::size_t count_ = 0;
     std::vector<std::vector<double>> axes_;
-    Path linear_, tip_;  ///< tip_: empty where it is the same
+    Path linear_, tip_;                    ///< tip_: empty where it is the same
+    std::vector<double> tip_resolutions_;  ///< [mm] by record; empty with tip_
     StepClock steps_;
     std::vector<std::uint32_t> breaks_;  ///< broken steps up to each record
 };

@@ -89,6 +89,25 @@ ToolPose Kinematics::to_workpiece(const Vec3& linear, const RotaryAngles& angles
     return {};
 }
 
+LeverArms Kinematics::lever_arms(const Vec3& linear, const RotaryAngles& angles) const {
+    const Vec3 tool = tool_length * tool_axis;
+    const auto arm = [](const RotaryAxis& axis, const Vec3& from_axis) {
+        return axis.direction.cross(from_axis).norm();
+    };
+    switch (type) {
+        case KinematicsType::xyz: break;
+        case KinematicsType::table_table: {
+            const Vec3 from_tilt = linear - tool - tilt_point;
+            return {arm(tilt, from_tilt), arm(rotation, turned_by(from_tilt, tilt, angles.tilt) - centre_from_tilt)};
+        }
+        case KinematicsType::head_head:
+            return {arm(tilt, tool), arm(rotation, tilt_from_rotation + turned_by(tool, tilt, angles.tilt))};
+        case KinematicsType::table_head:
+            return {arm(tilt, tool), arm(rotation, linear - turned_by(tool, tilt, angles.tilt) - rotation_centre)};
+    }
+    return {};
+}
+
 Vec3 Kinematics::to_axes(const Vec3& tip, const RotaryAngles& angles) const {
     const Vec3 tool = tool_length * tool_axis;
     switch (type) {

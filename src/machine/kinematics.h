@@ -58,6 +58,11 @@ struct ToolPose {
     Vec3 axis = Vec3::UnitZ();  ///< unit, from the tip to the spindle
 };
 
+/// Distances of the tip from the lines that the rotary axes turn about [mm]: what a small angle moves it by.
+struct LeverArms {
+    double tilt = 0, rotation = 0;
+};
+
 struct Kinematics {
     KinematicsType type = KinematicsType::xyz;
     RotaryAxis tilt{'a', Vec3::UnitX(), 1};
@@ -81,6 +86,7 @@ struct Kinematics {
     [[nodiscard]] Vec3 programmed(const RotaryAngles& angles) const;
     /// Tip and tool axis in the workpiece. Total: any angles.
     [[nodiscard]] ToolPose to_workpiece(const Vec3& linear, const RotaryAngles& angles) const;
+    [[nodiscard]] LeverArms lever_arms(const Vec3& linear, const RotaryAngles& angles) const;
     /// Positions of the linear axes for a tip and the angles. The inverse of to_workpiece().tip.
     [[nodiscard]] Vec3 to_axes(const Vec3& tip, const RotaryAngles& angles) const;
     /// t = R(φ) T(θ) k.

@@ -120,6 +120,25 @@ TEST(Kinematics, ThereAndBackOverRandomPoses) {
     }
 }
 
+TEST(Kinematics, ASmallAngleMovesTheTipByItsLeverArm) {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> length(-400, 400);
+    std::uniform_real_distribution<double> angle(-pi, pi);
+    constexpr double small = 1e-6;  // [rad]
+    for (int i = 0; i < 1000; ++i) {
+        const KinematicsType type = kinematics_types()[static_cast<std::size_t>(1 + i % 3)];
+        const Kinematics k = random_machine(random, type, i % 4);
+        const RotaryAngles at{angle(random), angle(random)};
+        const Vec3 linear(length(random), length(random), length(random));
+        const LeverArms arms = k.lever_arms(linear, at);
+        const auto moved = [&](const RotaryAngles& to) {
+            return (k.to_workpiece(linear, to).tip - k.to_workpiece(linear, at).tip).norm() / small;
+        };
+        ASSERT_NEAR(arms.tilt, moved({at.tilt + small, at.rotation}), 1e-3) << name_of(type);
+        ASSERT_NEAR(arms.rotation, moved({at.tilt, at.rotation + small}), 1e-3) << name_of(type);
+    }
+}
+
 TEST(Kinematics, BothSolutionsGiveTheAxis) {
     std::mt19937 random(6);
     std::uniform_real_distribution<double> angle(-pi, pi);
