@@ -15,6 +15,7 @@
 #include "io/page/measured_section.h"
 #include "io/reports/quality_words.h"
 #include "io/reports/roughness_words.h"
+#include "io/reports/simulation_origin.h"
 
 namespace clsurf::io {
 namespace {
@@ -106,6 +107,19 @@ std::string parameter_fact(const ReportPage& page) {
     return fact("Parameters", own.empty() ? "none" : own, note, "parameters");
 }
 
+/// The machine of the log, and whether the log was recorded or simulated; empty: nothing is known.
+std::string machine_fact(const ReportPage& page) {
+    const std::optional<SimulationOrigin>& own = page.quality.origin;
+    const std::optional<SimulationOrigin> before =
+        page.surfaces.size() > 1 ? simulation_origin(*page.surfaces.back().log) : own;
+    const std::string recorded = metadata_text(*page.surfaces.front().log, "machine");
+    const std::string name = own ? own->machine : recorded;
+    if (name.empty() && !own && !before) return {};
+    std::string note = own ? "simulated" : before ? "recorded" : "";
+    if (own.has_value() != before.has_value()) note += before ? "; before: simulated" : "; before: recorded";
+    return fact("Machine", name.empty() ? "not named" : name, note, "machine");
+}
+
 /// When and how the log was recorded.
 std::string run_facts(const ReportPage& page) {
     const QualityReport& report = *page.quality.report;
@@ -116,8 +130,7 @@ std::string run_facts(const ReportPage& page) {
         text += fact("Recorded", recorded);
     else if (!page.log_date.empty())
         text += fact("Date", page.log_date, "of the file");
-    const std::string machine = metadata_text(log, "machine");
-    if (!machine.empty()) text += fact("Machine", machine);
+    text += machine_fact(page);
     if (page.quality.tool) text += fact("Tool", to_text(*page.quality.tool));
     text += parameter_fact(page);
     text +=
@@ -280,6 +293,7 @@ std::string numbers_section(const ReportPage& page) {
 
 std::string health_section(const ReportPage& page) {
     std::string text = "<section id=\"health\"><h2>Can the log be trusted?</h2>\n";
+    if (page.quality.origin) text += "<p>" + html(origin_text(page.quality.origin)) + "</p>\n";
     if (page.health.empty()) return text + "<p>No problems found.</p></section>\n";
     text += "<ul>\n";
     for (const Diagnostic& d : page.health.summary()) {

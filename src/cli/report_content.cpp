@@ -13,6 +13,7 @@
 #include "cli/programmed_lines.h"
 #include "cli/report_pictures.h"
 #include "field/field_set.h"
+#include "io/reports/simulation_origin.h"
 #include "log/health.h"
 #include "pipeline/contacts.h"
 #include "pipeline/signals_of.h"
@@ -167,6 +168,7 @@ io::ReportPage report_page_of(const ReportLog& shown, const std::vector<ReportLo
     page.quality.program = &shown.part.program;
     page.quality.log = shown.part.log.name;
     page.quality.tool = shown.part.tool;
+    page.quality.origin = io::simulation_origin(shown.part.log);
     page.quality.scallop = shown.quality.scallop;
     page.quality.as_machined = shown.quality.as_machined ? &*shown.quality.as_machined : nullptr;
     page.quality.acceptance = shown.acceptance ? &*shown.acceptance : nullptr;

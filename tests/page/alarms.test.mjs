@@ -56,3 +56,17 @@ test('too little that could be compared is said', async () => {
     assert.match((await bars(page))[0], /^Not judged\. Only 0\.0 %/);
     await closeReport(page);
 });
+
+test('the header names the machine of a simulated log, and says that it was simulated', async () => {
+    const part = { program: bottle.program, log: path.join(folder, 'simulated.biip') };
+    run('simulate', part.program, '-o', part.log);
+    const [, machine] = /simulated for the machine "(.+)"/.exec(run('check', part.program, part.log, '--tool', 'none'));
+    const page = await openReport(
+        browser,
+        writeReport('simulated.html', part, '--before', bottle.log, '--tool', 'none'),
+    );
+    const facts = await page.$$eval('#summary dl > div', (all) => all.map((fact) => fact.textContent));
+    assert.ok(facts.includes(`Machine${machine} simulated; before: recorded`), facts.join('\n'));
+    assert.match(await page.textContent('#health'), /simulated for the machine/);
+    await closeReport(page);
+});
