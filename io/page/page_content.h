@@ -24,6 +24,14 @@
 
 namespace clsurf::io {
 
+/// A class of a field whose values are names.
+struct PageClass {
+    std::string name;
+    double value = 0;  ///< as shown
+    std::array<std::uint8_t, 3> rgb{};
+    double share = 0;  ///< of the cutting points
+};
+
 /// What one log shows. All that is pointed at must outlive the page.
 struct PageSurface {
     const Log* log = nullptr;
@@ -32,9 +40,10 @@ struct PageSurface {
     const Trajectory* path = nullptr;     ///< of the role that the surface is of
     std::vector<Trajectory> other_roles;  ///< positions that can be shown in its place
     const KeptPoints* kept = nullptr;
-    std::span<const Field> fields;             ///< one value per point of the log
-    std::span<const std::uint8_t> joined;      ///< per kept point: goes on from the one before
-    std::span<const std::uint32_t> triangles;  ///< numbers of kept points
+    std::span<const Field> fields;                         ///< one value per point of the log
+    std::span<const std::vector<PageClass>> classes = {};  ///< per field; empty: its values are numbers
+    std::span<const std::uint8_t> joined;                  ///< per kept point: goes on from the one before
+    std::span<const std::uint32_t> triangles;              ///< numbers of kept points
     std::span<const std::uint32_t> segments;
     const SlowWords* slow = nullptr;                   ///< of the kept points
     std::span<const PathLocation> places_before = {};  ///< per point of the log: the same place of the log before

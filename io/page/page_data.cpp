@@ -17,6 +17,7 @@ constexpr double position_quantum = 1e-4;  ///< [mm]
 constexpr double time_quantum = 1e-6;      ///< [s]
 constexpr double before_steps = 16;        ///< of a step between two points
 constexpr double field_steps = 32768;      ///< in the range that is shown
+constexpr double class_quantum = 1e-3;     ///< of classes that have a unit
 
 /// Columns are packed side by side once all are known.
 class Blocks {
@@ -73,16 +74,33 @@ PackedColumn pack_numbers(std::span<const T> numbers, int stride) {
 
 Json::json_pointer at(const std::string& base, const std::string& name) { return Json::json_pointer(base) / name; }
 
-void add_field(Blocks& blocks, Json& json, const std::string& base, const PageSurface& surface, const Field& field,
+/// The steps that the values of a field are rounded to.
+double quantum_of(const FieldInfo& info, const ShownRange& range) {
+    // A class is known by its value.
+    if (has_classes(info)) return info.unit.name.empty() ? 1 : class_quantum;
+    const double quantum = (range.high - range.low) / field_steps;
+    if (quantum > 0) return quantum;
+    return std::max({std::abs(range.low), std::abs(range.lowest), std::abs(range.highest), 1e-9}) / field_steps;
+}
+
+Json classes_json(const std::vector<PageClass>& classes, double quantum) {
+    Json all = Json::array();
+    for (const PageClass& c : classes)
+        all.push_back(
+            {{"name", c.name}, {"step", std::llround(c.value / quantum)}, {"rgb", c.rgb}, {"share", c.share}});
+    return all;
+}
+
+void add_field(Blocks& blocks, Json& json, const std::string& base, const PageSurface& surface, std::size_t index,
                const ShownRange& range) {
+    const Field& field = surface.fields[index];
     const double unit = field.info.unit.per_inside;
-    double quantum = (range.high - range.low) / field_steps;
-    if (!(quantum > 0))
-        quantum = std::max({std::abs(range.low), std::abs(range.lowest), std::abs(range.highest), 1e-9}) / field_steps;
+    const double quantum = quantum_of(field.info, range);
     const KeptPoints& kept = *surface.kept;
     const float* values = field.values.data();
     const auto value = [values, unit](PointIndex i) { return static_cast<double>(values[i]) * unit; };
     json.push_back({{"name", field.info.name}, {"quantum", quantum}});
+    if (has_classes(field.info)) json.back()["classes"] = classes_json(surface.classes[index], quantum);
     const std::string here = base + "/fields/" + std::to_string(json.size() - 1);
     blocks.add(at(here, "values"), [&kept, quantum, value] { return pack_kept(kept, quantum, value); });
     std::string missing(kept.points.size(), '\0');
@@ -217,8 +235,7 @@ Json surface_json(Blocks& blocks, const std::string& base, const ReportPage& pag
         });
     }
     add_slow_words(blocks, json, base, s);
-    for (std::size_t k = 0; k < s.fields.size(); ++k)
-        add_field(blocks, json["fields"], base, s, s.fields[k], page.ranges[k]);
+    for (std::size_t k = 0; k < s.fields.size(); ++k) add_field(blocks, json["fields"], base, s, k, page.ranges[k]);
     return json;
 }
 

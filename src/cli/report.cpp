@@ -4,6 +4,7 @@
 
 #include "cli/followed_output.h"
 #include "cli/output_format.h"
+#include "cli/report_classes.h"
 #include "cli/report_content.h"
 #include "cli/report_log.h"
 #include "cli/report_options.h"
@@ -54,6 +55,7 @@ ExitCode write_page(const ReportOptions& options, const po::variables_map& value
                          "too few points, or the program and the log do not belong together?");
 
     clock.begin("measure");
+    name_classes(logs);
     io::ReportPage page = report_page_of(shown, logs, options);
     page.programmed = programmed_path(shown, options);
     if (options.measurement) page.measured = measured_for_report(shown, options, clock);

@@ -38,6 +38,7 @@ io::PageSurface page_surface(const ReportLog& shown) {
     page.other_roles = shown.other_roles;
     page.kept = &shown.kept;
     page.fields = shown.fields;
+    page.classes = shown.classes;
     page.joined = shown.vertices.joined;
     page.triangles = shown.bands.triangles;
     page.segments = shown.bands.segments;

@@ -23,7 +23,8 @@ struct ReportLog {
     Quality quality;
     std::optional<io::Acceptance> acceptance;  ///< of the log that is shown, where there is a file
     std::vector<Field> fields;
-    Column<float> speed;  ///< per point [mm/s], where it is none of the fields
+    std::vector<std::vector<io::PageClass>> classes;  ///< per field
+    Column<float> speed;                              ///< per point [mm/s], where it is none of the fields
     std::vector<Trajectory> other_roles;
     Column<PathLocation> places_before;  ///< per point, on the log before; empty: there is none
     KeptPoints kept;

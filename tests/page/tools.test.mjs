@@ -158,7 +158,7 @@ test('fields bring their range and a colour map that fits', async () => {
     await settled(page);
     assert.equal(await page.getByLabel('colour map').inputValue(), 'magma');
     assert.equal(await field(), 'Path speed [mm/min]');
-    await page.getByLabel('curve 2').selectOption({ label: 'Jerk [mm/s³]' });
+    await page.getByLabel('curve 2', { exact: true }).selectOption({ label: 'Jerk [mm/s³]' });
     await settled(page);
     assert.equal(await page.locator('.chart').count(), 2);
 });

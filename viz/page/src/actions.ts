@@ -133,7 +133,7 @@ export function actionsOf(
             key: 'k',
             title: 'the next colour map',
             group: 'Colours',
-            run: () => store.set({ map: maps[(maps.indexOf(state.map) + 1) % maps.length] }),
+            run: () => view.classes === null && store.set({ map: maps[(maps.indexOf(state.map) + 1) % maps.length] }),
         },
         {
             name: 'save',

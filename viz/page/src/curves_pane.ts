@@ -2,6 +2,8 @@
 
 import uPlot from 'uplot';
 
+import type { FieldClasses } from './classes';
+import { cssColour } from './colour';
 import { element, oncePerFrame, styleValue } from './dom';
 import type { Manifest } from './manifest';
 import type { Store } from './store';
@@ -11,6 +13,7 @@ import { lowerBound, thinCurve } from './thin';
 interface Chart {
     plot: uPlot;
     holder: HTMLElement;
+    key: HTMLElement;
     field: number;
 }
 
@@ -44,8 +47,10 @@ export class CurvesPane {
             if (changed.has('field')) this.store.set({ curves: [state.field, ...state.curves.slice(1)] });
             if (changed.has('records')) this.element.hidden = state.records;
             if (changed.has('curves') || changed.has('theme')) this.build();
-            else if (changed.has('over') || changed.has('shown')) this.showAll();
-            else if (changed.has('vertex')) this.reveal();
+            else if (changed.has('over') || changed.has('shown')) {
+                this.nameCurves();
+                this.showAll();
+            } else if (changed.has('vertex')) this.reveal();
             else if (changed.has('hover')) for (const chart of this.charts) chart.plot.redraw(false);
         });
         new ResizeObserver(() => this.resize()).observe(this.element);
@@ -64,6 +69,7 @@ export class CurvesPane {
         this.element.replaceChildren();
         const { curves } = this.store.state;
         curves.forEach((field, k) => this.add(field, k, k === curves.length - 1));
+        this.nameCurves();
         this.showAll();
     }
 
@@ -80,7 +86,8 @@ export class CurvesPane {
             if (index === 0) this.store.set({ field: curves[0] });
             else this.store.set({ curves });
         });
-        holder.append(choice);
+        const key = element('ul', { class: 'key', tabindex: '0', 'aria-label': `what is drawn in curve ${index + 1}` });
+        holder.append(choice, key);
         this.element.append(holder);
         const ink = styleValue('--ink');
         const grid = { stroke: styleValue('--line'), width: 1 };
@@ -89,7 +96,7 @@ export class CurvesPane {
             {
                 width: 300,
                 height: 80,
-                padding: [6, 12, last ? 0 : 6, 0], // half a tick text
+                padding: [info.classes ? 30 : 6, 12, last ? 0 : 6, 0], // names of classes; half a tick text
                 legend: { show: false },
                 cursor: { drag: { x: true, y: false, setScale: false }, points: { show: false }, y: false },
                 scales: { x: { time: false } },
@@ -106,7 +113,16 @@ export class CurvesPane {
                         labelSize: 13,
                         gap: 2,
                     },
-                    { stroke: ink, grid, ticks: grid, font, size: 62, gap: 3, space: 22 },
+                    {
+                        stroke: ink,
+                        grid: { ...grid, show: !info.classes },
+                        ticks: grid,
+                        font,
+                        size: 62,
+                        gap: 3,
+                        space: 22,
+                        ...(info.classes ? { splits: () => [] } : {}),
+                    },
                 ],
                 // The other log lies behind.
                 series: [
@@ -115,7 +131,7 @@ export class CurvesPane {
                     { stroke: styleValue('--curve'), width: 1.2, spanGaps: false, points: { show: false } },
                 ],
                 hooks: {
-                    draw: [(u) => this.drawCursor(u)],
+                    draw: [(u) => this.drawBands(u, field), (u) => this.drawCursor(u)],
                     setSelect: [(u) => this.zoomTo(u)],
                 },
             },
@@ -125,7 +141,45 @@ export class CurvesPane {
         plot.over.addEventListener('click', (event) => this.click(plot, event.offsetX));
         plot.over.addEventListener('dblclick', () => this.showAll());
         plot.over.title = `${info.label}: click to select the place, drag to zoom, double click to show all`;
-        this.charts.push({ plot, holder, field });
+        this.charts.push({ plot, holder, key, field });
+    }
+
+    /** The log that lies behind. */
+    private get other(): Surface | undefined {
+        const own = this.surface();
+        return this.store.state.shown === 'before' ? undefined : this.surfaces.find((s) => s !== own);
+    }
+
+    /** The classes of a field in the logs that are drawn, the log before below. */
+    private classesOf(field: number): { surface: Surface; classes: FieldClasses }[] {
+        return [this.surface(), this.other].flatMap((surface) => {
+            const classes = surface?.classes[field];
+            return surface && classes ? [{ surface, classes }] : [];
+        });
+    }
+
+    /** What the colours of each chart are: classes, and of two logs which is which. */
+    private nameCurves(): void {
+        for (const { key, field } of this.charts) {
+            const entry = (name: string, colour: string, kind: string) => {
+                const swatch = element('i', { class: kind });
+                swatch.style.background = colour;
+                return element('li', {}, swatch, name);
+            };
+            const classes = this.classesOf(field);
+            const colours = new Map(
+                classes.flatMap((c) => c.classes.shown.map(({ name, rgb }) => [name, cssColour(rgb)])),
+            );
+            const entries = [...colours].map(([name, colour]) => entry(name, colour, 'class'));
+            if (classes.length > 1) entries.unshift(element('li', {}, 'after above, before below'));
+            if (classes.length === 0 && this.other)
+                entries.push(
+                    entry('after', styleValue('--curve'), 'curve'),
+                    entry('before', styleValue('--second'), 'curve'),
+                );
+            key.hidden = entries.length === 0;
+            key.replaceChildren(...entries);
+        }
     }
 
     private resize(): void {
@@ -154,16 +208,16 @@ export class CurvesPane {
     }
 
     private fill(): void {
-        const { state } = this.store;
         const columns = Math.max(100, Math.floor(this.element.clientWidth * devicePixelRatio));
         const own = this.surface();
-        const other = this.surfaces.find((s) => s !== own);
+        const { other } = this;
+        const nothing = { x: [], y: [] };
         for (const { plot, field } of this.charts) {
-            const a = thinCurve(this.x(own), own.fields[field], this.low, this.high, columns);
-            const b =
-                other && state.shown !== 'before'
-                    ? thinCurve(this.x(other), other.fields[field], this.low, this.high, columns)
-                    : { x: [], y: [] };
+            const named = this.manifest.fields[field].classes; // drawBands() draws them
+            const thinned = (s: Surface) =>
+                named ? nothing : thinCurve(this.x(s), s.fields[field], this.low, this.high, columns);
+            const a = thinned(own);
+            const b = other ? thinned(other) : nothing;
             const data =
                 b.x.length > 0
                     ? uPlot.join([
@@ -179,6 +233,30 @@ export class CurvesPane {
                 plot.setScale('y', { min: least - room, max: most + room });
             });
         }
+    }
+
+    /** Sections of one class in its colour. */
+    private drawBands(plot: uPlot, field: number): void {
+        const logs = this.classesOf(field);
+        const { left, top, width, height } = plot.bbox;
+        const each = height / Math.max(1, logs.length);
+        const g = plot.ctx;
+        logs.forEach(({ surface, classes }, row) => {
+            const x = this.x(surface);
+            const pixel = (vertex: number) =>
+                Math.min(left + width, Math.max(left, plot.valToPos(x[Math.min(vertex, x.length - 1)], 'x', true)));
+            let drawn = left;
+            classes.starts.forEach((first, k) => {
+                const to = pixel(classes.starts[k + 1] ?? x.length);
+                const known = classes.of(first);
+                // Each is at least a pixel wide; of several in one pixel the first one is seen.
+                if (!known || to <= drawn) return;
+                const from = Math.max(drawn, pixel(first));
+                drawn = Math.min(left + width, Math.max(to, from + 1));
+                g.fillStyle = cssColour(known.rgb);
+                g.fillRect(from, top + row * each, drawn - from, row + 1 < logs.length ? each - 2 : each);
+            });
+        });
     }
 
     private drawCursor(plot: uPlot): void {

@@ -15,13 +15,21 @@ export interface FieldInfo {
     unit: string;
     map: string; // the colour map that suits it
     slack: number; // beyond an end that still has the end's colour
-    classes: boolean; // its values are names: the command line has no range for it
+    classes: boolean; // its values are names: it has no range
     note: string;
     low: number;
     high: number;
     lowest: number;
     highest: number;
     range_note: string;
+}
+
+/** A class of a field whose values are names. */
+export interface ClassInfo {
+    name: string;
+    step: number; // its value in quanta of the field
+    rgb: Rgb;
+    share: number; // of the cutting points of the log
 }
 
 export interface ColourMapInfo {
@@ -105,7 +113,7 @@ export interface SurfaceInfo {
     };
     slow?: SlowInfo; // where the tool is slow anywhere
     roles: { name: string; x: PackedColumn; y: PackedColumn; z: PackedColumn }[];
-    fields: { name: string; quantum: number; values: PackedColumn; missing?: PackedColumn }[];
+    fields: { name: string; quantum: number; values: PackedColumn; missing?: PackedColumn; classes?: ClassInfo[] }[];
 }
 
 export interface ReliefInfo {

@@ -4,6 +4,9 @@
 import { views, type Camera } from './camera';
 import { colourAlong, cssColour, niceTicks, tickText, type ColourScale } from './colour';
 import { styleValue } from './dom';
+import { label } from './canvas_text';
+import { drawClassLegend } from './class_legend';
+import type { ShownClass } from './classes';
 import { boxAt, labelPlace, markerPlace, meet, type Box } from './label_place';
 
 export interface Polyline {
@@ -35,6 +38,7 @@ export interface OverlayScene {
     polylines: Polyline[];
     rings: Ring[];
     scale: ColourScale;
+    classes: ShownClass[] | null; // the legend of values that are names
     lowest: number; // of the values
     highest: number;
     title: string;
@@ -237,12 +241,20 @@ export class Overlay {
     }
 
     private legend(g: CanvasRenderingContext2D, camera: Camera, scene: OverlayScene, ink: string, halo: string): void {
+        g.fillStyle = halo;
+        g.fillRect(camera.width, 0, legendWidth, camera.height);
+        label(g, scene.title, 12, 18, ink, halo, 'left', true);
+        if (scene.caption) label(g, scene.caption, 12, 36, ink, halo, 'left');
+        const box = { left: camera.width + 8, top: 14, right: camera.width + legendWidth, bottom: camera.height - 14 };
+        if (scene.classes) drawClassLegend(g, scene.classes, box, ink);
+        else this.ramp(g, camera, scene, ink, halo);
+    }
+
+    private ramp(g: CanvasRenderingContext2D, camera: Camera, scene: OverlayScene, ink: string, halo: string): void {
         const { scale } = scene;
         const left = camera.width + 10;
         const top = 58;
         const height = Math.max(60, Math.min(360, camera.height - top - 70));
-        g.fillStyle = halo;
-        g.fillRect(camera.width, 0, legendWidth, camera.height);
         for (let y = 0; y < height; ++y) {
             g.fillStyle = cssColour(colourAlong(scale, 1 - (y + 0.5) / height));
             g.fillRect(left, top + y, 18, 1.5);
@@ -277,8 +289,6 @@ export class Overlay {
             text(tick, y, step, false);
         }
         label(g, scene.unit ? `[${scene.unit}]` : '', left, top - 22, ink, halo, 'left', true);
-        label(g, scene.title, 12, 18, ink, halo, 'left', true);
-        if (scene.caption) label(g, scene.caption, 12, 36, ink, halo, 'left');
     }
 
     /** The directions of X, Y and Z, lower left. */
@@ -340,29 +350,6 @@ function leader(
         g.lineTo(x1, y1);
         g.stroke();
     }
-}
-
-function label(
-    g: CanvasRenderingContext2D,
-    text: string,
-    x: number,
-    y: number,
-    ink: string,
-    halo: string,
-    align: CanvasTextAlign,
-    bold = false,
-): void {
-    if (!text) return;
-    g.font = `${bold ? '600 ' : ''}12px ${styleValue('--font')}`;
-    g.textAlign = align;
-    g.textBaseline = 'middle';
-    g.lineJoin = 'round';
-    g.lineWidth = 3.5;
-    g.strokeStyle = halo;
-    g.strokeText(text, x, y);
-    g.fillStyle = ink;
-    g.fillText(text, x, y);
-    g.lineWidth = 1;
 }
 
 /** The name of a view, where it has one. */

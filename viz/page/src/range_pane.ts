@@ -1,6 +1,7 @@
 // The range of the colours: a histogram of the cutting points with a handle at either end, and the two
 // numbers to type.
 
+import { shareText, type FieldClasses } from './classes';
 import { colourAlong, cssColour } from './colour';
 import { element, numberText, styleValue } from './dom';
 import type { Store } from './store';
@@ -19,6 +20,9 @@ export class RangePane {
     });
     private readonly low = element('input', { type: 'number', step: 'any', 'aria-label': 'lower end of the range' });
     private readonly high = element('input', { type: 'number', step: 'any', 'aria-label': 'upper end of the range' });
+    private readonly title = element('h2', {}, 'Range');
+    private readonly numbers: HTMLElement[]; // what sets a range
+    private readonly classes = element('ul', { class: 'classes', hidden: '' });
     private counts = new Float64Array(bars);
     private from = 0;
     private to = 1;
@@ -45,11 +49,8 @@ export class RangePane {
             this.store.set({ low: lowest, high: highest });
         });
         for (const input of [this.low, this.high]) input.addEventListener('change', () => this.type());
-        this.element.append(
-            element('h2', {}, 'Range'),
-            this.canvas,
-            element('div', { class: 'ends' }, this.low, this.high, reset, all),
-        );
+        this.numbers = [this.canvas, element('div', { class: 'ends' }, this.low, this.high, reset, all)];
+        this.element.append(this.title, ...this.numbers, this.classes);
         this.canvas.addEventListener('pointerdown', (event) => {
             const { low, high } = store.state;
             const x = this.valueAt(event.offsetX);
@@ -130,7 +131,23 @@ export class RangePane {
         else this.store.set({ high: Math.max(value, low + least) });
     }
 
+    /** Names have no range: their classes with their shares. */
+    private listClasses(classes: FieldClasses): void {
+        this.classes.replaceChildren(
+            ...classes.shown.map(({ name, rgb, share }) => {
+                const swatch = element('i');
+                swatch.style.background = cssColour(rgb);
+                return element('li', {}, swatch, element('span', {}, name), element('small', {}, shareText(share)));
+            }),
+        );
+    }
+
     private draw(): void {
+        const { classes } = this.view;
+        this.title.textContent = classes ? 'Shares of the cutting points' : 'Range';
+        for (const part of this.numbers) part.hidden = classes !== null;
+        this.classes.hidden = classes === null;
+        if (classes) return this.listClasses(classes);
         const { low, high } = this.store.state;
         const digits = (value: number) => numberText(value, 5);
         this.low.value = digits(low);

@@ -1,6 +1,6 @@
 // The records of the log as a list: one row for each point of the page, with its positions and values, round the cursor.
 
-import { element, numberText } from './dom';
+import { element } from './dom';
 import type { Manifest } from './manifest';
 import { RowWindow } from './row_window';
 import type { Store } from './store';
@@ -35,7 +35,7 @@ function columnsOf(manifest: Manifest, surface: Surface): RecordColumn[] {
             });
     });
     manifest.fields.forEach((field, k) =>
-        columns.push({ name: field.label, unit: field.unit, text: (s, i) => numberText(s.fields[k][i]) }),
+        columns.push({ name: field.label, unit: field.unit, text: (s, i) => s.textOf(k, field.unit, i) }),
     );
     return columns;
 }

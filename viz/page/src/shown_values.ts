@@ -1,5 +1,6 @@
 // The values that the view colours: a field, what the tool formed, or the difference of two logs.
 
+import { differenceOfClasses, type FieldClasses } from './classes';
 import type { Manifest } from './manifest';
 import type { Relief } from './relief';
 import type { Store } from './store';
@@ -14,6 +15,7 @@ export interface Ends {
 
 export class ShownValues {
     private readonly differences = new Map<number, Float32Array>(); // by field
+    private readonly classDifferences = new Map<number, FieldClasses>(); // by field
     private readonly differenceEnds = new Map<number, Ends>();
 
     constructor(
@@ -28,16 +30,26 @@ export class ShownValues {
         const { formed, field, shown } = this.store.state;
         if (surface === this.surfaces[0]) {
             if (formed && this.relief) return this.relief.deviation;
-            if (shown === 'difference') return this.difference(field);
+            if (shown === 'difference' && !this.manifest.fields[field].classes) return this.difference(field);
         }
         return surface.fields[field];
+    }
+
+    /** Where what is coloured are names; null: numbers. */
+    classes(surface: Surface): FieldClasses | null {
+        const { formed, field, shown } = this.store.state;
+        if (!this.manifest.fields[field].classes || (formed && this.relief)) return null;
+        if (shown !== 'difference' || surface !== this.surfaces[0]) return surface.classes[field];
+        let known = this.classDifferences.get(field);
+        if (!known) this.classDifferences.set(field, (known = differenceOfClasses(surface, this.surfaces[1], field)));
+        return known;
     }
 
     ends(surface: Surface): Ends {
         const { shown, formed, field } = this.store.state;
         const info = this.manifest.fields[field];
         if (formed && this.relief) return this.relief.info;
-        if (shown !== 'difference') return info;
+        if (shown !== 'difference' || info.classes) return info;
         let known = this.differenceEnds.get(field);
         if (!known) this.differenceEnds.set(field, (known = this.endsOfDifference(surface, field)));
         return known;
@@ -58,16 +70,10 @@ export class ShownValues {
         };
     }
 
-    /** After minus before. Of names there is none. */
+    /** After minus before. */
     private difference(field: number): Float32Array {
         let known = this.differences.get(field);
-        if (!known) {
-            const [after, before] = this.surfaces;
-            known = this.manifest.fields[field].classes
-                ? new Float32Array(after.count).fill(NaN)
-                : differenceOf(after, before, field);
-            this.differences.set(field, known);
-        }
+        if (!known) this.differences.set(field, (known = differenceOf(this.surfaces[0], this.surfaces[1], field)));
         return known;
     }
 }

@@ -2,6 +2,8 @@
 // its time and its values.
 
 import { readBytes, readIndices, readNumbers } from './columns';
+import { classesOf, type FieldClasses } from './classes';
+import { numberText } from './dom';
 import type { Manifest, SurfaceInfo } from './manifest';
 import { readSlowWords, type SlowWords } from './slow_words';
 import { lowerBound } from './thin';
@@ -31,6 +33,7 @@ export class Surface {
         readonly triangles: Uint32Array,
         readonly segments: Uint32Array,
         readonly fields: Float32Array[], // shown units; NaN: no value
+        readonly classes: (FieldClasses | null)[], // of fields whose values are names
         readonly passes: Float64Array, // first and last point of each cut pass
         readonly slow: SlowWords | null, // null: the tool is slow nowhere, or it is not known
         readonly before: Float64Array | null, // the same place on the log before, in points; < 0: none
@@ -114,6 +117,23 @@ export class Surface {
         });
     }
 
+    /** The two vertices of the log before that lie about the place of a vertex, and how far from the first to the second. */
+    besideBefore(vertex: number, before: Surface): { vertices: [number, number]; along: number } | null {
+        const place = this.before?.[vertex] ?? -1;
+        if (place < 0) return null;
+        const next = Math.min(before.count - 1, lowerBound(before.point, place));
+        const last = Math.max(0, next - 1);
+        const step = before.point[next] - before.point[last];
+        const along = step > 0 && before.joined(next) ? (place - before.point[last]) / step : 1;
+        return { vertices: [last, next], along: Math.min(1, Math.max(0, along)) };
+    }
+
+    /** The value of a field at a vertex: a number, or the name of its class where it has no unit. */
+    textOf(field: number, unit: string, vertex: number): string {
+        const known = unit === '' ? this.classes[field]?.of(vertex) : null;
+        return known && !known.others ? known.name : numberText(this.fields[field][vertex]);
+    }
+
     /** Number of the cut pass of a vertex, from 1; 0: none. */
     passOf(vertex: number): number {
         const point = this.point[vertex];
@@ -133,16 +153,13 @@ export function differenceOf(after: Surface, before: Surface, field: number): Fl
     const values = after.fields[field].slice();
     const old = before.fields[field];
     for (let i = 0; i < values.length; ++i) {
-        const place = after.before?.[i] ?? -1;
-        if (place < 0) {
+        const beside = after.besideBefore(i, before);
+        if (!beside) {
             values[i] = NaN;
             continue;
         }
-        const next = Math.min(before.count - 1, lowerBound(before.point, place));
-        const last = Math.max(0, next - 1);
-        const step = before.point[next] - before.point[last];
-        const t = step > 0 && before.joined(next) ? (place - before.point[last]) / step : 1;
-        values[i] -= old[last] + Math.min(1, Math.max(0, t)) * (old[next] - old[last]);
+        const [last, next] = beside.vertices;
+        values[i] -= old[last] + beside.along * (old[next] - old[last]);
     }
     return values;
 }
@@ -203,6 +220,7 @@ export async function readSurface(manifest: Manifest, index: number): Promise<Su
         await readIndices(columns.triangles),
         await readIndices(columns.segments),
         fields,
+        info.fields.map(({ classes, quantum }, k) => (classes ? classesOf(classes, fields[k], quantum) : null)),
         await readNumbers(columns.passes),
         info.slow ? await readSlowWords(info.slow) : null,
         columns.before ? (await readNumbers(columns.before)).map((n) => n / 16 - 1) : null,

@@ -1,6 +1,6 @@
 // The numbers of one point: that under the pointer, else that of the cursor.
 
-import { element, numberText } from './dom';
+import { element } from './dom';
 import type { Manifest } from './manifest';
 import type { ProgramText } from './program_text';
 import type { Store } from './store';
@@ -78,7 +78,7 @@ export class TablePane {
                 element('th', {}, 'X Y Z'),
                 element('td', { class: 'words', colspan: '2' }, `${place} mm`),
             ),
-            ...this.manifest.fields.map((field, k) => row(field.label, numberText(surface.fields[k][at]), field.unit)),
+            ...this.manifest.fields.map((field, k) => row(field.label, surface.textOf(k, field.unit, at), field.unit)),
         ];
         this.element.replaceChildren(element('table', {}, element('tbody', {}, ...rows)));
     }

@@ -51,7 +51,12 @@ export class Toolbar {
             group.append(button);
         }
         this.locator = this.addLocator(locate);
+        const setMaps = () => {
+            map.disabled = bins.disabled = manifest.fields[store.state.field].classes && !store.state.formed;
+        };
+        setMaps();
         store.on((state) => {
+            setMaps();
             field.value = String(state.field);
             map.value = state.map;
             bins.value = String(state.bins);

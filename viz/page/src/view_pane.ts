@@ -2,10 +2,11 @@
 // pointer. Left of the wipe lies the log before.
 
 import { Camera, extentAlong, views, wholeScale, type Extent } from './camera';
-import { shownCells, waySegments } from './cells';
+import { shownCells } from './cells';
+import type { FieldClasses } from './classes';
 import { rgbOf, type ColourMap, type ColourScale } from './colour';
 import { afterRest, baseName, element, oncePerFrame, styleValue } from './dom';
-import { GlView, normalsOf } from './gl_view';
+import { Layer } from './layer';
 import type { Manifest } from './manifest';
 import { marksOf } from './marks';
 import { legendWidth, Overlay, viewName, type OverlayScene } from './overlay';
@@ -20,14 +21,6 @@ import { Kind, type Surface } from './surface';
 
 const slowFrame = 80; // ms
 export const everyKind = (1 << Kind.cut) | (1 << Kind.link) | (1 << Kind.rapid);
-
-interface Layer {
-    surface: Surface;
-    view: GlView;
-    box: HTMLElement;
-    picker: Picker | null;
-    normals: Map<number, Float32Array>; // by role
-}
 
 export class ViewPane {
     readonly element = element('div', {
@@ -60,11 +53,9 @@ export class ViewPane {
     ) {
         this.shown = new ShownValues(manifest, store, surfaces, relief);
         for (const surface of surfaces) {
-            const box = element('div', { class: 'layer' });
-            this.element.append(box);
-            const view = new GlView(box);
-            if (programmed) view.setPath(programmed.xyz, programmed.segments);
-            this.layers.push({ surface, view, box, picker: null, normals: new Map() });
+            const layer = new Layer(this.element, surface);
+            if (programmed) layer.view.setPath(programmed.xyz, programmed.segments);
+            this.layers.push(layer);
         }
         const canvas = element('canvas', { class: 'overlay' });
         this.element.append(canvas);
@@ -82,14 +73,23 @@ export class ViewPane {
     private get active(): Layer {
         return this.layers[this.store.state.shown === 'before' && this.layers.length > 1 ? 1 : 0];
     }
-    private xyzOf(surface: Surface): Float32Array {
-        return surface.roles[Math.min(this.store.state.role, surface.roles.length - 1)].xyz;
+    private get xyz(): Float32Array {
+        return this.active.xyzOf(this.store.state.role);
     }
     placeOf(vertex: number): number[] {
-        const xyz = this.xyzOf(this.surface);
+        const { xyz } = this;
         return [xyz[3 * vertex], xyz[3 * vertex + 1], xyz[3 * vertex + 2]];
     }
+    /** Where what is coloured are names; null: numbers. */
+    get classes(): FieldClasses | null {
+        return this.shown.classes(this.surface);
+    }
     get scale(): ColourScale {
+        return this.scaleOf(this.active);
+    }
+    private scaleOf(layer: Layer): ColourScale {
+        const classes = this.shown.classes(layer.surface);
+        if (classes) return classes.scale;
         const { map, low, high, bins, formed, field } = this.store.state;
         const readable = 0.005 * (high - low);
         const slack = formed ? readable : Math.max(readable, this.manifest.fields[field].slack);
@@ -115,12 +115,13 @@ export class ViewPane {
 
     private update(changed: ReadonlySet<keyof State>): void {
         const any = (...keys: (keyof State)[]) => keys.some((key) => changed.has(key));
-        if (changed.has('shown')) for (const layer of this.layers) this.revalue(layer);
         const mesh = ['style', 'role', 'formed', 'kinds', 'passes'] as const;
-        if (any(...mesh)) for (const layer of this.layers) this.remesh(layer);
-        if (any(...mesh, 'field', 'low', 'high')) for (const layer of this.layers) this.revalue(layer);
-        if (any(...mesh, 'field', 'low', 'high', 'map', 'bins'))
-            for (const layer of this.layers) layer.view.setColours(this.scale);
+        const values = [...mesh, 'field', 'shown', 'low', 'high'] as const;
+        for (const layer of this.layers) {
+            if (any(...mesh) || !layer.isDividedBy(this.shown.classes(layer.surface))) this.remesh(layer);
+            if (any(...values)) layer.setValues(this.shown.of(layer.surface), this.scaleOf(layer));
+            if (any(...values, 'map', 'bins')) layer.view.setColours(this.scaleOf(layer));
+        }
         if (any('tool')) this.element.dataset.tool = this.store.state.tool;
         if (any('theme'))
             for (const layer of this.layers) {
@@ -134,7 +135,7 @@ export class ViewPane {
             layer.box.style.visibility = seen ? 'visible' : 'hidden';
             layer.box.style.clipPath = shown === 'wipe' && k === 1 ? `inset(0 ${100 * (1 - wipe)}% 0 0)` : '';
         });
-        if (any(...mesh, 'field', 'low', 'high', 'map', 'bins', 'theme', 'shown', 'programmed')) this.draw();
+        if (any(...values, 'map', 'bins', 'theme', 'programmed')) this.draw();
         else if (changed.size > 1 || !changed.has('hover')) this.drawLater();
     }
 
@@ -159,40 +160,9 @@ export class ViewPane {
 
     private remesh(layer: Layer): void {
         const { style, formed, role } = this.store.state;
-        const { surface } = layer;
-        layer.picker = null;
-        if (formed && this.relief && layer === this.layers[0]) {
-            const { xyz, triangles } = this.relief;
-            layer.view.setMesh(
-                {
-                    xyz,
-                    triangles,
-                    normals: normalsOf(xyz, triangles),
-                    segments: new Uint32Array(0),
-                    points: Uint32Array.from({ length: xyz.length / 3 }, (_, i) => i),
-                },
-                'surface',
-            );
-            return;
-        }
-        const xyz = this.xyzOf(surface);
-        let normals = layer.normals.get(role) ?? null;
-        if (!normals && style === 'surface') layer.normals.set(role, (normals = normalsOf(xyz, surface.triangles)));
-        const shows = this.shows(surface);
-        const part = (corners: Uint32Array, size: number) => (shows ? shownCells(corners, size, shows) : corners);
-        layer.view.setMesh(
-            {
-                xyz,
-                normals,
-                triangles: part(surface.triangles, 3),
-                segments: part(style === 'lines' ? waySegments(surface) : surface.segments, 2),
-                points: part(
-                    Uint32Array.from({ length: surface.count }, (_, i) => i),
-                    1,
-                ),
-            },
-            style,
-        );
+        if (formed && this.relief && layer === this.layers[0]) return layer.showRelief(this.relief);
+        const classes = this.shown.classes(layer.surface);
+        layer.showSurface({ role, style, shows: this.shows(layer.surface), classes });
     }
 
     /** Whether a vertex is of the kinds and passes that are drawn; null: all are. */
@@ -204,10 +174,6 @@ export class ViewPane {
         const from = passes ? surface.passes[2 * first - 2] : 0;
         const to = passes ? (surface.passes[2 * last - 1] ?? Infinity) : Infinity;
         return (i) => ((kinds >> surface.kind(i)) & 1) === 1 && surface.point[i] >= from && surface.point[i] <= to;
-    }
-
-    private revalue(layer: Layer): void {
-        layer.view.setValues(this.shown.of(layer.surface), this.scale);
     }
 
     private resize(): void {
@@ -224,7 +190,7 @@ export class ViewPane {
         const { surface, relief } = this;
         if (this.store.state.formed && relief)
             return extentAlong(this.camera.axes, relief.xyz, (i) => relief.missing[i] !== 1);
-        return extentAlong(this.camera.axes, this.xyzOf(surface), (i) => surface.kind(i) !== Kind.rapid);
+        return extentAlong(this.camera.axes, this.xyz, (i) => surface.kind(i) !== Kind.rapid);
     }
     fit(): void {
         this.camera.fit(this.extent());
@@ -283,15 +249,16 @@ export class ViewPane {
         const formed = state.formed && this.relief ? this.relief.info : null;
         const { surface } = this;
         return {
-            ...marksOf(this.manifest, state, surface, this.xyzOf(surface), surface === this.layers[0].surface),
+            ...marksOf(this.manifest, state, surface, this.xyz, surface === this.layers[0].surface),
             scale: this.scale,
             ...this.ends(),
+            classes: this.classes?.shown ?? null,
             title: formed
                 ? 'Formed surface over its form'
                 : state.shown === 'difference'
-                  ? `${field.label}, after minus before`
+                  ? `${field.label}, after ${this.classes ? 'against' : 'minus'} before`
                   : field.label,
-            unit: formed ? 'µm' : field.unit,
+            unit: formed ? 'µm' : this.classes ? '' : field.unit,
             caption:
                 (this.layers.length > 1 && (state.shown === 'before' || state.shown === 'after')
                     ? `${state.shown}: ${baseName(surface.info.log)}, `
@@ -308,7 +275,7 @@ export class ViewPane {
         if (time === null) return;
         const { surface } = this;
         const g = this.overlay.canvas.getContext('2d') as CanvasRenderingContext2D;
-        drawTool(g, this.camera, this.manifest.tool, surface, this.xyzOf(surface), time);
+        drawTool(g, this.camera, this.manifest.tool, surface, this.xyz, time);
     }
 
     // ---- the pointer ----
@@ -323,7 +290,7 @@ export class ViewPane {
         const style = surface.triangles.length > 0 ? state.style : 'lines';
         const shows = this.shows(surface);
         layer.picker ??= new Picker(
-            this.xyzOf(surface),
+            this.xyz,
             shows ? shownCells(surface.triangles, 3, shows) : surface.triangles,
             style,
             (i) => surface.kind(i) !== Kind.rapid && (shows?.(i) ?? true),

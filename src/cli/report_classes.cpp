@@ -1,0 +1,72 @@
+#include "cli/report_classes.h"
+
+#include <algorithm>
+#include <map>
+
+#include "viz/field_classes.h"
+
+namespace clsurf::cli {
+namespace {
+
+/// How many cutting points have each value.
+std::map<float, PointIndex> counts_of(const Field& field, const Passes& passes) {
+    std::map<float, PointIndex> counts;
+    for (const Pass& pass : passes) {
+        if (pass.kind != PassKind::cut) continue;
+        for (PointIndex i = pass.first; i <= pass.last; ++i) {
+            const float value = field.values[static_cast<std::size_t>(i)];
+            if (value == value) ++counts[value];
+        }
+    }
+    return counts;
+}
+
+/// The classes of one log that have a colour of their own, without shares.
+std::vector<io::PageClass> named_classes(const Field& field, const Passes& passes) {
+    const viz::FieldClasses classes(field.info, field.values, passes);
+    const double unit = field.info.unit.per_inside;
+    // The others, which have no colour of their own, stand last.
+    const std::vector<viz::ShownClass>& shown = classes.shown();
+    const auto end = shown.end() - (shown.size() > viz::FieldClasses::most_named ? 1 : 0);
+    std::vector<io::PageClass> named;
+    for (const FieldClass& known : field.info.classes)
+        named.push_back({known.name, known.value * unit, classes.rgb_of(known.value), 0});
+    for (const auto& [value, count] : counts_of(field, passes)) {
+        const viz::Rgb rgb = classes.rgb_of(value);
+        const auto taken = [&](const io::PageClass& c) { return c.rgb == rgb; };
+        if (std::any_of(named.begin(), named.end(), taken)) continue;
+        const auto found = std::find_if(shown.begin(), end, [&](const viz::ShownClass& c) { return c.rgb == rgb; });
+        if (found != end) named.push_back({found->name, value * unit, rgb, 0});
+    }
+    return named;
+}
+
+/// With their shares in one log, the largest first.
+std::vector<io::PageClass> with_shares(std::vector<io::PageClass> named, const Field& field, const Passes& passes) {
+    const std::map<float, PointIndex> counts = counts_of(field, passes);
+    double all = 0;
+    for (const auto& [value, count] : counts) all += static_cast<double>(count);
+    for (const auto& [value, count] : counts) {
+        const double shown = value * field.info.unit.per_inside;
+        for (io::PageClass& c : named) {
+            if (c.value == shown) c.share = static_cast<double>(count) / all;
+        }
+    }
+    std::stable_sort(named.begin(), named.end(),
+                     [](const io::PageClass& a, const io::PageClass& b) { return a.share > b.share; });
+    return named;
+}
+
+}  // namespace
+
+void name_classes(std::vector<ReportLog>& logs) {
+    const ReportLog& first = logs.front();
+    for (std::size_t k = 0; k < first.fields.size(); ++k) {
+        std::vector<io::PageClass> named;
+        if (has_classes(first.fields[k].info)) named = named_classes(first.fields[k], first.surface.passes);
+        for (ReportLog& log : logs)
+            log.classes.push_back(named.empty() ? named : with_shares(named, log.fields[k], log.surface.passes));
+    }
+}
+
+}  // namespace clsurf::cli

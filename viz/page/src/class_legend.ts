@@ -1,0 +1,55 @@
+// The legend of a field whose values are names: colour, name and share of each.
+
+import { shareText, type ShownClass } from './classes';
+import { cssColour } from './colour';
+import { styleValue } from './dom';
+import type { Box } from './label_place';
+
+const lineHeight = 14;
+const gap = 7; // below a class
+const swatch = [16, 12];
+
+/** Words in lines of at most a width. */
+function broken(g: CanvasRenderingContext2D, text: string, width: number): string[] {
+    const lines: string[] = [];
+    for (const word of text.split(' ')) {
+        const longer = lines.length > 0 ? `${lines[lines.length - 1]} ${word}` : word;
+        if (lines.length > 0 && g.measureText(longer).width <= width) lines[lines.length - 1] = longer;
+        else lines.push(word);
+    }
+    return lines;
+}
+
+/** From the top of a box, the first ones; how many more there are is said where not all have room. */
+export function drawClassLegend(
+    g: CanvasRenderingContext2D,
+    classes: readonly ShownClass[],
+    box: Box,
+    ink: string,
+): void {
+    g.font = `11px ${styleValue('--font')}`;
+    g.textAlign = 'left';
+    g.textBaseline = 'middle';
+    const left = box.left + swatch[0] + 5;
+    const entries = classes.map(({ name, rgb, share }) => ({
+        rgb,
+        lines: [...broken(g, name, box.right - left), shareText(share)],
+    }));
+    let y = box.top;
+    for (const [k, { rgb, lines }] of entries.entries()) {
+        const below = k + 1 < entries.length ? lineHeight : 0; // for the number of those that are left out
+        if (y + lines.length * lineHeight + below > box.bottom) {
+            g.fillStyle = ink;
+            g.fillText(`and ${entries.length - k} more`, box.left, y + lineHeight / 2);
+            return;
+        }
+        g.fillStyle = cssColour(rgb);
+        g.fillRect(box.left, y + 1, swatch[0], swatch[1]);
+        g.strokeStyle = ink;
+        g.lineWidth = 1;
+        g.strokeRect(box.left - 0.5, y + 0.5, swatch[0] + 1, swatch[1] + 1);
+        g.fillStyle = ink;
+        lines.forEach((line, row) => g.fillText(line, left, y + (row + 0.5) * lineHeight));
+        y += lines.length * lineHeight + gap;
+    }
+}
