@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/file_name.h"
 #include "core/printable_text.h"
 #include "io/files/xml_text.h"
 
@@ -42,6 +43,10 @@ std::string case_text(const JunitSuite& suite, const JunitCase& c) {
 }
 
 }  // namespace
+
+JunitSuite check_suite(const std::string& program, const std::string& log) {
+    return {fmt::format("clsurf check {} {}", file_name(program), file_name(log)), program, {}, ""};
+}
 
 std::string junit_text(const std::vector<JunitSuite>& suites) {
     const auto count = [](const JunitSuite& suite, std::string JunitCase::*kind) {

@@ -2,6 +2,7 @@
 // Results as JUnit's XML, which build servers show as tests: the elements that Jenkins (junit-10.xsd) and GitLab read.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace clsurf::io {
@@ -19,6 +20,11 @@ struct JunitSuite {
     std::vector<JunitCase> cases;
     std::string output;  ///< text for people
 };
+
+/// The case of `check` that has an error where there is no verdict.
+inline constexpr std::string_view verdict_case = "the data allow a verdict";
+/// The suite of `check` on a log, without cases.
+[[nodiscard]] JunitSuite check_suite(const std::string& program, const std::string& log);
 
 [[nodiscard]] std::string junit_text(const std::vector<JunitSuite>& suites);
 

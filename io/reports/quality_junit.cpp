@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "core/file_name.h"
 #include "io/reports/junit.h"
 #include "io/reports/line_ranges.h"
 #include "io/reports/quality_report.h"
@@ -30,7 +29,7 @@ std::string defect_lines(const ReportedQuality& q, bool worsened_only) {
 }
 
 JunitCase judged_case(const ReportedQuality& q) {
-    JunitCase judged{"the data allow a verdict", "", "", ""};
+    JunitCase judged{std::string(verdict_case), "", "", ""};
     if (!q.passes_asked) return judged;
     for (const std::string& reason : q.report->judgement.reasons)
         judged.error += (judged.error.empty() ? "" : " ") + reason;
@@ -56,9 +55,7 @@ JunitCase baseline_case(const ReportedQuality& q) {
 }  // namespace
 
 std::string quality_junit(const ReportedQuality& q) {
-    JunitSuite suite;
-    suite.name = fmt::format("clsurf check {} {}", file_name(q.program->main().name()), file_name(q.log));
-    suite.class_name = q.program->main().name();
+    JunitSuite suite = check_suite(q.program->main().name(), q.log);
     suite.cases.push_back(judged_case(q));
     if (q.report->judgement.judged() || !q.passes_asked) {
         for (const BudgetLine& line : q.budget) suite.cases.push_back(budget_case(q, line));

@@ -299,11 +299,15 @@ std::string quality_json(const ReportedQuality& q) {
     return dump(json);
 }
 
-std::string quality_csv(const ReportedQuality& q) {
-    std::string text =
+std::string quality_csv_titles() {
+    return fmt::format(
         "id,severity,cause,pass,first_line,last_line,first_point,last_point,x [mm],y [mm],z [mm],depth [µm],shape,"
-        "speed jump [mm/min],acceleration jump [mm/s²],length [mm],area [mm²],score,speed jump [%],quantity,systematic,place,file,file_first_line,file_last_line,";
-    text += fmt::format("{},accepted,comment\n", limit_column_titles());
+        "speed jump [mm/min],acceleration jump [mm/s²],length [mm],area [mm²],score,speed jump [%],quantity,systematic,place,file,file_first_line,file_last_line,{},accepted,comment\n",
+        limit_column_titles());
+}
+
+std::string quality_csv(const ReportedQuality& q) {
+    std::string text = quality_csv_titles();
     for (std::size_t i = 0; i < q.report->defects.size(); ++i) {
         const Defect& d = q.report->defects[i];
         const Vec3& at = d.place.position();

@@ -45,6 +45,8 @@ struct ReportedQuality {
 [[nodiscard]] std::string quality_json(const ReportedQuality& quality);
 /// One row per run of a defect, columns named with their units. file: a subprogram's, empty where the run is in the program.
 [[nodiscard]] std::string quality_csv(const ReportedQuality& quality);
+/// The first line of quality_csv().
+[[nodiscard]] std::string quality_csv_titles();
 /// One result per defect on the line that moves the tool, so that editors and code review show it: in a subprogram on
 /// the subprogram's line, with the calling line as a related location.
 [[nodiscard]] std::string quality_sarif(const ReportedQuality& quality);

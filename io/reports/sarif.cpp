@@ -27,13 +27,13 @@ Json sarif_location(const std::string& uri, LineNumber first, LineNumber last, c
     return json;
 }
 
-std::string sarif_text(Json rules, Json results, Json notifications) {
+std::string sarif_text(Json rules, Json results, Json notifications, bool successful) {
     Json driver{{"name", "clsurf"}, {"version", version}, {"rules", std::move(rules)}};
     Json run{
         {"tool", {{"driver", std::move(driver)}}}, {"columnKind", "utf16CodeUnits"}, {"results", std::move(results)}};
     if (!notifications.empty())
         run["invocations"] = Json::array(
-            {Json{{"executionSuccessful", true}, {"toolExecutionNotifications", std::move(notifications)}}});
+            {Json{{"executionSuccessful", successful}, {"toolExecutionNotifications", std::move(notifications)}}});
     return dump_foreign(Json{{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
                              {"version", "2.1.0"},
                              {"runs", Json::array({std::move(run)})}});

@@ -17,7 +17,8 @@ namespace clsurf::io {
                                   const std::string& message);
 
 /// A log of one run with its rules and results.
-/// `notifications`: what the tool says of the run itself, a level and a text each.
-[[nodiscard]] std::string sarif_text(Json rules, Json results, Json notifications = Json::array());
+/// `notifications`: what the tool says of the run itself, a level and a text each; `successful`: it could be done.
+[[nodiscard]] std::string sarif_text(Json rules, Json results, Json notifications = Json::array(),
+                                     bool successful = true);
 
 }  // namespace clsurf::io

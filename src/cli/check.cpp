@@ -42,7 +42,7 @@ ExitCode run_check(const po::variables_map& values) {
     for (const std::string& log : logs) {
         options.log = log;
         if (rules.followed) rules.followed->follow(options, rules.measured);
-        checked = check_log(options, rules, values);
+        checked = logs.size() > 1 ? check_log_of_several(options, rules, values) : check_log(options, rules, values);
         texts.push_back(checked.text);
         worst = std::max(worst, checked.code);
     }

@@ -34,4 +34,15 @@ Checked check_log(const PartOptions& options, CheckRules& rules, const po::varia
             rules.followed ? rules.followed->resolve(run.quality.report) : ResolvedFindings{}};
 }
 
+Checked check_log_of_several(const PartOptions& options, CheckRules& rules, const po::variables_map& values) {
+    try {
+        return check_log(options, rules, values);
+    } catch (const InputError& error) {
+        if (error.diagnostic().where.file != options.log) throw;
+        write_message(error.what());
+        return {
+            unusable_writer(rules.format)({options.program, options.log, error.diagnostic()}), ExitCode::bad_input, {}};
+    }
+}
+
 }  // namespace clsurf::cli

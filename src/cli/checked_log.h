@@ -37,4 +37,9 @@ struct CheckRules {
 /// check_run() does.
 [[nodiscard]] Checked check_log(const PartOptions& options, CheckRules& rules, const po::variables_map& values);
 
+/// check_log() of one of several logs: an error of the log is its result, so that the verdicts on the others stand.
+/// Throws what is no error of the log: program, options, machine.
+[[nodiscard]] Checked check_log_of_several(const PartOptions& options, CheckRules& rules,
+                                           const po::variables_map& values);
+
 }  // namespace clsurf::cli

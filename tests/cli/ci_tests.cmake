@@ -19,7 +19,13 @@ clsurf_cli_test(NAME ci_several_logs_sarif SETUP "${two_logs}; $CLSURF check ${p
   ARGS check ${planted} a.biip -o one.sarif FILE one.sarif)
 # A step that only the second one has.
 clsurf_cli_test(NAME ci_worst_of_several_logs SETUP "cp ${run} b.biip; head -c 100000 b.biip > a.biip" ARGS check ${part} a.biip b.biip --tool none --max-depth 5um -q EXIT 5 NO_STDOUT ".")
-clsurf_cli_test(NAME ci_one_of_several_logs_missing SETUP "${two_logs}" ARGS check ${planted} a.biip nowhere.biip -o report.json EXIT 3 STDERR "nowhere.biip: error: cannot open" NO_FILE report.json)
+# One that cannot be used is a result of its own.
+clsurf_cli_test(NAME ci_one_of_several_logs_missing SETUP "${two_logs}" ARGS check ${planted} nowhere.biip a.biip EXIT 3 STDERR "nowhere.biip: error: cannot open" STDOUT "^nowhere.biip:\nERROR: nowhere.biip: cannot open: [^\n]*\n\na.biip:.*3 defects")
+clsurf_cli_test(NAME ci_one_of_several_logs_foreign SETUP "${two_logs}" ARGS check ${planted} a.biip @LOGS@/bottle_uneven.biip -o report.xml EXIT 3 STDERR "bottle_uneven.biip: error: does not belong to" FILE report.xml)
+foreach(form json csv sarif junit)
+  clsurf_cli_test(NAME ci_one_of_several_logs_unusable_${form} SETUP "${two_logs}; echo no log > b.biip; $CLSURF check ${planted} b.biip a.biip --format ${form} > report || test $? -eq 3; python3 @DATA@/../tests/cli/read_unusable.py ${form} report" ARGS check ${planted} b.biip a.biip --max-depth 1um --format ${form} EXIT 3 STDERR "b.biip: error: is not a log")
+endforeach()
+clsurf_cli_test(NAME ci_program_of_several_logs_missing SETUP "${two_logs}" ARGS check nowhere.nc a.biip b.biip -o report.json EXIT 3 STDERR "^nowhere.nc: error: cannot open" NO_FILE report.json)
 clsurf_cli_test(NAME ci_program_from_standard_input SETUP "${two_logs}; cp ${planted} stdin" ARGS check - a.biip b.biip EXIT 2 STDERR "the program of several logs cannot come from standard input")
 # The shell steps of the GitHub action, as a runner runs them.
 clsurf_cli_test(NAME ci_action SETUP "/usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/cli/run_action.py ${PROJECT_SOURCE_DIR}/action.yml $CLSURF @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip" ARGS --version STDOUT "clsurf")
