@@ -35,8 +35,8 @@
 namespace clsurf::viz {
 namespace {
 
-constexpr std::array levels{Level::area, Level::casing, Level::mark, Level::inlay, Level::edge,
-                            Level::line, Level::halo, Level::dot,   Level::dot_fill};
+constexpr std::array levels{Level::area, Level::casing, Level::mark, Level::inlay,   Level::edge,
+                            Level::line, Level::halo,   Level::dot,  Level::dot_fill};
 constexpr int flat_layers = 2 + static_cast<int>(levels.size());  ///< quads, lines by level, texts
 constexpr int dpi = 72;                                           // one point of text is one pixel
 
