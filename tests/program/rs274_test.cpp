@@ -179,6 +179,19 @@ TEST(Probing, IsAMotionToTheProgrammedPoint) {
     EXPECT_EQ(modes, (decltype(modes){{0, BlockEnd::rounded}, {0, BlockEnd::exact_stop}, {1, BlockEnd::rounded}}));
 }
 
+// rs274 gives no new rate where the unit changes: 100 in/min stay 2540 mm/min.
+TEST(Feeds, KeepTheUnitThatTheyWereReadIn) {
+    const Program p = parse("G20 G0 X0 Y0 Z0\nF100\nG1 X1\nG21\nX0\nM70\nF100\nX10\nG20 X1\nM72\nG1 X0\n", "linuxcnc");
+    ASSERT_EQ(p.motions.size(), 6);
+    EXPECT_NEAR(p.motions.feed[1] * 60, 2540, 1e-3);
+    EXPECT_NEAR(p.motions.feed[2] * 60, 2540, 1e-3);
+    EXPECT_NEAR(p.motions.feed[3] * 60, 100, 1e-4);
+    EXPECT_NEAR(p.motions.feed[4] * 60, 100, 1e-4);
+    EXPECT_NEAR(p.motions.feed[5] * 60, 2540, 1e-3);
+    // Fanuc counts the F in force in the new unit.
+    EXPECT_NEAR(parse("G20 G0 X0 Y0 Z0\nF100\nG1 X1\nG21\nX0\n", "fanuc").motions.feed[2] * 60, 100, 1e-4);
+}
+
 TEST(Modes, AreKeptAndComeBack) {
     EXPECT_EQ(motions(parse("M70\nG20 G91\nM72\nG0 X1\nX1\n", "linuxcnc")), (Rows{"rapid 1 0 0", "rapid 1 0 0"}));
     EXPECT_EQ(motions(parse("o1 sub\nM73\nG20 G0 X1\no1 endsub\no1 call\nG0 X1\n", "linuxcnc")),

@@ -59,6 +59,7 @@ struct MotionRules {
     bool moves_without_axes = false;                   ///< G0 or G1 alone makes a motion of no length
     bool rotary_in_machine = false;                    ///< G53 holds for A, B, C as well
     bool turns_by_p = false;                           ///< P beside an arc counts its turns
+    bool feed_keeps_unit = false;                      ///< F counts in the unit that held where it stands, ever after
     bool separate_uvw = false;                         ///< U, V, W are axes of their own, which leave X, Y, Z true
     bool splines_by_last_block = false;                ///< all spans of a spline stand in the block that ends it
     bool refuses_curve_codes = true;                   ///< G5.2, G5.3, G6.1 … move axes elsewhere: an error

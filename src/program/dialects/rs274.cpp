@@ -388,6 +388,7 @@ const DialectRules linuxcnc_rules{
                .moves_without_axes = true,
                .rotary_in_machine = true,
                .turns_by_p = true,
+               .feed_keeps_unit = true,
                .separate_uvw = true,
                .splines_by_last_block = true,
                .forbidden_in_compensation = rs274::forbidden_in_compensation},

@@ -261,13 +261,23 @@ static_assert(in_order(common_codes));
 }  // namespace
 
 bool count_in_inches(Interpreter& in, const CodeWord&) {
-    in.state_.count_in(mm_per_inch);
+    in.count_in(mm_per_inch);
     return true;
 }
 
 bool count_in_mm(Interpreter& in, const CodeWord&) {
-    in.state_.count_in(1);
+    in.count_in(1);
     return true;
+}
+
+void Interpreter::count_in(double unit) {
+    state_.unit_mm = unit;
+    if (!rules_->motion.feed_keeps_unit) state_.feed_unit_mm = unit;
+}
+
+void Interpreter::take_feed(double value) {
+    state_.feed = value;
+    if (rules_->motion.feed_keeps_unit) state_.feed_unit_mm = state_.unit_mm;
 }
 
 void Interpreter::execute(Block& block) {
@@ -279,7 +289,7 @@ void Interpreter::execute(Block& block) {
     change_tool(block);
     settle_codes(block);
     if (rules_->after_codes != nullptr) rules_->after_codes(*this, block);
-    if (is(block, 'F') && !this_block_.motion_suppressed) state_.feed = block.words.of('F');
+    if (is(block, 'F') && !this_block_.motion_suppressed) take_feed(block.words.of('F'));
     if (is(block, 'S')) {
         if (block.words.of('S') < 0) note(Severity::warning, "program.spindle", "negative spindle speed");
         state_.spindle = block.words.of('S');

@@ -165,7 +165,7 @@ bool Interpreter::run_plain(const Words& words) {
     if (!ordinary) return false;
     state_.motion = mode;
     const double unit = state_.unit_mm;
-    if (words.given('F')) state_.feed = words.of('F');
+    if (words.given('F')) take_feed(words.of('F'));
     const Vec3 before = state_.position;
     Vec3& p = state_.position;
     if (words.given('X')) p.x() = words.of('X') * unit;

@@ -223,6 +223,8 @@ public:
     void probe(const Vec3& end, const Vec3& rotary);
     void push(MotionKind kind, const Vec3& end, const Vec3& rotary, float feed);
     void settle_work_frame();
+    void count_in(double unit);    ///< what lengths are counted in [mm], and feeds, if F does not keep its unit
+    void take_feed(double value);  ///< F
     [[nodiscard]] float feed_for(double way, double unit);
     [[nodiscard]] float feed_for(double length) { return feed_for(length, state_.feed_unit_mm); }
     [[nodiscard]] double turn_to(const Vec3& rotary) const;

@@ -52,7 +52,7 @@ struct ModalState {
     int cycle = 0;                 ///< the canned cycle's G number in tenths, 0: none
     int plane_axis = 2;            ///< axis of rotation: 2 G17, 1 G18, 0 G19
     double unit_mm = 1;            ///< mm per programmed length
-    double feed_unit_mm = 1;       ///< mm per length of F, which G70 of siemens leaves as it is
+    double feed_unit_mm = 1;       ///< mm per length of F, which a change of units may leave as it is
     bool incremental = false;      ///< G91
     bool centre_absolute = false;  ///< G90.1
     FeedMode feed_mode = FeedMode::per_minute;
@@ -83,8 +83,6 @@ struct ModalState {
     Vec3 home = Vec3::Zero(), second_home = Vec3::Zero();  ///< G28, G30; machine coordinates
     Vec3 home_rotary = Vec3::Zero(), second_home_rotary = Vec3::Zero();  ///< [deg]
 
-    /// Sets what lengths and feeds are counted in [mm].
-    void count_in(double unit) { unit_mm = feed_unit_mm = unit; }
     /// The least step that a word can name: 0.001 mm or 0.0001 in.
     [[nodiscard]] double least_increment() const { return unit_mm == 1 ? 1e-3 : 1e-4; }
 

@@ -176,7 +176,8 @@ void Interpreter::keep_modes(int code) {
 }
 
 void Interpreter::restore_modes(const ModalState& kept) {
-    state_.count_in(kept.unit_mm);
+    state_.unit_mm = kept.unit_mm;
+    state_.feed_unit_mm = kept.feed_unit_mm;
     state_.plane_axis = kept.plane_axis;
     state_.incremental = kept.incremental;
     state_.centre_absolute = kept.centre_absolute;

@@ -88,9 +88,9 @@ void Interpreter::thread_cycle(const Block& block) {
     thread.slide = std::tan(angle * rad_per_deg);
 
     const FeedMode feed_mode = state_.feed_mode;
-    const double feed = state_.feed;
+    const double feed = state_.feed, feed_unit = state_.feed_unit_mm;
     state_.feed_mode = FeedMode::per_revolution;
-    state_.feed = w.of('P');
+    take_feed(w.of('P'));
     const auto carry_out = [&](double depth) {
         for (const auto& [kind, end] : pass_at(thread, depth).moves) straight(kind, end, state_.rotary);
     };
@@ -103,6 +103,7 @@ void Interpreter::thread_cycle(const Block& block) {
     straight(MotionKind::rapid, Vec3(thread.begin.x(), thread.begin.y(), thread.end.z()), state_.rotary);
     state_.feed_mode = feed_mode;
     state_.feed = feed;
+    state_.feed_unit_mm = feed_unit;
 }
 
 /// G33.1: down to the end with the spindle, and back the same way.
