@@ -160,6 +160,25 @@ TEST(SiemensLines, EndWhereTheAngleMeetsACoordinate) {
               std::string::npos);
 }
 
+TEST(SiemensCycles, TapByPitchAndSpeed) {
+    const auto feeds = [](const std::string& text) {
+        const Program tapped = parse("G0 X1 Y1 Z10\nG95 F7 S100\n" + text + "\n", "siemens");
+        const Rows ways{"rapid 1 1 10", "rapid 1 1 2", "feed 1 1 -6", "feed 1 1 2", "rapid 1 1 10"};
+        EXPECT_EQ(motions(tapped), ways) << text;
+        return std::pair(std::round(tapped.motions.feed[2] * 60), std::round(tapped.motions.feed[3] * 60));
+    };
+    // Pitch 1.25 at 500 rpm, out at 800: 625 and 1000 mm/min; left-handed the same.
+    EXPECT_EQ(feeds("CYCLE84(10,0,2,-6,,0,3,,1.25,0,500,800)"), std::pair(625.F, 1000.F));
+    EXPECT_EQ(feeds("CYCLE84(10,0,2,-6,,0,3,,-1.25,0,500,0)"), std::pair(625.F, 625.F));
+    // M10: 1.5 mm. 20 threads per inch: 1.27 mm. Without SST the speed of the program, as in CYCLE840.
+    EXPECT_EQ(feeds("CYCLE84(10,0,2,-6,,0,3,10,,0,400)"), std::pair(600.F, 600.F));
+    EXPECT_EQ(feeds("CYCLE84(10,0,2,-6,,0,3,,20,0,1000,0,3,2)"), std::pair(1270.F, 1270.F));
+    EXPECT_EQ(feeds("CYCLE84(10,0,2,-6,,0,3,,1.25)"), std::pair(125.F, 125.F));
+    EXPECT_EQ(feeds("CYCLE840(10,0,2,-6,,0,4,3,0,,1.5)"), std::pair(150.F, 150.F));
+    // Without a pitch the feed in force, 7 mm per turn.
+    EXPECT_EQ(feeds("CYCLE840(10,0,2,-6,,0,4,3,1)"), std::pair(700.F, 700.F));
+}
+
 TEST(SiemensCycles, DrillOnceOrAfterEveryMotion) {
     // RTP 10, RFP 0, SDIS 2, DP −5.
     EXPECT_EQ(rows("G0 X1 Y1 Z20 F60\nCYCLE81(10,0,2,-5)\n"),

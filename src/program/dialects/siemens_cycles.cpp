@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -22,6 +24,36 @@ constexpr double whole_depth = 1e-9;  ///< [mm] above the bottom, at most
 
 /// Places of a cycle's parameters.
 constexpr std::size_t rtp = 0, rfp = 1, sdis = 2, dp = 3, dpr = 4, dtb = 5;
+
+/// Places of the parameters of a tapping cycle: pitch by metric size, pitch, its unit, speeds in and out.
+struct TappingPlaces {
+    std::size_t mpit, pit, ptab;
+    std::optional<std::size_t> sst, sst1;
+};
+constexpr TappingPlaces rigid_tapping{.mpit = 7, .pit = 8, .ptab = 13, .sst = 10, .sst1 = 11};      ///< CYCLE84
+constexpr TappingPlaces floating_tapping{.mpit = 9, .pit = 10, .ptab = 12, .sst = {}, .sst1 = {}};  ///< CYCLE840
+
+/// Of ISO metric threads of the coarse series (ISO 261), M3 … M48 [mm]; 0: not one of them.
+double coarse_pitch(double size) {
+    static constexpr std::pair<int, double> pitches[] = {
+        {3, 0.5},  {4, 0.7},  {5, 0.8},  {6, 1},    {8, 1.25}, {10, 1.5}, {12, 1.75},
+        {14, 2},   {16, 2},   {18, 2.5}, {20, 2.5}, {22, 2.5}, {24, 3},   {27, 3},
+        {30, 3.5}, {33, 3.5}, {36, 4},   {39, 4},   {42, 4.5}, {45, 4.5}, {48, 5}};
+    const auto* found = std::find_if(std::begin(pitches), std::end(pitches),
+                                     [&](const auto& row) { return row.first == std::abs(size); });
+    return found == std::end(pitches) ? 0 : found->second;
+}
+
+/// What a pitch is given in (_PTAB), as the length of a turn [mm]. `unit`: of the program [mm].
+double pitch_in_mm(double pitch, int given_in, double unit) {
+    constexpr int in_mm = 1, per_inch = 2, in_inches = 3;
+    switch (given_in) {
+        case in_mm: return pitch;
+        case per_inch: return mm_per_inch / pitch;
+        case in_inches: return pitch * mm_per_inch;
+        default: return pitch * unit;
+    }
+}
 
 bool drills(const std::string& name) {
     static constexpr std::string_view names[] = {"CYCLE81", "CYCLE82", "CYCLE83", "CYCLE84", "CYCLE840",
@@ -100,6 +132,11 @@ void Interpreter::drill_siemens(const std::string& name, const std::vector<doubl
     cycle_.p = name == "CYCLE81" || name == "CYCLE87" ? 0 : seconds(value(name == "CYCLE83" ? std::size_t{8} : dtb, 0));
     const double feed = state_.feed;
     go_to_level(MotionKind::rapid, r, rotary);
+    if (name == "CYCLE84" || name == "CYCLE840") {
+        tap_siemens(name == "CYCLE84", values, bottom, r, rotary);
+        go_to_level(MotionKind::rapid, clear, rotary);
+        return;
+    }
     if (name == "CYCLE83") {
         const double whole = reference - bottom;
         const double first_absolute = value(5, std::numeric_limits<double>::quiet_NaN());
@@ -115,7 +152,7 @@ void Interpreter::drill_siemens(const std::string& name, const std::vector<doubl
         go_to_level(MotionKind::rapid, clear, rotary);
         return;
     }
-    const bool feeds_out = name == "CYCLE84" || name == "CYCLE840" || name == "CYCLE85" || name == "CYCLE89";
+    const bool feeds_out = name == "CYCLE85" || name == "CYCLE89";
     if (name == "CYCLE85" && value(6, 0) > 0) state_.feed = value(6, 0);
     go_to_level(MotionKind::feed, bottom, rotary);
     if (cycle_.p > 0) dwell(cycle_.p);
@@ -134,6 +171,35 @@ void Interpreter::drill_siemens(const std::string& name, const std::vector<doubl
     if (feeds_out) go_to_level(MotionKind::feed, r, rotary);
     state_.feed = feed;
     go_to_level(MotionKind::rapid, clear, rotary);
+}
+
+/// Down to the bottom and back to `r`, by a pitch with each turn; without a pitch or a speed with the feed in force.
+void Interpreter::tap_siemens(bool rigid, const std::vector<double>& values, double bottom, double r,
+                              const Vec3& rotary) {
+    const TappingPlaces& places = rigid ? rigid_tapping : floating_tapping;
+    const auto value = [&](std::optional<std::size_t> k) {
+        return k && *k < values.size() && !std::isnan(values[*k]) ? std::abs(values[*k]) : 0.0;
+    };
+    const double given = value(places.pit);
+    const double pitch = given > 0 ? pitch_in_mm(given, static_cast<int>(value(places.ptab)), state_.unit_mm)
+                                   : coarse_pitch(value(places.mpit));
+    const auto or_else = [](double speed, double otherwise) { return speed > 0 ? speed : otherwise; };
+    const double speed_in = or_else(value(places.sst), state_.spindle);
+    const double speed_out = or_else(value(places.sst1), speed_in);
+    const FeedMode mode = state_.feed_mode;
+    const double feed = state_.feed;
+    const auto go = [&](double height, double speed) {
+        if (pitch > 0 && speed > 0) {
+            state_.feed_mode = FeedMode::per_minute;
+            state_.feed = pitch * speed / state_.feed_unit_mm;
+        }
+        go_to_level(MotionKind::feed, height, rotary);
+    };
+    go(bottom, speed_in);
+    if (cycle_.p > 0) dwell(cycle_.p);
+    go(r, speed_out);
+    state_.feed_mode = mode;
+    state_.feed = feed;
 }
 
 /// Deep holes: chips broken by going back a little, or taken out to the reference plane.

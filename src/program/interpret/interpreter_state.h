@@ -141,6 +141,7 @@ public:
     void start_modal_call(const Keyword& called);
     bool siemens_cycle(const Keyword& keyword);
     void drill_siemens(const std::string& name, const std::vector<double>& values);
+    void tap_siemens(bool rigid, const std::vector<double>& values, double bottom, double r, const Vec3& rotary);
     void peck_siemens(double reference, double r, const std::vector<double>& depths, bool breaks_chips,
                       double dwell_above, const Vec3& rotary);
     void hole_pattern(const std::string& name, const std::vector<double>& values, std::size_t column);
