@@ -134,13 +134,15 @@ std::string causes_section(const ShopPage& page) {
     return text + "</tbody></table></section>\n";
 }
 
-/// What is said of a program.
+/// What is said of a program. Runs without a verdict count as runs only.
 struct ProgramRow {
     std::string name;
-    std::size_t runs = 0, not_judged = 0, over_budget = 0;
+    std::size_t runs = 0, judged = 0, over_budget = 0;
     double defects = 0, highest = 0, deepest = 0;
     const RunRecord* latest = nullptr;
 };
+
+std::string cell_text(bool known, double value) { return known ? fmt::format("{:.1f}", value) : "–"; }
 
 std::vector<ProgramRow> program_rows(std::span<const RunRecord> runs) {
     std::map<std::string, ProgramRow> rows;
@@ -148,12 +150,13 @@ std::vector<ProgramRow> program_rows(std::span<const RunRecord> runs) {
         ProgramRow& row = rows[file_name(run.program)];
         row.name = file_name(run.program);
         ++row.runs;
-        row.not_judged += run.judged ? 0 : 1;
-        row.over_budget += run.judged && !run.within_budget ? 1 : 0;
+        row.latest = &run;
+        if (!run.judged) continue;
+        ++row.judged;
+        row.over_budget += run.within_budget ? 0 : 1;
         row.defects += static_cast<double>(run.defects);
         row.highest = std::max(row.highest, run.worst_score);
         row.deepest = std::max(row.deepest, run.deepest_um);
-        row.latest = &run;
     }
     std::vector<ProgramRow> sorted;
     for (auto& [name, row] : rows) sorted.push_back(std::move(row));
@@ -169,10 +172,11 @@ std::string programs_section(const ShopPage& page) {
     for (std::size_t i = 0; i < std::min(rows.size(), most_programs); ++i) {
         const ProgramRow& r = rows[i];
         text += fmt::format(
-            "<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{:.1f}</td><td class=\"n\">{:.1f}</td><td class=\"n\">{:.1f}</td><td>{} ({})</td><td class=\"n\">{}</td></tr>\n",
-            html(r.name), r.runs, r.not_judged, r.over_budget, r.defects / static_cast<double>(r.runs), r.highest,
-            r.deepest, r.latest->id, day_of(r.latest->time),
-            r.latest->judged ? fmt::format("{:.1f}", r.latest->worst_score) : "–");
+            "<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td>{} ({})</td><td class=\"n\">{}</td></tr>\n",
+            html(r.name), r.runs, r.runs - r.judged, r.over_budget,
+            cell_text(r.judged > 0, r.defects / static_cast<double>(r.judged)), cell_text(r.judged > 0, r.highest),
+            cell_text(r.judged > 0, r.deepest), r.latest->id, day_of(r.latest->time),
+            cell_text(r.latest->judged, r.latest->worst_score));
     }
     text += "</tbody></table></div>\n";
     if (rows.size() > most_programs)
@@ -209,9 +213,10 @@ std::string runs_section(const ShopPage& page) {
     for (std::size_t k = 0; k < count; ++k) {
         const RunRecord& run = page.runs[page.runs.size() - 1 - k];
         text += fmt::format(
-            "<tr><td class=\"n\">{}</td><td>{} {}</td><td>{}</td><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{:.1f}</td><td class=\"n\">{:.1f}</td><td>{}</td><td>{}</td></tr>\n",
+            "<tr><td class=\"n\">{}</td><td>{} {}</td><td>{}</td><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td>{}</td><td>{}</td></tr>\n",
             run.id, day_of(run.time), run.time.substr(11, 5), html(file_name(run.program)), html(run.machine),
-            run.defects, run.worst_score, run.deepest_um, verdict_of(run), html(parameters_of(run)));
+            run.failed() ? "–" : fmt::format("{}", run.defects), cell_text(!run.failed(), run.worst_score),
+            cell_text(!run.failed(), run.deepest_um), verdict_of(run), html(parameters_of(run)));
     }
     text += "</tbody></table></div>\n";
     if (count < page.runs.size()) text += fmt::format("<p>The latest {} of {} runs.</p>\n", count, page.runs.size());

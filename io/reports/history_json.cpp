@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "core/units.h"
 #include "io/reports/history_report.h"
@@ -25,6 +26,9 @@ Json defect_list(const std::vector<RecordedDefect>& defects) {
     return all;
 }
 
+/// A count or a worst value; null of a run that failed, where it would say that there are no defects.
+Json measured(const RunRecord& run, Json value) { return run.failed() ? Json(nullptr) : std::move(value); }
+
 }  // namespace
 
 Json run_object(const RunRecord& run) {
@@ -37,9 +41,9 @@ Json run_object(const RunRecord& run) {
             {"log_sha256", known_text(run.log_sha256)},
             {"machine", known_text(run.machine)},
             {"duration_s", number(run.duration_s, 3)},
-            {"defects", run.defects},
-            {"worst_score", number(run.worst_score, 2)},
-            {"deepest_um", number(run.deepest_um, 3)},
+            {"defects", measured(run, run.defects)},
+            {"worst_score", measured(run, number(run.worst_score, 2))},
+            {"deepest_um", measured(run, number(run.deepest_um, 3))},
             {"ra_um", number(run.ra_um, 3)},
             {"speed_mismatch_p99_percent", number(run.speed_percent.p99, 3)},
             {"judged", run.judged},
@@ -84,13 +88,13 @@ std::string run_json(const RunRecord& run) {
     json["recorded"] = run.recorded;
     json["version"] = run.version;
     json["settings"] = run.settings;
-    json["points"] = run.points;
-    json["passes"] = run.passes;
+    json["points"] = measured(run, run.points);
+    json["passes"] = measured(run, run.passes);
     json["not_judged_reasons"] = known_text(run.not_judged_reasons);
-    json["worst_severity"] = run.worst_severity;
+    json["worst_severity"] = measured(run, run.worst_severity);
     for (const HistoryQuantity& quantity : history_quantities()) {
         const std::string key(quantity.name);
-        if (!json.contains(key)) json[key] = number(quantity.of_run(run), 3);
+        if (!json.contains(key)) json[key] = number(value_of(quantity, run), 3);
     }
     std::map<std::string, int> causes;
     for (const RecordedDefect& defect : run.found) ++causes[defect.cause];

@@ -31,6 +31,11 @@ std::string number_text(double value, int decimals) {
     return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-";
 }
 
+/// A count or a worst value of a run, "-" of one that failed.
+std::string measured_text(const RunRecord& run, double value, int decimals) {
+    return run.failed() ? "-" : number_text(value, decimals);
+}
+
 /// The program; the log, if none was found for it.
 std::string shown_name(const RunRecord& run) { return file_name(run.program.empty() ? run.log : run.program); }
 
@@ -96,7 +101,7 @@ std::string text_of(const DefectFilter& filter) {
 }
 
 std::string verdict_of(const RunRecord& run) {
-    if (!run.failure.empty()) return "failed";
+    if (run.failed()) return "failed";
     if (!run.judged) return "not judged";
     if (!run.within_budget) return "over budget";
     return run.defects == 0 ? "no defects" : std::string(name_of_severity(run.worst_severity));
@@ -147,10 +152,11 @@ std::string history_text(std::span<const RunRecord> runs) {
     text += fmt::format("{:>5} {:<16} {:<{}} {:>7} {:>7} {:>8} {:>6} {:>9}\n", "", "", "", widest, "", "[times]",
                         "[µm]", "[µm]", "p99 [%]");
     for (const RunRecord& run : runs) {
-        std::string row = fmt::format("{:>5} {:<16} {:<{}} {:>7} {:>7.1f} {:>8.1f} {:>6} {:>9} {:<11} {}", run.id,
-                                      minute_of(run.time), shown_name(run).substr(0, 28), widest, run.defects,
-                                      run.worst_score, run.deepest_um, number_text(run.ra_um, 2),
-                                      number_text(run.speed_percent.p99, 1), verdict_of(run), parameters_text(run));
+        std::string row = fmt::format(
+            "{:>5} {:<16} {:<{}} {:>7} {:>7} {:>8} {:>6} {:>9} {:<11} {}", run.id, minute_of(run.time),
+            shown_name(run).substr(0, 28), widest, measured_text(run, static_cast<double>(run.defects), 0),
+            measured_text(run, run.worst_score, 1), measured_text(run, run.deepest_um, 1), number_text(run.ra_um, 2),
+            number_text(run.speed_percent.p99, 1), verdict_of(run), parameters_text(run));
         row.erase(row.find_last_not_of(' ') + 1);
         text += row + "\n";
     }
@@ -177,7 +183,7 @@ std::string run_text(const RunRecord& run) {
     fact("", run.failure);
     fact("settings", run.settings);
     for (const HistoryQuantity& quantity : history_quantities()) {
-        const double value = quantity.of_run(run);
+        const double value = value_of(quantity, run);
         if (std::isfinite(value))
             text += fmt::format("  {:<42} {:>10}\n", quantity.label, with_unit(value, quantity.unit));
     }

@@ -54,8 +54,8 @@ void answer(const HistoryCall& call, const std::string& text, const std::string&
 void refuse_unjudged(const RunRecord& run, const std::string& path) {
     if (run.judged) return;
     throw InputError(Place::of_file(path),
-                     run.failure.empty() ? fmt::format("run {} was not judged: {}", run.id, run.not_judged_reasons)
-                                         : fmt::format("run {} failed: {}", run.id, run.failure),
+                     run.failed() ? fmt::format("run {} failed: {}", run.id, run.failure)
+                                  : fmt::format("run {} was not judged: {}", run.id, run.not_judged_reasons),
                      "choose runs with a verdict: `clsurf history DB against N --run M`");
 }
 

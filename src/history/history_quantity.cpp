@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string>
 
 #include "core/error.h"
@@ -71,6 +72,10 @@ bool DefectFilter::matches(const RecordedDefect& defect) const {
     return std::ranges::any_of(defect.sections, [&](const RecordedSection& section) {
         return (!pass || section.pass == *pass) && (!lines || has_line(section, *lines));
     });
+}
+
+double value_of(const HistoryQuantity& quantity, const RunRecord& run) {
+    return run.failed() ? std::numeric_limits<double>::quiet_NaN() : quantity.of_run(run);
 }
 
 std::span<const HistoryQuantity> history_quantities() { return table; }

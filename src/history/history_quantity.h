@@ -23,12 +23,15 @@ struct HistoryQuantity {
     std::string_view name;   ///< "worst_score", as --quantity has it
     std::string_view label;  ///< "Worst score"
     std::string_view unit;   ///< "µm"; empty: none
-    /// Of the whole run; NaN: not known.
+    /// Of the whole run, which did not fail; NaN: not known.
     double (*of_run)(const RunRecord& run);
     double least_deviation;  ///< a run that differs from the usual one by 3.5 times that may be worth a look
     /// Of some of its defects, none of which may be there; nullptr: it is of the whole run only.
     double (*of_defects)(std::span<const RecordedDefect> defects);
 };
+
+/// Of the whole run; NaN: not known, as all of a run that failed.
+[[nodiscard]] double value_of(const HistoryQuantity& quantity, const RunRecord& run);
 
 [[nodiscard]] std::span<const HistoryQuantity> history_quantities();
 /// Throws UsageError with the nearest one.

@@ -22,7 +22,7 @@ std::string identity_text(const RunRecord& run) {
 }
 
 bool supersedes(const RunRecord& judged, const RunRecord& failed) {
-    if (!judged.failure.empty() || failed.failure.empty()) return false;
+    if (judged.failed() || !failed.failed()) return false;
     if (failed.program_sha256.empty() ? judged.program != failed.program
                                       : judged.program_sha256 != failed.program_sha256)
         return false;

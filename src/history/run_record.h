@@ -77,6 +77,8 @@ struct RunRecord {
     std::vector<RunParameter> parameters;  ///< in the order of their names, each name once
     std::vector<RecordedDefect> found;  ///< the defects themselves, worst first; a history reads them only where asked
 
+    /// Nothing of it was measured: its counts and its worst values are not 0 but unknown.
+    [[nodiscard]] bool failed() const { return !failure.empty(); }
     /// The value of a parameter; nullptr: the run has none of that name.
     [[nodiscard]] const std::string* parameter(std::string_view name) const;
 };

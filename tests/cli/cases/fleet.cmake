@@ -8,6 +8,13 @@ set(rows "import sqlite3, sys; print(sorted(sqlite3.connect(sys.argv[1]).execute
 clsurf_cli_test(NAME fleet_a_failure_is_a_row SETUP "${fleet_runs}" ARGS fleet runs.toml -o shop.db EXIT 1 FILE shop.db
   STDOUT "^3 runs in shop.db: 2 judged, 0 of them over their limits, 0 not judged, 1 failed" "failed: part.nc nowhere.biip: nowhere.biip: error: cannot open")
 clsurf_cli_test(NAME fleet_rows SETUP "${fleet_twice}" ARGS history shop.db list --json STDOUT "\"failure\": \"nowhere.biip: error: cannot open" "\"tool\": \"D6 R3\"" "\"wear\": \"0.1\"")
+# What failed is not a run without defects.
+set(failed_and_judged "cp ${planted} part.nc; $CLSURF fleet --program part.nc --log nowhere.biip -o shop.db -q || true; $CLSURF fleet --program part.nc --log @LOGS@/planted_loops.biip -o shop.db -q")
+clsurf_cli_test(NAME fleet_a_failure_has_no_measures SETUP "${failed_and_judged}; $CLSURF history shop.db list --json > list.json; $CLSURF history shop.db show 1 --json > show.json; python3 @DATA@/../tests/cli/read_failed.py list.json show.json"
+  ARGS history shop.db list STDOUT "part.nc +- +- +- +- +- failed")
+clsurf_cli_test(NAME fleet_a_failure_is_shown_without_measures SETUP "${failed_and_judged}" ARGS history shop.db show 1 STDOUT "nowhere.biip: error: cannot open" NO_STDOUT "Worst|Defects|Deepest|Area")
+clsurf_cli_test(NAME fleet_a_failure_is_not_averaged SETUP "${failed_and_judged}; $CLSURF history shop.db report -o shop.html -q; grep -q '<td>part.nc</td><td class=\"n\">2</td><td class=\"n\">1</td><td class=\"n\">0</td><td class=\"n\">3.0</td>' shop.html; grep -q '<td class=\"n\">–</td><td class=\"n\">–</td><td class=\"n\">–</td><td>failed</td>' shop.html"
+  ARGS history shop.db report -o again.html FILE again.html)
 clsurf_cli_test(NAME fleet_goes_on_where_it_was SETUP "${fleet_twice}" ARGS fleet runs.toml -o shop.db EXIT 1 STDOUT "2 judged.*1 failed. 3 of the 3 were recorded already")
 clsurf_cli_test(NAME fleet_judges_again_what_changed SETUP "${fleet_twice}; printf 'y' >> part_2.biip" ARGS fleet runs.toml -o shop.db EXIT 1 STDOUT ". 2 of the 3 were recorded already")
 clsurf_cli_test(NAME fleet_judges_again_with_other_options SETUP "${fleet_twice}" ARGS fleet runs.toml -o shop.db --tool ball:6 --json EXIT 1 STDOUT "\"already_recorded\": 0" "\"cause\": \"nowhere.biip: error")
