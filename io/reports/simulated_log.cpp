@@ -90,10 +90,15 @@ Json json_of(const SimulationSummary& summary) {
                        {"normal_acceleration_mm_s2", number(summary.max_normal_acceleration)}};
     json["path_deviation_mm"] = number(summary.path_deviation);
     json["limits_ok"] = summary.limits_ok;
-    Json limited_by;
-    for (std::size_t i = 0; i < summary.limited_by.size(); ++i)
-        limited_by[std::string(name_of(static_cast<LimitingFactor>(i)))] = summary.limited_by[i];
-    json["points_ruled_by"] = limited_by;
+    Json points, shares;
+    for (std::size_t i = 0; i < summary.limited_by.size(); ++i) {
+        const std::string rule(name_of(static_cast<LimitingFactor>(i)));
+        points[rule] = summary.limited_by[i];
+        shares[rule] =
+            number(100.0 * static_cast<double>(summary.limited_by[i]) / static_cast<double>(summary.points), 3);
+    }
+    json["points_ruled_by"] = std::move(points);
+    json["limit_share"] = std::move(shares);
     return json;
 }
 

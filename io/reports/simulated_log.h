@@ -33,7 +33,7 @@ private:
 [[nodiscard]] std::string simulation_json(const FiveAxisSummary& summary, const Kinematics& kinematics,
                                           const Diagnostics& diagnostics, const std::optional<Fidelity>& fidelity = {});
 
-/// The keys: duration_s, points, max, path_deviation_mm, limits_ok, points_ruled_by, fidelity, diagnostics.
+/// The keys: duration_s, points, max, path_deviation_mm, limits_ok, points_ruled_by, limit_share [%], fidelity, diagnostics.
 [[nodiscard]] std::string simulation_json(const SimulationSummary& summary, const Diagnostics& diagnostics,
                                           const std::optional<Fidelity>& fidelity = {});
 

@@ -358,6 +358,7 @@ set(simulated @DATA@/programs/bottle_uneven.nc)
 clsurf_cli_test(NAME simulate_text ARGS simulate ${simulated} -o run.biip STDOUT "greatest jerk" "off the path +0.00[45]" FILE run.biip)
 clsurf_cli_test(NAME simulate_json ARGS simulate ${simulated} --machine @DATA@/machines/linuxcnc_logs.toml -o run.biip --json
   STDOUT "\"limits_ok\": true" "\"points\": [0-9]+" "\"speed_mm_min\"" FILE run.biip)
+clsurf_cli_test(NAME simulate_json_limit_share SETUP "$CLSURF simulate ${simulated} -o run.biip --json > report.json; python3 -c \"import json; r = json.load(open('report.json')); share = r['limit_share']; assert set(share) == set(r['points_ruled_by']) and all(abs(share[k] - 100 * n / r['points']) < 0.001 for k, n in r['points_ruled_by'].items()); assert abs(sum(share.values()) - 100) < 0.01\"" ARGS --version)
 clsurf_cli_test(NAME simulate_log_is_trusted SETUP "$CLSURF simulate ${simulated} -o run.biip" ARGS info ${simulated} run.biip
   NO_STDOUT "warning" STDOUT "limit")
 clsurf_cli_test(NAME simulate_log_renders SETUP "$CLSURF simulate ${simulated} -o run.biip"
