@@ -74,16 +74,18 @@ double scatter_of(std::vector<double>& values) {
     return deviation_of_mad * median(values);
 }
 
-/// The least step of heights: what the resolution of an instrument makes of a plane is no scatter.
+/// The least step of heights: what the resolution of an instrument makes of a plane is no scatter. Rounding is that of the
+/// usual height: a single one may be the mark of a missing value, such as 1e300.
 double resolution_of(std::span<const ScanPoint> points) {
-    double least = std::numeric_limits<double>::infinity(), largest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    std::vector<double> heights;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        largest = std::max(largest, std::abs(points[i].z));
+        heights.push_back(std::abs(points[i].z));
         const double step = i > 0 ? std::abs(points[i].z - points[i - 1].z) : 0;
         if (step > 0) least = std::min(least, step);
     }
     constexpr double rounding = 1e-12;
-    return std::max(std::isfinite(least) ? least : 0, rounding * largest);
+    return std::max(std::isfinite(least) ? least : 0, rounding * median(heights));
 }
 
 void average_same_places(std::span<const ScanPoint> points, CleanScan& scan) {

@@ -32,6 +32,16 @@ TEST(CleanScan, PlantedOutliersAreFoundAlsoAtTheEndsAndInPairs) {
     EXPECT_EQ(clean_scan(points, 0).x.size(), points.size()) << "0: none is rejected";
 }
 
+TEST(CleanScan, AMarkOfAMissingValueHidesNoOutlier) {
+    for (const double mark : {999999.0, 1e20, -9.9e37, 3.4e38, 1e300, -1.7e308}) {
+        std::vector<ScanPoint> points = wave(1000, 0.001);
+        const std::vector<std::size_t> planted{100, 300, 500, 700, 900};
+        for (const std::size_t i : planted) points[i].z += 0.4;
+        points[200].z = mark;
+        EXPECT_EQ(clean_scan(points, 5).rejected.size(), planted.size() + 1) << mark;
+    }
+}
+
 /// SciPy's siegelslopes of nine places at a time rejects the same ones of such a scan.
 TEST(CleanScan, ThreePlacesInARowAreFoundAndTheirNeighboursKept) {
     std::vector<ScanPoint> points = wave(1000, 0.01);
