@@ -25,6 +25,12 @@ namespace {
 using SharedPart = std::shared_ptr<const LoadedPart>;
 using Unlocked = py::call_guard<py::gil_scoped_release>;
 
+/// A text of a foreign file: bytes that are no UTF-8 become U+FFFD, as in reports.
+py::str text(const std::string& bytes) {
+    return py::reinterpret_steal<py::str>(
+        PyUnicode_DecodeUTF8(bytes.data(), static_cast<py::ssize_t>(bytes.size()), "replace"));
+}
+
 /// A class of clsurf/errors.py, raised with its arguments.
 template <typename... Arguments>
 void raise(const char* name, Arguments&&... arguments) {
@@ -43,12 +49,12 @@ void translate(std::exception_ptr thrown) {
     } catch (const InputError& error) {
         const Diagnostic& d = error.diagnostic();
         const py::object column = d.where.column > 0 ? py::object(py::int_(d.where.column)) : py::object(py::none());
-        raise("InputError", std::string(error.what()), d.text, d.hint, d.where.file,
+        raise("InputError", text(error.what()), text(d.text), text(d.hint), text(d.where.file),
               number_at(d.where, Place::Kind::line), column, number_at(d.where, Place::Kind::point),
               number_at(d.where, Place::Kind::byte));
     } catch (const UsageError& error) {
-        raise("UsageError", std::string(error.what()), error.hint());
-    } catch (const SystemError& error) { raise("SystemError", std::string(error.what())); }
+        raise("UsageError", text(error.what()), text(error.hint()));
+    } catch (const SystemError& error) { raise("SystemError", text(error.what())); }
 }
 
 /// What a computation gives without the interpreter's lock.
@@ -73,29 +79,42 @@ auto rows(SharedColumn<T> (LoadedPart::*get)() const, py::ssize_t width) {
     };
 }
 
+/// What the log calls the channel that Python knows by `name`; `name` where there is none.
+std::string stored_name(const SharedPart& part, const std::string& name) {
+    for (const Channel& channel : part->part().log.channels) {
+        if (text(channel.name).cast<std::string>() == name) return channel.name;
+    }
+    return name;
+}
+
 py::array field_array(const SharedPart& part, const std::string& name) {
-    return shared_array(unlocked([&] { return part->field(name); }));
+    const std::string stored = stored_name(part, name);
+    return shared_array(unlocked([&] { return part->field(stored); }));
 }
 
 /// Where a value is what is stored, the array lies in the file.
 py::array channel_array(const SharedPart& part, const std::string& name) {
-    const ChannelView& view = part->channel(name).values;
+    const std::string stored = stored_name(part, name);
+    const ChannelView& view = part->channel(stored).values;
     if (view.scale == 1 && view.bias == 0) return raw_array(view, part->part().log.keep_alive);
-    return shared_array(unlocked([&] { return part->channel_values(name); }));
+    return shared_array(unlocked([&] { return part->channel_values(stored); }));
 }
 
-/// Name and unit of each field that can be computed.
-std::vector<std::pair<std::string, std::string>> fields_with_units(const SharedPart& part) {
-    std::vector<std::pair<std::string, std::string>> found;
-    for (const FieldInfo& info : part->fields().fields()) {
-        if (part->fields().can_compute(info.name)) found.emplace_back(info.name, info.unit.name);
+/// Name and unit.
+using NamesWithUnits = std::vector<std::pair<py::str, py::str>>;
+
+/// Of each field that can be computed.
+NamesWithUnits fields_with_units(const SharedPart& part) {
+    NamesWithUnits found;
+    for (const FieldInfo& info : unlocked([&] { return part->fields().fields(); })) {
+        if (part->fields().can_compute(info.name)) found.emplace_back(text(info.name), text(info.unit.name));
     }
     return found;
 }
 
-std::vector<std::pair<std::string, std::string>> channels_with_units(const SharedPart& part) {
-    std::vector<std::pair<std::string, std::string>> found;
-    for (const Channel& channel : part->part().log.channels) found.emplace_back(channel.name, channel.unit);
+NamesWithUnits channels_with_units(const SharedPart& part) {
+    NamesWithUnits found;
+    for (const Channel& channel : part->part().log.channels) found.emplace_back(text(channel.name), text(channel.unit));
     return found;
 }
 
@@ -118,8 +137,9 @@ std::string query(const SharedPart& part, std::optional<PointIndex> point, std::
 py::bytes picture(const SharedPart& part, const std::string& field, const std::string& view,
                   std::optional<std::pair<double, double>> range, const std::string& colour_map,
                   std::pair<int, int> size) {
+    const std::string stored = stored_name(part, field);
     return py::bytes(unlocked([&] {
-        return draw_picture(*part, {field, view, range, colour_map, size.first, size.second});
+        return draw_picture(*part, {stored, view, range, colour_map, size.first, size.second});
     }));
 }
 
@@ -145,7 +165,7 @@ void bind_part(py::module_& module) {
         .def("vertices", rows(&LoadedPart::vertices, 3))
         .def("triangles", rows(&LoadedPart::triangles, 3))
         .def("field", &field_array)
-        .def("fields", &fields_with_units, Unlocked())
+        .def("fields", &fields_with_units)
         .def("channel", &channel_array)
         .def("channels", &channels_with_units)
         .def(

@@ -86,3 +86,17 @@ def test_wrong_types_are_type_errors(uneven):
         uneven.query(point="4822")
     with pytest.raises(TypeError):
         clsurf.Part(3, 4)
+
+
+def test_bytes_that_are_no_utf8_are_replaced(tmp_path):
+    log = tmp_path / "run.csv"
+    rows = b"".join(b"%.3f;%.3f;0;0;%d.5\n" % (0.01 * i, 0.1 * i, i) for i in range(50))
+    log.write_bytes(b"time;X;Y;Z;H\xf6he [\xb5m]\n" + rows)
+    part = clsurf.Part(None, log)
+    name = next(name for name in part.channels if name.startswith("H"))
+    assert part.channel(name)[3] == pytest.approx(3.5)
+    assert name in part.fields and len(part.field(name)) == len(part)
+    log.write_bytes(b"Zeit (s);Weg [mm];H\xf6he [\xb5m]\n0;0;1\n1;1;1\n")
+    with pytest.raises(clsurf.InputError) as raised:
+        clsurf.Part(None, log)
+    assert raised.value.file == str(log)
