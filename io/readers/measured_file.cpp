@@ -4,7 +4,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -23,9 +25,10 @@ struct LengthUnit {
     std::string_view name;
     double mm;
 };
-constexpr LengthUnit length_units[] = {{"mm", 1},           {"µm", 1e-3},         {"μm", 1e-3}, {"um", 1e-3},
-                                       {"micron", 1e-3},    {"nm", 1e-6},         {"m", 1e3},   {"cm", 10},
-                                       {"in", mm_per_inch}, {"inch", mm_per_inch}};
+// Micro is U+00B5 or U+03BC in UTF-8, or 0xB5 in the Latin-1 of instruments under Windows.
+constexpr LengthUnit length_units[] = {{"mm", 1},    {"µm", 1e-3},        {"μm", 1e-3},         {"\xb5m", 1e-3},
+                                       {"um", 1e-3}, {"micron", 1e-3},    {"nm", 1e-6},         {"m", 1e3},
+                                       {"cm", 10},   {"in", mm_per_inch}, {"inch", mm_per_inch}};
 
 std::string lower(std::string_view text) {
     std::string result(text);
@@ -88,8 +91,11 @@ private:
         return head_.named && is_comment(line);
     }
     [[noreturn]] void fail(const std::string& what) const {
+        constexpr std::size_t most_names = 12;
         std::string names;
-        for (const ColumnPlan& plan : head_.columns) names += (names.empty() ? "" : ", ") + plan.name.substr(0, 40);
+        for (std::size_t k = 0; k < std::min(most_names, head_.columns.size()); ++k)
+            names += (k == 0 ? "" : ", ") + head_.columns[k].name.substr(0, 40);
+        if (head_.columns.size() > most_names) names += fmt::format(" and {} more", head_.columns.size() - most_names);
         throw InputError(Place::of_line(source_.name, head_.line), what,
                          head_.named ? "its columns are: " + names + "; choose by name or number: x,z or x,y,z"
                                      : "choose columns by number: 0,1 are x and z, 0,1,2 are x, y and z");
@@ -171,6 +177,15 @@ private:
     std::vector<ReadColumn> columns_;
 };
 
+/// A text whose lines end with CR alone, as some instruments write it, with line feeds.
+Source with_line_feeds(const Source& source) {
+    const std::string_view text = source.text();
+    if (text.find('\n') != std::string_view::npos || text.find('\r') == std::string_view::npos) return source;
+    const auto changed = std::make_shared<std::string>(text);
+    std::ranges::replace(*changed, '\r', '\n');
+    return {source.name, std::as_bytes(std::span(changed->data(), changed->size())), changed};
+}
+
 MeasuredData read_places(const Source& source, const MeasuredColumns& wanted) {
     constexpr std::size_t looked_at = 4096;
     if (!is_text(source.bytes.first(std::min(looked_at, source.bytes.size()))))
@@ -195,7 +210,7 @@ MeasuredData read_places(const Source& source, const MeasuredColumns& wanted) {
 }  // namespace
 
 MeasuredData read_measured(const Source& source, const MeasuredColumns& columns) {
-    if (!is_surface_data(source)) return read_places(source, columns);
+    if (!is_surface_data(source)) return read_places(with_line_feeds(source), columns);
     if (!columns.empty())
         throw InputError(Place::of_file(source.name), "is a surface data file, which has no columns to choose from");
     return read_surface_data(source);

@@ -4,7 +4,8 @@
 //
 // Text has one place a line; comments, separators and units are those of logs (formats/text_head.h). Names of columns,
 // whatever their case: x, y, z; `height` for z. Without names two columns are x and z, three x, y and z. A unit stands behind
-// the name, "z [µm]", or in a line of its own below; without one it is mm.
+// the name, "z [µm]", or in a line of its own below; without one it is mm. Text may be Latin-1, and its lines may end with
+// CR alone.
 
 #include <string>
 #include <vector>

@@ -36,6 +36,27 @@ TEST(MeasuredFile, AProfileWithUnits) {
     EXPECT_EQ(data.points[2], Vec3(0.2, 0, 0.004));
 }
 
+TEST(MeasuredFile, MicrometresInLatin1) {
+    const MeasuredData data = read_measured(source_of("Weg (mm);H\xf6he [\xb5m]\r\n0;4\r\n1;5\r\n2;6\r\n"), {"0", "1"});
+    ASSERT_EQ(data.points.size(), 3U);
+    EXPECT_EQ(data.points[2], Vec3(2, 0, 0.006));
+}
+
+TEST(MeasuredFile, LinesThatEndWithCarriageReturnsAlone) {
+    const MeasuredData data = read_measured(source_of("x,z\r0,1\r1,2\r2,3\r"));
+    ASSERT_EQ(data.points.size(), 3U);
+    EXPECT_EQ(data.points[2], Vec3(2, 0, 3));
+    const std::string wrong = complaint("x,z\r0,1\r1,a\r2,3\r");
+    EXPECT_TRUE(wrong.starts_with("m.csv:3: error: 'a' in column 'z' is not a number")) << wrong;
+}
+
+TEST(MeasuredFile, NamesFewOfManyColumns) {
+    std::string text = "a0";
+    for (int k = 1; k < 1000; ++k) text += ",a" + std::to_string(k);
+    const std::string hint = complaint(text + "\n");
+    EXPECT_NE(hint.find("a11 and 988 more; choose"), std::string::npos) << hint;
+}
+
 TEST(MeasuredFile, UnitsInALineOfTheirOwnAndDecimalCommas) {
     const MeasuredData data = read_measured(source_of("X;Height\nmm;nm\n0,5;1000\n1,5;2000\n2,5;\n3,5;500\n"));
     ASSERT_EQ(data.points.size(), 3U);
