@@ -12,12 +12,12 @@ struct FleetFailure {
 
 struct FleetReport {
     std::string database;
-    std::size_t runs = 0, skipped = 0, judged = 0, over_budget = 0, not_judged = 0;
+    std::size_t runs = 0, repeated = 0, skipped = 0, judged = 0, over_budget = 0, not_judged = 0;
     std::vector<FleetFailure> failed;
 };
 
 [[nodiscard]] std::string fleet_text(const FleetReport& report);
-/// Keys: database, runs, already_recorded, judged, over_budget, not_judged, failed[] of program, log, cause.
+/// Keys: database, runs, repeated, already_recorded, judged, over_budget, not_judged, failed[] of program, log, cause.
 [[nodiscard]] std::string fleet_json(const FleetReport& report);
 
 struct MergeReport {

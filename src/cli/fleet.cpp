@@ -78,8 +78,8 @@ ExitCode run_fleet_command(const po::variables_map& values) {
         return ExitCode::done;
     }
     const FleetResult result = run_fleet(units, read_rules(values, database), read_common(values));
-    io::FleetReport report{database,          result.runs, result.skipped, result.judged, result.over_budget,
-                           result.not_judged, {}};
+    io::FleetReport report{database,      result.runs,        result.repeated,   result.skipped,
+                           result.judged, result.over_budget, result.not_judged, {}};
     for (const FailedUnit& failed : result.failed)
         report.failed.push_back({units[failed.unit].program, units[failed.unit].log, failed.cause});
     if (read_json(values))

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -69,8 +70,8 @@ public:
     }
 
     FleetResult run() {
-        result_.runs = units_.size();
         for (std::size_t i = 0; i < units_.size(); ++i) consider(i);
+        result_.runs = units_.size() - result_.repeated;
         show();
         while (!plan_.done()) {
             while (const std::optional<PlannedRun> next = plan_.start()) begin(*next);
@@ -83,32 +84,32 @@ public:
     }
 
 private:
-    /// Plans a unit, unless the history has it.
+    /// Plans a unit, unless the history has it or will have it from a unit before.
     void consider(std::size_t i) {
         const FleetUnit& unit = units_[i];
-        if (unit.program.empty()) return fail(i, "no program was found for this log");
-        all_bytes_ += unit.bytes;
         try {
             RunRecord run = record_of_unit(unit);
+            if (!identities_.insert(identity_text(run)).second) {
+                ++result_.repeated;
+                return;
+            }
+            if (unit.program.empty()) return fail(i, "no program was found for this log");
             // Only a log that was recorded once is opened for its parameters.
             if (history_.has_log(run.log_sha256)) add_log_parameters(run, unit);
             const std::optional<RunRecord> known = history_.find_same(run);
-            if (known && known->settings == settings_of(values_of(unit)) &&
-                (known->failure.empty() || !rules_.retry_failed)) {
-                all_bytes_ -= unit.bytes;
+            if (known && known->settings == settings_of(values_of(unit)) && (!known->failed() || !rules_.retry_failed))
                 return skip(i, *known);
-            }
         } catch (const UsageError& error) {  // options of this unit, which are its own failure
-            all_bytes_ -= unit.bytes;
             return fail(i, error.what());
         }
+        all_bytes_ += unit.bytes;
         plan_.add(i, expected_memory(unit.bytes, is_packed(unit.log)));
     }
 
     /// Counts a run as what it was recorded as.
     void skip(std::size_t i, const RunRecord& known) {
         ++result_.skipped;
-        if (!known.failure.empty())
+        if (known.failed())
             result_.failed.push_back({i, known.failure});
         else if (!known.judged)
             ++result_.not_judged;
@@ -219,7 +220,7 @@ private:
         const std::size_t ended = result_.judged + result_.not_judged + result_.failed.size();
         const double share = all_bytes_ > 0 ? static_cast<double>(done_bytes_) / static_cast<double>(all_bytes_) : 1;
         const double took = std::chrono::duration<double>(FleetClock::now() - began_).count();
-        std::string words = fmt::format("{} of {} runs", ended, units_.size());
+        std::string words = fmt::format("{} of {} runs", ended, result_.runs);
         if (!result_.failed.empty()) words += fmt::format(", {} failed", result_.failed.size());
         if (share > 0 && share < 1) words += fmt::format(", about {} left", time_text(took * (1 - share) / share));
         progress_(words, share);
@@ -236,6 +237,7 @@ private:
     std::map<pid_t, Child> children_;
     std::uint64_t all_bytes_ = 0, done_bytes_ = 0;  ///< of the logs that are judged now
     FleetClock::time_point began_ = FleetClock::now();
+    std::set<std::string> identities_;  ///< of the units that were considered
     FleetResult result_;
 };
 

@@ -23,9 +23,10 @@ struct FailedUnit {
     std::string cause;
 };
 
-/// What became of the units; `skipped` of them were recorded already, and count as what they were recorded as.
+/// What became of the units; `skipped` of them were recorded already, and count as what they were recorded as. `repeated`
+/// have the content and the parameters of one before, are the same row, and are not among the runs.
 struct FleetResult {
-    std::size_t runs = 0, skipped = 0, judged = 0, over_budget = 0, not_judged = 0;
+    std::size_t runs = 0, repeated = 0, skipped = 0, judged = 0, over_budget = 0, not_judged = 0;
     std::vector<FailedUnit> failed;
 };
 

@@ -35,6 +35,10 @@ clsurf_cli_test(NAME fleet_of_a_folder SETUP "mkdir -p november/programs novembe
 clsurf_cli_test(NAME fleet_of_a_folder_with_links SETUP "mkdir -p november/monday; cp ${planted} november/monday/part.nc; cp @LOGS@/planted_loops.biip november/monday/part_1.biip; ln -s monday november/latest; ln -s . november/loop"
   ARGS fleet november -o shop.db STDOUT "^1 run in shop.db: 1 judged")
 clsurf_cli_test(NAME fleet_limits SETUP "${fleet_runs}; sed -i 's/nowhere/part_1/' runs.toml" ARGS fleet runs.toml -o shop.db --max-depth 1um EXIT 1 STDOUT "3 judged, 3 of them over their limits")
+# Two logs of the same content are one run.
+clsurf_cli_test(NAME fleet_of_the_same_content_twice SETUP "mkdir -p logs/a logs/b; for k in a b; do cp ${planted} logs/$k/part.nc; cp @LOGS@/planted_loops.biip logs/$k/part_1.biip; echo nothing > logs/$k/part_2.biip; echo other > logs/$k/other.biip; done; $CLSURF fleet logs -o shop.db -q || true; python3 -c \"import sqlite3; assert sqlite3.connect('shop.db').execute('SELECT count(*) FROM runs').fetchone() == (3,)\""
+  ARGS fleet logs -o again.db EXIT 1 STDOUT "^3 runs in again.db: 1 judged, .* 2 failed. 3 more have the content of one of these")
+clsurf_cli_test(NAME fleet_of_the_same_content_in_json SETUP "cp ${planted} part.nc; for k in 1 2; do cp @LOGS@/planted_loops.biip part_$k.biip; done" ARGS fleet . -o shop.db --json STDOUT "\"runs\": 1,\n *\"repeated\": 1,")
 clsurf_cli_test(NAME fleet_one_run SETUP "${fleet_runs}" ARGS fleet --program part.nc --log part_1.biip -o shop.db --param tool=D6 STDOUT "^1 run in shop.db: 1 judged")
 clsurf_cli_test(NAME fleet_within_little_memory SETUP "${fleet_runs}" ARGS fleet --program part.nc --log part_1.biip -o shop.db --memory 3M EXIT 1 STDOUT "0 judged.* 1 failed" "failed: part.nc part_1.biip: .*(memory|shared|signal)")
 clsurf_cli_test(NAME fleet_within_enough_memory SETUP "${fleet_runs}" ARGS fleet runs.toml -o shop.db --memory 2G --jobs 2 EXIT 1 STDOUT "2 judged")
