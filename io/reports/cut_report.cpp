@@ -56,7 +56,7 @@ std::string correction_text(const CorrectedPass& corrected) {
     return fmt::format(
         "  deviations of {}: corrected by at most {:.4f} mm, at X {:.6g}; they scatter by {:.2g} mm rms about their fit, {} "
         "rejected\n",
-        corrected.program, by.greatest, by.greatest_x, by.scatter, by.rejected.size());
+        corrected.program, by.greatest, by.greatest_x, by.scatter, by.deviations.rejected.size());
 }
 
 }  // namespace
@@ -66,16 +66,23 @@ std::string_view name_of(WindowJoin join) {
     return names[static_cast<std::size_t>(join)];
 }
 
+ScanResiduals residuals_of(const CutReport& report, const ScanCut& cut) {
+    if (!report.corrected) return {cut.scan, cut.residuals, cut.rms, cut.worst, cut.worst_x};
+    const Compensation& by = report.corrected->by;
+    return {by.deviations, by.residuals, by.scatter, by.worst, by.worst_x};
+}
+
 std::string cut_text(const CutReport& report, const ScanCut& cut) {
-    std::string text = fmt::format("{}: {} points, X {:.6g} to {:.6g} mm", report.scan, report.read, cut.scan.x.front(),
-                                   cut.scan.x.back());
+    const ScanResiduals fit = residuals_of(report, cut);
+    std::string text = fmt::format("{}: {} points, X {:.6g} to {:.6g} mm", report.scan, report.read, fit.scan.x.front(),
+                                   fit.scan.x.back());
     if (report.missing > 0) text += fmt::format(", {} more without a height", report.missing);
-    if (cut.scan.averaged > 0) text += fmt::format(", {} of the same x averaged", cut.scan.averaged);
+    if (fit.scan.averaged > 0) text += fmt::format(", {} of the same x averaged", fit.scan.averaged);
     text += "\n" + (report.corrected ? correction_text(*report.corrected) : rejected_text(report, cut));
     text += fmt::format(
         "  fit of degree {}, windows of {} points, join {}: residual {:.4f} mm rms, {:.4f} mm at most, at X {:.6g}\n",
-        report.rules.fit.degree, report.rules.fit.window, name_of(report.rules.fit.join), cut.rms, cut.worst,
-        cut.worst_x);
+        report.rules.fit.degree, report.rules.fit.window, name_of(report.rules.fit.join), fit.rms, fit.worst,
+        fit.worst_x);
     const Jumps jumps = jumps_of(cut.fit);
     if (report.rules.fit.join == WindowJoin::none && jumps.count > 0)
         text += fmt::format("  it jumps between windows at {} places: {:.4f} mm rms, {:.4f} mm at most, at X {:.6g}\n",
@@ -127,7 +134,7 @@ std::string cut_json(const CutReport& report, const ScanCut& cut, const Diagnost
                                 {"max_mm", number(by.greatest)},
                                 {"max_at_mm", number(by.greatest_x)},
                                 {"scatter_mm", number(by.scatter)},
-                                {"rejected_mm", points_json(by.rejected)}};
+                                {"rejected_mm", points_json(by.deviations.rejected)}};
     }
     return dump(json);
 }

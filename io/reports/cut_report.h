@@ -27,6 +27,17 @@ struct CutReport {
     std::optional<CorrectedPass> corrected;  ///< the scan has deviations then
 };
 
+/// The points that the user's rules were fitted to, and what is left of them.
+struct ScanResiduals {
+    const CleanScan& scan;
+    const std::vector<double>& residuals;  ///< [mm] of the points that are kept
+    double rms = 0, worst = 0;             ///< [mm] of them
+    double worst_x = 0;                    ///< [mm]
+};
+
+/// Of a corrected pass they are of the deviations, and `cut` is of the profile that it aims at.
+[[nodiscard]] ScanResiduals residuals_of(const CutReport& report, const ScanCut& cut);
+
 [[nodiscard]] std::string cut_text(const CutReport& report, const ScanCut& cut);
 /// Keys: file, output, dialect, points, missing, rejected, rejected_mm[][x, z], averaged, scatter_mm, outliers, degree,
 /// window, join, pieces, x_mm[2], rms_residual_mm, max_residual_mm, max_residual_at_mm, window_jumps{count, rms_mm, max_mm,

@@ -80,10 +80,10 @@ public:
                             scan_.x.front(), scan_.x.back(), from, to));
     }
     [[nodiscard]] double at(double x) const { return fit_.at(std::clamp(x, scan_.x.front(), scan_.x.back())); }
-    [[nodiscard]] double scatter() const {
-        double squares = 0;
-        for (std::size_t i = 0; i < scan_.x.size(); ++i) squares += std::pow(scan_.z[i] - fit_.at(scan_.x[i]), 2);
-        return std::sqrt(squares / static_cast<double>(scan_.x.size()));
+    [[nodiscard]] std::vector<double> residuals() const {
+        std::vector<double> residuals;
+        for (std::size_t i = 0; i < scan_.x.size(); ++i) residuals.push_back(scan_.z[i] - fit_.at(scan_.x[i]));
+        return residuals;
     }
     [[nodiscard]] const CleanScan& scan() const { return scan_; }
 
@@ -137,8 +137,16 @@ Compensation compensate(const std::string& name, std::span<const ScanPoint> devi
     const std::vector<Vec2> contacts = contacts_of(name, even, rules.radius, rules.tolerance);
     deviation.check_cover(contacts.front().x(), contacts.back().x());
     Compensation result;
-    result.rejected = deviation.scan().rejected;
-    result.scatter = deviation.scatter();
+    result.deviations = deviation.scan();
+    result.residuals = deviation.residuals();
+    for (std::size_t i = 0; i < result.residuals.size(); ++i) {
+        const double off = std::abs(result.residuals[i]);
+        result.scatter += off * off;
+        if (off <= result.worst) continue;
+        result.worst = off;
+        result.worst_x = result.deviations.x[i];
+    }
+    result.scatter = std::sqrt(result.scatter / static_cast<double>(result.residuals.size()));
     for (const Vec2& contact : contacts) {
         const double off = deviation.at(contact.x());
         if (std::abs(off) > result.greatest) {

@@ -32,11 +32,13 @@ struct CompensationRules {
 };
 
 struct Compensation {
-    std::vector<ScanPoint> target;    ///< the profile to aim at, in rising x
-    std::vector<ScanPoint> rejected;  ///< deviations that are outliers
-    double greatest = 0;              ///< [mm] correction, without its sign
-    double greatest_x = 0;            ///< [mm]
-    double scatter = 0;               ///< [mm] rms of the deviations about their fit
+    std::vector<ScanPoint> target;  ///< the profile to aim at, in rising x
+    CleanScan deviations;
+    std::vector<double> residuals;  ///< [mm] of the deviations that are kept: measured less fitted
+    double greatest = 0;            ///< [mm] correction, without its sign
+    double greatest_x = 0;          ///< [mm]
+    double scatter = 0;             ///< [mm] rms of the residuals
+    double worst = 0, worst_x = 0;  ///< [mm] the greatest of the residuals, without its sign
 };
 
 /// `deviations`: x and deviation [mm], in rising x. `name`: of their file, for messages. Throws InputError: too few

@@ -53,6 +53,8 @@ foreach(radius 0 3)
     ARGS profile deviations.csv --z dz --compensate pass.ngc --tool-offset ${radius} --tolerance 0.001 -o corrected.ngc FILE corrected.ngc
     STDOUT "deviations of pass.ngc: corrected by at most 0.04[0-9]+ mm, at X 17")
 endforeach()
+clsurf_cli_test(NAME profile_compensates_in_a_picture SETUP "${compensated} make . 3; $CLSURF profile deviations.csv --z dz --compensate pass.ngc --tool-offset 3 --tolerance 0.002 -o c.ngc --picture c.svg > c.txt; python3 @DATA@/../tests/cli/read_svg.py c.svg images 0 'Residual 0.[23][0-9]* µm rms' 'Fitted deviation .µm.' 'Measured less fitted' '[0-9]+ deviations measured'"
+  ARGS profile deviations.csv --z dz --compensate pass.ngc --tool-offset 3 --tolerance 0.002 -o d.ngc FILE d.ngc STDOUT "residual 0.0003 mm rms, 0.0[0-9]+ mm at most")
 clsurf_cli_test(NAME profile_compensates_in_json SETUP "${compensated} make . 3"
   ARGS profile deviations.csv --z dz --compensate pass.ngc --tool-offset 3 --tolerance 0.002 -o c.ngc --json STDOUT "\"compensation\": ." "\"max_mm\": 0.04")
 clsurf_cli_test(NAME profile_compensates_no_distances SETUP "${compensated} make . 0"
