@@ -13,6 +13,7 @@
 #include "io/formats/sinumerik_xml.h"
 #include "io/formats/twincat_csv.h"
 #include "log/channel.h"
+#include "log/turns.h"
 
 namespace clsurf::io {
 namespace {
@@ -98,6 +99,7 @@ Log open_log_as(const LogFormat& format, const Source& source, const LogOptions&
     Log log = format.open(source, options);
     settle_names(log);
     settle_units(log);
+    count_turns_on(log);
     note_still_axes(log);
     if (!(log.period > 0)) log.period = log.measured_period();
     if (!(log.period > 0)) {

@@ -60,17 +60,37 @@ double shortest_decimal(float value) {
     return read;
 }
 
-/// Whether nearly all values were numbers of 32 bits before they were written as doubles or as text: as many digits as
-/// they need, or rounded to `step`.
-bool were_floats(const std::vector<double>& values, double step) {
-    const auto floats = std::count_if(values.begin(), values.end(), [&](double value) {
-        const auto narrow = static_cast<float>(value);
-        const double place = std::numeric_limits<float>::epsilon() * std::abs(value);
-        const double slack = place > 2 * step ? 0.55 * step : 0;
-        return std::abs(value - static_cast<double>(narrow)) <= std::max(slack, 1e-3 * place) ||
-               std::abs(value - shortest_decimal(narrow)) <= 1e-3 * place;
+/// Whether a value was a number of 32 bits before it was written as a double or as text: as many digits as it needs, or
+/// rounded to `step`.
+bool was_float(double value, double step) {
+    const auto narrow = static_cast<float>(value);
+    const double place = std::numeric_limits<float>::epsilon() * std::abs(value);
+    const double slack = place > 2 * step ? 0.55 * step : 0;
+    return std::abs(value - static_cast<double>(narrow)) <= std::max(slack, 1e-3 * place) ||
+           std::abs(value - shortest_decimal(narrow)) <= 1e-3 * place;
+}
+
+/// Whether nearly all values are such; most columns fail at once.
+template <typename Predicate>
+bool nearly_all(const std::vector<double>& values, Predicate&& is_such) {
+    std::size_t others = 0;
+    return std::ranges::all_of(values, [&](double value) {
+        return is_such(value) || static_cast<double>(++others) < 0.01 * static_cast<double>(values.size());
     });
-    return static_cast<double>(floats) > 0.99 * static_cast<double>(values.size());
+}
+
+bool were_floats(const std::vector<double>& values, double step) {
+    return nearly_all(values, [&](double value) { return was_float(value, step); });
+}
+
+constexpr double turn_size = 360;  // [deg]
+
+/// The same of a modulo axis whose positions count on (log/turns.h): what lies within a turn was a number of 32 bits.
+bool were_floats_of_a_turn(const std::vector<double>& values, double step) {
+    return nearly_all(values, [&](double value) {
+        const double within = value - turn_size * std::floor(value / turn_size);
+        return was_float(within, step) || was_float(within - turn_size, step);
+    });
 }
 
 /// The smallest difference of numbers of this size in a type.
@@ -116,6 +136,9 @@ double resolution_of(const ChannelView& channel) {
     }
     if (channel.type == ScalarType::f64 && were_floats(great, step))
         step = std::max(step, last_place(ScalarType::f32, size));
+    const double place_of_turn = last_place(ScalarType::f32, turn_size);
+    const bool may_be_turns = channel.type == ScalarType::f64 && size > 0.5 * turn_size && step < place_of_turn;
+    if (may_be_turns && were_floats_of_a_turn(great, step)) step = place_of_turn;
     // An encoder's steps are no decimals.
     const double quantum = quantum_of(channel) / std::abs(channel.scale);
     if (quantum > step && on_grid(changes, quantum, 0.02 * quantum + 2 * place)) step = quantum;

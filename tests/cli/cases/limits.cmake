@@ -40,3 +40,15 @@ clsurf_cli_test(NAME following_error_against_the_budget SETUP "echo 'max_followi
 clsurf_cli_test(NAME limit_share_as_a_colour SETUP "${axes_only}" ARGS render ${exceeded} --machine axes.toml --color acceleration_share -o map.png --size 320x240 FILE map.png)
 clsurf_cli_test(NAME limit_share_of_an_axis_in_a_table SETUP "${axes_only} && $CLSURF export ${exceeded_words} --machine axes.toml --columns acceleration_share.y,acceleration_share -o shares.csv > /dev/null && awk -F, 'NR == 8391 { exit !($1 > 1.499 && $1 < 1.502 && $2 == $1) }' shares.csv" ARGS --version)
 clsurf_cli_test(NAME limit_share_needs_a_machine ARGS render ${exceeded} --color jerk_share -o map.png EXIT 2 STDERR "jerk_share" "--machine")
+
+# ---- modulo axes ----
+# C turns on from 350 deg at 20 deg/s and is logged within a turn.
+string(CONCAT turning
+  "printf 'G21 G90 G94\\nG1 X0 Y0 Z0 A0 C350 F6000\\nG1 Z20 C390 F600\\nM2\\n' > turning.nc && "
+  "printf '[[axis]]\\nname = \"c\"\\nmax_speed = 1500\\nmax_acceleration = 1000\\n[kinematics]\\ntype = \"table-table\"\\n' > c.toml && "
+  "awk 'BEGIN { print \"time,cmd.x [mm],cmd.y [mm],cmd.z [mm],cmd.a [deg],cmd.c [deg]\"; "
+  "for (i = 0; i < 2000; i++) printf \"%.3f,0,0,%.6f,0,%.4f\\n\", i * 0.001, i * 0.01, (350 + i * 0.02) % 360 }' > turning.csv")
+clsurf_cli_test(NAME a_wrap_of_a_modulo_axis_is_no_motion SETUP "${turning}" ARGS check turning.nc turning.csv --machine c.toml
+  EXIT 5 STDOUT "^The commanded motion keeps all 2 limits that are stated for it")
+clsurf_cli_test(NAME a_modulo_axis_is_noted SETUP "${turning}" ARGS info turning.csv
+  STDOUT "axis c counts within one turn and wraps 1 time, first here: its positions are made to count on")
