@@ -17,9 +17,9 @@ void write_shares(const MotionWindow& window, const CommandedMotion& motion, std
                   std::span<float> out) {
     std::fill(out.begin(), out.end(), missing<float>);
     for (const StatedLimit& limit : limits) {
-        const MeasuredMotion measured = window.measure(limit, strides_for(limit, motion));
+        const std::vector<MeasuredValue> measured = window.measure(limit, strides_for(limit, motion));
         for (std::size_t i = 0; i < out.size(); ++i) {
-            const auto share = static_cast<float>(measured.value[i] / limit.value);
+            const auto share = static_cast<float>(measured[i].value / limit.value);
             if (share == share && !(out[i] >= share)) out[i] = share;
         }
     }

@@ -11,7 +11,7 @@
 
 namespace clsurf {
 
-/// Consecutive records over one limit by more than their uncertainty.
+/// Records over one limit by more than their uncertainty; between them the same excess may have gone on.
 struct LimitFinding {
     StatedLimit limit;
     double value = 0;               ///< the greatest, in the unit of the limit

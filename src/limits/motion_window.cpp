@@ -180,7 +180,7 @@ MotionWindow::Value MotionWindow::of_path(std::size_t i, std::size_t stride, Lim
     const double clock =
         2 * in.norm() * rate * rate * rate * worst_jitter(i - stride, i + stride) + 2 * places * rate * rate;
     const Vec3 acceleration = (out - in) * (rate * rate);
-    if (!(length > 0)) return {0, acceleration.norm()};  // a turn on the spot has no direction
+    if (!(length > 0)) return {0, 0, acceleration.norm()};  // a turn on the spot has no direction
     const double along = acceleration.dot(chord) / length;
     const double across = (acceleration - along / length * chord).norm();
     // The direction turns within the difference, and rounding turns it: each part takes a share of the other.
@@ -188,9 +188,9 @@ MotionWindow::Value MotionWindow::of_path(std::size_t i, std::size_t stride, Lim
     const bool is_sharp = !(lengths > 0) || in.dot(out) < 0;  // the sine falls again beyond a right angle
     const double turn = is_sharp ? 1 : std::min(1.0, in.cross(out).norm() / lengths);
     const double slack = 0.5 * turn + std::min(1.0, rounding / (rate * rate) / length);
-    if (quantity == LimitedQuantity::tangential_acceleration) return {std::abs(along), across * slack + clock};
-    if (is_sharp && may_stop(i, stride)) return {across, across};
-    return {across, std::abs(along) * slack + clock};
+    if (quantity == LimitedQuantity::tangential_acceleration) return {std::abs(along), clock, across * slack};
+    if (is_sharp && may_stop(i, stride)) return {across, 0, across};
+    return {across, clock, std::abs(along) * slack};
 }
 
 /// Whether the path may have stopped in a sharp corner between the records about one: then it has braked and leaves again along
@@ -207,6 +207,7 @@ bool MotionWindow::may_stop(std::size_t i, std::size_t stride) const {
 MotionWindow::Value MotionWindow::path_jerk(std::size_t i, std::size_t stride) const {
     if (i < 3 * stride || i + 2 * stride >= count_) return {missing<double>, 0};
     const double rate = 1 / (static_cast<double>(stride) * motion_->log().period);
+    const double cubed_rate = rate * rate * rate;
     std::array<Vec3, 5> chords;
     for (std::size_t c = 0; c < chords.size(); ++c)
         chords[c] = place(i + c * stride - 2 * stride) - place(i + c * stride - 3 * stride);
@@ -218,15 +219,15 @@ MotionWindow::Value MotionWindow::path_jerk(std::size_t i, std::size_t stride) c
         shortening += weight * turned * chords[c].norm();
         longest = std::max(longest, chords[c].norm());
     }
-    const double value = std::abs(chords[3].norm() - 2 * chords[2].norm() + chords[1].norm()) * rate * rate * rate;
+    const double value = std::abs(chords[3].norm() - 2 * chords[2].norm() + chords[1].norm()) * cubed_rate;
     const double clock = 4 * longest * rate * worst_jitter(i - 2 * stride, i + stride);
     const double places = 4 * last_places * place(i).cwiseAbs().maxCoeff();
-    return {value, (shortening + clock + places) * rate * rate * rate};
+    return {value, (clock + places) * cubed_rate, shortening * cubed_rate};
 }
 
-MeasuredMotion MotionWindow::measure(const StatedLimit& limit, std::span<const Stride> strides) const {
+std::vector<MeasuredValue> MotionWindow::measure(const StatedLimit& limit, std::span<const Stride> strides) const {
     const auto n = static_cast<std::size_t>(records_.size());
-    MeasuredMotion measured{std::vector<double>(n, missing<double>), std::vector<double>(n, missing<double>)};
+    std::vector<MeasuredValue> measured(n, {missing<double>, missing<double>, 0});
     const int order = row_of(limit.quantity).order;
     const CommandedAxis* axis = motion_->find(limit.axis);
     const std::vector<double>* column = column_of(limit.axis);
@@ -239,14 +240,14 @@ MeasuredMotion MotionWindow::measure(const StatedLimit& limit, std::span<const S
             if (i < before || i + after >= count_ || !clean(i - before, i + after)) continue;
             const double rounding =
                 stride.roundings * (axis != nullptr ? axis->resolution : path_resolution(i - before, i, i + after));
-            Value value = column != nullptr                              ? of_axis(*column, i, s, order)
-                          : limit.quantity == LimitedQuantity::path_jerk ? path_jerk(i, s)
-                                                                         : of_path(i, s, limit.quantity, rounding);
-            value.error += rounding;
-            const double proved = measured.value[k] - measured.uncertainty[k];
-            if (proved >= value.value - value.error || !std::isfinite(value.value)) continue;
-            measured.value[k] = value.value;
-            measured.uncertainty[k] = value.error;
+            const Value value = column != nullptr ? of_axis(*column, i, s, order)
+                                : limit.quantity == LimitedQuantity::path_jerk
+                                    ? path_jerk(i, s)
+                                    : of_path(i, s, limit.quantity, rounding);
+            const double noise = value.noise + rounding, uncertainty = noise + value.bend;
+            const double proved = measured[k].value - measured[k].uncertainty;
+            if (proved >= value.value - uncertainty || !std::isfinite(value.value)) continue;
+            measured[k] = {value.value, uncertainty, noise};
         }
     }
     return measured;

@@ -62,9 +62,11 @@ struct Stride {
 /// From one record on, until rounding is less than a percent of the limit. At most 16 records.
 [[nodiscard]] std::vector<Stride> strides_for(const StatedLimit& limit, const CommandedMotion& motion);
 
-/// By record: value and its uncertainty, of the stride that proves most; NaN: not known there.
-struct MeasuredMotion {
-    std::vector<double> value, uncertainty;
+/// A value, of the stride that proves most; NaN: not known.
+struct MeasuredValue {
+    double value = 0;
+    double uncertainty = 0;
+    double noise = 0;  ///< the part of the uncertainty that rounding and the clock make; the rest is that of bends
 };
 
 class MotionWindow {
@@ -75,15 +77,16 @@ public:
     /// Records [first, last] of the motion. Reads them and the margin. O(records).
     MotionWindow(const CommandedMotion& motion, PointRange records);
 
-    /// Speed, acceleration or jerk of an axis or of the path. O(records · strides).
-    [[nodiscard]] MeasuredMotion measure(const StatedLimit& limit, std::span<const Stride> strides) const;
+    /// Speed, acceleration or jerk of an axis or of the path, by record. O(records · strides).
+    [[nodiscard]] std::vector<MeasuredValue> measure(const StatedLimit& limit, std::span<const Stride> strides) const;
     /// Steps between records that are not judged.
     [[nodiscard]] std::vector<PointIndex> broken() const;
 
 private:
     using Path = std::array<std::vector<double>, 3>;
     struct Value {
-        double value, error;
+        double value, noise;
+        double bend = 0;  ///< what a bend within the difference may make of it
     };
 
     void read_tip();
