@@ -53,6 +53,12 @@ TEST(Adversarial, AMillionCalls) {
     read_in_every_dialect("#1=0\n" + repeated("N1 X1\n", 100'000) + "N7 #1=#1+1\nIF [#1 LT 100000] GOTO 7\n");
 }
 
+TEST(Adversarial, ManyLoopsThatAreLeft) {
+    const Program p =
+        parse("G0 X0 Y0 Z0\n" + repeated("o1 repeat [2]\nG91 G0 X1\no1 break\no1 endrepeat\n", 200'000), "linuxcnc");
+    EXPECT_DOUBLE_EQ(p.motions.end.back().x, 2e5);
+}
+
 TEST(Adversarial, SubprogramsOfFilesAreReadOnce) {
     int reads = 0;
     const auto text = std::make_shared<std::string>("G0 X0 Y0 Z0\nFOR R1=1 TO 1000\nPART\nENDFOR\nM30\n");

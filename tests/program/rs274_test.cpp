@@ -227,6 +227,17 @@ TEST(Rs274, M98CallsAProgramNumberAsOftenAsLSays) {
         (Rows{"rapid 1 0 0", "rapid 2 0 0", "rapid 2 1 0"}));
 }
 
+TEST(Rs274, BreakAndContinueNameTheirLoop) {
+    // rs274 2.9 lists these motions: the outer loop is left from inside the inner one.
+    EXPECT_EQ(motions(parse("G0 X0 Y0 Z0\n#1=0\no1 while [#1 LT 5]\n#1=[#1+1]\n#2=0\no2 while [#2 LT 3]\n#2=[#2+1]\n"
+                            "o3 if [#2 EQ 2]\no2 continue\no3 endif\no4 if [#1 EQ 3]\no1 break\no4 endif\n"
+                            "G0 X#1 Y#2\no2 endwhile\no1 endwhile\nG0 Z1\n",
+                            "linuxcnc")),
+              (Rows{"rapid 0 0 0", "rapid 1 1 0", "rapid 1 3 0", "rapid 2 1 0", "rapid 2 3 0", "rapid 2 3 1"}));
+    EXPECT_NE(error_of("o1 repeat [2]\no1 endrepeat\no1 break\n", "linuxcnc").find("outside a loop"),
+              std::string::npos);
+}
+
 TEST(Rs274, EveryNumberedParameterExists) {
     EXPECT_EQ(motions(parse("#1=2\n#2=99999\nG0 X EXISTS[#77] Y EXISTS[##1] Z EXISTS[##2]\n", "linuxcnc")),
               (Rows{"rapid 1 1 0"}));

@@ -156,9 +156,9 @@ void Interpreter::end_for(const Control&, const Statement&) {
 }
 
 void Interpreter::leave_loop(const Control& control, const Statement&) {
-    const int loop = index(place_.file).loop_around(place_.line, control.label);
-    if (loop < 0) fail("break or continue outside a loop");
-    const Control& begin = index(place_.file).all()[static_cast<std::size_t>(loop)];
+    const Control& own = own_control();
+    if (own.partner < 0) fail("break or continue outside a loop");
+    const Control& begin = partner_of(own, "break or continue");
     const Control& end = partner_of(begin, "loop");
     if (control.kind == ControlKind::break_loop) return go_after(end.line);
     count_jump();

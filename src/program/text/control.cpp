@@ -35,7 +35,12 @@ Control parse_control(std::string_view statement, const TextRules& rules) {
 
 namespace {
 
-/// Finds the partner of each statement: the end of a loop or of a subprogram, the branches of an IF.
+bool begins_loop(ControlKind kind) {
+    return kind == ControlKind::while_begin || kind == ControlKind::do_begin || kind == ControlKind::repeat_begin ||
+           kind == ControlKind::for_begin;
+}
+
+/// Finds the partner of each statement: the end of a loop or of a subprogram, the branches of an IF, the loop of a break.
 class PartnerSearch {
 public:
     explicit PartnerSearch(std::vector<Control>& controls) : controls_(controls), branches_(controls.size()) {}
@@ -67,11 +72,20 @@ private:
             case ControlKind::else_if:
             case ControlKind::else_branch:
             case ControlKind::if_end: branch(i); return;
+            case ControlKind::break_loop:
+            case ControlKind::continue_loop: at(i).partner = loop_around(i); return;
             default: break;
         }
         for (const Closing& closing : closings) {
             if (closing.end == at(i).kind) join(i, close(closing.begin, at(i).label));
         }
+    }
+
+    /// The innermost open loop with the label of a break or continue; −1: none.
+    int loop_around(int i) {
+        const auto found = std::find_if(open_.rbegin(), open_.rend(),
+                                        [&](int k) { return begins_loop(at(k).kind) && at(k).label == at(i).label; });
+        return found == open_.rend() ? -1 : *found;
     }
 
     /// The innermost open statement of this kind and label, closed with everything inside it; −1: none.
@@ -166,18 +180,6 @@ int ControlIndex::find(ControlKind kind, const std::string& label, LineNumber li
         if (c.line > line && direction >= 0) return i;
     }
     return direction < 0 ? before : direction == 0 && line != 0 ? first : -1;
-}
-
-int ControlIndex::loop_around(LineNumber line, const std::string& label) const {
-    int best = -1;
-    for (int i = 0; i < static_cast<int>(controls_.size()); ++i) {
-        const Control& c = controls_[static_cast<std::size_t>(i)];
-        const bool loop = c.kind == ControlKind::while_begin || c.kind == ControlKind::do_begin ||
-                          c.kind == ControlKind::repeat_begin || c.kind == ControlKind::for_begin;
-        if (!loop || c.partner < 0 || c.line > line || c.label != label) continue;
-        if (controls_[static_cast<std::size_t>(c.partner)].line >= line) best = i;
-    }
-    return best;
 }
 
 BlockNumbers::BlockNumbers(const SourceText& text) {

@@ -54,8 +54,8 @@ struct Control {
     int direction = 0;       ///< of a GOTO: +1 forward, −1 backward, 0 both
     bool may_miss = false;   ///< GOTOC: without its label the program goes on
     LineNumber line = 0;     ///< where it stands, in an index
-    int partner = -1;        ///< index of its other end: while ↔ end, if → its endif
-    int next_branch = -1;    ///< of if, elseif: the next elseif, else or endif
+    int partner = -1;  ///< index of its other end: while ↔ end, if → its endif, break and continue → their loop
+    int next_branch = -1;  ///< of if, elseif: the next elseif, else or endif
 };
 
 /// What control statement a cleaned line is, if any. Throws ReadError.
@@ -78,8 +78,6 @@ public:
     [[nodiscard]] int at_line(LineNumber line) const;
     /// The first `sub` or `label` of that name, or −1; from `line` on in `direction`, 0: anywhere.
     [[nodiscard]] int find(ControlKind kind, const std::string& label, LineNumber line = 0, int direction = 0) const;
-    /// The loop that a break or continue at `line` belongs to (its beginning), or −1.
-    [[nodiscard]] int loop_around(LineNumber line, const std::string& label) const;
 
 private:
     std::vector<Control> controls_;
