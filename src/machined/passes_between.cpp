@@ -10,10 +10,13 @@
 namespace clsurf {
 namespace {
 
-constexpr double most_uneven = 1.6;  ///< times as far as the passes: what lies beyond does not tell how these go on
+constexpr double most_uneven = 3;    ///< times as far as the passes: what lies beyond does not tell how these go on
 constexpr double most_jump = 4;      ///< times the step along the pass: the pass beside it is another one
 constexpr double jump_fits = 0.15;   ///< of a step-over: between the places of a jump of curvature that both sides tell
 constexpr double least_jump = 2e-4;  ///< [mm] second difference: below it a cubic is as good
+constexpr double least_turn = 3e-3;  ///< [mm] between second differences: less may be rounding and uneven heights
+constexpr double smoother_side = 0.25;  ///< of the change of second differences in a gap, on a side without a turn
+constexpr double corner_turns = 8;      ///< times the bends beside it: sides of a valley are nearly straight
 
 /// Passes about the gap between two, by number from the first of these.
 class Across {
@@ -24,9 +27,20 @@ public:
     }
     [[nodiscard]] bool has(int number) const { return known_[index(number)]; }
     [[nodiscard]] const Vec3& at(int number) const { return at_[index(number)]; }
-    [[nodiscard]] Vec3 second_difference(int number) const { return at(number - 1) - 2 * at(number) + at(number + 1); }
+    /// The second derivative at a pass, by shares of the gap. Passes need not lie evenly apart.
+    [[nodiscard]] Vec3 bend(int number) const {
+        const Vec3 to = at(number) - at(number - 1), on = at(number + 1) - at(number);
+        const double before = to.norm(), after = on.norm();
+        return gap_squared() * 2 / (before + after) * (on / after - to / before);
+    }
+    /// How a change of the bend in the gap shows at a pass at its ends: a share of it, over that of passes evenly apart.
+    [[nodiscard]] double weight_of_gap(int number) const {
+        const double gap = std::sqrt(gap_squared());
+        return 2 * gap / ((at(number) - at(number - 1)).norm() + (at(number + 1) - at(number)).norm());
+    }
 
 private:
+    [[nodiscard]] double gap_squared() const { return (at(1) - at(0)).squaredNorm(); }
     static std::size_t index(int number) {
         const int from_first = number + 2;
         return static_cast<std::size_t>(from_first);
@@ -40,36 +54,81 @@ class AcrossCurve {
 public:
     explicit AcrossCurve(const Across& p) : from_(p.at(0)), chord_(p.at(1) - p.at(0)) {
         const bool before = p.has(-1), after = p.has(2);
-        if (before) bend_ = turn_ = p.second_difference(0);
-        if (after) turn_ = p.second_difference(1);
+        if (before) bend_ = turn_ = p.bend(0);
+        if (after) turn_ = p.bend(1);
         if (after && !before) bend_ = turn_;
-        if (!before || !after || !p.has(-2) || !p.has(3)) return;
-        // Parabolas of second differences `low` and `high` that meet in the gap, at a share x of it, make those at its
-        // ends low + (high − low) (1 − x)²/2 and high − (high − low) x²/2.
-        const Vec3 low = p.second_difference(-1), high = p.second_difference(2), jump = high - low;
-        const double squared = jump.squaredNorm();
-        if (squared < least_jump * least_jump) return;
-        const double first = std::sqrt(2 * std::max(0.0, (bend_ - low).dot(jump) / squared));
-        const double second = std::sqrt(2 * std::max(0.0, (high - turn_).dot(jump) / squared));
-        if (std::abs(first + second - 1) > jump_fits) return;
-        meets_ = second / (first + second);
-        bend_ = low;
-        turn_ = high;
+        if (!before || !after) return;
+        if (p.has(-2) && p.has(3)) {
+            const Vec3 low = p.bend(-1), high = p.bend(2);
+            if (meets_parabolas(p, low, high) || turns_corner(p, low, high)) return;
+        }
+        go_on_from_smoother_side(p);
     }
 
     [[nodiscard]] Vec3 at(double x) const { return from_ + x * (chord_ - over(1)) + over(x); }
 
 private:
+    /// Parabolas of bends `low` and `high` that meet in the gap, at a share x of it, make those at its ends
+    /// low + (high − low) (1 − x)²/2 and high − (high − low) x²/2, where passes lie evenly apart.
+    bool meets_parabolas(const Across& p, const Vec3& low, const Vec3& high) {
+        const Vec3 jump = high - low;
+        const double squared = jump.squaredNorm();
+        if (squared < least_jump * least_jump) return false;
+        const double first = std::sqrt(2 / p.weight_of_gap(0) * std::max(0.0, (bend_ - low).dot(jump) / squared));
+        const double second = std::sqrt(2 / p.weight_of_gap(1) * std::max(0.0, (high - turn_).dot(jump) / squared));
+        if (std::abs(first + second - 1) > jump_fits) return false;
+        meets_ = second / (first + second);
+        bend_ = low;
+        turn_ = high;
+        return true;
+    }
+
+    /// A corner in the gap, where the ways on from both sides meet. Only in a valley: round an edge that is nearly sharp the
+    /// tool rolls.
+    bool turns_corner(const Across& p, const Vec3& low, const Vec3& high) {
+        const Vec3 to = p.at(0) - p.at(-1), on = p.at(2) - p.at(1);
+        const double squared = chord_.squaredNorm();
+        const Vec3 down = (to / to.norm() + 0.5 * to.norm() / squared * low).normalized();
+        const Vec3 up = (on / on.norm() - 0.5 * on.norm() / squared * high).normalized();
+        const double cosine = down.dot(up), sine_squared = 1 - cosine * cosine;
+        const double first = (chord_.dot(down) - cosine * chord_.dot(up)) / sine_squared;
+        const double second = (chord_.dot(up) - cosine * chord_.dot(down)) / sine_squared;
+        if (!(first > 0 && second > 0)) return false;
+        const double share = first / (first + second);
+        const Vec3 corner = (share * chord_ - first * down) / (share * (1 - share));
+        if (corner.z() < least_turn + corner_turns * (low.norm() + high.norm())) return false;
+        meets_ = share;
+        corner_ = corner;
+        bend_ = low;
+        turn_ = high;
+        return true;
+    }
+
+    /// Where the path across the passes turns or changes its curvature at a pass or in the gap beside this one, the passes
+    /// on the other side alone tell how it goes here: the cubic through both sides would overshoot.
+    void go_on_from_smoother_side(const Across& p) {
+        const Vec3 change = turn_ - bend_;
+        const Vec3 before = p.has(-2) ? Vec3(bend_ - p.bend(-1)) : change;
+        const Vec3 after = p.has(3) ? Vec3(p.bend(2) - turn_) : change;
+        const double most = smoother_side * change.norm();
+        if (change.norm() < least_turn || std::min(before.norm(), after.norm()) > most) return;
+        if (after.norm() < before.norm())
+            bend_ = turn_ - after;
+        else
+            turn_ = bend_ + before;
+    }
+
     /// What the second differences alone give.
     [[nodiscard]] Vec3 over(double x) const {
         if (meets_ < 0) return 0.5 * x * x * bend_ + x * x * x / 6 * (turn_ - bend_);
         const double beyond = std::max(0.0, x - meets_);
-        return 0.5 * x * x * bend_ + 0.5 * beyond * beyond * (turn_ - bend_);
+        return 0.5 * x * x * bend_ + beyond * corner_ + 0.5 * beyond * beyond * (turn_ - bend_);
     }
 
     Vec3 from_, chord_;
     Vec3 bend_ = Vec3::Zero(), turn_ = Vec3::Zero();
-    double meets_ = -1;
+    Vec3 corner_ = Vec3::Zero();  ///< change of direction …
+    double meets_ = -1;           ///< … or of the bend, there; < 0: none
 };
 
 }  // namespace
@@ -166,7 +225,8 @@ bool PassesBetween::between(PointIndex point, Side side, Row& row) const {
             number += direction;
         }
     };
-    go_on(own, beside(surface_, own, feed, side == Side::left ? Side::right : Side::left), -1, -1);
+    const Side other = side == Side::left ? Side::right : Side::left;
+    go_on(own, beside(surface_, own, feed, other), -1, -1);
     go_on(next, beyond(surface_, own, next, feed), 2, 1);
     const AcrossCurve curve(across);
     for (int k = 0; k < count; ++k)

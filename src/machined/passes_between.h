@@ -1,8 +1,10 @@
 #pragma once
 // PassesBetween: the programmed surface between its passes. A CL surface is known along the passes only; between two of
 // them, passes are interpolated through both and those beyond on either side: by a cubic, or where the curvature changes
-// from one value to another between the two (a ball that rolls round an edge), by two parabolas that meet there. A tool
-// that follows all of these leaves the programmed surface without its scallops, at creases and in fillets too.
+// from one value to another between the two (a ball that rolls round an edge), by two parabolas that meet there. Where the
+// path across the passes has a corner or an edge at a pass or in the gap beside, those on the other side alone count; where
+// two sides of a valley meet in a corner between the two passes, it goes as far as there. A tool that follows all of these
+// leaves the programmed surface without its scallops, at creases and in fillets too.
 
 #include <array>
 #include <span>
