@@ -10,8 +10,9 @@
 namespace clsurf {
 namespace {
 
-constexpr double most_uneven = 3;    ///< times as far as the passes: what lies beyond does not tell how these go on
-constexpr double most_jump = 4;      ///< times the step along the pass: the pass beside it is another one
+constexpr double most_uneven = 3;       ///< times as far as the passes: what lies beyond does not tell how these go on
+constexpr double most_jump = 4;         ///< times the step along the pass: the pass beside it is another one
+constexpr float least_between = 0.25F;  ///< of the way to a pass: so far from both lies a pass between
 constexpr double jump_fits = 0.15;   ///< of a step-over: between the places of a jump of curvature that both sides tell
 constexpr double least_jump = 2e-4;  ///< [mm] second difference: below it a cubic is as good
 constexpr double least_turn = 3e-3;  ///< [mm] between second differences: less may be rounding and uneven heights
@@ -48,6 +49,24 @@ private:
     std::array<Vec3, 6> at_;  // -2 … 3
     std::array<bool, 6> known_{};
 };
+
+/// The place `found` on the pass beside `from`, or the one on a pass between both. Near a turn the pass that it leads to is
+/// too near along the path to be a neighbour, and the search finds the pass beyond it.
+PathLocation on_adjacent_pass(const ClSurface& surface, const PathLocation& from, const PathLocation& found,
+                              const Eigen::Vector3f& feed) {
+    if (!found.exists()) return found;
+    const Positions& p = surface.positions;
+    const PointIndex own = found.nearest();
+    const Eigen::Vector3f here = position_at(p, from), there = position_at(p, found), way = there - here;
+    for (const Side side : {Side::left, Side::right}) {
+        if (!surface.neighbours.has(side, own)) continue;
+        if ((p[surface.neighbours.neighbour(side, own)] - there).dot(way) >= 0) continue;
+        const PathLocation back = beside(surface, found, feed, side);
+        const float share = back.exists() ? (position_at(p, back) - here).dot(way) / way.squaredNorm() : 0;
+        return share > least_between && share < 1 - least_between ? back : found;
+    }
+    return found;
+}
 
 /// A curve between two passes, 0 … 1.
 class AcrossCurve {
@@ -205,7 +224,10 @@ bool PassesBetween::between(PointIndex point, Side side, Row& row) const {
     const Eigen::Vector3f feed = signals_.feed(point);
     if (!feed.allFinite()) return false;
     const PathLocation own{point, 0};
-    const PathLocation next = beside(surface_, own, feed, side);
+    const auto adjacent = [&](const PathLocation& from, const PathLocation& found) {
+        return on_adjacent_pass(surface_, from, found, feed);
+    };
+    const PathLocation next = adjacent(own, beside(surface_, own, feed, side));
     if (!next.exists()) return false;
     Across across;
     across.set(0, smooth(point));
@@ -219,15 +241,15 @@ bool PassesBetween::between(PointIndex point, Side side, Row& row) const {
             const double step = (at - across.at(number - direction)).norm();
             if (!(step > apart / most_uneven && step < most_uneven * apart)) return;
             across.set(number, at);
-            const PathLocation on = beyond(surface_, before, from, feed);
+            const PathLocation on = adjacent(from, beyond(surface_, before, from, feed));
             before = from;
             from = on;
             number += direction;
         }
     };
     const Side other = side == Side::left ? Side::right : Side::left;
-    go_on(own, beside(surface_, own, feed, other), -1, -1);
-    go_on(next, beyond(surface_, own, next, feed), 2, 1);
+    go_on(own, adjacent(own, beside(surface_, own, feed, other)), -1, -1);
+    go_on(next, adjacent(next, beyond(surface_, own, next, feed)), 2, 1);
     const AcrossCurve curve(across);
     for (int k = 0; k < count; ++k)
         row[static_cast<std::size_t>(k)] = curve.at(static_cast<double>(k + 1) / (count + 1));
