@@ -31,6 +31,7 @@ constexpr double far_off = 4.5;             ///< middle distances, three standar
 constexpr double least_far_off = 2e-4;      ///< [mm]
 constexpr double unknown_error = 1e6;       ///< [mm] of a degree of freedom that changes no distance
 constexpr double main_share = 0.4;          ///< of a direction's length, of an axis that names it
+constexpr std::size_t fewest_each = 4;      ///< points for each degree of freedom that scallops tell
 
 std::size_t known_points(const MeasuredData& measured) {
     return measured.points.size() - (measured.kind == MeasuredKind::areal ? measured.missing : 0);
@@ -142,6 +143,13 @@ public:
                 fmt::format("{} points cannot tell {} degrees of freedom", points_.size(), unknowns_));
             return result_;
         }
+        // The best of many starts then fits the scatter of the points, and its errors are far greater than they look.
+        if (is_shifted() && points_.size() < fewest_each * unknowns_) {
+            result_.reasons.push_back(
+                fmt::format("{} points are too few for {} degrees of freedom on a surface with scallops: {} are needed",
+                            points_.size(), unknowns_, fewest_each * unknowns_));
+            return result_;
+        }
         lift();
         const Form form(as_machined_, region_of(points_, lifted_, search_ + 2 * step_over_), Form::Of::contacts);
         // Points come in the axes of the part, if coarsely; others begin where they are stated to.
@@ -176,11 +184,15 @@ private:
         if (!off.empty()) lifted_.shift.z() += median(off);
     }
 
+    /// Whether the points are shifted along the surface, where they may fit one step-over beside the right place.
+    [[nodiscard]] bool is_shifted() const {
+        return free_[static_cast<std::size_t>(PoseAxis::x)] || free_[static_cast<std::size_t>(PoseAxis::y)];
+    }
+
     /// Where fits to the surface with its scallops begin.
     std::vector<Pose> first_poses(const FittedPose& led) {
         std::vector<Pose> found{led.pose};
-        if (!free_[static_cast<std::size_t>(PoseAxis::x)] && !free_[static_cast<std::size_t>(PoseAxis::y)])
-            return found;
+        if (!is_shifted()) return found;
         const double step = step_over_ / search_steps;
         const auto steps = static_cast<std::int64_t>(std::ceil(search_ / step));
         PoseSearch search(few_points_, heights_, start_.turn, free_);
