@@ -53,6 +53,16 @@ TEST(RefusedWords, InterpolationOfRotaryAxesAndAxesByTheirNames) {
     expect_error("G0 X0 Y0\nG1 X1=5 F100\n", "siemens", "2:4: error: X1= is not known in siemens", "");
 }
 
+TEST(RefusedWords, AxesWithoutAValue) {
+    for (const char* dialect : {"fanuc", "linuxcnc", "heidenhain-iso"}) {
+        expect_error("G0 X0 Y0\nG1 X1 Y F100\n", dialect, "2:7: error: Y has no value", "");
+        expect_error("G0 X0 Y0\nG1 X1 YF100\n", dialect, "2:7: error: Y has no value", "");
+    }
+    expect_error("G0 X0 Y0\nG1 X1 Y F100\n", "siemens", "2:7: error: Y has no value", "");
+    // Fanuc's vacant variable takes its word away.
+    EXPECT_EQ(motions(parse("G0 X0 Y0 Z0\nG1 X1 Y#100 F100\n", "fanuc")), (Rows{"rapid 0 0 0", "feed 1 0 0"}));
+}
+
 TEST(RefusedWords, TurnsOfArcsOfOtherDialects) {
     expect_error("G0 X0 Y0 Z0\nG2 X10 Y0 I5 P2 F60\n", "fanuc",
                  "2:14: error: P in a block with an arc is not known in fanuc", "--dialect linuxcnc");

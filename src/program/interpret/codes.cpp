@@ -32,6 +32,12 @@ bool is_numbered_axis(std::string_view word) {
            word.find_first_not_of("0123456789", 1) == word.size() - 1;
 }
 
+/// "Y" alone, or in "YF100" before another word: an axis without its value.
+bool is_axis_without_value(std::string_view word) {
+    if (word.empty() || std::string_view("XYZABCUVW").find(upper(word.front())) == std::string_view::npos) return false;
+    return word.size() == 1 || (word.size() > 2 && is_letter(word[1]) && !is_letter(word[2]));
+}
+
 /// Where an unknown code is known.
 std::string hint_of_code(int code) {
     if (code >= 5_g && code <= 5.3_g)
@@ -448,6 +454,7 @@ void Interpreter::report_unused(const Block& block) {
     report_idle(block);
     for (const UnknownWord& word : block.unknown) {
         if (is_numbered_axis(word.text)) refuse_motion(word.text, block, word.column);
+        if (is_axis_without_value(word.text)) fail(fmt::format("{} has no value", word.text.front()), word.column);
         note(Severity::warning, "program.unknown-word", "'" + word.text + "' is not known", word.column);
     }
     for (const NamedWord& word : block.named) {
