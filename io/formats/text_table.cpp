@@ -296,19 +296,15 @@ Log read_table(const Source& source, const TextPlan& plan, const char* format) {
     log.format = format;
     std::size_t rows = 0;
     std::uint64_t line_offset = plan.first_data_line - 1;
-    for (const Chunk& chunk : chunks) {
+    for (Chunk& chunk : chunks) {
         rows += chunk.rows;
-        Diagnostics placed;
-        for (Diagnostic d : chunk.diagnostics.kept()) {
-            d.where.number += line_offset;
-            placed.add(std::move(d));
-        }
+        chunk.diagnostics.move_places(line_offset);
         if (chunk.missing > most_missing_of_byte * (chunk.end - chunk.begin)) {
             throw InputError(
-                placed.kept().front().where,
+                chunk.diagnostics.kept().front().where,
                 fmt::format("most rows lack nearly all of the {} columns that the header names", plan.columns.size()));
         }
-        log.diagnostics.append(placed);
+        log.diagnostics.append(chunk.diagnostics);
         line_offset += chunk.lines;
     }
     refuse_wide_rows(source, plan, chunks);

@@ -375,8 +375,7 @@ std::string page_summary(const ReportPage& page) {
                      fmt::format("Ra {:.2f} µm, {}", page.quality.as_machined->roughness.ra * um_per_mm,
                                  to_text(*page.quality.tool)));
     }
-    std::size_t warnings = 0;
-    for (const Diagnostic& d : page.health.kept()) warnings += d.severity == Severity::note ? 0 : 1;
+    const std::uint64_t warnings = page.health.count(Severity::warning) + page.health.count(Severity::error);
     text += fact("Log health",
                  page.health.has_errors() ? "errors"
                  : warnings > 0           ? "warnings"

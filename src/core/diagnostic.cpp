@@ -83,6 +83,17 @@ std::uint64_t Diagnostics::count(std::string_view code) const {
     return 0;
 }
 
+std::uint64_t Diagnostics::count(Severity severity) const {
+    std::uint64_t sum = 0;
+    for (const Diagnostic& d : kept_) sum += d.severity == severity ? 1 : 0;
+    for (const CodeCount& c : counts_) sum += c.severity == severity ? c.count - c.kept : 0;
+    return sum;
+}
+
+void Diagnostics::move_places(std::uint64_t by) {
+    for (Diagnostic& d : kept_) d.where.number += by;
+}
+
 std::vector<Diagnostic> Diagnostics::summary() const {
     std::vector<Diagnostic> all = kept_;
     for (const CodeCount& c : counts_) {

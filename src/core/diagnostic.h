@@ -33,8 +33,12 @@ public:
     void append(const Diagnostics& other);
 
     [[nodiscard]] const std::vector<Diagnostic>& kept() const { return kept_; }
+    /// Of a part of a file that was read by itself: its line, point or byte 0 is number `by` of the file.
+    void move_places(std::uint64_t by);
     /// How often a code was added, kept or not.
     [[nodiscard]] std::uint64_t count(std::string_view code) const;
+    /// The same of a severity. Those that were not kept have the highest one of their code.
+    [[nodiscard]] std::uint64_t count(Severity severity) const;
     [[nodiscard]] bool has_errors() const { return errors_ > 0; }
     [[nodiscard]] bool empty() const { return kept_.empty(); }
     /// The kept ones, and for each code with more a closing one that says how many were left out.

@@ -1,30 +1,16 @@
 #include "pipeline/log_verdict.h"
 
 #include <cstdint>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/counted.h"
 
 namespace clsurf {
-namespace {
-
-/// How many findings are errors, and how many warnings.
-std::pair<std::int64_t, std::int64_t> count_findings(const Diagnostics& diagnostics) {
-    std::int64_t errors = 0, warnings = 0;
-    for (const Diagnostic& d : diagnostics.kept()) {
-        errors += d.severity == Severity::error ? 1 : 0;
-        warnings += d.severity == Severity::warning ? 1 : 0;
-    }
-    return {errors, warnings};
-}
-
-}  // namespace
 
 LogVerdict log_verdict(const Log& log, const Diagnostics& diagnostics, const std::string& program,
                        ProgramIdentity identity) {
-    const auto [errors, warnings] = count_findings(diagnostics);
+    const std::uint64_t errors = diagnostics.count(Severity::error), warnings = diagnostics.count(Severity::warning);
     if (errors > 0) return {false, fmt::format("not usable as it is: {}, see below", counted(errors, "error"))};
     if (warnings > 0) return {false, fmt::format("usable with care: {}, see below", counted(warnings, "warning"))};
     std::string text = "OK: ";

@@ -13,6 +13,15 @@ TEST(Diagnostics, KeepsTheFirstFewOfACodeAndCountsTheRest) {
     EXPECT_EQ(all.summary().back().text, "980 more of 'log.gap', 1000 in all");
 }
 
+TEST(Diagnostics, CountsASeverityWithWhatIsNotKept) {
+    Diagnostics all;
+    for (int i = 0; i < 118; ++i) all.add({Severity::warning, "log.time-gap", {}, "gap", {}});
+    all.add({Severity::note, "log.quantum", {}, "steps", {}});
+    EXPECT_EQ(all.count(Severity::warning), 118u);
+    EXPECT_EQ(all.count(Severity::note), 1u);
+    EXPECT_EQ(all.count(Severity::error), 0u);
+}
+
 TEST(Diagnostics, JoinsListsWithoutLosingCounts) {
     Diagnostics a;
     Diagnostics b;

@@ -51,6 +51,19 @@ TEST(Delimited, TakesPositionsWithoutARoleAsCommanded) {
     EXPECT_EQ(named.diagnostics.count("log.roles"), 0U);
 }
 
+TEST(Delimited, CountsEveryBadNumberAndRaggedRow) {
+    const test::TemporaryFolder folder;
+    std::string text = "time,cmd.x,cmd.y\n";
+    for (int i = 0; i < 200; ++i) {
+        const std::string time = std::to_string(i);
+        text += i % 4 == 1 ? time + ",bad,0\n" : i % 4 == 2 ? time + ",1,2,3\n" : time + ",1,2\n";
+    }
+    const Log log = open(folder, text);
+    EXPECT_EQ(log.diagnostics.count("log.bad-number"), 50u);
+    EXPECT_EQ(log.diagnostics.count("log.ragged-row"), 50u);
+    EXPECT_EQ(log.diagnostics.kept().front().where.number, 3u);
+}
+
 TEST(Delimited, UnderstandsSemicolonsWithDecimalCommas) {
     const test::TemporaryFolder folder;
     const Log log = open(folder, "time;cmd.x\n0;1,25\n0,001;1,5\n");
