@@ -1,5 +1,7 @@
 #include "log/health.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -12,6 +14,7 @@ namespace {
 
 constexpr double period_share = 0.01;  ///< the clock's step may differ from the period by this part
 constexpr double moving = 0.01;        ///< [mm] or [deg] that a commanded position moves at least
+constexpr double no_machine = 1e6;     ///< [mm] the travel of no machine
 
 void check_channels(const Log& log, Diagnostics& found) {
     const auto add = [&](Severity severity, const char* text, const char* hint) {
@@ -50,6 +53,19 @@ void check_coarse(const Log& log, double period, Diagnostics& found) {
          fmt::format("record every {:g} ms or faster", 1e3 * longest_judged_period)});
 }
 
+/// Bytes that a layout reads as another type, or from another place, are positions of any size.
+void check_far(const Log& log, const Channel& channel, const ChannelRange& range, Diagnostics& found) {
+    constexpr std::array roles{Role::commanded, Role::feedback, Role::actual};
+    const bool position = std::any_of(roles.begin(), roles.end(), [&](Role role) {
+        return channel.name.starts_with(std::string(prefix_of(role)) + ".");
+    });
+    const double farthest = std::max(std::abs(range.low), std::abs(range.high));
+    if (!position || channel.unit != "mm" || !std::isfinite(farthest) || farthest < no_machine) return;
+    found.add({Severity::warning, "log.far", Place::of_file(log.name),
+               fmt::format("channel '{}' reaches {:.3g} mm: no machine does", channel.name, farthest),
+               "a wrong type, offset, scale or unit in --layout or --mapping?"});
+}
+
 void check_ranges(const Log& log, const std::vector<ChannelRange>& ranges, Diagnostics& found) {
     for (std::size_t c = 0; c < ranges.size(); ++c) {
         const Channel& channel = log.channels[c];
@@ -62,6 +78,7 @@ void check_ranges(const Log& log, const std::vector<ChannelRange>& ranges, Diagn
                                    channel.name, range.missing, log.records),
                        {}});
         }
+        check_far(log, channel, range, found);
         if (range.low != range.high || log.records < 2) continue;
         for (const Role role : {Role::commanded, Role::feedback, Role::actual}) {
             const std::string_view prefix = prefix_of(role);

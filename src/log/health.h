@@ -13,6 +13,7 @@ inline constexpr double longest_judged_period = 0.020;
 /// - log.jitter: the clock's steps differ by more than 5 % of a period, rms
 /// - log.jump: a step in position that no machine makes
 /// - log.missing-value: NaN
+/// - log.far: a position that no machine reaches
 /// - log.line-range, log.line-wild, log.line-stuck: line numbers that the program does not have, that
 ///   flicker for one record, or that stay while the tool goes to and fro
 /// - log.still: an axis without motion (a warning where its commanded position moves)

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -22,6 +23,8 @@ constexpr double heading_chord = 0.5;                ///< [mm] over which the he
 constexpr double least_turn = 0.05;                  ///< [rad] less is noise and fine chords of a curve
 constexpr double stuck_arc_length = 50.0;            ///< [mm] at least, on one line
 constexpr double stuck_turn = 3 * std::numbers::pi;  ///< [rad] to the left, and as much to the right
+
+constexpr double shown_in_full = 1e7;  ///< [mm] a longer step is no step of a machine, and may have 300 digits
 
 constexpr PointIndex before = 2;             ///< records that a section looks back
 constexpr PointIndex section_length = 2048;  ///< records whose channels stay in the cache together
@@ -137,6 +140,11 @@ struct Meanings {
     }
 };
 
+/// A length in mm.
+std::string length_text(double length) {
+    return length < shown_in_full ? fmt::format("{:.3f}", length) : fmt::format("{:.3g}", length);
+}
+
 class BlockPass {
 public:
     BlockPass(const Log& log, const Meanings& meanings, const Limits& limits)
@@ -223,16 +231,18 @@ private:
         for (PointIndex i = std::max<PointIndex>(1, begin_); i < end_; ++i) {
             const Vec3 here = step(axes, i);
             if (!(here.squaredNorm() > limit_squared) || gap_[static_cast<std::size_t>(i - begin_)]) continue;
-            const double length = here.norm();
+            // Bytes that are no positions may be numbers whose square is too large.
+            const double length = here.stableNorm();
             const Vec3 next = step(axes, i + 1);
-            const double last_length = step(axes, i - 1).norm();
-            const bool spike = comes_back(here.dot(next), length, next.norm());
-            if (!is_jump(last_length, length, next.norm(), spike)) continue;
+            const double next_length = next.stableNorm();
+            const double last_length = step(axes, i - 1).stableNorm();
+            const bool spike = comes_back((here / length).dot(next), 1.0, next_length);
+            if (!is_jump(last_length, length, next_length, spike)) continue;
             std::string role = log_.channels[*axes[0]].name;
             role.resize(role.find('.'));
             warn("log.jump", i,
-                 fmt::format("the position {} jumps by {:.3f} mm in one period; the step before it is {:.3f} mm{}",
-                             role, length, last_length, spike ? ", the next one comes back" : ""));
+                 fmt::format("the position {} jumps by {} mm in one period; the step before it is {} mm{}", role,
+                             length_text(length), length_text(last_length), spike ? ", the next one comes back" : ""));
         }
     }
 

@@ -1,6 +1,7 @@
 // Made logs with one thing wrong each, and a place and a number to find; nothing else may be found.
 #include "log/health.h"
 
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -181,6 +182,17 @@ TEST(Health, FindsAJumpThatStays) {
     const Diagnostic d = only(found, "log.jump", 2);  // of both roles
     EXPECT_EQ(d.where.number, 5000u);
     expect_says(d, "the position cmd jumps by 3.00");
+}
+
+TEST(Health, DoesNotTakeOtherBytesForPositions) {
+    Made made;
+    std::mt19937_64 random(1);
+    for (const char* channel : {"cmd.x", "cmd.y", "cmd.z"}) {
+        for (double& value : made[channel]) value = std::bit_cast<double>(random());
+    }
+    const Diagnostics found = made.check();
+    EXPECT_GE(found.count("log.jump"), made.size() / 20);
+    EXPECT_EQ(found.count("log.far"), 3u);
 }
 
 TEST(Health, CountsASpikeOnce) {
