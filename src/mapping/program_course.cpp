@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "core/column.h"
+#include "toolpath/toolpath.h"
+
 namespace clsurf {
 namespace {
 
@@ -13,10 +16,25 @@ constexpr double begins_again_before = 0.1;  ///< of the motions: here a run beg
 constexpr double begins_again_after = 0.9;   ///< … after one that came as far as this
 constexpr double least_pause = 1.0;          ///< [s]
 
+/// How many motions with a length there are before each one, and before the end: a log has no points on the others.
+Column<std::uint32_t> count_before(const Program& program, const Vec3& start) {
+    const Toolpath path(program.motions, start);
+    Column<std::uint32_t> before(static_cast<std::size_t>(path.size()) + 1, 0);
+    for (std::int64_t m = 0; m < path.size(); ++m) {
+        const auto at = static_cast<std::size_t>(m);
+        before[at + 1] = before[at] + (path.length(m) > 0 ? 1 : 0);
+    }
+    return before;
+}
+
 class Course {
 public:
-    Course(const Log& log, const Program& program, Diagnostics& diagnostics)
-        : log_(log), motions_(static_cast<double>(program.motions.size())), diagnostics_(diagnostics) {}
+    Course(const Log& log, const Program& program, const Vec3& start, Diagnostics& diagnostics)
+        : log_(log),
+          motions_(static_cast<double>(program.motions.size())),
+          before_(count_before(program, start)),
+          with_length_(std::max(1.0, static_cast<double>(before_.back()))),
+          diagnostics_(diagnostics) {}
 
     void add(PointIndex point, LineNumber line, std::int64_t motion, PointKind kind, bool moved) {
         if (moved || kind != PointKind::cut || line != line_) {
@@ -26,7 +44,7 @@ public:
         line_ = line;
         if (line == 0 || motion < 0 || motion == motion_) return;
         motion_ = motion;
-        const double place = static_cast<double>(motion) / motions_;
+        const double place = before_[static_cast<std::size_t>(motion)] / with_length_;
         if (first_ < 0) {
             first_ = place;
             first_line_ = line;
@@ -69,7 +87,7 @@ public:
                  fmt::format("the log begins at line {}: {:.0f} % of the program's motions are missing before it",
                              first_line_, first_ * 100));
         }
-        if (first_ >= 0 && last_ < 1 - part_of_program - 1 / motions_) {
+        if (first_ >= 0 && last_ < 1 - part_of_program - 1 / with_length_) {
             missing += 1 - last_;
             warn("map.ends-early", log_.records - 1,
                  fmt::format("the log ends at line {}: {:.0f} % of the program's motions are missing after it",
@@ -97,6 +115,8 @@ private:
 
     const Log& log_;
     double motions_;
+    Column<std::uint32_t> before_;  ///< by motion: motions with a length before it
+    double with_length_;            ///< of all motions; at least 1
     Diagnostics& diagnostics_;
     LineNumber line_ = 0, first_line_ = 0, last_line_ = 0;
     std::int64_t motion_ = -1;
@@ -113,7 +133,7 @@ double note_course(const Trajectory& path, const Log& log, const Program& progra
     std::array<LineNumber, block> lines;
     std::array<PointKind, block> kinds;
     std::array<double, block> x, y, z;
-    Course course(log, program, diagnostics);
+    Course course(log, program, path.at(0), diagnostics);
     Vec3 before = path.at(0);
     for (PointIndex begin = 0; begin < path.count; begin += static_cast<PointIndex>(block)) {
         const auto n =

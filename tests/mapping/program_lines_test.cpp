@@ -190,6 +190,19 @@ TEST(ProgramCourse, SaysNothingOfAWholeRun) {
     EXPECT_TRUE(course_of(r).empty());
 }
 
+TEST(ProgramCourse, DoesNotMissMotionsWithoutALength) {
+    Recorded r;
+    run(r, 1, 4);
+    for (std::uint32_t& line : r.line) line += 1;
+    r.x.insert(r.x.begin(), 0);
+    r.line.insert(r.line.begin(), 2);
+    r.y.assign(r.x.size(), 0);
+    r.z.assign(r.x.size(), 0);
+    Diagnostics diagnostics;
+    (void)match_of(r, parse("part.nc", "G0 X0 Y0 Z0\n" + text_of(4) + "X4\nX4\n"), diagnostics);
+    EXPECT_TRUE(diagnostics.empty()) << diagnostics.kept()[0].text;
+}
+
 TEST(ProgramCourse, FindsTwoRunsInOneLog) {
     Recorded r;
     run(r, 1, 100);
