@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <mutex>
 #include <vector>
 
 #include "core/error.h"
@@ -47,21 +48,24 @@ Source read_stream(const std::string& name, int descriptor) {
     return {name, std::span<const std::byte>(*bytes), bytes};
 }
 
-/// A file that is mapped, where a signal handler can find it.
+/// A file that is mapped, where a signal handler can find it. Others than the handler hold `mapping_lock`.
 struct MappedRegion {
     std::atomic<const std::byte*> begin{nullptr};
     std::size_t size = 0;
     int descriptor = -1;
     std::array<char, 256> name{};  ///< as the user named it, its end where it is longer
-    std::atomic<bool> taken{false};
+    bool taken = false;
 };
 
 /// More files than any subcommand reads; those beyond are not guarded.
 std::array<MappedRegion, 64> mappings;
+std::mutex mapping_lock;
 
 MappedRegion* enter(const std::string& name, const void* address, std::size_t size, int descriptor) {
+    const std::lock_guard lock(mapping_lock);
     for (MappedRegion& mapping : mappings) {
-        if (mapping.taken.exchange(true)) continue;
+        if (mapping.taken) continue;
+        mapping.taken = true;
         const std::size_t cut = name.size() < mapping.name.size() ? 0 : name.size() - mapping.name.size() + 1;
         std::strcpy(mapping.name.data(), name.c_str() + cut);
         mapping.size = size;
@@ -72,8 +76,10 @@ MappedRegion* enter(const std::string& name, const void* address, std::size_t si
     return nullptr;
 }
 
-/// The first file that became shorter while it was mapped, and is no longer.
+/// Of a guarded program: a file that became shorter while it was mapped, and is no longer. In other programs, calls that
+/// have ended must not make later ones fail.
 std::array<char, 256> shortened{};
+bool guards_mappings = false;
 
 bool is_shorter(const MappedRegion& mapping) {
     struct stat status {};
@@ -83,8 +89,9 @@ bool is_shorter(const MappedRegion& mapping) {
 
 void leave(MappedRegion* mapping) {
     if (mapping == nullptr) return;
+    const std::lock_guard lock(mapping_lock);
     mapping->begin = nullptr;
-    if (is_shorter(*mapping)) shortened = mapping->name;
+    if (guards_mappings && is_shorter(*mapping)) shortened = mapping->name;
     if (mapping->descriptor >= 0) ::close(mapping->descriptor);
     mapping->taken = false;
 }
@@ -130,9 +137,12 @@ void guard_mapped_files() {
     action.sa_flags = SA_SIGINFO;
     ::sigemptyset(&action.sa_mask);
     ::sigaction(SIGBUS, &action, nullptr);
+    const std::lock_guard lock(mapping_lock);
+    guards_mappings = true;
 }
 
 void check_mapped_files() {
+    const std::lock_guard lock(mapping_lock);
     for (const MappedRegion& mapping : mappings) {
         if (mapping.begin != nullptr && is_shorter(mapping))
             throw InputError(Place::of_file(mapping.name.data()), shorter);

@@ -26,11 +26,12 @@ struct Source {
 [[nodiscard]] Source map_descriptor(const std::string& name, int descriptor);
 
 /// From now on a file that is cut short while it is mapped ends the program with a message and exit code
-/// 3, where reading behind its end would have killed it. For programs; called once.
+/// 3, where reading behind its end would have killed it; and check_mapped_files() knows the files of the whole run, because
+/// the program's outputs were made from them. For programs; called once.
 void guard_mapped_files();
 
-/// Throws InputError where a file became shorter while it was mapped: what was read of it may be zeros.
-/// O(mapped files).
+/// Throws InputError where a file that is mapped became shorter, or with guard_mapped_files() one that was mapped: what was
+/// read of it may be zeros. O(mapped files).
 void check_mapped_files();
 
 }  // namespace clsurf::io

@@ -1,8 +1,11 @@
 #include "io/files/atomic_file.h"
 
+#include <filesystem>
+
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "io/files/mapped_file.h"
 #include "support/temporary_folder.h"
 
 namespace clsurf::io::atomic_file_test {
@@ -51,6 +54,26 @@ TEST(AtomicFile, KeepsTheOrderOfSmallAndLargePieces) {
     }
     file.commit();
     EXPECT_TRUE(test::read_file(folder / "out") == expected);
+}
+
+TEST(AtomicFile, FailsWhereAFileThatIsReadBecameShorter) {
+    const test::TemporaryFolder folder;
+    const Source input = map_file(folder.write("in", "0123456789"));
+    AtomicFile file(folder / "out");
+    std::filesystem::resize_file(folder / "in", 5);
+    EXPECT_THROW(file.commit(), InputError);
+}
+
+TEST(AtomicFile, DoesNotFailForAFileThatIsNoLongerRead) {
+    const test::TemporaryFolder folder;
+    {
+        const Source input = map_file(folder.write("in", "0123456789"));
+        std::filesystem::resize_file(folder / "in", 5);
+    }
+    AtomicFile file(folder / "out");
+    file.write("new");
+    file.commit();
+    EXPECT_EQ(test::read_file(folder / "out"), "new");
 }
 
 TEST(AtomicFile, SaysWhereItCannotWrite) {
