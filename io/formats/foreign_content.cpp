@@ -32,6 +32,18 @@ bool is_binary(std::string_view head) {
     return strange > harmless && 20 * strange > static_cast<std::ptrdiff_t>(head.size());
 }
 
+/// As a recorder or a transfer leaves them that did not finish.
+void refuse_control_characters(const Source& source, std::string_view head) {
+    const auto found = std::find_if(head.begin(), head.end(), [](char c) {
+        return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\r' && c != '\t';
+    });
+    if (found == head.end()) return;
+    const auto line = static_cast<std::uint64_t>(std::count(head.begin(), found, '\n')) + 1;
+    throw InputError(Place::of_line(source.name, line),
+                     fmt::format("a table with a control character (byte {:02x})", static_cast<unsigned char>(*found)),
+                     "the file is damaged: export or transfer the log again");
+}
+
 }  // namespace
 
 std::optional<ForeignTable> recognise_table(const Source& source) {
@@ -39,6 +51,7 @@ std::optional<ForeignTable> recognise_table(const Source& source) {
     if (head.empty() || is_binary(head)) return std::nullopt;
     const TextHead read = read_head(head);
     if (!is_record(read.first) || read.columns.size() != read.first.size()) return std::nullopt;
+    refuse_control_characters(source, head);
     ForeignTable table{read.separator, read.titles, read.first, {}};
     std::string_view rest = head.substr(std::min(read.data_begin, head.size()));
     (void)first_line(rest);

@@ -19,7 +19,8 @@ struct ForeignTable {
     std::vector<std::string> second;  ///< the one after it; empty: there is none
 };
 
-/// Nothing: it is no table. Looks at the head of the file only.
+/// Nothing: it is no table. Looks at the head of the file only. Throws InputError: a table with control characters, which no
+/// column name can help.
 [[nodiscard]] std::optional<ForeignTable> recognise_table(const Source& source);
 
 /// "8 columns: Timestamp, Xcmd, …": how messages speak of a table.

@@ -216,10 +216,14 @@ bool is_comment(std::string_view line) {
 }
 
 char detect_separator(std::string_view line) {
-    for (const char c : {'\t', ';', ','}) {
-        if (line.find(c) != std::string_view::npos) return c;
+    constexpr std::string_view separators = "\t;,";
+    std::size_t best = separators.size();
+    bool quoted = false;
+    for (const char c : line) {
+        if (c == '"') quoted = !quoted;
+        if (!quoted) best = std::min(best, separators.find(c));
     }
-    return ' ';
+    return best < separators.size() ? separators[best] : ' ';
 }
 
 std::vector<std::string> split(std::string_view line, char separator) {

@@ -42,7 +42,7 @@ struct TextPlan {
 [[nodiscard]] std::string_view first_line(std::string_view& rest);
 /// Empty, or begins with "#", "%", "//" or "sep=".
 [[nodiscard]] bool is_comment(std::string_view line);
-/// Tab, semicolon or comma where the line has one, in this order; else a blank.
+/// Tab, semicolon or comma where the line has one outside quotes, in this order; else a blank.
 [[nodiscard]] char detect_separator(std::string_view line);
 
 /// The fields of a line, without blanks and quotes around them; at most most_channels + 1.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "io/reports/export_table.h"
 #include "io/reports/listing_json.h"
 #include "pipeline/part.h"
@@ -29,5 +30,13 @@ namespace clsurf::cli {
 /// Every name that exported_columns() takes for this part, with unit and meaning: the columns of its own, then the fields
 /// for which nothing is missing, then channels of the log.
 [[nodiscard]] std::vector<io::ListingRow> exportable_columns(const Part& part, const ClSurface& surface);
+
+/// Runs what writes HDF5 into the file of an output, and names the output where that fails: HDF5 does not. Throws SystemError.
+template <typename Write>
+void write_hdf(const std::string& output, const Write& write) {
+    try {
+        write();
+    } catch (const SystemError& error) { throw SystemError(output + ": cannot write: " + error.what()); }
+}
 
 }  // namespace clsurf::cli

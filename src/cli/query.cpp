@@ -13,9 +13,10 @@
 namespace clsurf::cli {
 namespace {
 
-void print_matches(const std::vector<QueryMatch>& matches) {
+void print_matches(const std::vector<QueryMatch>& matches, bool of_a_line) {
     if (matches.empty())
-        std::puts("the line has no logged points: a comment, a setting, or merged with the next block");
+        std::puts(of_a_line ? "the line has no logged points: a comment, a setting, or merged with the next block"
+                            : "no logged point is there");
     for (const QueryMatch& m : matches) {
         fmt::print("line {}: {}\n", m.line, m.text);
         if (m.calls.subprogram)
@@ -60,7 +61,7 @@ ExitCode run_query(const po::variables_map& values) {
         write_to_stdout(io::query_json(matches, diagnostics));
     } else {
         print(diagnostics, values);
-        if (!read_common(values).quiet) print_matches(matches);
+        if (!read_common(values).quiet) print_matches(matches, values.count("line") > 0);
     }
     return matches.empty() ? ExitCode::check_failed : ExitCode::done;
 }

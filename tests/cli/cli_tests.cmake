@@ -189,6 +189,7 @@ clsurf_cli_test(NAME work_offset_given_without_lines SETUP "${displace_without_l
 clsurf_cli_test(NAME work_offset_wrong ARGS info ${part} ${run} --work-offset 1,2 EXIT 2 STDERR "--work-offset: '1,2' is not 3 or 4 numbers")
 clsurf_cli_test(NAME info_layout ARGS info @LOGS@/petal_spiral.raw --layout @DATA@/logs/petal_spiral.layout.toml STDOUT "84271 records")
 clsurf_cli_test(NAME query_at ARGS query ${part} ${run} --tool none --at -5.87,0,2.45 STDOUT "^line 1768")
+clsurf_cli_test(NAME query_at_no_place ARGS query ${part} ${run} --tool none --at 1e300,0,0 EXIT 1 STDOUT "no logged point is there" NO_STDOUT "comment")
 # Line 14 runs inside O3, which line 10 of O2 calls, which line 6 called the second time.
 set(nested_calls "printf '%s\\n' O1 'G21 G90 G54' 'G0 X0 Y0 Z0' 'M98 P2' 'G0 X0 Y10' 'M98 P2' M30 O2 G91 'M98 P3' G90 M99 O3 'G1 X5 F600' M99 > nested.nc; $CLSURF simulate nested.nc -o run.biip")
 clsurf_cli_test(NAME query_of_nested_calls SETUP "${nested_calls}" ARGS query nested.nc run.biip --at 3,10,0

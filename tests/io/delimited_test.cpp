@@ -51,6 +51,30 @@ TEST(Delimited, TakesPositionsWithoutARoleAsCommanded) {
     EXPECT_EQ(named.diagnostics.count("log.roles"), 0U);
 }
 
+TEST(Delimited, FindsTheSeparatorOutsideQuotes) {
+    const test::TemporaryFolder folder;
+    const Log log = open(folder, "time,cmd.x,cmd.y,cmd.z,\"a;b\"\n0,1,2,3,4\n0.001,1,2,3,4\n");
+    EXPECT_EQ(log.find("cmd.z")->values.at(1), 3);
+    EXPECT_EQ(log.find("a;b")->values.at(1), 4);
+}
+
+/// What the message says that refuses a text.
+std::string error_of(const std::string& text) {
+    const test::TemporaryFolder folder;
+    try {
+        (void)open(folder, text);
+    } catch (const InputError& error) { return error.what(); }
+    return "";
+}
+
+TEST(Delimited, SaysWhatIsWrongWithItsBytes) {
+    EXPECT_NE(error_of("time,cmd.x,cmd.y,cmd.z\r0,1,2,3\r0.001,1,2,3\r").find("its lines end with CR alone"),
+              std::string::npos);
+    const std::string damaged("time,cmd.x,cmd.y,cmd.z\n0,1,2,3\n0.001,1,\0\0,3\n0.002,1,2,3\n0.003,1,2,3\n", 68);
+    EXPECT_NE(error_of(damaged).find("run.csv:3: error: a table with a control character (byte 00)"), std::string::npos)
+        << error_of(damaged);
+}
+
 TEST(Delimited, CountsEveryBadNumberAndRaggedRow) {
     const test::TemporaryFolder folder;
     std::string text = "time,cmd.x,cmd.y\n";
