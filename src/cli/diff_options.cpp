@@ -1,9 +1,37 @@
 #include "cli/diff_options.h"
 
+#include <algorithm>
+#include <filesystem>
+
 #include "cli/difference_map.h"
+#include "cli/part.h"
+#include "io/files/compressed.h"
 #include "io/readers/budget_file.h"
 
 namespace clsurf::cli {
+namespace {
+
+/// Whether there is a program among the files that are compared. A pipe cannot be read twice, and may be one.
+bool may_simulate(const DiffOptions& options) {
+    return std::any_of(options.files.begin(), options.files.end(), [&](const std::string& file) {
+        return !std::filesystem::is_regular_file(file) || !is_log(io::open_source(file), options.runs.log_options);
+    });
+}
+
+/// Options that nothing would read.
+void refuse_unused(const po::variables_map& values, const DiffOptions& options) {
+    if (options.output.empty()) {
+        po::options_description of_map;
+        declare_look(of_map);
+        of_map.add_options()("color", "");
+        refuse_given(values, of_map, "a map of the differences", "-o FILE draws it");
+    }
+    if (may_simulate(options)) return;
+    if (given(values, "start")) throw UsageError("--start needs a program that is simulated, as A or B");
+    if (options.runs.program.empty()) refuse_program_options(values, "--program FILE names the program of the logs");
+}
+
+}  // namespace
 
 void declare_diff(po::options_description& options) {
     // clang-format off
@@ -28,6 +56,7 @@ DiffOptions read_diff_options(const po::variables_map& values) {
     options.shown = parse_quantity(text_of(values, "color", "speed"));
     options.look = read_look_options(values);
     options.json = read_json_beside_output(values);
+    refuse_unused(values, options);
     return options;
 }
 

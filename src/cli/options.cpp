@@ -138,6 +138,20 @@ bool given(const po::variables_map& values, const char* name) {
     return values.count(name) > 0 && !values[name].defaulted();
 }
 
+void refuse_given(const po::variables_map& values, const po::options_description& options, const std::string& needed,
+                  const std::string& hint) {
+    for (const auto& option : options.options()) {
+        if (given(values, option->long_name().c_str()))
+            throw UsageError("--" + option->long_name() + " needs " + needed, hint);
+    }
+}
+
+void refuse_program_options(const po::variables_map& values, const std::string& hint) {
+    po::options_description of_programs;
+    declare_program_options(of_programs);
+    refuse_given(values, of_programs, "a program", hint);
+}
+
 namespace {
 
 /// The values of one option, as they are written on a command line.

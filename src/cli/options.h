@@ -54,6 +54,11 @@ void declare_json(po::options_description& options);
 
 /// The option is on the command line, not in a configuration (cli/config.h).
 [[nodiscard]] bool given(const po::variables_map& values, const char* name);
+/// Throws UsageError where one of `options` is given, which needs something that is not there.
+void refuse_given(const po::variables_map& values, const po::options_description& options, const std::string& needed,
+                  const std::string& hint);
+/// The same of the options that say how a program is read.
+void refuse_program_options(const po::variables_map& values, const std::string& hint);
 
 /// The options of a group that have values, but `except`, as words of a command line that gives the same values.
 [[nodiscard]] std::vector<std::string> words_of(const po::options_description& group, const po::variables_map& values,

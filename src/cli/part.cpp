@@ -56,8 +56,10 @@ bool is_log(const io::Source& source, const io::LogOptions& options) {
     return !is_program && io::recognise_log(source, options) != nullptr;
 }
 
-PartOptions read_part_or_log_options(const po::variables_map& values) {
-    if (values.count("LOG") > 0) return read_part_options(values);
+namespace {
+
+/// Of the only file that is given, as a log without a program.
+PartOptions read_options_of_one_file(const po::variables_map& values) {
     const std::string log = required(values, "PROGRAM");
     po::variables_map alone = values;
     alone.insert({"LOG", po::variable_value(log, false)});
@@ -66,11 +68,23 @@ PartOptions read_part_or_log_options(const po::variables_map& values) {
     return options;
 }
 
+constexpr const char* program_beside_log = "give both: PROGRAM LOG";
+
+}  // namespace
+
+PartOptions read_part_or_log_options(const po::variables_map& values) {
+    if (values.count("LOG") > 0) return read_part_options(values);
+    refuse_program_options(values, program_beside_log);
+    return read_options_of_one_file(values);
+}
+
 PartOptions read_part_or_program_options(const po::variables_map& values) {
     if (values.count("LOG") > 0) return read_part_options(values);
-    PartOptions options = read_part_or_log_options(values);
+    PartOptions options = read_options_of_one_file(values);
     if (options.log == "-" || !is_log(io::open_source(options.log), options.log_options))
         options.program = std::exchange(options.log, {});
+    else
+        refuse_program_options(values, program_beside_log);
     return options;
 }
 

@@ -29,3 +29,18 @@ clsurf_cli_test(NAME render_before_tells_roughness SETUP "${deeper} && $CLSURF s
   ARGS --version)
 clsurf_cli_test(NAME report_before_tells_roughness SETUP "${deeper} && $CLSURF simulate even.nc -o a.biip -q && $CLSURF simulate deeper.nc -o b.biip -q && $CLSURF report even.nc b.biip --before a.biip --tool ball:6 --fields speed -o r.html -q && grep -q 'roughness Ra .*<td>1.60</td><td>2.7.</td>' r.html"
   ARGS --version)
+
+# Options that nothing would read.
+foreach(option "dialect fanuc" "tools nofile.tbl" "block-delete on")
+  separate_arguments(words UNIX_COMMAND "--${option}")
+  string(MAKE_C_IDENTIFIER "${option}" name)
+  clsurf_cli_test(NAME diff_of_logs_with_${name} ARGS diff @LOGS@/bottle_uneven.biip @LOGS@/bottle_uneven.biip ${words} EXIT 2 STDERR "error: --[a-z-]* needs a program" "--program FILE")
+  clsurf_cli_test(NAME export_of_a_log_with_${name} ARGS export @LOGS@/bottle_uneven.biip ${words} -o run.csv EXIT 2 STDERR "error: --[a-z-]* needs a program" NO_FILE run.csv)
+endforeach()
+clsurf_cli_test(NAME diff_of_logs_with_a_start ARGS diff @LOGS@/bottle_uneven.biip @LOGS@/bottle_uneven.biip --start 1,2,3 EXIT 2 STDERR "--start needs a program that is simulated")
+foreach(option "view top" "bins 5" "style lines" "color lag")
+  separate_arguments(words UNIX_COMMAND "--${option}")
+  list(GET words 0 name)
+  string(REPLACE "--" "" name ${name})
+  clsurf_cli_test(NAME diff_without_a_map_with_${name} ARGS diff @LOGS@/bottle_uneven.biip @LOGS@/bottle_uneven.biip ${words} EXIT 2 STDERR "error: --${name} needs a map of the differences" "-o FILE draws it")
+endforeach()
