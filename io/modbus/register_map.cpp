@@ -72,7 +72,7 @@ RegisterChannel read_channel(const TomlFile& file, const std::string& path, cons
     channel.type = static_cast<RegisterType>(read_word(file, entry, "type", types, 0));
     channel.order = static_cast<ByteOrder>(read_word(file, entry, "order", orders, 0));
     if (entry.get("order") != nullptr && channel.registers() == 1)
-        file.fail(*entry.get("order"), "'order' is of values in two registers");
+        file.fail(*entry.get("order"), "'order' applies only to values in two registers");
     const std::optional<std::int64_t> address = file.integer(entry, "address", 0, last_address);
     if (!address) file.fail(entry, "channel without 'address'");
     channel.address = static_cast<int>(*address);

@@ -22,7 +22,7 @@ ExitCode run_check(const po::variables_map& values) {
     CheckRules rules;
     const std::vector<std::string> logs = values["LOG"].as<std::vector<std::string>>();
     if (const std::optional<ShardNumber> shard = read_shard_number(values)) {
-        if (logs.size() > 1) throw UsageError("--shard is of one log");
+        if (logs.size() > 1) throw UsageError("--shard takes one log");
         return check_shard(options, *shard, values);
     }
     rules.merged = read_merged(options, values, logs.size());

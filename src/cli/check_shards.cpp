@@ -24,7 +24,7 @@ ExitCode check_shard(PartOptions options, const ShardNumber& shard, const po::va
     for (const char* name : {"merge", "scratch", "budget", "fail-on", "accepted", "max-depth", "baseline", "record",
                              "measured", "follow", "format", "json"}) {
         if (given(values, name))
-            throw UsageError(fmt::format("--{} is for the whole log, not for a --shard", name),
+            throw UsageError(fmt::format("--{} does not apply to --shard, only to the whole log", name),
                              "give it where the shards are merged");
     }
     const std::string output = required(values, "output");
@@ -54,7 +54,7 @@ std::optional<MergedShards> read_merged(const PartOptions& options, const po::va
         if (given(values, "scratch")) throw UsageError("--scratch goes with --merge");
         return std::nullopt;
     }
-    if (logs > 1) throw UsageError("--merge is of one log");
+    if (logs > 1) throw UsageError("--merge takes one log");
     for (const char* name : {"measured", "follow"}) {
         if (given(values, name)) throw UsageError(fmt::format("--{} goes with a log that is judged as a whole", name));
     }

@@ -67,7 +67,7 @@ void declare_controller(po::options_description& options) {
 
 std::optional<ControllerCommand> read_controller(const po::variables_map& values) {
     if (values.count("controller") == 0) {
-        if (values.count("timeout") > 0) throw UsageError("--timeout is of --controller");
+        if (values.count("timeout") > 0) throw UsageError("--timeout needs --controller");
         return std::nullopt;
     }
     const double timeout = values.count("timeout") > 0 ? values["timeout"].as<double>() : usual_timeout;

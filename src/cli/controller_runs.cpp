@@ -53,7 +53,7 @@ ControllerOutcome ControllerRuns::run(const std::string& text) const {
 ExitCode record_on_controller(const ControllerCommand& command, const std::string& program, const std::string& output,
                               const po::variables_map& values) {
     for (const char* name : {"machine", "start", "work-offset", "json"}) {
-        if (given(values, name)) throw UsageError(fmt::format("--{} is not of --controller", name));
+        if (given(values, name)) throw UsageError(fmt::format("--{} does not apply to --controller", name));
     }
     (void)io::open_source(program);
     const RunFolder folder;

@@ -52,7 +52,8 @@ ExitCode write_shard(const PartOptions& options, const ShardNumber& shard, const
     if (options.program.empty()) throw UsageError("a shard needs the program: clsurf export part.nc run.biip …");
     const std::string_view format = output_format(output, table_formats()).name;
     if (format != "vtp" && format != "vtkhdf") throw UsageError("--shard writes a .vtp or a .vtkhdf file");
-    if (options.role) throw UsageError("--shard is of the positions that were surveyed, without --surface");
+    if (options.role)
+        throw UsageError("--surface does not apply to --shard, which writes the positions that were surveyed");
     StageClock clock(read_common(values), 5);
     const SurveyedLog log = read_surveyed_log(options, values);
     const Part part = load_surveyed_part(options, log.survey, clock);

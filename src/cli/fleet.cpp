@@ -68,7 +68,7 @@ ExitCode run_fleet_command(const po::variables_map& values) {
     if (tasks && merges) throw UsageError("--tasks and --merge are two steps");
     for (const char* name : {"jobs", "memory", "retry-failed"}) {
         if ((tasks || merges) && given(values, name))
-            throw UsageError(fmt::format("--{} is for runs that are judged here", name));
+            throw UsageError(fmt::format("--{} does not apply to --tasks and --merge, which judge no runs", name));
     }
     if (merges) return merge(values, database);
     const std::vector<FleetUnit> units = read_fleet_units(values);

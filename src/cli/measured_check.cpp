@@ -24,7 +24,7 @@ std::unique_ptr<MeasuredInput> read_measured_input(const po::variables_map& valu
                                                    std::size_t logs) {
     if (values.count("measured") == 0) {
         const char* alone = given(values, "picture") ? "picture" : given_measured_option(values);
-        if (alone != nullptr) throw UsageError(fmt::format("--{} is of --measured only", alone));
+        if (alone != nullptr) throw UsageError(fmt::format("--{} needs --measured", alone));
         return nullptr;
     }
     if (logs > 1) throw UsageError("--measured belongs to one log: the part that was measured was cut once");

@@ -81,7 +81,7 @@ OptimizeRules read_optimize_rules(const po::variables_map& values) {
 
 int read_runs(const po::variables_map& values) {
     if (values.count("runs") == 0) return 3;
-    if (values.count("controller") == 0) throw UsageError("--runs is of --controller");
+    if (values.count("controller") == 0) throw UsageError("--runs needs --controller");
     const int runs = values["runs"].as<int>();
     if (runs < 2 || runs > 1000) throw UsageError("--runs must be 2 to 1000");
     return runs;
@@ -106,10 +106,10 @@ std::vector<EarlierRound> read_rounds(const po::variables_map& values) {
 std::optional<Log> read_measured(const po::variables_map& values, bool five_axes) {
     if (values.count("log") == 0) {
         for (const char* name : {"layout", "mapping", "period"}) {
-            if (given(values, name)) throw UsageError(std::string("--") + name + " is of a log: give --log");
+            if (given(values, name)) throw UsageError(std::string("--") + name + " needs --log");
         }
         if (given(values, "work-offset") && !five_axes)
-            throw UsageError("--work-offset is of a log, or for programs on rotary axes: give --log");
+            throw UsageError("--work-offset needs --log, or a program that moves rotary axes");
         return std::nullopt;
     }
     return io::open_log(values["log"].as<std::string>(), read_log_options(values));

@@ -23,11 +23,12 @@ void declare_profile(po::options_description& options) {
 bool asks_for_profile(const po::variables_map& values) {
     const bool asked = values.count("profile") > 0;
     if (!asked && given(values, "tool") && values.count("defect") == 0)
-        throw UsageError("--tool is of --profile and --defect", "--profile 10,0,10,5 --tool ball:6");
-    if (!asked && given(values, "json")) throw UsageError("--json is of --profile: curves are only drawn");
+        throw UsageError("--tool needs --profile or --defect", "--profile 10,0,10,5 --tool ball:6");
+    if (!asked && given(values, "json")) throw UsageError("--json needs --profile: curves are only drawn");
     if (!asked) return false;
     for (const char* name : {"fields", "over", "from", "to", "line", "mark-point"}) {
-        if (given(values, name)) throw UsageError(fmt::format("--{} is of curves, not of --profile", name));
+        if (given(values, name))
+            throw UsageError(fmt::format("--{} does not apply to --profile, only to curves", name));
     }
     return true;
 }

@@ -78,7 +78,8 @@ ProfileOptions read_profile_options(const po::variables_map& values) {
     if (find_dialect(options.dialect) == nullptr)
         throw UsageError(fmt::format("unknown dialect '{}'", options.dialect), "`clsurf help dialects` lists them");
     if (options.splines && !writes_spans(options.dialect))
-        throw UsageError(fmt::format("--blocks splines is of siemens and klartext, not of {}", options.dialect));
+        throw UsageError(
+            fmt::format("--blocks splines does not apply to {}, only to siemens and klartext", options.dialect));
     constexpr double slowest = 1;  // mm/min
     options.feed = number_of(values, "feed", slowest, longest);
     options.clearance = number_of(values, "clearance", 0, longest);

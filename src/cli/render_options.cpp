@@ -12,14 +12,14 @@ namespace {
 void read_as_machined(const po::variables_map& values, RenderOptions& options) {
     if (!options.part.as_machined) {
         if (given(values, "swept"))
-            throw UsageError("--swept is of the formed surface only", "--surface formed --tool ball:6");
+            throw UsageError("--swept needs the formed surface", "--surface formed --tool ball:6");
         return;
     }
     if (values.count("swept") > 0) options.swept = parse_role(values["swept"].as<std::string>());
     if (given(values, "color"))
-        throw UsageError("--color is not of the formed surface: it shows micrometres over its form");
+        throw UsageError("--color does not apply to the formed surface, which shows its height over the form");
     if (given(values, "style") && options.shown.look.style != viz::Style::surface)
-        throw UsageError("--style is not of the formed surface: it is drawn as one");
+        throw UsageError("--style does not apply to the formed surface, which is drawn as a surface");
 }
 
 /// "A..B", "A..", "..B" or "N".

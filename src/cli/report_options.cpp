@@ -56,10 +56,10 @@ ReportOptions read_report_options(const po::variables_map& values) {
     options.most_bytes = static_cast<std::uint64_t>(megabytes * 1e6);
     if (values.count("measured") > 0) {
         if (given(values, "follow"))
-            throw UsageError("--measured is of a part that is cut: a log that is still being written has none");
+            throw UsageError("--measured does not apply to --follow: the part can be measured when it is finished");
         options.measurement = read_measurement(values);
     } else if (const char* alone = given_measured_option(values)) {
-        throw UsageError(fmt::format("--{} is of --measured only", alone));
+        throw UsageError(fmt::format("--{} needs --measured", alone));
     }
     options.reading_options = reading_options_of(values);
     return options;

@@ -73,8 +73,7 @@ std::optional<RunRecorder> read_recorder(const po::variables_map& values, const 
                                          const std::vector<std::string>& logs) {
     if (values.count("record") == 0) {
         for (const char* name : {"param", "time", "parameters"}) {
-            if (given(values, name))
-                throw UsageError(fmt::format("--{} is for runs that are recorded", name), "add --record shop.db");
+            if (given(values, name)) throw UsageError(fmt::format("--{} needs --record", name), "add --record shop.db");
         }
         return std::nullopt;
     }

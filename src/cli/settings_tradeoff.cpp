@@ -42,7 +42,7 @@ struct ChoiceOutputs {
     explicit ChoiceOutputs(const po::variables_map& values, bool chooses) {
         for (const char* name : {"output", "settings"}) {
             if (values.count(name) > 0 && !chooses)
-                throw UsageError(fmt::format("--{} with --tradeoff is of the settings that are chosen", name),
+                throw UsageError(fmt::format("--{} with --tradeoff writes the settings that are chosen", name),
                                  "give --weight, 0 (time alone) to 1 (surface alone)");
         }
         if (values.count("output") > 0) {
@@ -75,7 +75,7 @@ void declare_settings_tradeoff(po::options_description& options) {
 
 void refuse_settings_options(const po::variables_map& values) {
     for (const char* name : {"settings", "more-time", "runs"}) {
-        if (given(values, name)) throw UsageError(fmt::format("--{} is of --tradeoff and --weight", name));
+        if (given(values, name)) throw UsageError(fmt::format("--{} needs --tradeoff or --weight", name));
     }
 }
 

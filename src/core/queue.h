@@ -27,7 +27,7 @@ public:
         make_room();
         return items_.emplace_back();
     }
-    /// None of these.
+    /// `item` must not be in this queue: its place may move.
     void push_back(const T& item) {
         make_room();
         items_.push_back(item);

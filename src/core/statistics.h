@@ -31,13 +31,13 @@ template <typename Values>
     return std::size(values) % 2 == 1 ? upper : (upper + kth_smallest(values, half - 1)) / 2;
 }
 
-/// The value that a share (0 … 1) of the others lies below, the next lower one.
+/// The quantile of a share (0 … 1), the lower value where it lies between two.
 template <typename Values>
 [[nodiscard]] auto quantile_below(Values& values, double share) {
     return kth_smallest(values, static_cast<std::size_t>(share * static_cast<double>(std::size(values) - 1)));
 }
 
-/// The same, the nearest one.
+/// The same, the nearer value where it lies between two.
 template <typename Values>
 [[nodiscard]] auto nearest_quantile(Values& values, double share) {
     return kth_smallest(values,

@@ -37,7 +37,7 @@ clsurf_cli_test(NAME optimize_controller_runs_another_program EXIT 3
 clsurf_cli_test(NAME optimize_controller_without_log_word EXIT 2
   ARGS optimize ${dome} --controller "run {program}" -o better.nc STDERR "controller has no .log.")
 clsurf_cli_test(NAME optimize_runs_without_controller EXIT 2
-  ARGS optimize ${dome} --runs 3 -o better.nc STDERR "--runs is of --controller")
+  ARGS optimize ${dome} --runs 3 -o better.nc STDERR "--runs needs --controller")
 clsurf_cli_test(NAME simulate_on_a_controller SETUP "${other}"
   ARGS simulate ${dome} --controller "$CLSURF simulate {program} --machine other.toml -o {log} -q" -o run.biip FILE run.biip STDOUT "[0-9]+ records, [0-9.]+ s, from the controller")
 clsurf_cli_test(NAME simulate_controller_fails EXIT 3

@@ -81,7 +81,7 @@ clsurf_cli_test(NAME history_in_a_folder_that_is_not_there ARGS history no/shop.
 # ---- check --record ----
 clsurf_cli_test(NAME record_check SETUP "$CLSURF check ${bottle} @LOGS@/bottle_uneven.biip --tool none --record shop.db --param tool=D6R3 -q" ARGS history shop.db list STDOUT "bottle_uneven.nc.*tool=D6R3")
 clsurf_cli_test(NAME record_says_where ARGS check ${planted} @LOGS@/planted_loops.biip --record shop.db FILE shop.db STDERR "recorded as run 1 of shop.db")
-clsurf_cli_test(NAME record_without_a_history ARGS check ${planted} @LOGS@/planted_loops.biip --param tool=D6R3 EXIT 2 STDERR "--param is for runs that are recorded" "--record shop.db")
+clsurf_cli_test(NAME record_without_a_history ARGS check ${planted} @LOGS@/planted_loops.biip --param tool=D6R3 EXIT 2 STDERR "--param needs --record" "--record shop.db")
 clsurf_cli_test(NAME record_into_no_database SETUP "cp ${bottle} shop.db" ARGS check ${planted} @LOGS@/planted_loops.biip --record shop.db EXIT 3 STDERR "shop.db: error: is not a history of clsurf")
 # The configuration of a part is found beside the part, wherever the history is.
 clsurf_cli_test(NAME record_with_the_configuration_of_the_part

@@ -40,7 +40,7 @@ clsurf_cli_test(NAME optimize_five_axes_refuses SETUP "${crowded5}; sed -i 's/^X
 clsurf_cli_test(NAME optimize_five_axes_on_three SETUP "${crowded5}" ARGS optimize part.nc --machine @DATA@/machines/three_axis_mill.toml -o better.nc
   EXIT 3 STDERR "part.nc:4: error: a rotary axis moves" "hint: --machine FILE with rotary axes" NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_work_offset_of_three_axes ARGS optimize ${uneven} --work-offset 1,2,3 -o better.nc EXIT 2 STDERR "for programs on rotary axes" NO_FILE better.nc)
-clsurf_cli_test(NAME optimize_log_options_without_a_log ARGS optimize ${uneven} --period 0.001 -o better.nc EXIT 2 STDERR "--period is of a log" NO_FILE better.nc)
+clsurf_cli_test(NAME optimize_log_options_without_a_log ARGS optimize ${uneven} --period 0.001 -o better.nc EXIT 2 STDERR "--period needs --log" NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_wrong_time ARGS optimize ${uneven} --more-time -3 -o better.nc EXIT 2 STDERR "--more-time must be 0 to 100 %" NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_wrong_decimals ARGS optimize ${uneven} --decimals 12 -o better.nc EXIT 2 STDERR "--decimals must be 0 to 9" NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_refuses_what_is_not SETUP "printf 'G21 G90\nG0 X0 Y0 Z0\nG1 X10 F600 (A)\nY0.3 (B)\nX0 (C)\nY0.6 (D)\nX10 (E)\nY0.9 (F)\nX0 (G)\nM2\n' > a.nc"

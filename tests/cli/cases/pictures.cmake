@@ -56,7 +56,7 @@ clsurf_cli_test(NAME query_names_the_limit_of_a_simulated_log
 clsurf_cli_test(NAME plot_defect ARGS plot ${bottle} --tool none --defect 1 -o card.png --size 800x380 FILE card.png)
 clsurf_cli_test(NAME plot_defect_with_a_tool
   SETUP "$CLSURF plot @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip --tool ball:6 --defect 1 -o card.svg -q && python3 ${CMAKE_CURRENT_LIST_DIR}/../read_svg.py card.svg images 1 'contact X' 'formed [0-9.]+ µm (deep|high)' '^feed$' '^[0-9.]+ mm$' '^X$'"
-  ARGS plot ${bottle} --tool ball:6 -o curve.png EXIT 2 STDERR "--tool is of --profile and --defect")
+  ARGS plot ${bottle} --tool ball:6 -o curve.png EXIT 2 STDERR "--tool needs --profile or --defect")
 clsurf_cli_test(NAME plot_defect_without_a_tool SETUP "$CLSURF plot @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip --tool none --defect 1 -o card.svg -q && grep -q 'tool tip X' card.svg" ARGS --version)
 clsurf_cli_test(NAME plot_defect_of_a_region ARGS plot ${bottle} --tool none --defect 6 -o card.png --size 800x380 FILE card.png)
 # The sentence of a systematic lag is longer than the card is wide: both lines together have all of it.

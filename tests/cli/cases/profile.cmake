@@ -41,7 +41,7 @@ clsurf_cli_test(NAME profile_of_space SETUP "printf 'x,y,z\\n0,1,2\\n1,2,3\\n2,3
 clsurf_cli_test(NAME profile_degree_of_c1 SETUP "${few}" ARGS profile m.csv --degree 1 -o c.nc EXIT 2 STDERR "--degree of --join c1 must be from 2 to 9")
 clsurf_cli_test(NAME profile_short_window SETUP "${few}" ARGS profile m.csv --window 3 -o c.nc EXIT 2 STDERR "--window must be at least 4 points for degree 3")
 clsurf_cli_test(NAME profile_ball_over_jumps SETUP "${few}" ARGS profile m.csv --join none --tool-offset 2 -o c.nc EXIT 2 STDERR "needs a profile without jumps")
-clsurf_cli_test(NAME profile_splines_of_fanuc SETUP "${few}" ARGS profile m.csv --blocks splines --dialect fanuc -o c.nc EXIT 2 STDERR "is of siemens and klartext, not of fanuc")
+clsurf_cli_test(NAME profile_splines_of_fanuc SETUP "${few}" ARGS profile m.csv --blocks splines --dialect fanuc -o c.nc EXIT 2 STDERR "does not apply to fanuc, only to siemens and klartext")
 clsurf_cli_test(NAME profile_unknown_dialect SETUP "${few}" ARGS profile m.csv --dialect rs -o c.nc EXIT 2 STDERR "rs")
 clsurf_cli_test(NAME profile_over_its_scan SETUP "${few}" ARGS profile m.csv --degree 2 --window 3 -o m.csv EXIT 2)
 

@@ -29,11 +29,11 @@ clsurf_cli_test(NAME tradeoff_of_the_kernel SETUP "${waves}" ARGS simulate part.
 # On five axes, too.
 clsurf_cli_test(NAME tradeoff_five_axes ARGS simulate @DATA@/programs/dome_five_axis.nc --machine @DATA@/machines/five_axis_trunnion.toml --runs 3 --weight 1 --settings best.toml
   STDOUT "as the machine file" "feed 95 %" FILE best.toml)
-clsurf_cli_test(NAME tradeoff_output_without_weight ARGS simulate part.nc --tradeoff front.png -o run.biip EXIT 2 STDERR "--output with --tradeoff is of the settings that are chosen" "give --weight" NO_FILE front.png)
+clsurf_cli_test(NAME tradeoff_output_without_weight ARGS simulate part.nc --tradeoff front.png -o run.biip EXIT 2 STDERR "--output with --tradeoff writes the settings that are chosen" "give --weight" NO_FILE front.png)
 clsurf_cli_test(NAME tradeoff_wrong_weight ARGS simulate part.nc --weight 1.5 EXIT 2 STDERR "--weight must be 0 .time alone. to 1 .surface alone.")
 clsurf_cli_test(NAME tradeoff_wrong_ending ARGS simulate part.nc --tradeoff front.biip EXIT 2 STDERR "--tradeoff" ".csv")
 clsurf_cli_test(NAME tradeoff_to_standard_output ARGS simulate part.nc --tradeoff - EXIT 2 STDERR "--tradeoff writes a file, not standard output")
-clsurf_cli_test(NAME tradeoff_settings_alone ARGS simulate part.nc --settings best.toml -o run.biip EXIT 2 STDERR "--settings is of --tradeoff and --weight")
+clsurf_cli_test(NAME tradeoff_settings_alone ARGS simulate part.nc --settings best.toml -o run.biip EXIT 2 STDERR "--settings needs --tradeoff or --weight")
 clsurf_cli_test(NAME tradeoff_controller ARGS simulate part.nc --tradeoff f.png --controller "x {program} {log}" EXIT 2 STDERR "does not go with --controller")
 clsurf_cli_test(NAME tradeoff_one_pass SETUP "printf 'G21 G90\\nG1 X50 F3000\\nM2\\n' > part.nc" ARGS simulate part.nc --tradeoff front.png EXIT 3 STDERR "has no adjacent passes" NO_FILE front.png)
 clsurf_cli_test(NAME tradeoff_overwrites_nothing SETUP "${waves}" ARGS simulate part.nc --weight 0.5 --runs 3 --settings part.nc EXIT 2 NO_FILE run.biip)
