@@ -83,29 +83,30 @@ std::string encode_image(const Image& image, const std::string& description, std
     return bytes;
 }
 
-namespace {
+namespace {}  // namespace
 
-/// `row_of(y)`: row y from the top, 3 · factor · width values.
-template <typename RowOf>
-Image mean_of(int width, int height, int factor, const RowOf& row_of) {
+// The mean is taken of the stored values, not of light: dark text and lines on white stay as heavy as
+// they are without supersampling, where a mean of light would thin them.
+Image shrink_from_below(const std::uint8_t* rgb, int width, int height, int factor) {
     Image small;
-    small.width = width;
-    small.height = height;
-    const std::size_t values = 3 * static_cast<std::size_t>(width);
-    small.rgb.resize(values * static_cast<std::size_t>(height));
+    small.width = width / factor;
+    small.height = height / factor;
+    const std::size_t row = 3 * static_cast<std::size_t>(width);
+    const std::size_t values = 3 * static_cast<std::size_t>(small.width);
+    small.rgb.resize(values * static_cast<std::size_t>(small.height));
     const int count = factor * factor;
     const auto step = static_cast<std::size_t>(factor);
-    parallel_for(height, 32, [&](std::int64_t first, std::int64_t last) {
+    parallel_for(small.height, 32, [&](std::int64_t first, std::int64_t last) {
         std::vector<std::uint16_t> sums(values * step);
         for (int y = static_cast<int>(first); y < static_cast<int>(last); ++y) {
             std::fill(sums.begin(), sums.end(), std::uint16_t{0});
             for (int dy = 0; dy < factor; ++dy) {
-                const std::uint8_t* in = row_of(y * factor + dy);
+                const std::uint8_t* in = rgb + static_cast<std::size_t>(height - 1 - y * factor - dy) * row;
                 for (std::size_t k = 0; k < sums.size(); ++k) sums[k] = static_cast<std::uint16_t>(sums[k] + in[k]);
             }
             std::uint8_t* out = small.rgb.data() + static_cast<std::size_t>(y) * values;
             const std::uint16_t* sum = sums.data();
-            for (int x = 0; x < width; ++x, out += 3, sum += 3 * step) {
+            for (int x = 0; x < small.width; ++x, out += 3, sum += 3 * step) {
                 for (std::size_t k = 0; k < 3; ++k) {
                     int total = count / 2;
                     for (std::size_t dx = 0; dx < step; ++dx) total += sum[3 * dx + k];
@@ -115,21 +116,6 @@ Image mean_of(int width, int height, int factor, const RowOf& row_of) {
         }
     });
     return small;
-}
-
-}  // namespace
-
-// The mean is taken of the stored values, not of light: dark text and lines on white stay as heavy as
-// they are without supersampling, where a mean of light would thin them.
-Image shrink(const Image& image, int factor) {
-    if (factor == 1) return image;
-    return mean_of(image.width / factor, image.height / factor, factor, [&](int y) { return image.pixel(0, y); });
-}
-
-Image shrink_from_below(const std::uint8_t* rgb, int width, int height, int factor) {
-    const std::size_t row = 3 * static_cast<std::size_t>(width);
-    return mean_of(width / factor, height / factor, factor,
-                   [&](int y) { return rgb + static_cast<std::size_t>(height - 1 - y) * row; });
 }
 
 Image stacked(Image upper, const Image& lower) {

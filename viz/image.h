@@ -39,9 +39,8 @@ struct Image {
 /// installed OpenImageIO cannot write it.
 [[nodiscard]] std::string encode_image(const Image& image, const std::string& description, std::string_view format);
 
-/// The mean of each `factor` × `factor` pixels. Domain: both sizes divisible.
-[[nodiscard]] Image shrink(const Image& image, int factor);
-/// The same of RGB rows that begin at the bottom, as OpenGL has them.
+/// The mean of each `factor` × `factor` pixels, of RGB rows that begin at the bottom, as OpenGL has them. Domain: both sizes
+/// divisible.
 [[nodiscard]] Image shrink_from_below(const std::uint8_t* rgb, int width, int height, int factor);
 
 /// One image over another one of the same width.

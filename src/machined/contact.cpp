@@ -37,9 +37,4 @@ Vec3 contact_offset(const CuttingTool& tool, const Vec3& normal, const Vec3& axi
     return offset;
 }
 
-double contact_radius(const CuttingTool& tool, const Vec3& normal) {
-    const double bottom = tool.radius - tool.corner;
-    return bottom > 0 ? tool.corner + bottom / std::hypot(normal.x(), normal.y()) : tool.corner;
-}
-
 }  // namespace clsurf

@@ -22,8 +22,4 @@ namespace clsurf {
 /// The same of a tool whose axis is any unit vector `axis`, normal · axis ≥ 0.
 [[nodiscard]] Vec3 contact_offset(const CuttingTool& tool, const Vec3& normal, const Vec3& axis);
 
-/// The larger radius [mm] of the two in which the tool is curved where it touches: c + (R − c)/sin θ,
-/// θ between normal and axis; infinite for a flat bottom on a level surface.
-[[nodiscard]] double contact_radius(const CuttingTool& tool, const Vec3& normal);
-
 }  // namespace clsurf

@@ -38,7 +38,4 @@ double cusp_height(double ball, double chord, double turn) {
     return scallop_height(ball, chord, 1 / curvature);
 }
 
-double scallop_ra(double height) { return 4 * height / (9 * std::sqrt(3.0)); }
-double scallop_rq(double height) { return height * std::sqrt(4.0 / 45.0); }
-
 }  // namespace clsurf

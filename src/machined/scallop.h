@@ -1,6 +1,5 @@
 #pragma once
-// Scallop of ball-end passes in closed form, and what it gives as roughness. Exact circles, not the
-// parabola; ISO 4287 names.
+// Scallop of ball-end passes in closed form. Exact circles, not the parabola.
 
 namespace clsurf {
 
@@ -13,10 +12,5 @@ namespace clsurf {
 /// The same between two contact points, `chord` [mm] apart across the feed. `turn` [mm]: the difference of their normals times
 /// the chord as a vector, which tells the curvature; > 0: convex. NaN: passes do not meet, the ball gouges, or nothing is known.
 [[nodiscard]] double cusp_height(double ball, double chord, double turn);
-
-/// Ra of a periodic profile of parabolas of height h: 4 h / (9 √3). Same unit as h.
-[[nodiscard]] double scallop_ra(double height);
-/// Rq of the same profile: h √(4/45).
-[[nodiscard]] double scallop_rq(double height);
 
 }  // namespace clsurf

@@ -11,6 +11,7 @@
 #include "machined/scallop.h"
 #include "mapping/map_lines.h"
 #include "planted_score.h"
+#include "support/scallop_roughness.h"
 #include "surface/smoothing_segments.h"
 #include "surface/stitch.h"
 
@@ -124,8 +125,8 @@ TEST(AsMachinedReport, RoughnessOfACleanPartIsThatOfItsScallops) {
         EXPECT_NEAR(mean, clean.result.roughness.rz, 1e-12);
         EXPECT_NEAR(clean.result.roughness.rz, h,
                     0.15 * h);  // the surface's own roundness is 4 %, the log's micrometre the rest
-        EXPECT_NEAR(clean.result.roughness.ra, scallop_ra(h), 0.1 * scallop_ra(h));
-        EXPECT_NEAR(clean.result.roughness.sa, scallop_ra(h), 0.1 * scallop_ra(h));
+        EXPECT_NEAR(clean.result.roughness.ra, test::scallop_ra(h), 0.1 * test::scallop_ra(h));
+        EXPECT_NEAR(clean.result.roughness.sa, test::scallop_ra(h), 0.1 * test::scallop_ra(h));
     }
 }
 

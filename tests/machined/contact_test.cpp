@@ -65,12 +65,5 @@ TEST(Contact, TheOutlineEndsAtTheRadius) {
         EXPECT_EQ(outline_height(tool, 5.01), std::numeric_limits<double>::infinity());
 }
 
-TEST(Contact, TheLargerRadiusIsThatOfTheTorus) {
-    EXPECT_DOUBLE_EQ(contact_radius(ball, tilted), 3);
-    EXPECT_DOUBLE_EQ(contact_radius(bull, tilted), 1 + 4 / 0.6);
-    EXPECT_DOUBLE_EQ(contact_radius(flat, tilted), 4 / 0.6);
-    EXPECT_EQ(contact_radius(flat, Vec3::UnitZ()), std::numeric_limits<double>::infinity());
-}
-
 }  // namespace
 }  // namespace clsurf::contact_test

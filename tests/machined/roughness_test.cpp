@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "machined/scallop.h"
+#include "support/scallop_roughness.h"
 
 namespace clsurf::roughness_test {
 namespace {
@@ -67,11 +68,11 @@ TEST(Roughness, ParabolasHaveTheRoughnessOfTheBooks) {
         z.push_back(height * x * x);
     }
     const ProfileHeights h = profile_heights(z);
-    EXPECT_NEAR(h.ra, scallop_ra(height), 1e-7);
-    EXPECT_NEAR(h.rq, scallop_rq(height), 1e-7);
+    EXPECT_NEAR(h.ra, test::scallop_ra(height), 1e-7);
+    EXPECT_NEAR(h.rq, test::scallop_rq(height), 1e-7);
     EXPECT_NEAR(h.rz, height, 1e-7);
     const Roughness r = roughness_of(z, 0.0001, 0.8);
-    EXPECT_NEAR(r.ra, scallop_ra(height), 0.01 * scallop_ra(height));
+    EXPECT_NEAR(r.ra, test::scallop_ra(height), 0.01 * test::scallop_ra(height));
     EXPECT_NEAR(r.rz, height, 0.01 * height);
 }
 

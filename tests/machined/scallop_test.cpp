@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "support/scallop_roughness.h"
+
 namespace clsurf::scallop_test {
 namespace {
 
@@ -31,8 +33,8 @@ TEST(Scallop, IsThatOfTheCircles) {
     for (const Case& c : cases) {
         const double h = scallop_height(c.ball, c.step_over, c.rho);
         EXPECT_NEAR(h, c.height, 1e-9 + 1e-6 * c.height);
-        EXPECT_NEAR(scallop_ra(h), c.ra, 1e-9 + 1e-6 * c.ra);
-        EXPECT_NEAR(scallop_rq(h), c.rq, 1e-9 + 1e-6 * c.rq);
+        EXPECT_NEAR(test::scallop_ra(h), c.ra, 1e-9 + 1e-6 * c.ra);
+        EXPECT_NEAR(test::scallop_rq(h), c.rq, 1e-9 + 1e-6 * c.rq);
     }
 }
 
