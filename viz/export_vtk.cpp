@@ -125,7 +125,8 @@ void write_poly(const std::string& path, vtkPolyData& poly) {
     const bool written = writer->Write() != 0 && writer->GetErrorCode() == vtkErrorCode::NoError;
     vtkObject::SetGlobalWarningDisplay(warnings);
     if (!written)
-        throw SystemError(path + ": cannot write: " + vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
+        throw SystemError(std::string("VTK cannot write: ") +
+                          vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
 }
 
 void write_piece(const std::string& path, VtkPiece& piece, const std::vector<PointData>& data, bool marks_ghosts) {

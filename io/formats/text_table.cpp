@@ -219,9 +219,12 @@ char detect_separator(std::string_view line) {
     constexpr std::string_view separators = "\t;,";
     std::size_t best = separators.size();
     bool quoted = false;
+    char before = separators.front();
     for (const char c : line) {
-        if (c == '"') quoted = !quoted;
+        const bool begins_field = before == ' ' || separators.find(before) != std::string_view::npos;
+        if (c == '"' && (quoted || begins_field)) quoted = !quoted;
         if (!quoted) best = std::min(best, separators.find(c));
+        before = c;
     }
     return best < separators.size() ? separators[best] : ' ';
 }

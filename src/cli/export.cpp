@@ -25,10 +25,12 @@ void write_vtk(const std::string& path, bool hdf, const ClSurface& surface,
     std::vector<viz::PointData> data;
     for (const io::ExportColumn& column : columns) data.push_back(point_data_of(column));
     io::AtomicFile file(path);
-    if (hdf)
-        write_hdf(path, [&] { viz::write_vtkhdf(file.temporary_path(), surface, data); });
-    else
-        viz::write_vtp(file.temporary_path(), surface, data);
+    write_named(path, [&] {
+        if (hdf)
+            viz::write_vtkhdf(file.temporary_path(), surface, data);
+        else
+            viz::write_vtp(file.temporary_path(), surface, data);
+    });
     file.commit();
 }
 

@@ -31,12 +31,13 @@ namespace clsurf::cli {
 /// for which nothing is missing, then channels of the log.
 [[nodiscard]] std::vector<io::ListingRow> exportable_columns(const Part& part, const ClSurface& surface);
 
-/// Runs what writes HDF5 into the file of an output, and names the output where that fails: HDF5 does not. Throws SystemError.
+/// Runs what VTK or HDF5 writes for an output, and names the output where that fails: they know its temporary file only.
+/// Throws SystemError.
 template <typename Write>
-void write_hdf(const std::string& output, const Write& write) {
+void write_named(const std::string& output, const Write& write) {
     try {
         write();
-    } catch (const SystemError& error) { throw SystemError(output + ": cannot write: " + error.what()); }
+    } catch (const SystemError& error) { throw SystemError(output + ": " + error.what()); }
 }
 
 }  // namespace clsurf::cli

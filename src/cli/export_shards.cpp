@@ -38,7 +38,7 @@ ExitCode merge_pieces(const po::variables_map& values) {
     if (hdf) {
         for (const std::string& piece : pieces)
             (void)io::map_file(piece);  // refuses the output, and what cannot be read
-        write_hdf(output, [&] { viz::merge_vtkhdf(file.temporary_path(), pieces); });
+        write_named(output, [&] { viz::merge_vtkhdf(file.temporary_path(), pieces); });
     } else {
         file.write(io::pvtp_text(pieces, std::filesystem::path(output).parent_path().string()));
     }
@@ -68,11 +68,12 @@ ExitCode write_shard(const PartOptions& options, const ShardNumber& shard, const
     std::vector<viz::PointData> data;
     for (const io::ExportColumn& column : columns) data.push_back(point_data_of(column));
     io::AtomicFile file(output);
-    if (format == "vtkhdf")
-        write_hdf(output,
-                  [&] { viz::write_vtkhdf(file.temporary_path(), std::move(piece), own, log.survey.points, data); });
-    else
-        viz::write_vtp(file.temporary_path(), std::move(piece), data);
+    write_named(output, [&] {
+        if (format == "vtkhdf")
+            viz::write_vtkhdf(file.temporary_path(), std::move(piece), own, log.survey.points, data);
+        else
+            viz::write_vtp(file.temporary_path(), std::move(piece), data);
+    });
     file.commit();
     return ExitCode::done;
 }
