@@ -22,8 +22,7 @@ namespace {
 
 void write_vtk(const std::string& path, bool hdf, const ClSurface& surface,
                const std::vector<io::ExportColumn>& columns) {
-    std::vector<viz::PointData> data;
-    for (const io::ExportColumn& column : columns) data.push_back(point_data_of(column));
+    const std::vector<viz::PointData> data = point_data_of(columns);
     io::AtomicFile file(path);
     write_named(path, [&] {
         if (hdf)

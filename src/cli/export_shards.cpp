@@ -15,10 +15,17 @@
 
 namespace clsurf::cli {
 
-viz::PointData point_data_of(const io::ExportColumn& column) {
-    if (!column.counts.empty()) return {column.name, &column.counts};
-    if (!column.exact.empty()) return {column.name, &column.exact};
-    return {column.name, &column.values};
+std::vector<viz::PointData> point_data_of(const std::vector<io::ExportColumn>& columns) {
+    std::vector<viz::PointData> data;
+    for (const io::ExportColumn& column : columns) {
+        if (!column.counts.empty())
+            data.push_back({column.name, &column.counts});
+        else if (!column.exact.empty())
+            data.push_back({column.name, &column.exact});
+        else
+            data.push_back({column.name, &column.values});
+    }
+    return data;
 }
 
 void declare_export_shards(po::options_description& options) {
@@ -65,8 +72,7 @@ ExitCode write_shard(const PartOptions& options, const ShardNumber& shard, const
     viz::VtkPiece piece = viz::piece_of(with_neighbours, own);
     const std::vector<io::ExportColumn> columns = exported_columns(names, part, surface, with_neighbours.ranges,
                                                                    std::span(piece.points.data(), piece.points.size()));
-    std::vector<viz::PointData> data;
-    for (const io::ExportColumn& column : columns) data.push_back(point_data_of(column));
+    const std::vector<viz::PointData> data = point_data_of(columns);
     io::AtomicFile file(output);
     write_named(output, [&] {
         if (format == "vtkhdf")

@@ -10,8 +10,8 @@
 
 namespace clsurf::cli {
 
-/// A column as VTK files have it. Not copied.
-[[nodiscard]] viz::PointData point_data_of(const io::ExportColumn& column);
+/// Columns as VTK files have them. Not copied: they must outlive the result.
+[[nodiscard]] std::vector<viz::PointData> point_data_of(const std::vector<io::ExportColumn>& columns);
 
 /// --survey, --shard, --merge.
 void declare_export_shards(po::options_description& options);
