@@ -39,7 +39,7 @@ clsurf_cli_test(NAME optimize_five_axes_refuses SETUP "${crowded5}; sed -i 's/^X
   EXIT 1 STDOUT "refused: no section of the program can be rewritten" "tool axis deviates from the programmed one by at most 0.0000 deg" NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_five_axes_on_three SETUP "${crowded5}" ARGS optimize part.nc --machine @DATA@/machines/three_axis_mill.toml -o better.nc
   EXIT 3 STDERR "part.nc:4: error: a rotary axis moves" "hint: --machine FILE with rotary axes" NO_FILE better.nc)
-clsurf_cli_test(NAME optimize_work_offset_of_three_axes ARGS optimize ${uneven} --work-offset 1,2,3 -o better.nc EXIT 2 STDERR "for programs on rotary axes" NO_FILE better.nc)
+clsurf_cli_test(NAME optimize_work_offset_of_three_axes ARGS optimize ${uneven} --work-offset 1,2,3 -o better.nc EXIT 2 STDERR "--work-offset needs --log, or a program that moves rotary axes" NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_log_options_without_a_log ARGS optimize ${uneven} --period 0.001 -o better.nc EXIT 2 STDERR "--period needs --log" NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_wrong_time ARGS optimize ${uneven} --more-time -3 -o better.nc EXIT 2 STDERR "--more-time must be 0 to 100 %" NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_wrong_decimals ARGS optimize ${uneven} --decimals 12 -o better.nc EXIT 2 STDERR "--decimals must be 0 to 9" NO_FILE better.nc)
