@@ -56,7 +56,7 @@ std::string correction_text(const CorrectedPass& corrected) {
     return fmt::format(
         "  deviations of {}: corrected by at most {:.4f} mm, at X {:.6g}; they scatter by {:.2g} mm rms about their fit, {} "
         "rejected\n",
-        corrected.program, by.greatest, by.greatest_x, by.scatter, by.deviations.rejected.size());
+        corrected.program, by.greatest, by.greatest_x, by.residuals.rms, by.deviations.rejected.size());
 }
 
 }  // namespace
@@ -67,9 +67,8 @@ std::string_view name_of(WindowJoin join) {
 }
 
 ScanResiduals residuals_of(const CutReport& report, const ScanCut& cut) {
-    if (!report.corrected) return {cut.scan, cut.residuals, cut.rms, cut.worst, cut.worst_x};
-    const Compensation& by = report.corrected->by;
-    return {by.deviations, by.residuals, by.scatter, by.worst, by.worst_x};
+    if (!report.corrected) return {cut.scan, cut.residuals};
+    return {report.corrected->by.deviations, report.corrected->by.residuals};
 }
 
 std::string cut_text(const CutReport& report, const ScanCut& cut) {
@@ -81,8 +80,8 @@ std::string cut_text(const CutReport& report, const ScanCut& cut) {
     text += "\n" + (report.corrected ? correction_text(*report.corrected) : rejected_text(report, cut));
     text += fmt::format(
         "  fit of degree {}, windows of {} points, join {}: residual {:.4f} mm rms, {:.4f} mm at most, at X {:.6g}\n",
-        report.rules.fit.degree, report.rules.fit.window, name_of(report.rules.fit.join), fit.rms, fit.worst,
-        fit.worst_x);
+        report.rules.fit.degree, report.rules.fit.window, name_of(report.rules.fit.join), fit.residuals.rms,
+        fit.residuals.worst, fit.residuals.worst_x);
     const Jumps jumps = jumps_of(cut.fit);
     if (report.rules.fit.join == WindowJoin::none && jumps.count > 0)
         text += fmt::format("  it jumps between windows at {} places: {:.4f} mm rms, {:.4f} mm at most, at X {:.6g}\n",
@@ -113,9 +112,9 @@ std::string cut_json(const CutReport& report, const ScanCut& cut, const Diagnost
               {"join", name_of(report.rules.fit.join)},
               {"pieces", cut.fit.pieces.size()},
               {"x_mm", Json::array({number(cut.scan.x.front()), number(cut.scan.x.back())})},
-              {"rms_residual_mm", number(cut.rms)},
-              {"max_residual_mm", number(cut.worst)},
-              {"max_residual_at_mm", number(cut.worst_x)},
+              {"rms_residual_mm", number(cut.residuals.rms)},
+              {"max_residual_mm", number(cut.residuals.worst)},
+              {"max_residual_at_mm", number(cut.residuals.worst_x)},
               {"window_jumps",
                {{"count", jumps.count},
                 {"rms_mm", number(jumps.rms)},
@@ -133,7 +132,7 @@ std::string cut_json(const CutReport& report, const ScanCut& cut, const Diagnost
         json["compensation"] = {{"program", report.corrected->program},
                                 {"max_mm", number(by.greatest)},
                                 {"max_at_mm", number(by.greatest_x)},
-                                {"scatter_mm", number(by.scatter)},
+                                {"scatter_mm", number(by.residuals.rms)},
                                 {"rejected_mm", points_json(by.deviations.rejected)}};
     }
     return dump(json);

@@ -27,15 +27,13 @@ struct CutReport {
     std::optional<CorrectedPass> corrected;  ///< the scan has deviations then
 };
 
-/// The points that the user's rules were fitted to, and what is left of them.
+/// The points that the fit was made to, and its residuals.
 struct ScanResiduals {
     const CleanScan& scan;
-    const std::vector<double>& residuals;  ///< [mm] of the points that are kept
-    double rms = 0, worst = 0;             ///< [mm] of them
-    double worst_x = 0;                    ///< [mm]
+    const FitResiduals& residuals;
 };
 
-/// Of a corrected pass they are of the deviations, and `cut` is of the profile that it aims at.
+/// Those of the scan. If a pass was corrected, those of the deviations: `cut` is then the profile to aim at.
 [[nodiscard]] ScanResiduals residuals_of(const CutReport& report, const ScanCut& cut);
 
 [[nodiscard]] std::string cut_text(const CutReport& report, const ScanCut& cut);

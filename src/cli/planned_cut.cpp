@@ -39,11 +39,11 @@ PlannedCut planned_cut(const MeasuredData& data, const ProfileOptions& options) 
     // The profile is dense and has no outliers: a short window follows it.
     const ScanCutRules follow{0, FitRules(), rules.radius, rules.tolerance};
     ScanCut cut = scan_cut(options.pass, by.target, follow);
-    if (cut.worst > rules.tolerance)
+    if (cut.residuals.worst > rules.tolerance)
         throw InputError(
             Place::of_file(options.pass),
             fmt::format("the corrected profile is met within {:.4f} mm only, at X {:.3f} mm: the tolerance is {:g}",
-                        cut.worst, cut.worst_x, rules.tolerance),
+                        cut.residuals.worst, cut.residuals.worst_x, rules.tolerance),
             "a pass of lines has corners as high as its tolerance: a larger --tolerance");
     return {std::move(cut), tips.y, io::CorrectedPass{options.pass, std::move(by)}};
 }

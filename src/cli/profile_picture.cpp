@@ -16,8 +16,8 @@ void draw_fit(const io::CutReport& report, const ScanCut& cut, PictureOutput& ou
     std::vector<double> measured, fitted, residuals;
     for (std::size_t i = 0; i < fit.scan.x.size(); ++i) {
         measured.push_back(fit.scan.z[i] * scale);
-        fitted.push_back((fit.scan.z[i] - fit.residuals[i]) * scale);
-        residuals.push_back(fit.residuals[i] * um_per_mm);
+        fitted.push_back((fit.scan.z[i] - fit.residuals.values[i]) * scale);
+        residuals.push_back(fit.residuals.values[i] * um_per_mm);
     }
     std::vector<viz::Curve> curves;
     curves.push_back({deviations ? "Fitted deviation (µm)" : "Fit (mm)",
@@ -28,7 +28,8 @@ void draw_fit(const io::CutReport& report, const ScanCut& cut, PictureOutput& ou
     curves.push_back({deviations ? "Measured less fitted (µm)" : "Scanned less fit (µm)", std::move(residuals)});
     viz::ChartLook look;
     look.keep_drawing = output.wants_drawing();
-    look.title = fmt::format("Residual {:.3g} µm rms, {:.3g} µm at most", fit.rms * um_per_mm, fit.worst * um_per_mm);
+    look.title = fmt::format("Residual {:.3g} µm rms, {:.3g} µm at most", fit.residuals.rms * um_per_mm,
+                             fit.residuals.worst * um_per_mm);
     look.subtitle = fmt::format("{} · degree {} · windows of {} points · join {}", file_name(report.scan),
                                 report.rules.fit.degree, report.rules.fit.window, io::name_of(report.rules.fit.join));
     look.x_label = "X (mm)";

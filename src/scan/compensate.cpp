@@ -80,11 +80,7 @@ public:
                             scan_.x.front(), scan_.x.back(), from, to));
     }
     [[nodiscard]] double at(double x) const { return fit_.at(std::clamp(x, scan_.x.front(), scan_.x.back())); }
-    [[nodiscard]] std::vector<double> residuals() const {
-        std::vector<double> residuals;
-        for (std::size_t i = 0; i < scan_.x.size(); ++i) residuals.push_back(scan_.z[i] - fit_.at(scan_.x[i]));
-        return residuals;
-    }
+    [[nodiscard]] FitResiduals residuals() const { return fit_residuals(scan_, fit_); }
     [[nodiscard]] const CleanScan& scan() const { return scan_; }
 
 private:
@@ -139,14 +135,6 @@ Compensation compensate(const std::string& name, std::span<const ScanPoint> devi
     Compensation result;
     result.deviations = deviation.scan();
     result.residuals = deviation.residuals();
-    for (std::size_t i = 0; i < result.residuals.size(); ++i) {
-        const double off = std::abs(result.residuals[i]);
-        result.scatter += off * off;
-        if (off <= result.worst) continue;
-        result.worst = off;
-        result.worst_x = result.deviations.x[i];
-    }
-    result.scatter = std::sqrt(result.scatter / static_cast<double>(result.residuals.size()));
     for (const Vec2& contact : contacts) {
         const double off = deviation.at(contact.x());
         if (std::abs(off) > result.greatest) {

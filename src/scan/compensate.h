@@ -11,6 +11,7 @@
 
 #include "program/program.h"
 #include "scan/clean_scan.h"
+#include "scan/fit_residuals.h"
 #include "scan/windowed_fit.h"
 
 namespace clsurf {
@@ -34,11 +35,9 @@ struct CompensationRules {
 struct Compensation {
     std::vector<ScanPoint> target;  ///< the profile to aim at, in rising x
     CleanScan deviations;
-    std::vector<double> residuals;  ///< [mm] of the deviations that are kept: measured less fitted
-    double greatest = 0;            ///< [mm] correction, without its sign
-    double greatest_x = 0;          ///< [mm]
-    double scatter = 0;             ///< [mm] rms of the residuals
-    double worst = 0, worst_x = 0;  ///< [mm] the greatest of the residuals, without its sign
+    FitResiduals residuals;  ///< of the deviations that are kept
+    double greatest = 0;     ///< [mm] correction, without its sign
+    double greatest_x = 0;   ///< [mm]
 };
 
 /// `deviations`: x and deviation [mm], in rising x. `name`: of their file, for messages. Throws InputError: too few

@@ -1,7 +1,6 @@
 #include "scan/scan_cut.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -54,19 +53,8 @@ ScanCut scan_cut(const std::string& name, std::span<const ScanPoint> points, con
                         "concave radius of the fit is {:.3g} mm",
                         rules.radius, gouge->depth, gouge->x, gouge->least_radius),
             "a smaller ball, or a longer --window, which gives a smoother fit");
-    ScanCut cut{std::move(scan), std::move(fit), {}, 0, 0, 0, std::move(path)};
-    double squares = 0;
-    for (std::size_t i = 0; i < cut.scan.x.size(); ++i) {
-        const double residual = cut.scan.z[i] - cut.fit.at(cut.scan.x[i]);
-        cut.residuals.push_back(residual);
-        squares += residual * residual;
-        if (std::abs(residual) > cut.worst) {
-            cut.worst = std::abs(residual);
-            cut.worst_x = cut.scan.x[i];
-        }
-    }
-    cut.rms = std::sqrt(squares / static_cast<double>(cut.scan.x.size()));
-    return cut;
+    FitResiduals residuals = fit_residuals(scan, fit);
+    return {std::move(scan), std::move(fit), std::move(residuals), std::move(path)};
 }
 
 }  // namespace clsurf

@@ -10,6 +10,7 @@
 #include "core/geometry.h"
 #include "scan/clean_scan.h"
 #include "scan/cut_path.h"
+#include "scan/fit_residuals.h"
 #include "scan/windowed_fit.h"
 
 namespace clsurf {
@@ -33,9 +34,7 @@ struct ScanCutRules {
 struct ScanCut {
     CleanScan scan;
     WindowedFit fit;
-    std::vector<double> residuals;  ///< [mm] of the points that are kept: scanned less fitted
-    double rms = 0, worst = 0;      ///< [mm] of them
-    double worst_x = 0;             ///< [mm]
+    FitResiduals residuals;  ///< of the points that are kept
     CutPath path;
 };
 

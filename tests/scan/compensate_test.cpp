@@ -58,7 +58,7 @@ TEST(Compensate, TakesOffWhatIsTooHigh) {
     const Compensation made = compensate("dev.csv", same_everywhere(0, 50, 0.02), slope(0.1), {});
     for (const ScanPoint& point : made.target) EXPECT_NEAR(point.z, 0.1 * point.x - 0.02, 1e-12);
     EXPECT_NEAR(made.greatest, 0.02, 1e-12);
-    EXPECT_NEAR(made.scatter, 0, 1e-12);
+    EXPECT_NEAR(made.residuals.rms, 0, 1e-12);
 }
 
 TEST(Compensate, FindsTheProfileBelowABall) {
