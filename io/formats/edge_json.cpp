@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/units.h"
 #include "io/formats/edge_recording.h"
 #include "io/formats/line_events.h"
 #include "io/formats/owned_columns.h"
@@ -30,7 +31,6 @@ namespace {
 constexpr double seconds_per_millisecond = 1e-3;
 constexpr std::int64_t deepest_call = 64;
 constexpr const char* unknown_program = "(not recorded)";
-constexpr double full_turn = 360;   ///< [deg]
 constexpr double turn_play = 0.05;  ///< [deg] noise of an encoder
 
 /// Signals whose channel is known; the axis letter follows.
@@ -73,11 +73,11 @@ bool is_rotary(char letter) { return letter >= 'a' && letter <= 'c'; }
 bool wraps_at_a_turn(const std::vector<double>& position, const std::vector<double>& cycles) {
     for (std::size_t i = 2; i + 1 < position.size(); ++i) {
         const double step = position[i] - position[i - 1];
-        if (!(std::abs(step) > full_turn / 2) || cycles[i + 1] - cycles[i - 2] != 3) continue;
+        if (!(std::abs(step) > deg_per_turn / 2) || cycles[i + 1] - cycles[i - 2] != 3) continue;
         // The next step may go back over the end of the turn.
-        const auto [low, high] = std::minmax({std::remainder(position[i - 1] - position[i - 2], full_turn),
-                                              std::remainder(position[i + 1] - position[i], full_turn)});
-        const double moved = step - std::copysign(full_turn, step);
+        const auto [low, high] = std::minmax({std::remainder(position[i - 1] - position[i - 2], deg_per_turn),
+                                              std::remainder(position[i + 1] - position[i], deg_per_turn)});
+        const double moved = step - std::copysign(deg_per_turn, step);
         if (moved >= low - turn_play && moved <= high + turn_play) return true;
     }
     return false;

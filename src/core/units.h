@@ -10,6 +10,7 @@ namespace clsurf {
 inline constexpr double mm_per_inch = 25.4;
 inline constexpr double seconds_per_minute = 60.0;
 inline constexpr double um_per_mm = 1000.0;
+inline constexpr double deg_per_turn = 360.0;
 inline constexpr double rad_per_deg = std::numbers::pi / 180.0;
 inline constexpr double deg_per_rad = 180.0 / std::numbers::pi;
 

@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/units.h"
+
 namespace clsurf {
 namespace {
 
@@ -83,13 +85,11 @@ bool were_floats(const std::vector<double>& values, double step) {
     return nearly_all(values, [&](double value) { return was_float(value, step); });
 }
 
-constexpr double turn_size = 360;  // [deg]
-
 /// The same of a modulo axis whose positions count on (log/turns.h): what lies within a turn was a number of 32 bits.
 bool were_floats_of_a_turn(const std::vector<double>& values, double step) {
     return nearly_all(values, [&](double value) {
-        const double within = value - turn_size * std::floor(value / turn_size);
-        return was_float(within, step) || was_float(within - turn_size, step);
+        const double within = value - deg_per_turn * std::floor(value / deg_per_turn);
+        return was_float(within, step) || was_float(within - deg_per_turn, step);
     });
 }
 
@@ -136,8 +136,8 @@ double resolution_of(const ChannelView& channel) {
     }
     if (channel.type == ScalarType::f64 && were_floats(great, step))
         step = std::max(step, last_place(ScalarType::f32, size));
-    const double place_of_turn = last_place(ScalarType::f32, turn_size);
-    const bool may_be_turns = channel.type == ScalarType::f64 && size > 0.5 * turn_size && step < place_of_turn;
+    const double place_of_turn = last_place(ScalarType::f32, deg_per_turn);
+    const bool may_be_turns = channel.type == ScalarType::f64 && size > 0.5 * deg_per_turn && step < place_of_turn;
     if (may_be_turns && were_floats_of_a_turn(great, step)) step = place_of_turn;
     // An encoder's steps are no decimals.
     const double quantum = quantum_of(channel) / std::abs(channel.scale);

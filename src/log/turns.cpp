@@ -13,18 +13,18 @@
 #include "core/block.h"
 #include "core/column.h"
 #include "core/counted.h"
+#include "core/units.h"
 
 namespace clsurf {
 namespace {
 
-constexpr double whole_turn = 360;     // [deg]
 constexpr double end_rounding = 1e-3;  // [deg] of positions at both ends of a turn
 constexpr double longest_rest = 90;    // [deg] more in a period is no motion that a wrap can be told from
 constexpr double still = 0.05;         // [deg] noise of an axis that stands where it wraps
-constexpr double most_stretched = 2;   // times the steps beside it
+constexpr double most_stretched = 2;   // a wrap may be so many times as long as the steps before and after it
 
-/// Of a step, what is left of it on the shorter way.
-double shorter_way(double step) { return step - whole_turn * std::round(step / whole_turn); }
+/// The same step on the shorter way round [deg].
+double shorter_way(double step) { return std::remainder(step, deg_per_turn); }
 
 /// What a channel does in some records.
 struct TurnSummary {
@@ -37,12 +37,12 @@ struct TurnSummary {
         if (wraps == 0) first_wrap = next.first_wrap;
         wraps += next.wraps;
     }
-    [[nodiscard]] bool is_modulo() const { return wraps > 0 && high - low <= whole_turn + end_rounding; }
+    [[nodiscard]] bool is_modulo() const { return wraps > 0 && high - low <= deg_per_turn + end_rounding; }
 };
 
 bool is_wrap(double last_step, double step, double next_step) {
     const double rest = std::abs(shorter_way(step));
-    if (!(std::abs(step) > whole_turn / 2) || !(rest < longest_rest)) return false;
+    if (!(std::abs(step) > deg_per_turn / 2) || !(rest < longest_rest)) return false;
     const double beside = std::max(std::abs(shorter_way(last_step)), std::abs(shorter_way(next_step)));
     return rest <= std::max(still, most_stretched * beside);
 }
@@ -119,7 +119,7 @@ struct TurnColumns {
             if (std::isfinite(last)) position = last + shorter_way(position - last);
             last = position;
         }
-        const double counts_of_turn = whole_turn / channel.scale;
+        const double counts_of_turn = deg_per_turn / channel.scale;
         // Whole counts stay what they are: the rounding of positions is known from them.
         if (channel.type < ScalarType::f32 && std::abs(counts_of_turn - std::round(counts_of_turn)) < 1e-6) {
             Column<std::int64_t>& column = counts.emplace_back(positions.size());

@@ -5,10 +5,10 @@
 
 namespace clsurf {
 
-/// Lets the positions of such axes count on beyond a turn, in all roles alike, with a note `log.modulo` for each axis. An
-/// axis is one if all its values lie within a turn and some step is that of a wrap: less a turn it is as long as those
-/// beside it. Then each step goes the shorter way. The log has its positions in degrees. O(records), parallel; new columns
-/// only of axes that wrap.
+/// Makes the positions of such axes [deg] count on beyond a turn, in all roles alike, and adds a note `log.modulo` for each
+/// axis. An axis is a modulo axis if all its values lie within one turn and at least one step is a wrap: without the turn,
+/// it is as long as the steps before and after it. Every step is then taken the shorter way round. O(records), in parallel;
+/// only axes that wrap get new columns.
 void count_turns_on(Log& log);
 
 }  // namespace clsurf
