@@ -254,7 +254,7 @@ bool takes(Cursor& c, std::string_view words) {
 /// X+10 F100: a block of one axis, without L.
 bool begins_with_axis(std::string_view text) {
     const std::size_t at = text.starts_with('I') ? 1 : 0;
-    return text.size() > at + 1 && std::string_view("XYZABCUVW").find(text[at]) != std::string_view::npos &&
+    return text.size() > at + 1 && is_axis_letter(text[at]) &&
            (text[at + 1] == '+' || text[at + 1] == '-' || is_digit(text[at + 1]));
 }
 

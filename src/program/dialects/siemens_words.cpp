@@ -280,8 +280,7 @@ void Interpreter::apply_keyword(const Keyword& keyword, Block& block) {
     }
     const int repeats = block.words.given('P') ? static_cast<int>(std::clamp(block.words.of('P'), 1.0, 9999.0)) : 1;
     if (call_siemens(name, keyword, repeats)) return;
-    if (name.size() == 1 && std::string_view("XYZABCUVW").find(name[0]) != std::string_view::npos)
-        fail(name + " has no value", keyword.column);
+    if (name.size() == 1 && is_axis_letter(name[0])) fail(name + " has no value", keyword.column);
     note(Severity::warning, "program.unknown-word", "'" + name + "' is not known", keyword.column);
 }
 

@@ -27,14 +27,13 @@ bool is_curve_elsewhere(int code) {
 
 /// "X1=" of siemens: an axis of the machine by its name.
 bool is_numbered_axis(std::string_view word) {
-    return word.size() > 2 && word.back() == '=' &&
-           std::string_view("XYZABCUVW").find(word.front()) != std::string::npos &&
+    return word.size() > 2 && word.back() == '=' && is_axis_letter(word.front()) &&
            word.find_first_not_of("0123456789", 1) == word.size() - 1;
 }
 
 /// "Y" alone, or in "YF100" before another word: an axis without its value.
 bool is_axis_without_value(std::string_view word) {
-    if (word.empty() || std::string_view("XYZABCUVW").find(upper(word.front())) == std::string_view::npos) return false;
+    if (word.empty() || !is_axis_letter(upper(word.front()))) return false;
     return word.size() == 1 || (word.size() > 2 && is_letter(word[1]) && !is_letter(word[2]));
 }
 

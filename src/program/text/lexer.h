@@ -65,6 +65,10 @@ enum class PlainResult : std::uint8_t {
 /// Letters folded to upper case.
 [[nodiscard]] constexpr char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; }
 [[nodiscard]] constexpr bool is_letter(char c) { return upper(c) >= 'A' && upper(c) <= 'Z'; }
+/// A capital letter that names an axis.
+[[nodiscard]] constexpr bool is_axis_letter(char c) {
+    return std::string_view("XYZABCUVW").find(c) != std::string_view::npos;
+}
 [[nodiscard]] constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 [[nodiscard]] constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
