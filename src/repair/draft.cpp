@@ -6,13 +6,15 @@
 
 #include "repair/line_edit.h"
 #include "repair/points/resample.h"
+#include "simulation/path/block_merging.h"
 
 namespace clsurf {
 
-Drafter::Drafter(const Program& program, const ReadProgram& read, const OptimizeRules& rules, bool slows_anywhere,
-                 const Orientation* orientation)
+Drafter::Drafter(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules,
+                 bool slows_anywhere, const Orientation* orientation)
     : program_(program),
       read_(read),
+      machine_(machine),
       rules_(rules),
       slows_anywhere_(slows_anywhere),
       orientation_(orientation),
@@ -55,12 +57,24 @@ Draft Drafter::draft(const DraftLines& lines, std::vector<std::uint8_t> needed) 
     const auto motions = static_cast<std::size_t>(draft.program.motions.size());
     if (!draft.may_slow.empty() && draft.may_slow.size() != motions)
         throw std::logic_error(fmt::format("a draft has {} motions, not {}", motions, draft.may_slow.size()));
+    draft.merged = merged(draft.program);
     draft.segments = segments.size();
     draft.changed_lines = editor.changed_lines();
     draft.needed = std::move(needed);
     return draft;
 }
 
-Draft Drafter::unchanged() const { return {program_, std::string(program_.main().text()), 0, 0, 0, {}, {}, {}}; }
+Draft Drafter::unchanged() const {
+    Draft draft;
+    draft.program = program_;
+    draft.text = program_.main().text();
+    draft.merged = merged(program_);
+    return draft;
+}
+
+std::vector<std::uint8_t> Drafter::merged(const Program& program) const {
+    if (orientation_ != nullptr) return {};
+    return merged_with_next(program, machine_);
+}
 
 }  // namespace clsurf

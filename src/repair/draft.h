@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "machine/machine.h"
 #include "program/program.h"
 #include "repair/optimize_rules.h"
 #include "repair/points/orientation.h"
@@ -29,14 +30,15 @@ struct Draft {
     DraftLines lines{};
     std::vector<std::uint8_t> needed{};    ///< per motion of the old program: 0 has kept its points
     std::vector<std::uint8_t> may_slow{};  ///< per motion of the draft, whether it may get a feed; empty: all may
+    std::vector<std::uint8_t> merged{};    ///< per motion of the draft: merged_with_next(); empty: none is merged
 };
 
 class Drafter {
 public:
     /// `slows_anywhere`: feeds may also change outside the selected sections. `orientation`: of a program that runs on five
     /// axes. All must outlive it. O(points).
-    Drafter(const Program& program, const ReadProgram& read, const OptimizeRules& rules, bool slows_anywhere,
-            const Orientation* orientation = nullptr);
+    Drafter(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules,
+            bool slows_anywhere, const Orientation* orientation = nullptr);
 
     /// New points for the motions that need repair (one entry per motion).
     [[nodiscard]] Draft draft(const DraftLines& lines, std::vector<std::uint8_t> needed) const;
@@ -44,8 +46,12 @@ public:
     [[nodiscard]] Draft unchanged() const;
 
 private:
+    /// What the controller merges of a draft. On five axes it merges nothing.
+    [[nodiscard]] std::vector<std::uint8_t> merged(const Program& program) const;
+
     const Program& program_;
     const ReadProgram& read_;
+    const Machine& machine_;
     const OptimizeRules& rules_;
     bool slows_anywhere_;
     const Orientation* orientation_;

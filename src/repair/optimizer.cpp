@@ -76,7 +76,7 @@ public:
             result.measured = judge_measured(std::move(*measured));
         else
             look_for_need(evaluator_.before());
-        propose_all({program_, read_, rules_, !has_log, evaluator_.orientation()});
+        propose_all({program_, read_, machine_, rules_, !has_log, evaluator_.orientation()});
         result.fidelity = machine_.fidelity;
         result.five_axes = evaluator_.orientation() != nullptr;
         result.run_before = evaluator_.summary_before();

@@ -9,7 +9,6 @@
 #include "program/dialects/dialect_rules.h"
 #include "repair/feeds/feed_equalisation.h"
 #include "repair/line_edit.h"
-#include "simulation/path/block_merging.h"
 
 namespace clsurf {
 namespace {
@@ -125,7 +124,7 @@ Proposal Evaluator::prove(const std::shared_ptr<const Draft>& draft, std::vector
     evaluation.changed_lines = draft->changed_lines;
     if (!result.targets.empty()) {
         LineEditor editor(draft->program);
-        editor.set_feeds(equalised_feeds(targets_to_hold(result), draft->may_slow, interval_width),
+        editor.set_feeds(equalised_feeds(block_targets(result.targets, draft->merged), draft->may_slow, interval_width),
                          draft->splines > 0 ? draft->may_slow : std::vector<std::uint8_t>{});
         result.text = editor.text("");
         evaluation.changed_lines += editor.changed_lines();
@@ -145,12 +144,6 @@ Proposal Evaluator::prove(const std::shared_ptr<const Draft>& draft, std::vector
     evaluation.reason = objection(result);
     evaluation.accepted = evaluation.reason.empty();
     return result;
-}
-
-/// Lines are merged on three axes.
-std::vector<float> Evaluator::targets_to_hold(const Proposal& proposal) const {
-    if (orientation_ != nullptr) return proposal.targets;
-    return block_targets(proposal.targets, merged_with_next(proposal.draft->program, machine_));
 }
 
 Deviation Evaluator::deviation_of(const Program& changed) const {

@@ -113,8 +113,6 @@ private:
     [[nodiscard]] TradeoffFront front_of(const std::vector<const Candidate*>& candidates) const;
     void keep_candidate(const Proposal& proposal);
     [[nodiscard]] Proposal prove(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
-    /// The targets of its motions, as the controller can hold them.
-    [[nodiscard]] std::vector<float> targets_to_hold(const Proposal& proposal) const;
     [[nodiscard]] Deviation deviation_of(const Program& changed) const;
     [[nodiscard]] double most_points() const;
     /// "candidate 14, best: 61 % less mismatch, 38.0 s".

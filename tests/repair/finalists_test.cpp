@@ -23,7 +23,7 @@ TEST(Finalists, AreManyThatDifferTheBestFirst) {
     const Progress silent;
     Diagnostics diagnostics;
     Evaluator evaluator(program, read, machine, rules, silent, diagnostics);
-    const Drafter drafter(program, read, rules, true);
+    const Drafter drafter(program, read, machine, rules, true);
     const auto draft =
         std::make_shared<const Draft>(drafter.draft({0.001, 0.11}, motions_in_need(evaluator.before(), program, {})));
     for (const double feed : {47.0, 49.8, 48.5, 49.0, 47.5, 49.5, 48.0, 49.0, 49.8}) {  // two of them twice

@@ -132,8 +132,9 @@ TEST(Draft, KeepsWhatIsGivenBackByteForByte) {
         kept.emplace_back(program.main().line(program.motions.line[i]));
     }
     const ReadProgram read = read_text;
+    const Machine machine;
     OptimizeRules rules;
-    const Draft draft = Drafter(program, read, rules, true).draft({0.001, 0}, needed);
+    const Draft draft = Drafter(program, read, machine, rules, true).draft({0.001, 0}, needed);
     ASSERT_GT(draft.segments, 0U);
     std::istringstream now(draft.text);
     std::size_t next = 0;
@@ -153,7 +154,7 @@ TEST(Optimizer, IsNeverWorseThanADraftTakenWhole) {
     taken.evaluation = result.evaluation;
     taken.run = std::move(result.after);
     Evaluator evaluator(program, read, machine, rules, silent, diagnostics);
-    const Drafter drafter(program, read, rules, true);
+    const Drafter drafter(program, read, machine, rules, true);
     const double shortest_line = 1.1 * machine.controller.block_time * 50;
     for (const double share : {0.1, 0.2, 0.4}) {
         const TriedProposal whole = evaluator.propose(

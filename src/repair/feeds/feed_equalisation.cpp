@@ -185,6 +185,7 @@ std::vector<float> peaks_by_motion(const JudgedRun& run, const Program& program,
 }
 
 std::vector<float> block_targets(std::vector<float> targets, const std::vector<std::uint8_t>& merged) {
+    if (merged.empty()) return targets;
     for (auto first = targets.begin(); first != targets.end();) {
         auto last = first;
         while (last + 1 != targets.end() && merged[static_cast<std::size_t>(last - targets.begin())] != 0) ++last;

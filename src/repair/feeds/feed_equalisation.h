@@ -76,7 +76,7 @@ private:
                                                  const std::vector<float>& values);
 
 /// Targets as those of peaks_by_motion(), of blocks: motions that the controller merges (merged_with_next()) share the highest of
-/// theirs. 0: none.
+/// theirs. 0: none. `merged` may be empty: none are merged.
 [[nodiscard]] std::vector<float> block_targets(std::vector<float> targets, const std::vector<std::uint8_t>& merged);
 
 /// Feeds that keep motions at a target [mm/s]; targets and feeds of 0: none. Motions whose entry in `may_slow` is 0 get
