@@ -1,5 +1,8 @@
 #include "io/reports/unusable_log.h"
 
+#include <algorithm>
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "core/printable_text.h"
@@ -31,8 +34,11 @@ std::string unusable_json(const UnusableLog& log) {
 }
 
 std::string unusable_csv(const UnusableLog& log) {
-    constexpr int columns_to_comment = 32;
-    return quality_csv_titles() + fmt::format(",,error{:,>{}}{}\n", "", columns_to_comment, csv_field(message_of(log)));
+    const std::string titles = quality_csv_titles();
+    constexpr std::string_view to_cause = ",,";
+    // The message stands in the last column, that of comments.
+    const auto to_comment = static_cast<std::size_t>(std::ranges::count(titles, ',')) - to_cause.size();
+    return fmt::format("{}{}error{}{}\n", titles, to_cause, std::string(to_comment, ','), csv_field(message_of(log)));
 }
 
 std::string unusable_sarif(const UnusableLog& log) {

@@ -30,7 +30,8 @@ Checked check_log(const PartOptions& options, CheckRules& rules, const po::varia
     if (values.count("output") == 0) reported.columns = table_columns();
     if (rules.format != "json") print(run.part.diagnostics, values);
     const ExitCode code = worse ? ExitCode::check_failed : run.code;
-    return {quality_writer(rules.format)(reported), code == ExitCode::done && !aligned ? ExitCode::not_judged : code,
+    return {result_writer(rules.format).quality(reported),
+            code == ExitCode::done && !aligned ? ExitCode::not_judged : code,
             rules.followed ? rules.followed->resolve(run.quality.report) : ResolvedFindings{}};
 }
 
@@ -40,8 +41,9 @@ Checked check_log_of_several(const PartOptions& options, CheckRules& rules, cons
     } catch (const InputError& error) {
         if (error.diagnostic().where.file != options.log) throw;
         write_message(error.what());
-        return {
-            unusable_writer(rules.format)({options.program, options.log, error.diagnostic()}), ExitCode::bad_input, {}};
+        return {result_writer(rules.format).unusable({options.program, options.log, error.diagnostic()}),
+                ExitCode::bad_input,
+                {}};
     }
 }
 

@@ -10,27 +10,20 @@
 
 namespace clsurf::cli {
 
-using QualityWriter = std::string (*)(const io::ReportedQuality&);
+/// The functions that write one form of a report.
+struct ResultWriter {
+    std::string (*quality)(const io::ReportedQuality&);
+    std::string (*unusable)(const io::UnusableLog&);
+};
 
 /// Domain: a word of --format.
-[[nodiscard]] inline QualityWriter quality_writer(const std::string& format) {
-    static const std::map<std::string, QualityWriter, std::less<>> writers{{"text", io::quality_text},
-                                                                           {"json", io::quality_json},
-                                                                           {"csv", io::quality_csv},
-                                                                           {"sarif", io::quality_sarif},
-                                                                           {"junit", io::quality_junit}};
-    return writers.at(format);
-}
-
-using UnusableWriter = std::string (*)(const io::UnusableLog&);
-
-/// Domain: a word of --format.
-[[nodiscard]] inline UnusableWriter unusable_writer(const std::string& format) {
-    static const std::map<std::string, UnusableWriter, std::less<>> writers{{"text", io::unusable_text},
-                                                                            {"json", io::unusable_json},
-                                                                            {"csv", io::unusable_csv},
-                                                                            {"sarif", io::unusable_sarif},
-                                                                            {"junit", io::unusable_junit}};
+[[nodiscard]] inline const ResultWriter& result_writer(const std::string& format) {
+    static const std::map<std::string, ResultWriter, std::less<>> writers{
+        {"text", {io::quality_text, io::unusable_text}},
+        {"json", {io::quality_json, io::unusable_json}},
+        {"csv", {io::quality_csv, io::unusable_csv}},
+        {"sarif", {io::quality_sarif, io::unusable_sarif}},
+        {"junit", {io::quality_junit, io::unusable_junit}}};
     return writers.at(format);
 }
 
