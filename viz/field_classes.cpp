@@ -25,6 +25,8 @@ constexpr std::array<Rgb, FieldClasses::most_named> palette{{{204, 102, 119},
 constexpr Rgb good_colour{226, 226, 226};
 constexpr std::array<Rgb, 2> other_colours{{{200, 200, 200}, {176, 176, 176}}};
 
+}  // namespace
+
 std::map<float, PointIndex> count_values(const Column<float>& values, const Passes& passes) {
     std::map<float, PointIndex> counts;
     for (const Pass& pass : passes) {
@@ -41,8 +43,6 @@ std::map<float, PointIndex> count_values(const Column<float>& values, const Pass
     }
     return counts;
 }
-
-}  // namespace
 
 FieldClasses::FieldClasses(const FieldInfo& info, const Column<float>& values, const Passes& passes) {
     const std::map<float, PointIndex> counts = count_values(values, passes);

@@ -1,6 +1,7 @@
 #pragma once
 // Fields whose values are names: each class has a colour of its own, and nothing lies between two of them.
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct ShownClass {
     Rgb rgb{0, 0, 0};
     double share = 0;  ///< of the cutting points, 0 … 1
 };
+
+/// How many points of cut passes have each value. O(points + runs of equal values).
+[[nodiscard]] std::map<float, PointIndex> count_values(const Column<float>& values, const Passes& passes);
 
 /// The classes of one or several fields, and which values they are of.
 class FieldClasses {

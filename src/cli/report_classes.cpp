@@ -8,21 +8,10 @@
 namespace clsurf::cli {
 namespace {
 
-/// How many cutting points have each value.
-std::map<float, PointIndex> counts_of(const Field& field, const Passes& passes) {
-    std::map<float, PointIndex> counts;
-    for (const Pass& pass : passes) {
-        if (pass.kind != PassKind::cut) continue;
-        for (PointIndex i = pass.first; i <= pass.last; ++i) {
-            const float value = field.values[static_cast<std::size_t>(i)];
-            if (value == value) ++counts[value];
-        }
-    }
-    return counts;
-}
+using ValueCounts = std::map<float, PointIndex>;
 
 /// The classes of one log that have a colour of their own, without shares.
-std::vector<io::PageClass> named_classes(const Field& field, const Passes& passes) {
+std::vector<io::PageClass> named_classes(const Field& field, const Passes& passes, const ValueCounts& counts) {
     const viz::FieldClasses classes(field.info, field.values, passes);
     const double unit = field.info.unit.per_inside;
     // The others, which have no colour of their own, stand last.
@@ -31,7 +20,7 @@ std::vector<io::PageClass> named_classes(const Field& field, const Passes& passe
     std::vector<io::PageClass> named;
     for (const FieldClass& known : field.info.classes)
         named.push_back({known.name, known.value * unit, classes.rgb_of(known.value), 0});
-    for (const auto& [value, count] : counts_of(field, passes)) {
+    for (const auto& [value, count] : counts) {
         const viz::Rgb rgb = classes.rgb_of(value);
         const auto taken = [&](const io::PageClass& c) { return c.rgb == rgb; };
         if (std::any_of(named.begin(), named.end(), taken)) continue;
@@ -42,12 +31,12 @@ std::vector<io::PageClass> named_classes(const Field& field, const Passes& passe
 }
 
 /// With their shares in one log, the largest first.
-std::vector<io::PageClass> with_shares(std::vector<io::PageClass> named, const Field& field, const Passes& passes) {
-    const std::map<float, PointIndex> counts = counts_of(field, passes);
+std::vector<io::PageClass> with_shares(std::vector<io::PageClass> named, const FieldInfo& info,
+                                       const ValueCounts& counts) {
     double all = 0;
     for (const auto& [value, count] : counts) all += static_cast<double>(count);
     for (const auto& [value, count] : counts) {
-        const double shown = value * field.info.unit.per_inside;
+        const double shown = value * info.unit.per_inside;
         for (io::PageClass& c : named) {
             if (c.value == shown) c.share = static_cast<double>(count) / all;
         }
@@ -62,10 +51,17 @@ std::vector<io::PageClass> with_shares(std::vector<io::PageClass> named, const F
 void name_classes(std::vector<ReportLog>& logs) {
     const ReportLog& first = logs.front();
     for (std::size_t k = 0; k < first.fields.size(); ++k) {
+        const FieldInfo& info = first.fields[k].info;
         std::vector<io::PageClass> named;
-        if (has_classes(first.fields[k].info)) named = named_classes(first.fields[k], first.surface.passes);
-        for (ReportLog& log : logs)
-            log.classes.push_back(named.empty() ? named : with_shares(named, log.fields[k], log.surface.passes));
+        for (ReportLog& log : logs) {
+            if (!has_classes(info)) {
+                log.classes.emplace_back();
+                continue;
+            }
+            const ValueCounts counts = viz::count_values(log.fields[k].values, log.surface.passes);
+            if (&log == &first) named = named_classes(first.fields[k], first.surface.passes, counts);
+            log.classes.push_back(with_shares(named, info, counts));
+        }
     }
 }
 
