@@ -10,14 +10,14 @@
 namespace clsurf {
 namespace {
 
-constexpr double most_uneven = 3;       ///< times as far as the passes: what lies beyond does not tell how these go on
-constexpr double most_jump = 4;         ///< times the step along the pass: the pass beside it is another one
-constexpr float least_between = 0.25F;  ///< of the way to a pass: so far from both lies a pass between
-constexpr double jump_fits = 0.15;   ///< of a step-over: between the places of a jump of curvature that both sides tell
-constexpr double least_jump = 2e-4;  ///< [mm] second difference: below it a cubic is as good
-constexpr double least_turn = 3e-3;  ///< [mm] between second differences: less may be rounding and uneven heights
+constexpr double most_uneven = 3;       ///< times the distance of the two passes; farther ones tell nothing
+constexpr double most_jump = 4;         ///< times the step along the pass; a longer step leads to another pass
+constexpr float least_between = 0.25F;  ///< of the distance of two passes; a pass this far from both lies between them
+constexpr double jump_fits = 0.15;      ///< of a step-over: how far apart both sides may place a jump of curvature
+constexpr double least_jump = 2e-4;     ///< [mm] second difference: below it a cubic is as good
+constexpr double least_turn = 3e-3;     ///< [mm] between second differences: less may be rounding and uneven heights
 constexpr double smoother_side = 0.25;  ///< of the change of second differences in a gap, on a side without a turn
-constexpr double corner_turns = 8;      ///< times the bends beside it: sides of a valley are nearly straight
+constexpr double corner_turns = 8;      ///< times the bends next to it: the sides of a valley are nearly straight
 
 /// Passes about the gap between two, by number from the first of these.
 class Across {
