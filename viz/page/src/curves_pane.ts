@@ -86,7 +86,7 @@ export class CurvesPane {
             if (index === 0) this.store.set({ field: curves[0] });
             else this.store.set({ curves });
         });
-        const key = element('ul', { class: 'key', tabindex: '0', 'aria-label': `what is drawn in curve ${index + 1}` });
+        const key = element('ul', { class: 'key', tabindex: '0', 'aria-label': `legend of chart ${index + 1}` });
         holder.append(choice, key);
         this.element.append(holder);
         const ink = styleValue('--ink');
