@@ -90,6 +90,27 @@ test('no marker stands behind the title or another one', async () => {
     await closeReport(page);
 });
 
+test('places without a value are hatched, and the legend names them only there', async () => {
+    const page = await openReport(browser, reports.ball);
+    await watchDrawing(page);
+    const isNamed = async () => names((await drawn(page)).texts).includes('no value');
+    const choose = async (label) => {
+        const fields = await page.$$eval('select[aria-label="field"] option', (all) => all.map((o) => o.textContent));
+        await page
+            .getByLabel('field', { exact: true })
+            .selectOption({ label: fields.find((f) => f.startsWith(label)) });
+        await settled(page);
+    };
+    const greys = () => countPixels(page, page.locator('.view'), (r, g, b) => r === g && g === b && r > 140 && r < 160);
+    await choose('Path speed [');
+    assert.equal(await isNamed(), false);
+    const without = await greys();
+    await choose('Speed difference');
+    assert.equal(await isNamed(), true);
+    assert.ok((await greys()) > without + 200);
+    await closeReport(page);
+});
+
 test('a marker that is clicked shows its defect', async () => {
     const page = await openReport(browser, reports.ball);
     await watchDrawing(page);

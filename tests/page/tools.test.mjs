@@ -209,6 +209,7 @@ test('positions and the formed surface', async () => {
             name,
         );
         assert.equal(await page.getByLabel('colour map').inputValue(), name === 'formed' ? 'coolwarm' : 'magma');
+        assert.equal(/^Formed surface/.test(await field()), name === 'formed'); // the list of fields says it, too
     }
 });
 

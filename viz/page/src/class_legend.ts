@@ -1,7 +1,7 @@
 // The legend of a field whose values are names: colour, name and share of each.
 
 import { shareText, type ShownClass } from './classes';
-import { cssColour } from './colour';
+import { cssColour, missingColour, type Rgb } from './colour';
 import { styleValue } from './dom';
 import type { Box } from './label_place';
 
@@ -20,10 +20,36 @@ function broken(g: CanvasRenderingContext2D, text: string, width: number): strin
     return lines;
 }
 
+function strokeSwatch(g: CanvasRenderingContext2D, left: number, top: number, ink: string): void {
+    g.strokeStyle = ink;
+    g.lineWidth = 1;
+    g.strokeRect(left - 0.5, top - 0.5, swatch[0] + 1, swatch[1] + 1);
+}
+
+/** What has no value. */
+export function drawHatched(g: CanvasRenderingContext2D, left: number, top: number, ink: string): void {
+    const [width, height] = swatch;
+    g.save();
+    g.beginPath();
+    g.rect(left, top, width, height);
+    g.clip();
+    g.beginPath();
+    for (let x = 4; x < width + height; x += 8) {
+        g.moveTo(left + x, top);
+        g.lineTo(left + x - height, top + height);
+    }
+    g.strokeStyle = cssColour(missingColour);
+    g.lineWidth = 1.5;
+    g.stroke();
+    g.restore();
+    strokeSwatch(g, left, top, ink);
+}
+
 /** From the top of a box, the first ones; how many more there are is said where not all have room. */
 export function drawClassLegend(
     g: CanvasRenderingContext2D,
     classes: readonly ShownClass[],
+    missing: boolean,
     box: Box,
     ink: string,
 ): void {
@@ -31,10 +57,11 @@ export function drawClassLegend(
     g.textAlign = 'left';
     g.textBaseline = 'middle';
     const left = box.left + swatch[0] + 5;
-    const entries = classes.map(({ name, rgb, share }) => ({
+    const entries: { rgb: Rgb | null; lines: string[] }[] = classes.map(({ name, rgb, share }) => ({
         rgb,
         lines: [...broken(g, name, box.right - left), shareText(share)],
     }));
+    if (missing) entries.push({ rgb: null, lines: ['no value'] });
     let y = box.top;
     for (const [k, { rgb, lines }] of entries.entries()) {
         const below = k + 1 < entries.length ? lineHeight : 0; // for the number of those that are left out
@@ -43,11 +70,13 @@ export function drawClassLegend(
             g.fillText(`and ${entries.length - k} more`, box.left, y + lineHeight / 2);
             return;
         }
-        g.fillStyle = cssColour(rgb);
-        g.fillRect(box.left, y + 1, swatch[0], swatch[1]);
-        g.strokeStyle = ink;
-        g.lineWidth = 1;
-        g.strokeRect(box.left - 0.5, y + 0.5, swatch[0] + 1, swatch[1] + 1);
+        if (rgb) {
+            g.fillStyle = cssColour(rgb);
+            g.fillRect(box.left, y + 1, swatch[0], swatch[1]);
+            strokeSwatch(g, box.left, y + 1, ink);
+        } else {
+            drawHatched(g, box.left, y + 1, ink);
+        }
         g.fillStyle = ink;
         lines.forEach((line, row) => g.fillText(line, left, y + (row + 0.5) * lineHeight));
         y += lines.length * lineHeight + gap;

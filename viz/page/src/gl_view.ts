@@ -19,6 +19,8 @@ import type { Style } from './store';
 
 const rampColours = 1024;
 const texels = rampColours + 2; // the colours of values outside the range at its ends
+const rampRow = 0.25; // of the texture
+const missingRow = 0.75;
 const coarsePoints = 40_000;
 
 export interface Mesh {
@@ -66,7 +68,7 @@ function cells(corners: Uint32Array, size: number): Uint32Array {
  * Of a pixel that a triangle covers in part, the colour is that of a place inside the triangle. Else it is that of the middle
  * of the pixel, which may lie outside, where the ramp goes on to the colours of values beyond its ends: dots along each edge.
  */
-function keepToCovered(mapper: vtkMapper): void {
+function keepToCovered(): object[] {
     const declared = 'varying vec2 tcoordVCVSOutput';
     const replacement = {
         originalValue: declared,
@@ -74,9 +76,26 @@ function keepToCovered(mapper: vtkMapper): void {
         replacementValue: `centroid ${declared}`,
         replaceAll: true,
     };
-    mapper.setViewSpecificProperties({
-        OpenGL: { ShaderReplacements: ['Vertex', 'Fragment'].map((shaderType) => ({ shaderType, ...replacement })) },
-    });
+    return ['Vertex', 'Fragment'].map((shaderType) => ({ shaderType, ...replacement }));
+}
+
+/**
+ * Cells of which a corner has no value are hatched, as `render` hatches them: any grey could be the colour of a value. Their
+ * places lie off the row of the ramp; the other row has the colour between the lines, then that of the lines.
+ */
+function hatchMissing(): object {
+    const place = '//VTK::TCoord::Impl';
+    const replacementValue = `${place}
+  if (tcoordVCVSOutput.y > ${(rampRow + 0.02).toFixed(2)}) {
+    bool onLine = mod(gl_FragCoord.x + gl_FragCoord.y, 8.0) < 1.5;
+    ambientColor = diffuseColor = texture2D(texture1, vec2(onLine ? 0.9 : 0.1, ${missingRow})).rgb;
+  }
+`;
+    return { shaderType: 'Fragment', originalValue: place, replaceFirst: true, replacementValue, replaceAll: false };
+}
+
+function replaceInShaders(mapper: vtkMapper, replacements: object[]): void {
+    mapper.setViewSpecificProperties({ OpenGL: { ShaderReplacements: replacements } });
 }
 
 export class GlView {
@@ -91,6 +110,7 @@ export class GlView {
     private readonly coarseData = vtkPolyData.newInstance();
     private readonly path = vtkActor.newInstance({ visibility: false }); // as it is programmed
     private readonly pathData = vtkPolyData.newInstance();
+    private background: Rgb = [255, 255, 255];
     private radius = 1;
     private middle = [0, 0, 0];
     private coarseVertices = new Uint32Array(0);
@@ -122,7 +142,7 @@ export class GlView {
         this.path.setMapper(lines);
         this.path.getProperty().setLighting(false);
         this.path.getProperty().setLineWidth(1);
-        for (const mapper of [this.mapper, points, lines]) keepToCovered(mapper);
+        for (const mapper of [this.mapper, points]) replaceInShaders(mapper, [...keepToCovered(), hatchMissing()]);
         this.renderer.addActor(this.path);
         this.renderer.addActor(this.coarse);
         this.renderer.addActor(this.actor);
@@ -206,7 +226,7 @@ export class GlView {
         return true;
     }
 
-    /** Places of values on the ramp: u along it, v which row: the ramp, or the colour of no value. */
+    /** Places of values on the ramp: u along it, v which row: the ramp, or no value. */
     setValues(values: Float32Array, scale: ColourScale): void {
         const { low, high } = scale;
         const slack = slackAlong(scale);
@@ -218,7 +238,7 @@ export class GlView {
             let along = known ? (high > low ? (value - low) / span : 0.5) : 0;
             if (along >= -slack && along <= 1 + slack) along = Math.min(Math.max(along, 0), 1);
             places[2 * i] = (1.5 + along * (rampColours - 1)) / texels;
-            places[2 * i + 1] = known ? 0.25 : 0.75;
+            places[2 * i + 1] = known ? rampRow : missingRow;
         }
         const array = vtkDataArray.newInstance({ name: 'places', numberOfComponents: 2, values: places });
         this.data.getPointData().setTCoords(array);
@@ -237,7 +257,7 @@ export class GlView {
         for (let i = 0; i < rampColours; ++i) put(i + 1, colourAlong(scale, i / (rampColours - 1)));
         put(0, scale.map.below);
         put(texels - 1, scale.map.above);
-        for (let i = 0; i < texels; ++i) put(texels + i, missingColour);
+        for (let i = 0; i < texels; ++i) put(texels + i, i < texels / 2 ? this.background : missingColour);
         const texture = vtkTexture.newInstance({ interpolate: scale.bins === 0 });
         texture.setInputData(rampImage(pixels));
         for (const actor of [this.actor, this.coarse]) {
@@ -246,7 +266,9 @@ export class GlView {
         }
     }
 
-    setBackground(rgb: readonly number[]): void {
+    /** Before setColours(), which puts it between the lines of the hatching. */
+    setBackground(rgb: Rgb): void {
+        this.background = rgb;
         this.renderer.setBackground(rgb[0] / 255, rgb[1] / 255, rgb[2] / 255);
     }
 

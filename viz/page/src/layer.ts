@@ -24,6 +24,7 @@ export class Layer {
     picker: Picker | null = null;
     private readonly normals = new Map<number, Float32Array>(); // by role
     private classes: FieldClasses | null = null; // that the cells are divided by
+    private drawn: Uint32Array[] = []; // corners of the cells that are drawn
     private sources: Uint32Array = new Uint32Array(0); // vertices whose class those have that divided cells were given
 
     constructor(
@@ -46,6 +47,7 @@ export class Layer {
     showRelief({ xyz, triangles }: Relief): void {
         this.picker = null;
         this.classes = null;
+        this.drawn = [triangles];
         this.view.setMesh(
             {
                 xyz,
@@ -78,7 +80,15 @@ export class Layer {
             ),
         };
         if (classes) ({ mesh, sources: this.sources } = divideByClass(mesh, classes));
+        this.drawn = style === 'points' ? [mesh.points] : [mesh.triangles, mesh.segments];
         this.view.setMesh(mesh, style);
+    }
+
+    /** Whether something that is drawn has no value, and so is hatched. */
+    lacksValues(values: Float32Array): boolean {
+        const { count } = this.surface;
+        const source = (vertex: number) => (this.classes && vertex >= count ? this.sources[vertex - count] : vertex);
+        return this.drawn.some((cells) => cells.some((vertex) => Number.isNaN(values[source(vertex)])));
     }
 
     /** `values`: one per vertex of the surface, or of the relief; not used where there are classes. */

@@ -5,7 +5,7 @@ import { views, type Camera } from './camera';
 import { colourAlong, cssColour, niceTicks, tickText, type ColourScale } from './colour';
 import { styleValue } from './dom';
 import { label } from './canvas_text';
-import { drawClassLegend } from './class_legend';
+import { drawClassLegend, drawHatched } from './class_legend';
 import type { ShownClass } from './classes';
 import { boxAt, labelPlace, markerPlace, meet, type Box } from './label_place';
 
@@ -39,6 +39,7 @@ export interface OverlayScene {
     rings: Ring[];
     scale: ColourScale;
     classes: ShownClass[] | null; // the legend of values that are names
+    missing: boolean; // something has no value
     lowest: number; // of the values
     highest: number;
     title: string;
@@ -246,7 +247,7 @@ export class Overlay {
         label(g, scene.title, 12, 18, ink, halo, 'left', true);
         if (scene.caption) label(g, scene.caption, 12, 36, ink, halo, 'left');
         const box = { left: camera.width + 8, top: 14, right: camera.width + legendWidth, bottom: camera.height - 14 };
-        if (scene.classes) drawClassLegend(g, scene.classes, box, ink);
+        if (scene.classes) drawClassLegend(g, scene.classes, scene.missing, box, ink);
         else this.ramp(g, camera, scene, ink, halo);
     }
 
@@ -287,6 +288,10 @@ export class Overlay {
             g.lineTo(left + 22, y);
             g.stroke();
             text(tick, y, step, false);
+        }
+        if (scene.missing) {
+            drawHatched(g, left, top + height + 20, ink);
+            label(g, 'no value', left + 22, top + height + 26, ink, halo, 'left');
         }
         label(g, scene.unit ? `[${scene.unit}]` : '', left, top - 22, ink, halo, 'left', true);
     }

@@ -40,6 +40,11 @@ export interface State {
     keys: boolean; // one-letter keys are on
 }
 
+/** The formed surface, of which there is no difference. */
+export function showFormed({ shown }: Readonly<State>): Partial<State> {
+    return { formed: true, shown: shown === 'difference' ? 'after' : shown };
+}
+
 type Listener = (state: Readonly<State>, changed: ReadonlySet<keyof State>) => void;
 
 export class Store {

@@ -3,7 +3,9 @@
 import type { Action } from './actions';
 import { element } from './dom';
 import type { Manifest } from './manifest';
-import type { Store } from './store';
+import { showFormed, type Store } from './store';
+
+const formedChoice = 'formed'; // in the list of fields
 
 export interface Locator {
     kind: HTMLSelectElement;
@@ -24,7 +26,11 @@ export class Toolbar {
         manifest.fields.forEach((f, k) =>
             field.append(new Option(f.unit ? `${f.label} [${f.unit}]` : f.label, String(k))),
         );
-        field.addEventListener('change', () => store.set({ field: Number(field.value), formed: false }));
+        if (manifest.relief) field.append(new Option('Formed surface over its form [µm]', formedChoice));
+        field.addEventListener('change', () => {
+            if (field.value === formedChoice) store.set(showFormed(store.state));
+            else store.set({ field: Number(field.value), formed: false });
+        });
         const map = element('select', { title: 'colour map (key K)', 'aria-label': 'colour map' });
         for (const m of manifest.colour_maps) {
             const option = new Option(m.name, m.name);
@@ -57,7 +63,7 @@ export class Toolbar {
         setMaps();
         store.on((state) => {
             setMaps();
-            field.value = String(state.field);
+            field.value = state.formed ? formedChoice : String(state.field);
             map.value = state.map;
             bins.value = String(state.bins);
             this.update(actions, state.keys);

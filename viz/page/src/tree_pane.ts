@@ -3,7 +3,7 @@
 import { baseName, element } from './dom';
 import { FilterBar, keeps } from './filters';
 import type { Defect, Manifest } from './manifest';
-import type { State, Store } from './store';
+import { showFormed, type State, type Store } from './store';
 import { Kind, type Surface } from './surface';
 
 const mostPasses = 1000;
@@ -96,10 +96,7 @@ export class TreePane {
         if (formed)
             list.append(
                 this.choice('formed', 'formed', 'the as-machined surface, above its form', () =>
-                    this.store.set({
-                        formed: true,
-                        shown: this.store.state.shown === 'difference' ? 'after' : this.store.state.shown,
-                    }),
+                    this.store.set(showFormed(this.store.state)),
                 ),
             );
         return element('div', { class: 'group' }, element('h2', {}, 'Surface'), list);

@@ -40,6 +40,7 @@ export class ViewPane {
     private places: number[][] = [];
     private stale = true; // the surfaces must be drawn again, not only what stands over them
     private readonly drawLater = oncePerFrame(() => this.drawNow());
+    private missing = false; // something that is drawn has no value
     private slow: boolean | null = null; // whether the machine is too slow to draw the whole mesh while it turns
     private readonly settle = afterRest(250, () => this.setCoarse(false));
 
@@ -118,16 +119,16 @@ export class ViewPane {
         const mesh = ['style', 'role', 'formed', 'kinds', 'passes'] as const;
         const values = [...mesh, 'field', 'shown', 'low', 'high'] as const;
         for (const layer of this.layers) {
-            if (any(...mesh) || !layer.isDividedBy(this.shown.classes(layer.surface))) this.remesh(layer);
-            if (any(...values)) layer.setValues(this.shown.of(layer.surface), this.scaleOf(layer));
-            if (any(...values, 'map', 'bins')) layer.view.setColours(this.scaleOf(layer));
-        }
-        if (any('tool')) this.element.dataset.tool = this.store.state.tool;
-        if (any('theme'))
-            for (const layer of this.layers) {
+            if (any('theme')) {
                 layer.view.setBackground(rgbOf(styleValue('--view')));
                 layer.view.setPathColour(rgbOf(styleValue('--ink')));
             }
+            if (any(...mesh) || !layer.isDividedBy(this.shown.classes(layer.surface))) this.remesh(layer);
+            if (any(...values)) layer.setValues(this.shown.of(layer.surface), this.scaleOf(layer));
+            if (any(...values, 'map', 'bins', 'theme')) layer.view.setColours(this.scaleOf(layer));
+        }
+        if (any(...mesh, 'field', 'shown')) this.missing = this.active.lacksValues(this.values);
+        if (any('tool')) this.element.dataset.tool = this.store.state.tool;
         if (any('programmed')) for (const layer of this.layers) layer.view.showPath(this.store.state.programmed);
         const { shown, wipe } = this.store.state;
         this.layers.forEach((layer, k) => {
@@ -253,6 +254,7 @@ export class ViewPane {
             scale: this.scale,
             ...this.ends(),
             classes: this.classes?.shown ?? null,
+            missing: this.missing,
             title: formed
                 ? 'Formed surface over its form'
                 : state.shown === 'difference'
