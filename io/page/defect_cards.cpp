@@ -68,8 +68,9 @@ std::string list_of_lines(const std::vector<DefectRun>& runs) {
 
 std::string picture_html(const PagePicture& picture) {
     return fmt::format(
-        "<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"><figcaption><b>{}</b> {}</figcaption></figure>\n",
-        html(picture.title), to_base64(picture.png), html(picture.title), html(picture.text));
+        "<figure><div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"picture: {0}\"><img alt=\"{0}\" "
+        "src=\"data:image/png;base64,{1}\"></div><figcaption><b>{0}</b> {2}</figcaption></figure>\n",
+        html(picture.title), to_base64(picture.png), html(picture.text));
 }
 
 std::string lines_text(const DefectRun& run) {

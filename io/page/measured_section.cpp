@@ -98,7 +98,7 @@ std::string measured_section(const ReportPage& page) {
     if (alignment.determined()) {
         text += roughness_html(measured.result.comparison) + marks_html(measured.result.marks);
         if (page.measured->picture)
-            text += "<div class=\"pictures large\">\n" + picture_html(*page.measured->picture) + "</div>\n";
+            text += "<div class=\"pictures\">\n" + picture_html(*page.measured->picture) + "</div>\n";
     }
     return text + "</section>\n";
 }

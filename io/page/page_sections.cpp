@@ -390,7 +390,7 @@ std::string page_summary(const ReportPage& page) {
 std::string page_sections(const ReportPage& page) {
     std::string text = "<main id=\"report\">\n";
     if (!page.pictures.empty()) {
-        text += "<section id=\"maps\"><h2>Maps</h2>\n<div class=\"pictures large\">\n";
+        text += "<section id=\"maps\"><h2>Maps</h2>\n<div class=\"pictures\">\n";
         for (const PagePicture& picture : page.pictures) text += picture_html(picture);
         text += "</div></section>\n";
     }

@@ -96,6 +96,7 @@ void add_report_pictures(io::ReportPage& page, const ReportLog& shown, const Rep
                 outlines_of(defect, shown.surface, [&](PointIndex point) { return contacts->place(point).position(); });
         pictured.outlines.push_back({page.defects.back().outlines, fmt::format("{}", i + 1)});
     }
+    if (!page.defects.empty()) page.pictures.push_back(picture_of_defects(pictured));
     page.pictures.push_back(picture_of_part(pictured, page.first_field));
     if (as_machined)
         page.pictures.push_back(

@@ -6,15 +6,21 @@
 #include <fmt/format.h>
 
 #include "cli/defect_card.h"
+#include "cli/defect_map.h"
 #include "core/file_name.h"
 #include "core/not_finite.h"
+#include "io/reports/defect_names.h"
 #include "io/reports/quality_words.h"
 #include "pipeline/shards.h"
+#include "program/frame_placement.h"
 #include "surface/surface_part.h"
 #include "viz/field_colours.h"
 
 namespace clsurf::cli {
 namespace {
+
+constexpr int map_width = 1200;  ///< [px]
+constexpr int map_height = 840;
 
 std::size_t index_of_field(const PicturedPart& shown, const std::string& name) {
     const auto found =
@@ -84,11 +90,28 @@ viz::MapTexts texts_of(const PicturedPart& shown, const FieldInfo& info, const S
 
 }  // namespace
 
+io::PagePicture picture_of_defects(const PicturedPart& shown) {
+    const viz::DefectMap defects = defect_map_of(*shown.report);
+    viz::MapPanel panel{shown.surface, &shown.fields.front(), "", {}, {}, {}};
+    panel.defects = &defects;
+    viz::Look look;
+    look.width = map_width;
+    look.height = map_height;
+    look.names = true;
+    look.gl = shown.gl;
+    viz::MapTexts texts = texts_of(shown, shown.fields.front().info, {});
+    texts.frame = common_work_system(shown.part->program.motions);
+    texts.title = io::headline_of(*shown.report);
+    if (!shown.report->judgement.judged() && !shown.report->defects.empty()) texts.title = "Not judged: " + texts.title;
+    if (shown.part->tool) texts.notes.emplace_back("axes show the tool tip");
+    return {"Defects", "Numbers are those of the table of all defects.", draw(panel, {}, texts, look)};
+}
+
 io::PagePicture picture_of_part(const PicturedPart& shown, const std::string& name) {
     const std::size_t k = index_of_field(shown, name);
     viz::Look look;
-    look.width = 1200;
-    look.height = 840;
+    look.width = map_width;
+    look.height = map_height;
     look.gl = shown.gl;
     const viz::MapPanel panel{shown.surface, &shown.fields[k], "", {}, {}, shown.outlines};
     const FieldInfo& info = shown.fields[k].info;
@@ -110,8 +133,8 @@ io::PagePicture picture_of_defect(const PicturedPart& shown, const Signals& sign
 io::PagePicture picture_of_relief(const PicturedPart& shown, const viz::Relief& relief, const Field& field,
                                   const ShownRange& range) {
     viz::Look look;
-    look.width = 1200;
-    look.height = 840;
+    look.width = map_width;
+    look.height = map_height;
     look.gl = shown.gl;
     viz::MapPanel panel{shown.surface, &field, "", {}, {}, {}};
     panel.relief = &relief;

@@ -23,6 +23,9 @@ struct PicturedPart {
     int shards = 0;  ///< that the map is drawn in, with the memory of one; 0: at once
 };
 
+/// The defect map, as `render --defects` draws it: the sections at fault on a grey relief, and their names.
+[[nodiscard]] io::PagePicture picture_of_defects(const PicturedPart& shown);
+
 /// The whole part in a field, with what was found outlined.
 [[nodiscard]] io::PagePicture picture_of_part(const PicturedPart& shown, const std::string& name);
 

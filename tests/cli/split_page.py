@@ -1,5 +1,5 @@
-"""Compares two pages of `clsurf report` byte for byte, but for the pictures of the part in them (the first of each page), which it writes
-as PNG files.
+"""Compares two pages of `clsurf report` byte for byte, but for the pictures of the part in a field (the first of each page after the defect map),
+which it writes as PNG files.
 
 usage: split_page.py A.html B.html A.png B.png
 """
@@ -11,7 +11,7 @@ import sys
 
 def split(page, picture):
     text = open(page, encoding="utf-8").read()
-    found = re.search(r"data:image/png;base64,([^\"]+)", text)
+    found = re.search(r'<img alt="(?!Defects")[^"]*" src="data:image/png;base64,([^"]+)"', text)
     open(picture, "wb").write(base64.b64decode(found.group(1)))
     return text[: found.start(1)] + text[found.end(1) :]
 

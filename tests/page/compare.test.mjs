@@ -110,6 +110,14 @@ test('defects are gone, new or remaining', async () => {
     }
 });
 
+test('on paper the findings wrap: a wider table would shrink the whole sheet', async () => {
+    await page.emulateMedia({ media: 'print' });
+    await page.setViewportSize({ width: 718, height: 1046 }); // A4 less margins of 1 cm, in CSS pixels
+    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 718);
+    await page.emulateMedia({ media: 'screen' });
+    await page.setViewportSize({ width: 1280, height: 800 });
+});
+
 test('the line between is dragged', async () => {
     await press(page, 'w');
     const box = await page.locator('.layer').first().boundingBox();

@@ -92,6 +92,16 @@ test('without JavaScript summary, pictures and tables are there', async () => {
     await closeReport(page);
 });
 
+test('the defect map comes first, and pictures are as large as they are drawn', async () => {
+    const page = await openReport(browser, file);
+    const pictures = await page.$$eval('figure img', (all) =>
+        all.map((image) => ({ alt: image.alt, width: image.clientWidth, drawn: image.naturalWidth })),
+    );
+    assert.equal(pictures[0].alt, 'Defects');
+    for (const { alt, width, drawn } of pictures) assert.ok(width > 0.95 * drawn, `${alt}: ${width} of ${drawn}`);
+    await closeReport(page);
+});
+
 test('on paper the panes give way to pictures and tables', async () => {
     const page = await openReport(browser, file);
     await page.emulateMedia({ media: 'print' });
