@@ -288,6 +288,7 @@ Json defects_json(const ReportPage& page) {
     const std::vector<std::string> fingerprints = fingerprints_of(page.quality.report->defects);
     for (std::size_t i = 0; i < page.defects.size(); ++i) {
         const Defect& d = page.quality.report->defects[i];
+        // With all digits: the page rounds once, as the sentences do.
         all.push_back({{"id", i + 1},
                        {"fingerprint", fingerprints[i]},
                        {"severity", d.severity},
@@ -296,10 +297,10 @@ Json defects_json(const ReportPage& page) {
                        {"quantity", name_of(d.quantity)},
                        {"text", sentence_of(d)},
                        {"bounds_mm", box(d.contact_bounds.isEmpty() ? d.bounds : d.contact_bounds)},
-                       {"depth_um", number(d.depth * um_per_mm, 2)},
-                       {"score", number(d.score, 2)},
-                       {"speed_percent", number(100 * d.speed_mismatch, 2)},
-                       {"length_mm", number(d.length, 2)},
+                       {"depth_um", number(d.depth * um_per_mm)},
+                       {"score", number(d.score)},
+                       {"speed_percent", number(100 * d.speed_mismatch)},
+                       {"length_mm", number(d.length)},
                        {"shape", shape_of(d)},
                        {"point", d.point},
                        {"runs", runs_json(d.runs)},
@@ -317,7 +318,7 @@ Json defects_json(const ReportPage& page) {
             all.back()["comment"] = entry.comment;
         }
         if (page.quality.as_machined != nullptr)
-            all.back()["formed_um"] = number(page.quality.as_machined->marks[i].depth * um_per_mm, 2);
+            all.back()["formed_um"] = number(page.quality.as_machined->marks[i].depth * um_per_mm);
         if (page.defects[i].normal != Vec3::Zero()) all.back()["normal"] = exact_vector(page.defects[i].normal);
         if (!page.defects[i].contact_outlines.empty())
             all.back()["contact_outlines"] = lines_json(page.defects[i].contact_outlines);

@@ -87,6 +87,20 @@ test('one filter for the table, the list, the view and the key D', async () => {
     await page.click('[data-action="card-close"]');
 });
 
+test('the depth on a card is that of its sentence', async () => {
+    const manifest = await page.evaluate(() => JSON.parse(document.getElementById('manifest').textContent));
+    let compared = 0;
+    for (const { depth_um: depth, text } of manifest.defects) {
+        const [, said] = /predicted \w+ of ([\d.]+) µm/.exec(text) ?? [];
+        if (said === undefined) continue;
+        ++compared;
+        assert.equal(depth.toFixed(1), said, text);
+    }
+    assert.ok(compared > 0);
+    // With all its digits: rounded to two decimals and then to one, 5.949 became 6.0.
+    assert.ok(manifest.defects.some(({ depth_um: depth }) => depth !== Number(depth.toFixed(2))));
+});
+
 test('the card of a defect stays until it is closed', async () => {
     await press(page, 'd');
     const card = page.locator('.card');

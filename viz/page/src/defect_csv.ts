@@ -13,18 +13,22 @@ function linesOf(defect: Defect): string {
     return defect.runs.map(({ lines: [first, last] }) => (first === last ? `${first}` : `${first}-${last}`)).join(' ');
 }
 
+/** To as many digits as mean something. */
+const rounded = (value: number | null | undefined) =>
+    value === null || value === undefined ? null : Number(value.toFixed(2));
+
 const columns: Column[] = [
     { head: 'rank', value: (d) => d.id },
     { head: 'severity', value: (d) => d.severity },
     { head: 'severity_name', value: (d) => d.severity_name },
     { head: 'cause', value: (d) => d.cause },
     { head: 'finding', value: (d) => d.text },
-    { head: 'score', value: (d) => d.score },
-    { head: 'depth_um', value: (d) => d.depth_um },
+    { head: 'score', value: (d) => rounded(d.score) },
+    { head: 'depth_um', value: (d) => rounded(d.depth_um) },
     { head: 'shape', value: (d) => d.shape },
-    { head: 'formed_um', value: (d) => d.formed_um ?? null },
-    { head: 'speed_percent', value: (d) => d.speed_percent },
-    { head: 'length_mm', value: (d) => d.length_mm },
+    { head: 'formed_um', value: (d) => rounded(d.formed_um) },
+    { head: 'speed_percent', value: (d) => rounded(d.speed_percent) },
+    { head: 'length_mm', value: (d) => rounded(d.length_mm) },
     { head: 'x_mm', value: (d) => d.position_mm[0] },
     { head: 'y_mm', value: (d) => d.position_mm[1] },
     { head: 'z_mm', value: (d) => d.position_mm[2] },
