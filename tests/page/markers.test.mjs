@@ -90,6 +90,29 @@ test('no marker stands behind the title or another one', async () => {
     await closeReport(page);
 });
 
+test('a marker without room is moved or counted, and none is lost', async () => {
+    const page = await openReport(browser, reports.ball);
+    await watchDrawing(page);
+    await press(page, 'h');
+    for (let k = 0; k < 6; ++k) {
+        const { markers, texts } = await drawn(page);
+        const hidden = Number(
+            /· (\d+) markers? (has|have) no room/.exec(texts.map(({ text }) => text).join('\n'))?.[1] ?? 0,
+        );
+        const inView = k === 0 ? defects.length : markers.length;
+        assert.ok(markers.length + hidden >= inView, `${markers.length} markers and ${hidden} hidden`);
+        await page.mouse.move(480, 300);
+        await page.mouse.wheel(0, 600); // away: they come closer
+        await settled(page);
+    }
+    const { markers, texts } = await drawn(page);
+    assert.ok(markers.length < defects.length);
+    assert.ok(
+        texts.some(({ text }) => text.endsWith(`${defects.length - markers.length} markers have no room: zoom in`)),
+    );
+    await closeReport(page);
+});
+
 test('places without a value are hatched, and the legend names them only there', async () => {
     const page = await openReport(browser, reports.ball);
     await watchDrawing(page);

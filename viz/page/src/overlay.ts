@@ -51,8 +51,14 @@ export interface OverlayScene {
 }
 
 export const legendWidth = 104; // px beside the map
+const mostMoved = 60; // px from a place to its marker
+const mostHidden = 99; // that have room in the caption
 const crowdedRoom = 14; // px from line to line
 const wipeLabels = 56; // px from the top: below the title and its caption
+
+/** What is said of markers that have no room; empty: all have. */
+const hiddenText = (count: number) =>
+    count === 0 ? '' : ` · ${count === 1 ? '1 marker has' : `${count} markers have`} no room: zoom in`;
 
 /** The length of the scale bar: a round number [mm]. */
 function barLength(camera: Camera): number {
@@ -63,6 +69,7 @@ function barLength(camera: Camera): number {
 
 export class Overlay {
     private markers: { box: Box; tag: Tag }[] = []; // that are drawn
+    private hidden = 0; // markers that have no room
 
     constructor(readonly canvas: HTMLCanvasElement) {}
 
@@ -138,7 +145,7 @@ export class Overlay {
         g.font = `600 12px ${font}`;
         const title = 16 + g.measureText(scene.title).width;
         g.font = `12px ${font}`;
-        const caption = 16 + g.measureText(scene.caption).width;
+        const caption = 16 + g.measureText(scene.caption + hiddenText(mostHidden)).width;
         const { height } = camera;
         return [
             { left: 0, top: 0, right: title, bottom: 27 },
@@ -148,19 +155,26 @@ export class Overlay {
         ];
     }
 
-    /** Where two would lie on each other, the worse one stays. A marker that is moved keeps a line to its place. */
+    /** Where two would lie on each other, the worse one stays and the other one moves, with a line to its place. */
     private tags(g: CanvasRenderingContext2D, camera: Camera, tags: Tag[], reserved: Box[], halo: string): void {
         this.markers = [];
+        this.hidden = 0;
+        const taken = [...reserved];
         const size = [camera.width, camera.height];
         for (const tag of [...tags].sort((a, b) => Number(b.chosen) - Number(a.chosen))) {
             const place = camera.project(tag.at);
             if (place[0] < 0 || place[1] < 0 || place[0] > size[0] || place[1] > size[1]) continue;
             g.font = `600 11px ${styleValue('--font')}`;
             const half = Math.max(8, g.measureText(tag.text).width / 2 + 4);
-            const [x, y] = markerPlace(place, [half + 2, 10], reserved, size);
+            const [x, y] = markerPlace(place, [half + 2, 10], taken, size);
             const box = boxAt(x, y, half + 2, 10);
-            if (this.markers.some((other) => meet(other.box, box))) continue;
+            const far = Math.hypot(x - place[0], y - place[1]) > mostMoved && this.markers.length > 0;
+            if (far || this.markers.some((other) => meet(other.box, box))) {
+                ++this.hidden;
+                continue;
+            }
             this.markers.push({ box, tag });
+            taken.push(box);
             const colour = tag.chosen ? styleValue('--accent') : styleValue(`--severity-${tag.severity}`);
             if (Math.hypot(x - place[0], y - place[1]) > 9) leader(g, place, [x, y], colour, halo);
             g.beginPath();
@@ -245,7 +259,7 @@ export class Overlay {
         g.fillStyle = halo;
         g.fillRect(camera.width, 0, legendWidth, camera.height);
         label(g, scene.title, 12, 18, ink, halo, 'left', true);
-        if (scene.caption) label(g, scene.caption, 12, 36, ink, halo, 'left');
+        label(g, scene.caption + hiddenText(this.hidden), 12, 36, ink, halo, 'left');
         const box = { left: camera.width + 8, top: 14, right: camera.width + legendWidth, bottom: camera.height - 14 };
         if (scene.classes) drawClassLegend(g, scene.classes, scene.missing, box, ink);
         else this.ramp(g, camera, scene, ink, halo);
