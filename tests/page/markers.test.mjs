@@ -134,6 +134,17 @@ test('places without a value are hatched, and the legend names them only there',
     await closeReport(page);
 });
 
+test('lengths are measured to a micrometre', async () => {
+    const page = await openReport(browser, reports.ball);
+    await watchDrawing(page);
+    await press(page, 'm');
+    for (const x of [300, 400]) await page.locator('.overlay').click({ position: { x, y: 250 } });
+    await settled(page);
+    const text = names((await drawn(page)).texts).find((t) => t.includes('ΔX'));
+    assert.match(text, /^\d+\.\d{3} mm {3}ΔX −?\d+\.\d{3} {2}ΔY −?\d+\.\d{3} {2}ΔZ −?\d+\.\d{3}$/);
+    await closeReport(page);
+});
+
 test('a marker that is clicked shows its defect', async () => {
     const page = await openReport(browser, reports.ball);
     await watchDrawing(page);

@@ -242,7 +242,13 @@ export class Overlay {
             g.lineWidth = 1.5;
             g.stroke();
             const d = places[1].map((c, k) => c - places[0][k]);
-            const text = `${Math.hypot(...d).toFixed(4)} mm   ΔX ${d[0].toFixed(4)}  ΔY ${d[1].toFixed(4)}  ΔZ ${d[2].toFixed(4)}`;
+            // What is clicked is a point of the log: its positions have a few micrometres at best.
+            const mm = (value: number) =>
+                value
+                    .toFixed(3)
+                    .replace(/^-(?=0\.0+$)/, '')
+                    .replace('-', '−');
+            const text = `${mm(Math.hypot(...d))} mm   ΔX ${mm(d[0])}  ΔY ${mm(d[1])}  ΔZ ${mm(d[2])}`;
             g.font = `600 12px ${styleValue('--font')}`;
             const size = [g.measureText(text).width + 4, 17];
             const box = labelPlace([(x0 + x1) / 2, (y0 + y1) / 2], size, taken, [camera.width, camera.height]);
