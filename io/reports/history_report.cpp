@@ -131,14 +131,14 @@ std::string trend_text(const ReportedTrend& r) {
     } else if (runs < least_runs_for_change) {
         text += fmt::format("A change of level needs at least {} runs.\n", least_runs_for_change);
     } else {
-        text += "No change of level: in a random order, runs would differ as much.\n";
+        text += "No change of level: the differences are no larger than in a random order of the runs.\n";
     }
     if (r.limit) text += limit_text(r);
     if (!r.by.empty()) text += fmt::format("By {}:\n", r.by);
     for (const TrendGroup& group : r.trend->groups)
-        text += fmt::format("  {:<16} {:>5} runs  median {:>10}  highest {:>10}\n",
-                            group.name.empty() ? "not given" : group.name, group.runs, with_unit(group.median, unit),
-                            with_unit(group.most, unit));
+        text += fmt::format("  {:<16} {:>5} {:<4}  median {:>10}  highest {:>10}\n",
+                            group.name.empty() ? "not given" : group.name, group.runs, group.runs == 1 ? "run" : "runs",
+                            with_unit(group.median, unit), with_unit(group.most, unit));
     return text;
 }
 

@@ -69,6 +69,25 @@ Json judged_limits_json(const LimitReport& report) {
     return all;
 }
 
+/// The largest share of each limit, beyond its uncertainty: a row for each quantity.
+std::string shares_text(const LimitReport& report) {
+    std::vector<std::string_view> names;
+    for (const JudgedLimit& judged : report.judged) {
+        const std::string_view name = name_of(judged.limit.quantity);
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+    std::string text = "Largest share of each limit used:\n";
+    for (const std::string_view name : names) {
+        std::string row = fmt::format("  {:<24}", name);
+        for (const JudgedLimit& judged : report.judged) {
+            if (name_of(judged.limit.quantity) == name)
+                row += fmt::format("  {} {:.3f} ± {:.3f}", axis_name(judged.limit), judged.factor, judged.uncertainty);
+        }
+        text += row + '\n';
+    }
+    return text;
+}
+
 std::string limits_text(const LimitReport& report, const Program& program) {
     // A machine file with kinematics alone asks for no verdict.
     if (report.judged.empty()) return report.diagnostics.empty() ? "" : "limits: none could be judged\n\n";
@@ -92,11 +111,7 @@ std::string limits_text(const LimitReport& report, const Program& program) {
         if (report.findings.size() > most_rows)
             text += fmt::format("… and {} more: --format json or csv has all\n", report.findings.size() - most_rows);
     }
-    std::string judged;
-    for (const JudgedLimit& limit : report.judged)
-        judged += fmt::format("{}{} {} {:.3f} ± {:.3f}", judged.empty() ? "" : ", ", name_of(limit.limit.quantity),
-                              axis_name(limit.limit), limit.factor, limit.uncertainty);
-    return text + "judged, with the share of each limit that is greatest beyond its uncertainty: " + judged + "\n\n";
+    return text + shares_text(report) + "\n";
 }
 
 std::string_view limit_column_titles() { return "axis,factor,uncertainty,value,limit,unit,time [s],duration [s]"; }

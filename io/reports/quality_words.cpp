@@ -67,7 +67,8 @@ std::string height_text(const Defect& d) {
         return fmt::format("the controller leaves the programmed path: {} {} {} {} the neighbours", passes_text(d),
                            one_pass(d) ? "runs" : "run", with_um(d.depth), where);
     if (d.quantity == Quantity::relief)
-        return fmt::format("the program has {} {} {} the neighbours", passes_text(d), with_um(d.depth), where);
+        return fmt::format("in the program, {} {} {} {} {} neighbours", passes_text(d), one_pass(d) ? "is" : "are",
+                           with_um(d.depth), where, one_pass(d) ? "its" : "their");
     const std::string_view when = d.cause == Cause::corner     ? " in a corner"
                                   : d.cause == Cause::reversal ? " after an axis reverses"
                                                                : "";

@@ -73,7 +73,8 @@ std::int64_t reference_of(const std::string& word, const std::vector<RunRecord>&
         if (first != runs.end()) found = &*first;
     }
     if (found == nullptr)
-        throw InputError(Place::of_file(path), fmt::format("has no other judged run of the program of run {}", run.id));
+        throw InputError(Place::of_file(path),
+                         fmt::format("no other judged run of the same program as run {}", run.id));
     return found->id;
 }
 

@@ -19,8 +19,8 @@ void note_left_out(const RunReport& report, const LoadedRun& b, const std::strin
     diagnostics.add(
         {Severity::warning, "compare.left-out", Place::of_file(b.name),
          fmt::format(
-             "{:.1f} of its {:.1f} mm are not compared, {} does not have them or has them once only: the longest "
-             "way is points {}-{}, {:.3f} s",
+             "{:.1f} of its {:.1f} mm are not compared: {} has no such path, or has it only once. Longest part: "
+             "points {}–{}, {:.3f} s",
              left_out, report.arc_length_of_b, a, points.first, points.last,
              b.log.time_of(points.last) - b.log.time_of(points.first)),
          "a second run in this log, or lines that ran twice? Where it is the first argument, all its runs are compared"});

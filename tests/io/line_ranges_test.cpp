@@ -23,6 +23,8 @@ TEST(LineRanges, SayLineOfOneAndLinesOfMore) {
     EXPECT_EQ(named_line_ranges(std::vector{run(16, 17)}, 4), "lines 16-17");
     EXPECT_EQ(named_line_ranges(std::vector{run(1, 1), run(3, 3)}, 1), "line 1 and 1 more range");
     EXPECT_EQ(named_line_ranges(std::vector{run(1, 2), run(4, 5), run(7, 8)}, 1), "lines 1-2 and 2 more ranges");
+    EXPECT_EQ(named_line_ranges(std::vector{run(1, 1), run(3, 3), run(5, 5), run(7, 9)}, 2),
+              "lines 1, 3 and 2 more ranges");
     EXPECT_EQ(named_line_ranges(std::vector{run(0, 0)}, 4), "no known line");
     DefectRun called = run(16, 16);
     called.file = "ramp.nc";

@@ -41,7 +41,7 @@ clsurf_cli_test(NAME history_against_a_number AFTER history_list_is_in_the_order
 set(one_unjudged "cp @DATA@/programs/dome_loops.nc . && $CLSURF export dome_loops.nc @LOGS@/dome_loops.biip -o all.csv --columns cmd.x,cmd.y,cmd.z -q && awk 'NR == 1 || NR % 32 == 0' all.csv > slow.csv && $CLSURF history shop.db add dome_loops.nc @LOGS@/dome_loops.biip --tool none -q && { $CLSURF history shop.db add dome_loops.nc slow.csv --period 0.032 -q || true; }")
 clsurf_cli_test(NAME history_against_without_a_verdict SETUP "${one_unjudged}" ARGS history shop.db against 1 --run 2 EXIT 3 STDERR "run 2 was not judged: A record comes every 32 ms" "hint: choose runs with a verdict")
 clsurf_cli_test(NAME history_trend_without_a_verdict AFTER history_against_without_a_verdict SETUP "${same_runs}" ARGS history shop.db trend STDOUT "over 1 run: [0-9.]+ times the threshold in run 1 .*, the latest with a value" "1 run has no value: failed, or not judged")
-clsurf_cli_test(NAME history_against_none AFTER history_list_is_in_the_order_of_time SETUP "${same_runs}" ARGS history shop.db against best EXIT 3 STDERR "has no other judged run of the program of run 1")
+clsurf_cli_test(NAME history_against_none AFTER history_list_is_in_the_order_of_time SETUP "${same_runs}" ARGS history shop.db against best EXIT 3 STDERR "no other judged run of the same program as run 1")
 clsurf_cli_test(NAME history_report AFTER history_since_when SETUP "${same_runs}; $CLSURF history shop.db report -o shop.html; python3 @DATA@/../tests/cli/read_shop_page.py shop.html" ARGS history shop.db report -o shop.html FILE shop.html)
 
 # ---- parameters ----

@@ -20,7 +20,7 @@ clsurf_cli_test(NAME limits_in_csv SETUP "${axes_only} && ($CLSURF check ${excee
 clsurf_cli_test(NAME limits_in_sarif SETUP "${axes_only}" ARGS check ${exceeded} --machine axes.toml --format sarif EXIT 5
   STDOUT "\"ruleId\": \"limit_acceleration\".*\"level\": \"error\".*\"startLine\": 302" "\"clsurfLimit/v1\": \"limit_acceleration/y/302/1\"")
 clsurf_cli_test(NAME limits_that_are_kept SETUP "${axes_only}" ARGS check ${kept} --machine axes.toml
-  EXIT 5 STDOUT "^The commanded motion keeps all [0-9]+ limits that are stated for it" "acceleration z 1[.]001")
+  EXIT 5 STDOUT "^The commanded motion keeps all [0-9]+ limits that are stated for it" "\n  acceleration +x .* z 1[.]001")
 # A file without [path] states nothing of the path.
 clsurf_cli_test(NAME limits_are_those_of_the_file SETUP "printf '[[axis]]\\nname = \"x\"\\nmax_speed = 15000\\n' > x.toml" ARGS check ${exceeded} --machine x.toml --json
   EXIT 5 NO_STDOUT "\"quantity\": \"acceleration\"" "\"axis\": \"y\"" "path_speed" STDOUT "\"quantity\": \"speed\"")

@@ -158,4 +158,4 @@ clsurf_cli_test(NAME each_of_two_runs_is_judged SETUP "${two_runs}" ARGS check p
 clsurf_cli_test(NAME a_restarted_run_is_no_other_program SETUP "${restarted}" ARGS info part.nc run.csv
   STDOUT "leaves the path on line 182 at point 1063, and the run goes on from line 109: lines 109-182 ran twice" NO_STDOUT "another program")
 clsurf_cli_test(NAME diff_says_what_it_leaves_out SETUP "${two_runs} && mv run.csv two.csv && ${one_run}" ARGS diff run.csv two.csv
-  STDERR "two.csv: warning: .* mm are not compared, run.csv does not have them or has them once only: the longest way is points 17[0-9][0-9]-")
+  STDERR "two.csv: warning: .* mm are not compared: run.csv has no such path, or has it only once. Longest part: points 17[0-9][0-9]–")
