@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "io/reports/defect_names.h"
+#include "program/frame_placement.h"
 
 namespace clsurf::cli {
 namespace {
@@ -62,6 +63,34 @@ viz::DefectMap defect_map_of(const QualityReport& report) {
         map.marks.push_back(std::move(mark));
     }
     return map;
+}
+
+viz::MapTexts defect_map_texts(const QualityReport& report, const Part& part, std::string_view subtitle) {
+    const std::size_t found = report.defects.size();
+    const bool is_judged = report.judgement.judged();
+    viz::MapTexts texts;
+    texts.frame = common_work_system(part.program.motions);
+    texts.title = io::headline_of(report);
+    if (!is_judged && found > 0) texts.title = "Not judged: " + texts.title;
+    // "0 defects" would clear a part that was not judged.
+    if (is_judged || found > 0) texts.subtitle = found == 1 ? "1 defect · " : fmt::format("{} defects · ", found);
+    texts.subtitle += subtitle;
+    if (found > 0) {
+        texts.notes = {"coloured sections are at fault", "darker ones are further above the threshold",
+                       "1 has the highest score"};
+    }
+    note_tool_tip(part, texts.notes);
+    note_judgement(report, "", texts.notes);
+    return texts;
+}
+
+void note_judgement(const QualityReport& report, std::string_view which, std::vector<std::string>& notes) {
+    if (!report.judgement.judged())
+        notes.insert(notes.begin(), fmt::format("{}not judged: clsurf check says why", which));
+}
+
+void note_tool_tip(const Part& part, std::vector<std::string>& notes) {
+    if (part.tool) notes.emplace_back("axes show the tool tip; `clsurf check --tool` lists contact points");
 }
 
 }  // namespace clsurf::cli

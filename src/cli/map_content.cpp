@@ -8,7 +8,6 @@
 #include "core/error.h"
 #include "core/file_name.h"
 #include "field/pass_ramps.h"
-#include "io/reports/defect_names.h"
 #include "program/frame_placement.h"
 #include "viz/map_texts.h"
 
@@ -55,22 +54,6 @@ viz::MapPanel panel_of(const Shown& shown, const RenderOptions& options, std::st
     return panel;
 }
 
-namespace {
-
-/// A picture without defects of a run that was not judged would look like one of a good part.
-void note_judgement(const QualityReport& report, std::string_view which, viz::MapTexts& texts) {
-    if (!report.judgement.judged())
-        texts.notes.insert(texts.notes.begin(), fmt::format("{}not judged: clsurf check says why", which));
-}
-
-/// Reports name contact points where the tool is known; a map has tool tips.
-void note_axes(const Shown& shown, std::vector<std::string>& notes) {
-    if (shown.part.tool && !shown.relief)
-        notes.emplace_back("axes show the tool tip; `clsurf check --tool` lists contact points");
-}
-
-}  // namespace
-
 viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, const RenderOptions& options,
                        const std::vector<std::string>& range_notes) {
     viz::MapTexts texts;
@@ -95,9 +78,9 @@ viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, c
         texts.notes.push_back(shown.defects.outlines.empty()
                                   ? "no defects"
                                   : fmt::format("{} defects, 1 the worst", shown.defects.outlines.size()));
-    if (options.defects) note_axes(shown, texts.notes);
-    if (options.defects) note_judgement(shown.defects.report, "", texts);
-    if (options.defects && before) note_judgement(before->defects.report, "before: ", texts);
+    if (options.defects && !shown.relief) note_tool_tip(shown.part, texts.notes);
+    if (options.defects) note_judgement(shown.defects.report, "", texts.notes);
+    if (options.defects && before) note_judgement(before->defects.report, "before: ", texts.notes);
     texts.notes.insert(texts.notes.end(), range_notes.begin(), range_notes.end());
     return texts;
 }
@@ -107,20 +90,9 @@ viz::Image draw_defect_map(const Shown& shown, const RenderOptions& options) {
     viz::MapPanel panel = panel_of(shown, options, "");
     panel.outlines.clear();
     panel.defects = &defects;
-    const std::string count = defects.marks.size() == 1 ? "1 defect" : fmt::format("{} defects", defects.marks.size());
-    viz::MapTexts texts;
-    texts.frame = common_work_system(shown.part.program.motions);
-    texts.title = io::headline_of(shown.defects.report);
-    if (!shown.defects.report.judgement.judged() && !shown.defects.report.defects.empty())
-        texts.title = "Not judged: " + texts.title;
-    // "0 defects" would clear a part that was not judged.
-    const bool is_known = shown.defects.report.judgement.judged() || !defects.marks.empty();
-    texts.subtitle = fmt::format("{}{} · {} · {}", is_known ? count + " · " : "", file_name(options.part.program),
-                                 run_name(shown, options), viz::counts_of(shown.surface));
-    if (!defects.marks.empty())
-        texts.notes = {"colour: sections at fault", "darker: further above the threshold", "1: highest score"};
-    note_axes(shown, texts.notes);
-    note_judgement(shown.defects.report, "", texts);
+    viz::MapTexts texts = defect_map_texts(shown.defects.report, shown.part,
+                                           fmt::format("{} · {} · {}", file_name(options.part.program),
+                                                       run_name(shown, options), viz::counts_of(shown.surface)));
     if (options.programmed) texts.notes.emplace_back("thin lines: the programmed path");
     return viz::draw_map({panel}, viz::placed_map({panel}, options.shown.look), {}, texts, options.shown.look);
 }

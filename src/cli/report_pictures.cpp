@@ -9,12 +9,11 @@
 #include "cli/defect_map.h"
 #include "core/file_name.h"
 #include "core/not_finite.h"
-#include "io/reports/defect_names.h"
 #include "io/reports/quality_words.h"
 #include "pipeline/shards.h"
-#include "program/frame_placement.h"
 #include "surface/surface_part.h"
 #include "viz/field_colours.h"
+#include "viz/map_texts.h"
 
 namespace clsurf::cli {
 namespace {
@@ -78,12 +77,15 @@ std::string draw_in_shards(const viz::MapPanel& panel, int shards, const ShownRa
     return viz::encode_image(viz::draw_map(map, viz::placed_map({panel}, look), scale, look), texts.title, "png");
 }
 
+/// "part.ngc · run.csv"
+std::string names_of(const PicturedPart& shown) {
+    return fmt::format("{} · {}", file_name(shown.part->program.main().name()), file_name(shown.part->log.name));
+}
+
 viz::MapTexts texts_of(const PicturedPart& shown, const FieldInfo& info, const ShownRange& range) {
     viz::MapTexts texts;
     texts.title = fmt::format("{}, {} surface", info.label, name_of(shown.part->path.role));
-    const std::string& log = shown.part->log.name;
-    const std::string& program = shown.part->program.main().name();
-    texts.subtitle = fmt::format("{} · {}", file_name(program), file_name(log));
+    texts.subtitle = names_of(shown);
     if (!range.note.empty()) texts.notes.push_back(range.note);
     return texts;
 }
@@ -99,11 +101,8 @@ io::PagePicture picture_of_defects(const PicturedPart& shown) {
     look.height = map_height;
     look.names = true;
     look.gl = shown.gl;
-    viz::MapTexts texts = texts_of(shown, shown.fields.front().info, {});
-    texts.frame = common_work_system(shown.part->program.motions);
-    texts.title = io::headline_of(*shown.report);
-    if (!shown.report->judgement.judged() && !shown.report->defects.empty()) texts.title = "Not judged: " + texts.title;
-    if (shown.part->tool) texts.notes.emplace_back("axes show the tool tip");
+    const viz::MapTexts texts = defect_map_texts(
+        *shown.report, *shown.part, fmt::format("{} · {}", names_of(shown), viz::counts_of(*shown.surface)));
     return {"Defects", "Numbers are those of the table of all defects.", draw(panel, {}, texts, look)};
 }
 

@@ -1,5 +1,5 @@
-"""Compares two pages of `clsurf report` byte for byte, but for the pictures of the part in a field (the first of each page after the defect map),
-which it writes as PNG files.
+"""Compares two pages of `clsurf report` byte for byte, except for the picture of the part in a field (the first of each
+page after the defect map), which it writes as PNG files.
 
 usage: split_page.py A.html B.html A.png B.png
 """
