@@ -13,6 +13,9 @@ set(check_documents python3 ${PROJECT_SOURCE_DIR}/tests/docs/check_documents.py)
 add_test(NAME docs.links COMMAND ${check_documents} links ${PROJECT_SOURCE_DIR})
 add_test(NAME docs.listings COMMAND ${check_documents} listings ${PROJECT_SOURCE_DIR} $<TARGET_FILE:clsurf> README.md docs/tutorial.md)
 set_tests_properties(docs.listings PROPERTIES TIMEOUT 600)
+add_test(NAME docs.pictures COMMAND ${check_documents} pictures ${PROJECT_SOURCE_DIR} $<TARGET_FILE:clsurf>
+  README.md docs/tutorial.md docs/guide/README.md docs/reading_a_map.md docs/formed.md)
+set_tests_properties(docs.pictures PROPERTIES TIMEOUT 600)
 set(wrong ${CMAKE_CURRENT_BINARY_DIR}/wrong_documents)
 file(MAKE_DIRECTORY ${wrong}/docs)
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/data ${wrong}/data SYMBOLIC)
@@ -25,6 +28,14 @@ set_tests_properties(docs.wrong_links_are_found PROPERTIES PASS_REGULAR_EXPRESSI
 add_test(NAME docs.wrong_listings_are_found COMMAND ${check_documents} listings ${wrong} $<TARGET_FILE:clsurf> README.md)
 set_tests_properties(docs.wrong_listings_are_found PROPERTIES PASS_REGULAR_EXPRESSION
   "shown: +line 560: X1.874 Z4.723\n +printed: line 560: X1.873 Z4.723\n")
+
+# A picture of another field under the name of a command.
+file(MAKE_DIRECTORY ${wrong}/pictures)
+file(WRITE ${wrong}/pictures/README.md "![mismatch](guide/mismatch.png)\n\n    clsurf render part.nc run.biip --view top -o mismatch.png\n")
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/docs/guide ${wrong}/pictures/guide SYMBOLIC)
+add_test(NAME docs.wrong_pictures_are_found COMMAND ${check_documents} pictures ${wrong} $<TARGET_FILE:clsurf> pictures/README.md)
+set_tests_properties(docs.wrong_pictures_are_found PROPERTIES PASS_REGULAR_EXPRESSION
+  "^pictures/README.md: mismatch.png is not what 'clsurf render part.nc run.biip --view top -o mismatch.png --size 1200x900' draws\n$")
 
 find_program(MAN man)
 if(MAN)

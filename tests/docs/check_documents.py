@@ -4,13 +4,21 @@
 #                                                   every page of docs can be reached from README.md
 # check_documents.py listings ROOT CLSURF PAGE…     the outputs that a page shows are those of its commands
 # check_documents.py update ROOT CLSURF PAGE…       writes the outputs into the pages instead
+# check_documents.py pictures ROOT CLSURF PAGE…     the pictures of a page are those of its commands
+# check_documents.py draw ROOT CLSURF PAGE…         draws them anew instead, those that differ
 #
 # Listings are code blocks, indented by four blanks. A line `$ COMMAND` is run in an empty folder, in the order of the page;
 # the lines below it are its standard output. `…` stands for lines that are left out: what is before it is the beginning
 # of the output, what is after it the end. `$ cat FILE` defines the file instead. Lines `cp …` and `xz …` are run as well.
 # The folder holds part.nc and run.biip, the sample part bottle_uneven, and `data`.
+#
+# A command draws a picture of its page if the name after -o is that of the picture. It is drawn in the size of the picture
+# unless the command says --size. Lines that make its files are run as well: `cp`, `sed`, `for`, and `clsurf simulate` of a program
+# that is there.
 import os
 import re
+import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -105,7 +113,7 @@ class Page:
         self.run("cp data/programs/bottle_uneven.nc part.nc && xz -dc data/logs/bottle_uneven.biip.xz > run.biip")
 
     def run(self, command):
-        ran = subprocess.run(command, shell=True, cwd=self.folder, env=self.environment, capture_output=True, text=True)
+        ran = subprocess.run(["bash", "-c", command], cwd=self.folder, env=self.environment, capture_output=True, text=True)
         if ran.returncode not in (0, 1, 5):
             said = ran.stderr.strip()
             self.complaints.append("%s: '%s' ends with exit code %d: %s" % (self.path, command, ran.returncode, said))
@@ -144,6 +152,46 @@ class Page:
             i += len(expected)
         return self.complaints
 
+    def is_same(self, drawn, picture):
+        compared = subprocess.run(["clsurf", "compare", drawn, picture], cwd=self.folder, env=self.environment, capture_output=True)
+        return compared.returncode == 0
+
+    def check_pictures(self, root, draw):
+        """Draws the pictures whose commands the page shows, and lists those that differ; `draw` replaces them."""
+        folder = os.path.join(root, os.path.dirname(self.path))
+        shown = {os.path.basename(link): os.path.join(folder, link)
+                 for link in re.findall(r"!\[[^\]]*\]\(([^)\s]+\.png)\)", without_code("\n".join(self.lines)))}
+        drawn = 0
+        for line in self.lines:
+            command = line.strip().removeprefix("$ ")
+            if not line.startswith(CODE):
+                continue
+            simulated = re.match(r"clsurf simulate (\S+)", command)
+            if re.match(r"(cp|sed|for \w+ in) ", command) or simulated and os.path.exists(os.path.join(self.folder, simulated[1])):
+                self.run(command)
+            named = re.match(r"clsurf (?:render|plot) .*-o ([\w.]+)", command)
+            if named is None or named[1] not in shown:
+                continue
+            picture = shown[named[1]]
+            if "--size" not in command:
+                command += " --size %dx%d" % size_of(picture)
+            self.run(command)
+            drawn += 1
+            if self.is_same(named[1], picture):
+                continue
+            if draw:
+                shutil.copyfile(os.path.join(self.folder, named[1]), picture)
+            self.complaints.append("%s: %s is not what '%s' draws" % (self.path, named[1], command))
+        if drawn == 0:
+            self.complaints.append("%s: no picture has a command" % self.path)
+        return self.complaints
+
+
+def size_of(picture):
+    """Width and height [px] of a PNG."""
+    with open(picture, "rb") as file:
+        return struct.unpack(">II", file.read(24)[16:])
+
 
 def main(arguments):
     what, root = arguments[0], os.path.abspath(arguments[1])
@@ -153,6 +201,9 @@ def main(arguments):
     else:
         for path in arguments[3:]:
             page = Page(root, os.path.abspath(arguments[2]), path)
+            if what in ("pictures", "draw"):
+                complaints += page.check_pictures(root, what == "draw")
+                continue
             found = page.check()
             if what == "update":
                 with open(os.path.join(root, path), "w", encoding="utf-8") as file:
@@ -160,7 +211,7 @@ def main(arguments):
             else:
                 complaints += found
     print("\n".join(complaints))
-    return 1 if complaints else 0
+    return 1 if complaints and what != "draw" else 0
 
 
 if __name__ == "__main__":
