@@ -156,22 +156,6 @@ RotarySolutions solve_rotary(const Kinematics& kinematics, const Vec3& axis, con
     return solutions;
 }
 
-bool nearest_rotary(const Kinematics& kinematics, const Vec3& axis, const RotaryAngles& before, const AngleRange& tilt,
-                    const AngleRange& rotation, RotaryAngles& found) {
-    const RotarySolutions solutions = solve_rotary(kinematics, axis, before);
-    double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < solutions.count; ++i) {
-        RotaryAngles angles = solutions.angles[static_cast<std::size_t>(i)];
-        if (!wrap_near(angles.tilt, before.tilt, tilt) || !wrap_near(angles.rotation, before.rotation, rotation))
-            continue;
-        const double travel = travel_between(angles, before);
-        if (!(travel < least)) continue;
-        least = travel;
-        found = angles;
-    }
-    return std::isfinite(least);
-}
-
 std::vector<RotaryAngles> follow_rotary(const Kinematics& kinematics, std::span<const Vec3> axes,
                                         const RotaryAngles& before, const AngleRange& tilt,
                                         const AngleRange& rotation) {

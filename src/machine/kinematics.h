@@ -116,11 +116,6 @@ struct AngleRange {
     [[nodiscard]] bool contains(double angle) const { return angle >= low && angle <= high; }
 };
 
-/// The solution next to `before`, each angle by whole turns as near to it as its range allows; least
-/// sum of both ways. False: none lies within the ranges.
-[[nodiscard]] bool nearest_rotary(const Kinematics& kinematics, const Vec3& axis, const RotaryAngles& before,
-                                  const AngleRange& tilt, const AngleRange& rotation, RotaryAngles& found);
-
 /// The angles for a whole series of tool axes with the least sum of ways |Δθ| + |Δφ| over both
 /// solutions at each (dynamic programming), so that a cut need not change over. From `before` on.
 /// Shorter than `axes`: the next one is out of reach. O(axes).

@@ -378,11 +378,6 @@ std::vector<Eigen::Isometry3d> find_poses(const Trajectory& path, const Program&
     return by_geometry.empty() ? by_lines : by_geometry;
 }
 
-std::optional<Eigen::Isometry3d> find_pose(const Trajectory& path, const Program& program, const LineMap* map) {
-    const std::vector<Eigen::Isometry3d> found = find_poses(path, program, map);
-    return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
-}
-
 double share_on_path(const Trajectory& path, const Program& program) {
     const Toolpath toolpath = known_path(program);
     PathSamples samples = take_samples(path, toolpath, nullptr);

@@ -7,7 +7,6 @@
 // boxes. Each guess is refined by robust least squares of the distances to the nearest motions, along whose direction
 // nothing is learned (iterative closest point: Chen, Medioni 1992).
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,18 +21,14 @@ namespace clsurf {
 [[nodiscard]] std::vector<Eigen::Isometry3d> find_poses(const Trajectory& path, const Program& program,
                                                         const LineMap* map);
 
-/// The only one of find_poses(); none where there are several.
-[[nodiscard]] std::optional<Eigen::Isometry3d> find_pose(const Trajectory& path, const Program& program,
-                                                         const LineMap* map);
-
-/// The same in words: "12.5,-3,0" or "12.5,-3,0,17.5", as --work-offset takes machine = pose · workpiece.
+/// A pose in words: "12.5,-3,0" or "12.5,-3,0,17.5", as --work-offset takes machine = pose · workpiece.
 [[nodiscard]] std::string pose_numbers(const Eigen::Isometry3d& pose);
 
 /// Where find_poses() finds one other than none: a warning `map.work-offset` with the option that brings the log there;
 /// where it finds several, with all of them. True where it did.
 bool note_pose(const Trajectory& path, const Program& program, const LineMap* map, Diagnostics& diagnostics);
 
-/// Share of sampled moving points within reach of the path (as find_pose() has it) where they are, 0 … 1.
+/// Share of sampled moving points within reach of the path (as find_poses() has it) where they are, 0 … 1.
 [[nodiscard]] double share_on_path(const Trajectory& path, const Program& program);
 
 }  // namespace clsurf

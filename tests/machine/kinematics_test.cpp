@@ -198,19 +198,21 @@ TEST(Kinematics, WhatAnInclinedAxisCannotReach) {
     EXPECT_NEAR(angle_between(k.axis_of({pi, 0}), Vec3::UnitZ()), pi / 2, 1e-12);
 }
 
-TEST(Kinematics, NearestKeepsTurnsAndRanges) {
+TEST(Kinematics, FollowingKeepsTurnsAndRanges) {
     const Kinematics k = machine_of(KinematicsType::table_table, "AC");
     const AngleRange free;
-    RotaryAngles found;
+    const std::vector<Vec3> axes{k.axis_of({0.4, 0.2})};
     // Three turns on: the same axis again leaves everything where it is.
-    ASSERT_TRUE(nearest_rotary(k, k.axis_of({0.4, 0.2}), {0.4, 0.2 + 6 * pi}, free, free, found));
-    EXPECT_NEAR(found.rotation, 0.2 + 6 * pi, 1e-12);
-    EXPECT_NEAR(found.tilt, 0.4, 1e-12);
+    std::vector<RotaryAngles> found = follow_rotary(k, axes, {0.4, 0.2 + 6 * pi}, free, free);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_NEAR(found[0].rotation, 0.2 + 6 * pi, 1e-12);
+    EXPECT_NEAR(found[0].tilt, 0.4, 1e-12);
     // Tilt may only be negative: the other branch.
-    ASSERT_TRUE(nearest_rotary(k, k.axis_of({0.4, 0.2}), {0, 0}, {-pi / 2, 0}, free, found));
-    EXPECT_NEAR(found.tilt, -0.4, 1e-12);
-    EXPECT_NEAR(found.rotation, 0.2 - pi, 1e-12);
-    EXPECT_FALSE(nearest_rotary(k, k.axis_of({0.4, 0.2}), {0, 0}, {-0.3, 0.3}, free, found));
+    found = follow_rotary(k, axes, {0, 0}, {-pi / 2, 0}, free);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_NEAR(found[0].tilt, -0.4, 1e-12);
+    EXPECT_NEAR(found[0].rotation, 0.2 - pi, 1e-12);
+    EXPECT_TRUE(follow_rotary(k, axes, {0, 0}, {-0.3, 0.3}, free).empty());
 }
 
 // Through the pole: greedy choice turns C by half a turn, following the whole series goes on to
