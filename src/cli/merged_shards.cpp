@@ -5,6 +5,12 @@
 #include "io/formats/shard_file.h"
 
 namespace clsurf::cli {
+namespace {
+
+/// Candidates lie at the ends of passes, and the points between them are not looked at.
+constexpr PointIndex points_of_block = 1024;
+
+}  // namespace
 
 std::string shard_settings(const Part& part) { return part.tool ? "--tool " + to_text(*part.tool) : "--tool none"; }
 
@@ -46,7 +52,7 @@ Quality judge_merged(const MergedShards& merged, const Part& part, std::optional
     const Survey& survey = *merged.survey;
     MotionSizes motion;
     QualityRules rules = rules_of_shards(merged.read(part, motion), survey);
-    surface = surveyed_surface(part, survey);
+    surface = surveyed_surface(part, survey, points_of_block);
     if (merged.in_files) {
         surface.neighbours.checked.need(0, survey.points - 1);
         surface.positions = gather(part.path);

@@ -36,6 +36,8 @@ public:
         for (PointIndex block = first >> shift_; block <= last >> shift_; ++block) need(block << shift_);
     }
 
+    /// Points of a block.
+    [[nodiscard]] PointIndex block() const { return PointIndex{1} << shift_; }
     /// Points of blocks that were filled, each time that they were.
     [[nodiscard]] PointIndex filled() const { return points_.load(); }
     /// Nothing is filled from now on. Nobody may be reading.

@@ -43,6 +43,8 @@ public:
         void* const pages = ::mmap(nullptr, size * sizeof(T), PROT_READ | PROT_WRITE,
                                    MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
         if (pages == MAP_FAILED) throw std::bad_alloc();
+        // A huge page would take memory for what is not written.
+        ::madvise(pages, size * sizeof(T), MADV_NOHUGEPAGE);
         column.data_ = static_cast<T*>(pages);
         column.size_ = column.capacity_ = size;
         column.storage_ = Storage::sparse;

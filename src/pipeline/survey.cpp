@@ -173,9 +173,9 @@ Part surveyed_part(Program program, Log log, const PartRules& rules, const Surve
     return part;
 }
 
-ClSurface surveyed_surface(const Part& part, const Survey& survey) {
+ClSurface surveyed_surface(const Part& part, const Survey& survey, PointIndex block) {
     ClSurface surface;
-    surface.positions = gather_when_read(part.path, survey.origin, Column<double>::borrowed(survey.arc_lengths));
+    surface.positions = gather_when_read(part.path, survey.origin, Column<double>::borrowed(survey.arc_lengths), block);
     surface.passes = Column<Pass>::borrowed(survey.passes);
     surface.step_over_moves = survey.step_over_moves;
     surface.neighbours = {Column<std::int32_t>::borrowed(survey.neighbours.left),

@@ -54,8 +54,8 @@ struct Survey {
 [[nodiscard]] Part surveyed_part(Program program, Log log, const PartRules& rules, const Survey& survey);
 
 /// The surface of a part that was surveyed: of its positions those are gathered that are looked at. The survey must
-/// outlive it. O(passes).
-[[nodiscard]] ClSurface surveyed_surface(const Part& part, const Survey& survey);
+/// outlive it. `block`: of gather_when_read(). O(passes).
+[[nodiscard]] ClSurface surveyed_surface(const Part& part, const Survey& survey, PointIndex block = block_points);
 
 /// The same for the signals. The surface must outlive them, and stay where it is. O(pieces).
 [[nodiscard]] PartSignals surveyed_signals(const Part& part, const ClSurface& surface, const Survey& survey,

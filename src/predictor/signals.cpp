@@ -468,21 +468,23 @@ Signals derive_when_read(const ClSurface& surface, const Trajectory& path, const
     signals.arc_length = std::make_shared<ArcLength>(surface.positions);
     auto work = std::make_shared<Derivation>(Derivation{path, {}, signals.pieces, std::nullopt, std::nullopt});
     if (measured != nullptr) work->measured = *measured;
-    signals.motion = {path.count, [work](PointIndex first, PointIndex last) {
-                          for_each_piece(work->pieces, first, last, [&](PointRange piece, PointIndex a, PointIndex b) {
-                              work->deriver->derive_motion(piece, a, b);
-                          });
-                      }};
-    signals.zones = {path.count, [work, motion = signals.motion.get()](PointIndex first, PointIndex last) {
-                         motion->need(first);
-                         work->marker->mark({first, last - 1});
-                     }};
-    signals.heights = {path.count, [work, zones = signals.zones.get()](PointIndex first, PointIndex last) {
-                           zones->need(first);
-                           for_each_piece(work->pieces, first, last, [&](PointRange piece, PointIndex a, PointIndex b) {
-                               work->deriver->derive_heights(piece, a, b);
-                           });
-                       }};
+    const PointIndex block = surface.positions.fill ? surface.positions.fill->block() : block_points;
+    const auto filled_by = [&](BlockFill::Fill fill) { return BlockFillPointer(path.count, std::move(fill), block); };
+    signals.motion = filled_by([work](PointIndex first, PointIndex last) {
+        for_each_piece(work->pieces, first, last, [&](PointRange piece, PointIndex a, PointIndex b) {
+            work->deriver->derive_motion(piece, a, b);
+        });
+    });
+    signals.zones = filled_by([work, motion = signals.motion.get()](PointIndex first, PointIndex last) {
+        motion->need(first);
+        work->marker->mark({first, last - 1});
+    });
+    signals.heights = filled_by([work, zones = signals.zones.get()](PointIndex first, PointIndex last) {
+        zones->need(first);
+        for_each_piece(work->pieces, first, last, [&](PointRange piece, PointIndex a, PointIndex b) {
+            work->deriver->derive_heights(piece, a, b);
+        });
+    });
     const SamplesInWork samples(signals.samples.data(), signals.motion.get(), signals.zones.get());
     work->deriver.emplace(surface, work->path, work->measured ? &*work->measured : nullptr, nullptr, facts.usual_speed,
                           facts.path_quantum, samples);

@@ -32,7 +32,7 @@ Sites::Sites(const ClSurface& surface, const Signals& signals)
         }
     };
     if (signals.heights)
-        fill_ = {signals.size(), find};
+        fill_ = {signals.size(), find, signals.heights->block()};
     else
         for_each_block(signals.size(), find);
 }

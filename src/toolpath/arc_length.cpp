@@ -47,11 +47,13 @@ void ArcLength::measure_when_read(const Positions& positions) {
     const PointIndex count = positions.size();
     sums_ = Column<double>::borrowed(positions.arc_lengths);
     steps_ = Column<float>::sparse(static_cast<std::size_t>(count));
-    fill_ = {count, [&positions, count, steps = steps_.data()](PointIndex first, PointIndex last) {
+    fill_ = {count,
+             [&positions, count, steps = steps_.data()](PointIndex first, PointIndex last) {
                  positions.fill.need(first, std::min(last, count - 1));
                  measure(positions.x.data(), positions.y.data(), positions.z.data(), steps, first,
                          std::min(last, count - 1));
-             }};
+             },
+             positions.fill->block()};
 }
 
 void ArcLength::forget() {

@@ -71,16 +71,19 @@ Positions gather(const Trajectory& trajectory) {
     return positions;
 }
 
-Positions gather_when_read(const Trajectory& trajectory, const Vec3& origin, Column<double> arc_lengths) {
+Positions gather_when_read(const Trajectory& trajectory, const Vec3& origin, Column<double> arc_lengths,
+                           PointIndex block) {
     Positions positions;
     positions.origin = origin;
     positions.arc_lengths = std::move(arc_lengths);
     for (Column<float>* column : {&positions.x, &positions.y, &positions.z})
         *column = Column<float>::sparse(static_cast<std::size_t>(trajectory.count));
     const GatheredColumns columns{positions.x.data(), positions.y.data(), positions.z.data()};
-    positions.fill = {trajectory.count, [trajectory, origin, columns](PointIndex first, PointIndex last) {
+    positions.fill = {trajectory.count,
+                      [trajectory, origin, columns](PointIndex first, PointIndex last) {
                           gather_block(trajectory, origin, columns, first, last);
-                      }};
+                      },
+                      block};
     return positions;
 }
 

@@ -36,7 +36,10 @@ struct Positions {
 /// Gathers all points; the origin is the trajectory's first finite point. O(points), parallel.
 [[nodiscard]] Positions gather(const Trajectory& trajectory);
 
-/// The same, but a block is gathered when it is first read. `origin` and `arc_lengths` are those of the whole log.
-[[nodiscard]] Positions gather_when_read(const Trajectory& trajectory, const Vec3& origin, Column<double> arc_lengths);
+/// The same, but a block is gathered when it is first read. `origin` and `arc_lengths` are those of the whole log. `block`: a power of
+/// two from 1024 on, which fills pages; small ones take less memory where points are looked at that are far from each other.
+/// Columns that are filled from these positions have the same blocks.
+[[nodiscard]] Positions gather_when_read(const Trajectory& trajectory, const Vec3& origin, Column<double> arc_lengths,
+                                         PointIndex block = block_points);
 
 }  // namespace clsurf
