@@ -21,6 +21,9 @@ const RunQuantityInfo& info_of(RunQuantity q) { return run_quantity_table()[inde
 /// Digits behind the point that mean something, of a quantity as it is shown.
 int decimals_of(RunQuantity q) { return q == RunQuantity::lag || q == RunQuantity::height ? 3 : 1; }
 
+/// Two digits behind the point, of what is nothing without a sign.
+std::string two_digits(double value) { return fmt::format("{:.2f}", std::round(100 * value) / 100 + 0.0); }
+
 double percent(double part, double whole) { return whole > 0 ? 100 * part / whole : 0; }
 
 Json quantity_json(const RunQuantitySummary& s) {
@@ -124,9 +127,10 @@ std::string run_text(const ReportedRun& run, const std::string& reference) {
     for (const RunQuantitySummary& s : r.quantities) {
         const RunQuantityInfo& info = info_of(s.quantity);
         const double u = info.unit.per_inside;
-        text += fmt::format("{:<21} {:>10.2f} {:>10.2f} {:>10.2f} {:>10.2f} {:>10.2f} {:>10.2f} {:>8.1f} {:>7}\n",
-                            fmt::format("{} [{}]", info.name, info.unit.name), s.mean * u, s.p95 * u, s.lowest * u,
-                            s.highest * u, s.begin * u, s.end * u, 100 * s.over, s.sections);
+        text += fmt::format("{:<21}", fmt::format("{} [{}]", info.name, info.unit.name));
+        for (const double value : {s.mean, s.p95, s.lowest, s.highest, s.begin, s.end})
+            text += fmt::format(" {:>10}", two_digits(value * u));
+        text += fmt::format(" {:>8.1f} {:>7}\n", 100 * s.over, s.sections);
     }
     text += roughness_text(run);
     if (!r.sections.empty())

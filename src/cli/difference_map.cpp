@@ -29,9 +29,9 @@ ShownRange range_of(const DrawnDifference& shown, const ClSurface& surface, cons
     if (!automatic) return range;
     const double most =
         std::max({std::abs(range.low), std::abs(range.high), shown.threshold * shown.field.info.unit.per_inside});
-    range.low = -most;
-    range.high = most;
-    range.note += ", even about 0";
+    range.high = most > 0 ? round_up(most) : most;
+    range.low = -range.high;
+    range.note += ", even about 0, with round ends";
     return range;
 }
 

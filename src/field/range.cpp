@@ -83,15 +83,6 @@ void widen_to_least_span(ShownRange& range, const FieldInfo& info, double median
     range.note += "; at least that wide, since less does not matter";
 }
 
-/// The least of 1, 1.2, 1.5 … times a power of ten that is not less.
-double round_up(double value) {
-    const double power = std::pow(10.0, std::floor(std::log10(value)));
-    for (const double factor : {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0}) {
-        if (factor * power >= value * (1 - 1e-9)) return factor * power;
-    }
-    return 10 * power;
-}
-
 /// Ends at round numbers, so that a legend has few digits; of bins all edges.
 void round_outwards(ShownRange& range, int bins, bool even) {
     const double span = range.high - range.low;
@@ -169,6 +160,14 @@ ShownRange find_range(const Field& field, const ClSurface& surface, const RangeR
 
 ShownRange find_range(const Field& field, const Passes& passes, const RangeRule& rule, const ShownPoints& shown) {
     return find_range_among(field, passes, nullptr, rule, shown);
+}
+
+double round_up(double value) {
+    const double power = std::pow(10.0, std::floor(std::log10(value)));
+    for (const double factor : {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0}) {
+        if (factor * power >= value * (1 - 1e-9)) return factor * power;
+    }
+    return 10 * power;
 }
 
 ShownRange wider(const ShownRange& a, const ShownRange& b) {

@@ -37,6 +37,9 @@ inline constexpr std::size_t least_patch = 20;
 [[nodiscard]] ShownRange find_range(const Field& field, const Passes& passes, const RangeRule& rule,
                                     const ShownPoints& shown = {});
 
+/// The least of 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten that is not less. Domain: value > 0.
+[[nodiscard]] double round_up(double value);
+
 /// What shows both on one scale.
 [[nodiscard]] ShownRange wider(const ShownRange& a, const ShownRange& b);
 
