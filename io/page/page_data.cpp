@@ -250,6 +250,7 @@ Json fields_json(const ReportPage& page) {
                        {"map", page.field_maps[k]},
                        {"slack", number(info.slack * std::abs(info.unit.per_inside))},
                        {"classes", has_classes(info)},
+                       {"same_classes", !info.classes.empty()},
                        {"note", info.note},
                        {"low", number(range.low)},
                        {"high", number(range.high)},

@@ -74,7 +74,9 @@ export function renderCommand(
     if (state.vertex !== null) words.push('--mark-point', String(surface.point[state.vertex]));
     if (state.line > 0 && surface.pointsOfLine(state.line).length > 0) words.push('--mark-line', String(state.line));
     if (state.defects && manifest.defects.length > 0) words.push('--defects');
-    if (state.shown === 'wipe' || state.shown === 'difference') words.push('--before', before);
+    // `render` has one legend for both logs.
+    const comparable = !classes || field.same_classes;
+    if (comparable && (state.shown === 'wipe' || state.shown === 'difference')) words.push('--before', before);
     words.push('--no-axes', '--size');
     words.push(sheetSize(Math.round(camera.width), Math.round(camera.height), classes).join('x'));
     if (dark) words.push('--background', 'black');

@@ -16,6 +16,7 @@ export interface FieldInfo {
     map: string; // the colour map that suits it
     slack: number; // beyond an end that still has the end's colour
     classes: boolean; // its values are names: it has no range
+    same_classes: boolean; // every log has the same ones
     note: string;
     low: number;
     high: number;
