@@ -161,10 +161,11 @@ export class Overlay {
         this.hidden = 0;
         const taken = [...reserved];
         const size = [camera.width, camera.height];
+        const placed: { tag: Tag; place: readonly number[]; x: number; y: number; half: number; colour: string }[] = [];
+        g.font = `600 11px ${styleValue('--font')}`;
         for (const tag of [...tags].sort((a, b) => Number(b.chosen) - Number(a.chosen))) {
             const place = camera.project(tag.at);
             if (place[0] < 0 || place[1] < 0 || place[0] > size[0] || place[1] > size[1]) continue;
-            g.font = `600 11px ${styleValue('--font')}`;
             const half = Math.max(8, g.measureText(tag.text).width / 2 + 4);
             const [x, y] = markerPlace(place, [half + 2, 10], taken, size);
             const box = boxAt(x, y, half + 2, 10);
@@ -176,19 +177,12 @@ export class Overlay {
             this.markers.push({ box, tag });
             taken.push(box);
             const colour = tag.chosen ? styleValue('--accent') : styleValue(`--severity-${tag.severity}`);
-            if (Math.hypot(x - place[0], y - place[1]) > 9) leader(g, place, [x, y], colour, halo);
-            g.beginPath();
-            g.roundRect(x - half, y - 8, 2 * half, 16, 8);
-            g.fillStyle = colour;
-            g.strokeStyle = halo;
-            g.lineWidth = 3;
-            g.stroke();
-            g.fill();
-            g.fillStyle = tag.chosen ? halo : '#ffffff';
-            g.textAlign = 'center';
-            g.textBaseline = 'middle';
-            g.fillText(tag.text, x, y + 0.5);
+            placed.push({ tag, place, x, y, half, colour });
         }
+        // All lines lie below all markers.
+        for (const { place, x, y, colour } of placed)
+            if (Math.hypot(x - place[0], y - place[1]) > 9) leader(g, place, [x, y], colour, halo);
+        for (const { tag, x, y, half, colour } of placed) marker(g, tag, [x, y], half, colour, halo);
         g.lineWidth = 1;
     }
 
@@ -354,6 +348,28 @@ export class Overlay {
             'center',
         );
     }
+}
+
+/** The capsule of a defect with its number. */
+function marker(
+    g: CanvasRenderingContext2D,
+    tag: Tag,
+    [x, y]: readonly number[],
+    half: number,
+    colour: string,
+    halo: string,
+): void {
+    g.beginPath();
+    g.roundRect(x - half, y - 8, 2 * half, 16, 8);
+    g.fillStyle = colour;
+    g.strokeStyle = halo;
+    g.lineWidth = 3;
+    g.stroke();
+    g.fill();
+    g.fillStyle = tag.chosen ? halo : '#ffffff';
+    g.textAlign = 'center';
+    g.textBaseline = 'middle';
+    g.fillText(tag.text, x, y + 0.5);
 }
 
 /** A line from a place to its marker. */
