@@ -122,10 +122,10 @@ Subcommand diff_subcommand() {
         .description =
             "Aligns runs with the first one by path, not by time. Feed override, pauses, other sampling\n"
             "periods and logs that begin in the middle therefore do no harm. Lists where speed, acceleration,\n"
-            "lag along the feed and height differ: B minus A, and with a known tool how rough a surface each\n"
-            "leaves. Each argument is a log, or a program, which is simulated. With a budget, exit code 1 means\n"
-            "that a limit is exceeded. With three or more runs, the one that deviates from the others is named.\n"
-            "The map shows the first B.\n\n"
+            "lag along the feed, height and jerk (its root mean square over 50 ms: how rough the motion is)\n"
+            "differ: B minus A, and with a known tool how rough a surface each leaves. Each argument is a log,\n"
+            "or a program, which is simulated. With a budget, exit code 1 means that a limit is exceeded. With\n"
+            "three or more runs, the one that deviates from the others is named. The map shows the first B.\n\n"
             "  clsurf diff monday.biip friday.biip --program part.nc\n"
             "  clsurf diff monday.biip friday.biip --budget runs.toml -o difference.png --color height\n"
             "  clsurf diff part.nc part_smoothed.nc --machine mill.toml",

@@ -38,7 +38,7 @@ void declare_diff(po::options_description& options) {
     options.add_options()
         ("budget", po::value<std::string>()->value_name("FILE"), "limits (TOML); exit code 1 if one is exceeded")
         ("output,o", po::value<std::string>()->value_name("FILE"), "a map of the differences: .png, .jpg, .tif, .webp, .svg or .pdf")
-        ("color", po::value<std::string>()->value_name("speed|acceleration|lag|height"), "which difference the map shows (default: speed)");
+        ("color", po::value<std::string>()->value_name("speed|acceleration|lag|height|jerk"), "which difference the map shows (default: speed)");
     // clang-format on
     declare_json(options);
     declare_runs(options);

@@ -15,7 +15,9 @@ namespace clsurf {
 namespace {
 
 constexpr double smoothing_seconds = 0.015;         ///< window of the mean of lags and heights
+constexpr double jerk_seconds = 0.050;              ///< window of the root mean square of the jerk
 constexpr double jump_seconds = 0.0125;             ///< half a window of derivatives, and a record more
+constexpr double jerk_jump_seconds = 0.0475;        ///< half both windows of the jerk, and a record more
 constexpr PointIndex feed_reach = 8;                ///< points before and after one that tell the feed there
 constexpr double least_feed = 1e-4;                 ///< [mm] of arc length that has a direction
 constexpr float least_tilt = 0.1F;                  ///< sine of the feed's angle to Z: steeper, it has no upper side
@@ -26,6 +28,7 @@ constexpr auto quantity_table = std::to_array<RunQuantityInfo>({
     {RunQuantity::acceleration, "acceleration", "Acceleration", unit::mm_s2, "mm_s2"},
     {RunQuantity::lag, "lag", "Lag along the feed", unit::um, "um"},
     {RunQuantity::height, "height", "Height of the path", unit::um, "um"},
+    {RunQuantity::jerk, "jerk", "RMS jerk over 50 ms", unit::mm_s3, "mm_s3"},
 });
 
 /// The unit vector of the feed at a point of a trajectory; NaN where the tool stands.
@@ -136,6 +139,25 @@ void smooth(Column<float>& values, const std::vector<PointRange>& sections, Poin
     }
 }
 
+PointIndex points_in(double seconds, double period) {
+    return std::max<PointIndex>(1, std::lround(std::min(seconds / period, 1e6)));
+}
+
+/// The root mean square of the jerk round each point of a run.
+Column<float> rough_motion(const FieldSet& fields, double period) {
+    Column<float> values = fields.get("jerk").values;
+    const auto count = static_cast<PointIndex>(values.size());
+    const auto for_all = [&](auto&& f) {
+        for_each_block(count, [&](PointIndex first, PointIndex last) {
+            for (PointIndex i = first; i < last; ++i) f(values[static_cast<std::size_t>(i)]);
+        });
+    };
+    for_all([](float& value) { value *= value; });
+    smooth(values, {{0, count - 1}}, points_in(jerk_seconds, period));
+    for_all([](float& value) { value = std::sqrt(std::max(0.0F, value)); });
+    return values;
+}
+
 /// Of all that is compared, finishing or not: rapids are left out.
 float percentile_at_feed(const Column<float>& values, const Passes& passes, double p) {
     Column<float> sampled;
@@ -174,18 +196,20 @@ void leave_out_rapids(const Passes& passes, RunDifferences& differences) {
 
 /// Where the path of a run jumps (it was stopped and begun again from an earlier line) its derivatives say nothing.
 void leave_out_jumps(const std::vector<PointRange>& sections, double period, RunDifferences& differences) {
-    const auto reach = static_cast<PointIndex>(std::ceil(std::min(jump_seconds / period, 1e6))) + 1;
-    for (std::size_t k = 1; k < sections.size(); ++k) {
-        const PointIndex end = sections[k - 1].last;
-        const PointIndex begin = sections[k].first;
-        const PointRange before{std::max(sections[k - 1].first, end - reach + 1), end};
-        const PointRange after{begin, std::min(sections[k].last, begin + reach - 1)};
-        for (const RunQuantity q : {RunQuantity::speed, RunQuantity::acceleration}) {
-            Column<float>& values = differences.of[index_of(q)];
+    const auto leave_out = [&](RunQuantity q, double seconds) {
+        Column<float>& values = differences.of[index_of(q)];
+        const auto reach = static_cast<PointIndex>(std::ceil(std::min(seconds / period, 1e6))) + 1;
+        for (std::size_t k = 1; k < sections.size(); ++k) {
+            const PointRange &ends = sections[k - 1], &begins = sections[k];
+            const PointRange before{std::max(ends.first, ends.last - reach + 1), ends.last};
+            const PointRange after{begins.first, std::min(begins.last, begins.first + reach - 1)};
             for (const PointRange& range : {before, after})
                 std::fill(values.begin() + range.first, values.begin() + range.last + 1, missing<float>);
         }
-    }
+    };
+    leave_out(RunQuantity::speed, jump_seconds);
+    leave_out(RunQuantity::acceleration, jump_seconds);
+    leave_out(RunQuantity::jerk, jerk_jump_seconds);
 }
 
 /// The whole log as one pass: windows end at gaps in time only, in both runs alike.
@@ -213,6 +237,17 @@ void compare_motion(const ComparedRun& a, const ComparedRun& b, const ClSurface&
     acceleration = of_a.get("acceleration").values;
     out.usual_acceleration = percentile_at_feed(acceleration, surface.passes, 0.99);
     subtract(of_b.get("acceleration").values, out.alignment, acceleration);
+    Column<float>& jerk = out.of[index_of(RunQuantity::jerk)];
+    out.jerk_of_a = rough_motion(of_a, a.log->period);
+    out.usual_jerk = percentile_at_feed(out.jerk_of_a, surface.passes, 0.95);
+    jerk = out.jerk_of_a;
+    subtract(rough_motion(of_b, b.log->period), out.alignment, jerk);
+}
+
+/// What the steps of the positions of a run may make of its jerk [mm/s³].
+float jerk_of_steps(const ComparedRun& run, const ComparedRun& other) {
+    const DerivativeFilter filter = derivative_filter(3, run.log->period, other.log->period);
+    return quantum_of(run.path) * static_cast<float>(filter.step_response());
 }
 
 }  // namespace
@@ -225,7 +260,15 @@ float RunDifferences::speed_base(PointIndex i) const {
 }
 
 float RunDifferences::threshold_at(RunQuantity q, PointIndex i) const {
-    return q == RunQuantity::speed ? rules.speed * speed_base(i) + speed_tolerance : threshold[index_of(q)];
+    const auto at = static_cast<std::size_t>(i);
+    switch (q) {
+        case RunQuantity::speed: return rules.speed * speed_base(i) + speed_tolerance;
+        case RunQuantity::jerk: {
+            const float smoother = jerk_of_a[at] + std::min(0.0F, of[index_of(q)][at]);
+            return rules.jerk * smoother + jerk_tolerance;
+        }
+        default: return threshold[index_of(q)];
+    }
 }
 
 RunDifferences compare_runs(const ComparedRun& a, const ClSurface& surface, const ComparedRun& b,
@@ -237,7 +280,7 @@ RunDifferences compare_runs(const ComparedRun& a, const ClSurface& surface, cons
         out.alignment = align_runs(surface.positions, path_b);
     }
     compare_motion(a, b, surface, out);
-    const auto window = std::max<PointIndex>(1, std::lround(std::min(smoothing_seconds / a.log->period, 1e6)));
+    const PointIndex window = points_in(smoothing_seconds, a.log->period);
     float lag_quantum = 0;
     if (a.commanded && a.measured && b.commanded && b.measured) {
         Column<float>& lag = out.of[index_of(RunQuantity::lag)];
@@ -262,9 +305,11 @@ RunDifferences compare_runs(const ComparedRun& a, const ClSurface& surface, cons
     const float height_quantum = std::max(quantum_of(height_a), quantum_of(height_b));
     out.speed_tolerance =
         rules.period * static_cast<float>(std::max(a.log->period, b.log->period)) * out.usual_acceleration;
+    out.jerk_tolerance = rules.usual_jerk * out.usual_jerk + std::max(jerk_of_steps(a, b), jerk_of_steps(b, a));
     out.threshold = {rules.speed * out.usual_speed + out.speed_tolerance, rules.acceleration * out.usual_acceleration,
                      std::max(rules.height, rules.lag_quanta * lag_quantum),
-                     std::max(rules.height, rules.height_quanta * height_quantum)};
+                     std::max(rules.height, rules.height_quanta * height_quantum),
+                     rules.jerk * out.usual_jerk + out.jerk_tolerance};
     leave_out_rapids(surface.passes, out);
     leave_out_jumps(out.alignment.sections, std::min(a.log->period, b.log->period), out);
     return out;

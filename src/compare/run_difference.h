@@ -21,8 +21,9 @@ enum class RunQuantity : std::uint8_t {
     acceleration,  ///< its length [mm/s²]
     lag,           ///< how far the measured position trails the commanded one along the feed [mm]
     height,        ///< how far B's path lies above that of A along the surface normal [mm]
+    jerk,          ///< root mean square of its length over 50 ms [mm/s³]: how rough the motion is
 };
-inline constexpr std::size_t run_quantities = 4;
+inline constexpr std::size_t run_quantities = 5;
 [[nodiscard]] constexpr std::size_t index_of(RunQuantity q) { return static_cast<std::size_t>(q); }
 
 struct RunQuantityInfo {
@@ -31,7 +32,7 @@ struct RunQuantityInfo {
     Unit unit;                     ///< as shown
     std::string_view json_suffix;  ///< "mm_min"
 };
-/// All four, in order.
+/// All of them, in order.
 [[nodiscard]] std::span<const RunQuantityInfo> run_quantity_table();
 
 /// A run as it is compared.
@@ -51,18 +52,24 @@ struct RunThresholds {
     float height = 0.0015F;      ///< [mm], lags and heights …
     float lag_quanta = 1.5F;     ///< … and at least so many steps of the positions
     float height_quanta = 2.4F;
+    float jerk = 0.5F;         ///< of the jerk of the smoother run there …
+    float usual_jerk = 0.05F;  ///< … plus so much of the usual jerk, and what the steps of the positions make
 };
 
 struct RunDifferences {
     RunAlignment alignment;
     std::array<Column<float>, run_quantities>
         of;  ///< per point of A, inside units; NaN: not compared; empty: not known
-    std::array<float, run_quantities> threshold{};  ///< above which a place differs; of the speed: at usual speed
+    std::array<float, run_quantities>
+        threshold{};  ///< above which a place differs; of speed and jerk: at the usual one
     RunThresholds rules;
     float usual_speed = 0;         ///< [mm/s] 95th percentile of A where it cuts
     float usual_acceleration = 0;  ///< [mm/s²] 99th percentile
+    float usual_jerk = 0;          ///< [mm/s³] 95th percentile
     float speed_tolerance = 0;     ///< [mm/s] that sampling alone may make of a speed
+    float jerk_tolerance = 0;      ///< [mm/s³] that says nothing
     Column<float> speed_of_a;      ///< [mm/s]
+    Column<float> jerk_of_a;       ///< [mm/s³] root mean square
 
     [[nodiscard]] bool has(RunQuantity q) const { return !of[index_of(q)].empty(); }
     /// Above which a quantity differs at a point.

@@ -1,5 +1,8 @@
 #include "compare/run_difference.h"
 
+#include <cmath>
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "compare/drifted_run.h"
@@ -119,6 +122,24 @@ TEST(RunDifference, FindsADipOfSpeed) {
     // Heights and lags are the same.
     EXPECT_TRUE(sections_of(c.report, RunQuantity::height).empty());
     EXPECT_TRUE(sections_of(c.report, RunQuantity::lag).empty());
+}
+
+// The same speed on the average, but it swings: v = v0 + a sin ωt has the jerk a ω² |sin ωt|, root mean square a ω²/√2.
+TEST(RunDifference, FindsWhereARunIsRougher) {
+    constexpr double v0 = 30, hertz = 12, swing = 1;
+    constexpr double omega = 2 * std::numbers::pi * hertz;
+    const MadeRun a = make_run(zigzag_recipe());
+    RunRecipe recipe = zigzag_recipe();
+    recipe.speed = [](double s) { return s > 96 && s < 108 ? v0 + swing * std::sin(omega * (s - 96) / v0) : v0; };
+    const MadeRun b = make_run(recipe);
+    const auto found = sections_of(compare(a, b).report, RunQuantity::jerk);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_NEAR(found[0].peak, swing * omega * omega / std::numbers::sqrt2, 0.3 * swing * omega * omega);
+    EXPECT_NEAR(a.arc_length[static_cast<std::size_t>(found[0].points.first)], 96, 1.5);
+    EXPECT_NEAR(a.arc_length[static_cast<std::size_t>(found[0].points.last)], 108, 1.5);
+    const auto back = sections_of(compare(b, a).report, RunQuantity::jerk);
+    ASSERT_EQ(back.size(), 1U);
+    EXPECT_NEAR(back[0].peak, -found[0].peak, 0.05 * found[0].peak);
 }
 
 TEST(RunDifference, ChangesItsSignWhenTheRunsAreSwapped) {
