@@ -213,6 +213,7 @@ TEST(Top, HoldsWhatARepositoryNeedsAndNothingElse) {
     const std::set<std::string> wanted{".ci",
                                        ".clang-format",
                                        ".clang-tidy",
+                                       ".dockerignore",
                                        ".gitattributes",
                                        ".gitignore",
                                        "CHANGELOG.md",
