@@ -18,8 +18,13 @@
 namespace clsurf::cli {
 namespace {
 
-constexpr int map_width = 1200;  ///< [px]
-constexpr int map_height = 840;
+viz::Look map_look(const PicturedPart& shown) {
+    viz::Look look;
+    look.width = 1200;
+    look.height = 840;
+    look.gl = shown.gl;
+    return look;
+}
 
 std::size_t index_of_field(const PicturedPart& shown, const std::string& name) {
     const auto found =
@@ -96,11 +101,8 @@ io::PagePicture picture_of_defects(const PicturedPart& shown) {
     const viz::DefectMap defects = defect_map_of(*shown.report);
     viz::MapPanel panel{shown.surface, &shown.fields.front(), "", {}, {}, {}};
     panel.defects = &defects;
-    viz::Look look;
-    look.width = map_width;
-    look.height = map_height;
+    viz::Look look = map_look(shown);
     look.names = true;
-    look.gl = shown.gl;
     const viz::MapTexts texts = defect_map_texts(
         *shown.report, *shown.part, fmt::format("{} · {}", names_of(shown), viz::counts_of(*shown.surface)));
     return {"Defects", "Numbers are those of the table of all defects.", draw(panel, {}, texts, look)};
@@ -108,10 +110,7 @@ io::PagePicture picture_of_defects(const PicturedPart& shown) {
 
 io::PagePicture picture_of_part(const PicturedPart& shown, const std::string& name) {
     const std::size_t k = index_of_field(shown, name);
-    viz::Look look;
-    look.width = map_width;
-    look.height = map_height;
-    look.gl = shown.gl;
+    const viz::Look look = map_look(shown);
     const viz::MapPanel panel{shown.surface, &shown.fields[k], "", {}, {}, shown.outlines};
     const FieldInfo& info = shown.fields[k].info;
     const viz::MapTexts texts = texts_of(shown, info, shown.ranges[k]);
@@ -131,10 +130,7 @@ io::PagePicture picture_of_defect(const PicturedPart& shown, const Signals& sign
 
 io::PagePicture picture_of_relief(const PicturedPart& shown, const viz::Relief& relief, const Field& field,
                                   const ShownRange& range) {
-    viz::Look look;
-    look.width = map_width;
-    look.height = map_height;
-    look.gl = shown.gl;
+    const viz::Look look = map_look(shown);
     viz::MapPanel panel{shown.surface, &field, "", {}, {}, {}};
     panel.relief = &relief;
     viz::MapTexts texts = texts_of(shown, field.info, range);
