@@ -76,8 +76,8 @@ viz::MapTexts defect_map_texts(const QualityReport& report, const Part& part, st
     if (is_judged || found > 0) texts.subtitle = found == 1 ? "1 defect · " : fmt::format("{} defects · ", found);
     texts.subtitle += subtitle;
     if (found > 0) {
-        texts.notes = {"coloured sections are at fault", "darker ones are further above the threshold",
-                       "1 has the highest score"};
+        texts.notes = {"defects are drawn in colour", "darker means farther above the threshold",
+                       "defect 1 has the highest score"};
     }
     note_tool_tip(part, texts.notes);
     note_judgement(report, "", texts.notes);

@@ -23,7 +23,7 @@ struct PicturedPart {
     int shards = 0;  ///< that the map is drawn in, with the memory of one; 0: at once
 };
 
-/// The defect map, as `render --defects` draws it: the sections at fault on a grey relief, and their names.
+/// The same map as `render --defects`: defects in colour on a grey surface, with their names beside it.
 [[nodiscard]] io::PagePicture picture_of_defects(const PicturedPart& shown);
 
 /// The whole part in a field, with what was found outlined.
