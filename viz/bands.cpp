@@ -399,21 +399,28 @@ SectionVertices section_vertices(const ClSurface& surface, std::span<const Point
 }
 
 Bands join_passes(const ClSurface& surface, const SectionVertices& vertices, const NearnessFrame& frame, float reach) {
-    Bands all;
-    const auto count = static_cast<std::int64_t>(vertices.points.size());
+    return std::move(
+        join_passes(surface, vertices, frame, reach, 0, static_cast<std::int64_t>(vertices.points.size()))[1]);
+}
+
+std::array<Bands, 3> join_passes(const ClSurface& surface, const SectionVertices& vertices, const NearnessFrame& frame,
+                                 float reach, std::int64_t first, std::int64_t end) {
     const Bander bander(surface, vertices, frame, reach);
     constexpr std::int64_t grain = 16384;
-    const auto pieces = static_cast<std::size_t>((count + grain - 1) / grain);
-    std::vector<Bands> of_piece(pieces);
-    parallel_for(count, grain, [&](std::int64_t first, std::int64_t last) {
-        Bands& piece = of_piece[static_cast<std::size_t>(first / grain)];
-        bander.bands(first, last, piece.triangles, piece.segments);
-    });
-    for (const Bands& piece : of_piece) {
-        append(all.triangles, piece.triangles);
-        append(all.segments, piece.segments);
-    }
-    return all;
+    const auto made = [&](std::int64_t begin, std::int64_t behind) {
+        std::vector<Bands> of_piece(static_cast<std::size_t>((behind - begin + grain - 1) / grain));
+        parallel_for(behind - begin, grain, [&](std::int64_t from, std::int64_t to) {
+            Bands& piece = of_piece[static_cast<std::size_t>(from / grain)];
+            bander.bands(begin + from, begin + to, piece.triangles, piece.segments);
+        });
+        Bands all;
+        for (const Bands& piece : of_piece) {
+            append(all.triangles, piece.triangles);
+            append(all.segments, piece.segments);
+        }
+        return all;
+    };
+    return {made(0, first), made(first, end), made(end, static_cast<std::int64_t>(vertices.points.size()))};
 }
 
 Column<std::int64_t> triangles_of(const ClSurface& surface) {

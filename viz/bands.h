@@ -4,6 +4,7 @@
 // pass stays open. Pixels determine what is drawn (detail.h); required detail determines what a page gets
 // (io/page/kept_points.h).
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -41,6 +42,11 @@ struct NearnessFrame {
 /// than `reach` there. O(vertices), parallel.
 [[nodiscard]] Bands join_passes(const ClSurface& surface, const SectionVertices& vertices, const NearnessFrame& frame,
                                 float reach);
+
+/// The same in three: what is made at vertices before `first`, from there to before `end`, and from `end` on.
+[[nodiscard]] std::array<Bands, 3> join_passes(const ClSurface& surface, const SectionVertices& vertices,
+                                               const NearnessFrame& frame, float reach, std::int64_t first,
+                                               std::int64_t end);
 
 /// The triangles between adjacent passes over all points, 3 points each. O(points), parallel.
 [[nodiscard]] Column<std::int64_t> triangles_of(const ClSurface& surface);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <vtkActor.h>
 #include <vtkActor2D.h>
@@ -13,6 +14,8 @@
 #include <vtkCullerCollection.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
+#include <vtkOpenGLPolyDataMapper.h>
+#include <vtkOpenGLVertexBufferObject.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -131,18 +134,20 @@ struct Cells {
     const Column<std::uint32_t>& triangles;
     const Column<std::uint32_t>& segments;
     const Column<std::uint32_t>& points;
+    [[nodiscard]] bool empty() const { return triangles.empty() && segments.empty() && points.empty(); }
 };
 
 void add_cells(vtkRenderer* renderer, const MeshPanel& panel, const Cells& of, vtkPoints* points,
                vtkPointData* attributes, vtkTexture* texture, int supersample) {
-    if (of.triangles.empty() && of.segments.empty() && of.points.empty()) return;
     vtkNew<vtkPolyData> data;
     data->SetPoints(points);
     data->GetPointData()->ShallowCopy(attributes);
     if (!of.triangles.empty()) data->SetPolys(cells(of.triangles, 3));
     if (!of.segments.empty()) data->SetLines(cells(of.segments, 2));
     if (!of.points.empty()) data->SetVerts(cells(of.points, 1));
-    vtkNew<vtkPolyDataMapper> mapper;
+    vtkNew<vtkOpenGLPolyDataMapper> mapper;
+    // Else VTK moves and scales the vertices by what is drawn with them, and a part of a mesh is rounded differently.
+    mapper->SetVBOShiftScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
     mapper->SetInputData(data);
     mapper->SetColorModeToDirectScalars();
     vtkNew<vtkActor> actor;
@@ -156,10 +161,21 @@ void add_cells(vtkRenderer* renderer, const MeshPanel& panel, const Cells& of, v
     renderer->AddActor(actor);
 }
 
-void add_mesh(vtkRenderer* renderer, const MeshPanel& panel, int supersample) {
+/// Adds the cells of a panel, of one kind or of all. Returns whether there are any.
+bool add_mesh(vtkRenderer* renderer, const MeshPanel& panel, int supersample, std::optional<CellKind> only = {}) {
     const Geometry& g = panel.geometry;
     const auto vertices = static_cast<vtkIdType>(g.xyz.size() / 3);
-    if (vertices == 0) return;
+    if (vertices == 0) return false;
+    const Column<std::uint32_t> none;
+    const auto kind = [&](const Column<std::uint32_t>& cells, CellKind of) -> const Column<std::uint32_t>& {
+        return !only || *only == of ? cells : none;
+    };
+    const Cells valued{kind(g.triangles, CellKind::triangles), kind(g.segments, CellKind::lines_and_points),
+                       kind(g.points, CellKind::lines_and_points)};
+    const Cells hatched{kind(panel.bare_triangles, CellKind::bare_triangles), none, none};
+    const Cells bare{none, kind(panel.bare_segments, CellKind::bare_lines_and_points),
+                     kind(panel.bare_points, CellKind::bare_lines_and_points)};
+    if (valued.empty() && hatched.empty() && bare.empty()) return false;
     vtkNew<vtkFloatArray> xyz;
     xyz->SetNumberOfComponents(3);
     xyz->SetArray(const_cast<float*>(g.xyz.data()), vertices * 3, 1);
@@ -170,27 +186,22 @@ void add_mesh(vtkRenderer* renderer, const MeshPanel& panel, int supersample) {
     colours->SetArray(const_cast<unsigned char*>(g.rgb.data()), vertices * 3, 1);
     vtkNew<vtkPolyData> attributes;
     attributes->GetPointData()->SetScalars(colours);
-    vtkSmartPointer<vtkTexture> texture;
-    if (!panel.ramp.empty()) {
-        attributes->GetPointData()->SetTCoords(places_on_ramp(panel, vertices));
-        texture = texture_of_ramp(panel);
-    }
-    add_cells(renderer, panel, {g.triangles, g.segments, g.points}, points, attributes->GetPointData(), texture,
-              supersample);
-    const Column<std::uint32_t> none;
-    if (!panel.bare_triangles.empty()) {
-        attributes->GetPointData()->SetTCoords(places_on_hatch(panel, vertices));
-        add_cells(renderer, panel, {panel.bare_triangles, none, none}, points, attributes->GetPointData(),
-                  texture_of_hatch(panel), supersample);
-    }
-    if (!panel.bare_segments.empty() || !panel.bare_points.empty()) {
-        attributes->GetPointData()->SetTCoords(texture_places(vertices));
-        add_cells(renderer, panel, {none, panel.bare_segments, panel.bare_points}, points, attributes->GetPointData(),
-                  texture_of({{panel.bare_colour}}, true, false), supersample);
-    }
+    const auto add = [&](const Cells& cells, vtkFloatArray* places, vtkTexture* texture) {
+        if (places != nullptr) attributes->GetPointData()->SetTCoords(places);
+        add_cells(renderer, panel, cells, points, attributes->GetPointData(), texture, supersample);
+    };
+    // In the order of CellKind: VTK draws the points and lines of an actor before its triangles.
+    if (!valued.empty() && panel.ramp.empty()) add(valued, nullptr, nullptr);
+    if (!valued.empty() && !panel.ramp.empty()) add(valued, places_on_ramp(panel, vertices), texture_of_ramp(panel));
+    if (!hatched.empty()) add(hatched, places_on_hatch(panel, vertices), texture_of_hatch(panel));
+    if (!bare.empty()) add(bare, texture_places(vertices), texture_of({{panel.bare_colour}}, true, false));
+    return true;
 }
 
-void place_camera(vtkRenderer* renderer, const MeshPanel& panel) {
+/// Shows a panel on its rectangle of a picture.
+void place(vtkRenderer* renderer, const MeshPanel& panel, double width, double height) {
+    renderer->SetViewport(panel.rect.x / width, panel.rect.y / height, (panel.rect.x + panel.rect.width) / width,
+                          (panel.rect.y + panel.rect.height) / height);
     const Camera& c = panel.camera;
     const Vec3 focus = c.centre - panel.geometry.origin;
     // A panel's shift in its plane does not change depths, since the projection is parallel.
@@ -404,23 +415,19 @@ public:
     }
 
     /// The mesh of a panel, which must outlive it, on a renderer of its own.
-    vtkRenderer* add_panel(const Sheet& sheet, const MeshPanel& panel) {
+    void add_panel(const Sheet& sheet, const MeshPanel& panel) {
         panels_.push_back(vtkSmartPointer<vtkRenderer>::New());
         vtkRenderer* const renderer = panels_.back();
         renderer->SetLayer(1);
-        renderer->SetViewport(panel.rect.x / sheet.width, panel.rect.y / sheet.height,
-                              (panel.rect.x + panel.rect.width) / sheet.width,
-                              (panel.rect.y + panel.rect.height) / sheet.height);
-        add_mesh(renderer, panel, supersample_);
         window_.window()->AddRenderer(renderer);
-        place_camera(renderer, panel);
-        return renderer;
+        add_mesh(renderer, panel, supersample_);
+        place(renderer, panel, sheet.width, sheet.height);
     }
 
-    /// What was drawn stays: from now on only what is added is drawn, with the depths that are there.
-    void keep_pixels() {
+    /// Pixels in full size, in rows from the bottom, in place of paper and meshes.
+    void put(const Column<std::uint8_t>& rgb) {
+        window_.put(rgb);
         paper_->DrawOff();
-        for (const auto& panel : panels_) panel->DrawOff();
     }
 
     /// The picture with the flat things of a sheet. They have no depth among each other: each kind is a layer of its own.
@@ -449,8 +456,6 @@ public:
                 {0, 0, static_cast<double>(sheet.width), static_cast<double>(sheet.height)}};
     }
 
-    void draw() { window_.window()->Render(); }
-
 private:
     GlWindow window_;
     int supersample_;
@@ -473,18 +478,9 @@ Image draw(const Sheet& sheet, const std::string& gl, int supersample) {
     return image;
 }
 
-Image draw(const SheetInParts& sheet, const std::string& gl, int supersample) {
-    Canvas canvas(sheet.empty, gl, supersample);
-    MeshPanel panel;
-    for (bool first = true; sheet.next(panel); first = false) {
-        vtkRenderer* const renderer = canvas.add_panel(sheet.empty, panel);
-        renderer->SetPreserveDepthBuffer(first ? 0 : 1);
-        canvas.draw();
-        renderer->RemoveAllViewProps();
-        canvas.keep_pixels();
-    }
-    Sheet flat = sheet.empty;
-    sheet.finish(flat);
+Image draw(const Sheet& flat, const MeshSamples& meshes, const std::string& gl, int supersample) {
+    Canvas canvas(flat, gl, supersample);
+    canvas.put(meshes.over(flat.background));
     std::shared_ptr<Drawing> drawing;
     if (flat.keep_drawing) {
         drawing = std::make_shared<Drawing>(drawing_of(flat));
@@ -493,6 +489,64 @@ Image draw(const SheetInParts& sheet, const std::string& gl, int supersample) {
     Image image = canvas.picture_with(flat);
     image.drawing = std::move(drawing);
     return image;
+}
+
+/// A window for one kind of cells of one part at a time.
+class MeshPainter::Window {
+public:
+    Window(int width, int height, const std::string& gl, int supersample)
+        : window_(gl, width * supersample, height * supersample),
+          width_(width),
+          height_(height),
+          supersample_(supersample) {
+        window_.window()->AddRenderer(renderer_);
+    }
+
+    [[nodiscard]] MeshSamples empty() const { return {width_ * supersample_, height_ * supersample_}; }
+
+    void draw(const MeshPanel& part, CellKind kind, MeshSamples& samples) {
+        place(renderer_, part, width_, height_);
+        const SampleRect rect = rect_of(part);
+        if (rect.count() == 0 || !add_mesh(renderer_, part, supersample_, kind)) return;
+        const Column<std::uint8_t> rgb = window_.render(rect);
+        samples.add(kind, {rect, rgb, window_.depths(rect)});
+        renderer_->RemoveAllViewProps();
+    }
+
+private:
+    /// What a part may cover: its vertices, with lines and points as wide as they are, on the panel.
+    [[nodiscard]] SampleRect rect_of(const MeshPanel& part) {
+        Eigen::AlignedBox2d box;
+        const Geometry& g = part.geometry;
+        for (std::size_t k = 0; k + 2 < g.xyz.size(); k += 3)
+            box.extend(part.camera.pixel(g.origin + Vec3(g.xyz[k], g.xyz[k + 1], g.xyz[k + 2])));
+        const Vec2 room = Vec2::Constant(std::max(part.line_width, part.point_size) + 1);
+        const Vec2 corner(part.rect.x, part.rect.y);
+        const Eigen::AlignedBox2d covered((corner + box.min() - room) * supersample_,
+                                          (corner + box.max() + room) * supersample_);
+        int width = 0, height = 0, x = 0, y = 0;
+        renderer_->GetTiledSizeAndOrigin(&width, &height, &x, &y);
+        const Eigen::AlignedBox2d panel(Vec2(x, y), Vec2(x + width, y + height));
+        const Eigen::AlignedBox2d shown = panel.intersection(covered);
+        if (box.isEmpty() || shown.isEmpty()) return {};
+        const Vec2 low = shown.min().array().floor(), size = shown.max().array().ceil().matrix() - low;
+        return {static_cast<int>(low.x()), static_cast<int>(low.y()), static_cast<int>(size.x()),
+                static_cast<int>(size.y())};
+    }
+
+    GlWindow window_;
+    int width_, height_, supersample_;
+    vtkNew<vtkRenderer> renderer_;
+};
+
+MeshPainter::MeshPainter(int width, int height, const std::string& gl, int supersample)
+    : window_(std::make_unique<Window>(width, height, gl, supersample)) {}
+MeshPainter::~MeshPainter() = default;
+
+MeshSamples MeshPainter::empty() const { return window_->empty(); }
+
+void MeshPainter::draw(const MeshPanel& part, MeshSamples& samples) {
+    for (std::size_t kind = 0; kind < cell_kinds; ++kind) window_->draw(part, static_cast<CellKind>(kind), samples);
 }
 
 }  // namespace clsurf::viz

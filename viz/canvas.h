@@ -4,7 +4,6 @@
 //
 // Flat things are placed in pixels of the finished picture, from its lower left corner.
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -15,6 +14,7 @@
 #include "viz/geometry.h"
 #include "viz/gl_context.h"
 #include "viz/image.h"
+#include "viz/mesh_samples.h"
 #include "viz/view.h"
 
 namespace clsurf::viz {
@@ -48,13 +48,6 @@ struct Sheet {
     bool keep_drawing = false;  ///< the image gets its drawing, too
 };
 
-/// A picture with one panel whose mesh is in memory in parts, one at a time.
-struct SheetInParts {
-    Sheet empty;                           ///< without panels, lines and texts
-    std::function<bool(MeshPanel&)> next;  ///< makes the next part; false: there are no more
-    std::function<void(Sheet&)> finish;    ///< adds all that is flat; called after the last part
-};
-
 /// Width of a text [px].
 [[nodiscard]] double text_width(const FlatText& text);
 /// Where a text stands: as wide as it is, and as high as its size [px].
@@ -66,7 +59,25 @@ struct SheetInParts {
 
 /// Draws at `supersample` times the size and takes the mean, for smooth edges. Throws SystemError.
 [[nodiscard]] Image draw(const Sheet& sheet, const std::string& gl, int supersample);
-/// The same as if the parts were one mesh: what is nearer to the eye stays.
-[[nodiscard]] Image draw(const SheetInParts& sheet, const std::string& gl, int supersample);
+/// The same with meshes that were drawn by a MeshPainter, of a sheet without panels.
+[[nodiscard]] Image draw(const Sheet& flat, const MeshSamples& meshes, const std::string& gl, int supersample);
+
+/// Draws the mesh of a panel in parts, which are in memory one at a time. All parts give the same samples as the whole mesh.
+class MeshPainter {
+public:
+    /// For the panels of a sheet of that size. Throws SystemError.
+    MeshPainter(int width, int height, const std::string& gl, int supersample);
+    MeshPainter(const MeshPainter&) = delete;
+    MeshPainter& operator=(const MeshPainter&) = delete;
+    ~MeshPainter();
+
+    /// Adds the next part to samples of the size that empty() has. Throws SystemError.
+    void draw(const MeshPanel& part, MeshSamples& samples);
+    [[nodiscard]] MeshSamples empty() const;
+
+private:
+    class Window;
+    std::unique_ptr<Window> window_;
+};
 
 }  // namespace clsurf::viz

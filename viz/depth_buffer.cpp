@@ -22,6 +22,10 @@ void DepthBuffer::add(const Geometry& geometry) {
         draw(vertex(geometry.triangles[i]), vertex(geometry.triangles[i + 1]), vertex(geometry.triangles[i + 2]));
 }
 
+void DepthBuffer::add(const DepthBuffer& other) {
+    for (std::size_t k = 0; k < nearest_.size(); ++k) nearest_[k] = std::max(nearest_[k], other.nearest_[k]);
+}
+
 Vec3 DepthBuffer::seen(const Vec3& place) const {
     const Vec2 at = camera_.pixel(place) / cell;
     return {at.x(), at.y(), camera_.towards.dot(place - camera_.centre)};

@@ -1,6 +1,7 @@
 #pragma once
 // DepthBuffer: which places of a part the part itself hides from the eye.
 
+#include <span>
 #include <vector>
 
 #include "viz/geometry.h"
@@ -10,13 +11,20 @@ namespace clsurf::viz {
 
 class DepthBuffer {
 public:
+    DepthBuffer() = default;
     explicit DepthBuffer(const Camera& camera);
     DepthBuffer(const Geometry& geometry, const Camera& camera) : DepthBuffer(camera) { add(geometry); }
     /// Draws the triangles of a geometry in cells of two pixels. O(triangles + cells they cover).
     void add(const Geometry& geometry);
+    /// What another one hides. Domain: of the same camera.
+    void add(const DepthBuffer& other);
 
     /// Whether a triangle lies between a place [mm] and the eye, nearer to the eye by more than `tolerance` [mm].
     [[nodiscard]] bool hides(const Vec3& place, double tolerance) const;
+
+    /// Nearest distances towards the eye [mm], row by row; −infinity: nothing is there.
+    [[nodiscard]] std::span<float> cells() { return nearest_; }
+    [[nodiscard]] std::span<const float> cells() const { return nearest_; }
 
 private:
     static constexpr double cell = 2;  ///< [px]
@@ -27,7 +35,7 @@ private:
 
     Camera camera_;
     int columns_ = 0, rows_ = 0;
-    std::vector<float> nearest_;  ///< row by row; −infinity: nothing is there
+    std::vector<float> nearest_;  ///< cells()
 };
 
 }  // namespace clsurf::viz

@@ -1,8 +1,10 @@
 #include "viz/detail.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <vector>
 
 #include "core/parallel.h"
@@ -132,21 +134,21 @@ void put_positions(const Positions& positions, const Column<PointIndex>& points,
 
 /// Vertex normals: the sum of the triangles' (longer for larger ones), turned to z > 0 or, on a
 /// vertical wall, left as they come. The tool comes from above on a three-axis machine.
-void put_normals(Geometry& geometry) {
+void put_normals(Geometry& geometry, std::initializer_list<std::span<const std::uint32_t>> triangles) {
     geometry.normals = Column<float>(geometry.xyz.size(), 0.0F);
     const auto at = [](Column<float>& column, std::uint32_t v) {
         return Eigen::Map<Vec3f>(column.data() + std::size_t{3} * v);
     };
-    for (std::size_t t = 0; t + 2 < geometry.triangles.size(); t += 3) {
-        const std::uint32_t a = geometry.triangles[t];
-        const std::uint32_t b = geometry.triangles[t + 1];
-        const std::uint32_t c = geometry.triangles[t + 2];
-        const Vec3f pa = at(geometry.xyz, a);
-        Vec3f n = (at(geometry.xyz, b) - pa).cross(at(geometry.xyz, c) - pa);
-        if (n.z() < 0) n = -n;
-        at(geometry.normals, a) += n;
-        at(geometry.normals, b) += n;
-        at(geometry.normals, c) += n;
+    for (const std::span<const std::uint32_t> some : triangles) {
+        for (std::size_t t = 0; t + 2 < some.size(); t += 3) {
+            const std::uint32_t a = some[t], b = some[t + 1], c = some[t + 2];
+            const Vec3f pa = at(geometry.xyz, a);
+            Vec3f n = (at(geometry.xyz, b) - pa).cross(at(geometry.xyz, c) - pa);
+            if (n.z() < 0) n = -n;
+            at(geometry.normals, a) += n;
+            at(geometry.normals, b) += n;
+            at(geometry.normals, c) += n;
+        }
     }
     for (std::size_t v = 0; v < geometry.xyz.size() / 3; ++v) {
         auto n = at(geometry.normals, static_cast<std::uint32_t>(v));
@@ -180,22 +182,22 @@ Detail visible_detail(const ClSurface& surface, std::span<const float> values, c
     Detail detail;
     Geometry& geometry = detail.geometry;
     put_positions(surface.positions, all.points, geometry);
-    const auto count = static_cast<std::int64_t>(all.points.size());
+    const auto vertex_at = [&](auto bound) { return bound - all.points.begin(); };
+    const std::int64_t first = vertex_at(std::lower_bound(all.points.begin(), all.points.end(), request.own.first));
+    const std::int64_t end = vertex_at(std::upper_bound(all.points.begin(), all.points.end(), request.own.last));
     if (request.style == Style::surface) {
-        Bands bands = join_passes(surface, all, projector.frame(), reach_steps * step);
-        geometry.triangles = std::move(bands.triangles);
-        geometry.segments = std::move(bands.segments);
-        put_normals(geometry);
+        std::array<Bands, 3> bands = join_passes(surface, all, projector.frame(), reach_steps * step, first, end);
+        put_normals(geometry, {bands[0].triangles, bands[1].triangles, bands[2].triangles});
+        geometry.triangles = std::move(bands[1].triangles);
+        geometry.segments = std::move(bands[1].segments);
     } else if (request.style == Style::lines) {
-        for (std::int64_t v = 1; v < count; ++v) {
+        for (std::int64_t v = first; v < end; ++v) {
             if (all.joined[static_cast<std::size_t>(v)] == 0) continue;
             geometry.segments.push_back(static_cast<std::uint32_t>(v - 1));
             geometry.segments.push_back(static_cast<std::uint32_t>(v));
         }
     } else {
-        geometry.points.resize(static_cast<std::size_t>(count));
-        for (std::int64_t v = 0; v < count; ++v)
-            geometry.points[static_cast<std::size_t>(v)] = static_cast<std::uint32_t>(v);
+        for (std::int64_t v = first; v < end; ++v) geometry.points.push_back(static_cast<std::uint32_t>(v));
     }
     detail.values = std::move(all.values);
     detail.points = std::move(all.points);

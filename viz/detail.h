@@ -6,6 +6,7 @@
 // close what bands leave: turns, pass ends, corners, where a loop begins. A missing pass stays open.
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "surface/cl_surface.h"
@@ -24,6 +25,8 @@ struct DetailRequest {
     double vertex_step = 0.7;   ///< [px] from one vertex of a pass to the next
     Style style = Style::surface;
     Box3 box;  ///< [mm]; empty: no box, else what lies outside is left out
+    /// Cells are those that are made at vertices of these points. The normals are those of all cells.
+    PointRange own{0, std::numeric_limits<PointIndex>::max()};
 };
 
 struct Detail {

@@ -161,26 +161,25 @@ VtkPiece whole_of(const ClSurface& surface) {
     return whole;
 }
 
-VtkPiece piece_of(const SurfacePart& part, const PointRange& own) {
+VtkPiece piece_of(const SurfacePart& part) {
     VtkPiece piece;
-    const auto is_own = [&](PointIndex point) { return point >= own.first && point <= own.last; };
-    const auto global = [&](std::int64_t k) { return part.points[static_cast<std::size_t>(k)]; };
+    const auto is_own = [&](PointIndex k) { return k >= part.own.first && k <= part.own.last; };
     Column<std::int64_t> place(part.points.size(), std::int64_t{-1});  // of a point of the part in the piece
     const auto add = [&](std::int64_t k) {
         std::int64_t& at = place[static_cast<std::size_t>(k)];
         if (at >= 0) return;
         at = static_cast<std::int64_t>(piece.points.size());
-        piece.points.push_back(global(k));
+        piece.points.push_back(part.points[static_cast<std::size_t>(k)]);
         const Vec3 p = part.surface.positions.absolute(k);
         for (int axis = 0; axis < 3; ++axis) piece.xyz.push_back(p[axis]);
     };
     for (std::int64_t k = 0; k < static_cast<std::int64_t>(part.points.size()); ++k) {
-        if (is_own(global(k))) add(k);
+        if (is_own(k)) add(k);
     }
     piece.own_points = static_cast<PointIndex>(piece.points.size());
     piece.line_offsets.push_back(0);
     for (const Pass& pass : part.surface.passes) {
-        if (pass.kind != PassKind::cut || !is_own(global(pass.first))) continue;
+        if (pass.kind != PassKind::cut || !is_own(pass.first)) continue;
         for (PointIndex k = pass.first; k <= pass.last; ++k)
             piece.line_points.push_back(place[static_cast<std::size_t>(k)]);
         piece.line_offsets.push_back(static_cast<std::int64_t>(piece.line_points.size()));
@@ -189,7 +188,7 @@ VtkPiece piece_of(const SurfacePart& part, const PointRange& own) {
     const Column<std::int64_t> triangles = triangles_of(part.surface);
     for (std::size_t t = 0; t < triangles.size(); t += 3) {
         const std::int64_t first = std::min({triangles[t], triangles[t + 1], triangles[t + 2]});
-        if (!is_own(global(first))) continue;
+        if (!is_own(first)) continue;
         for (std::size_t corner = t; corner < t + 3; ++corner) {
             add(triangles[corner]);
             piece.triangles.push_back(place[static_cast<std::size_t>(triangles[corner])]);

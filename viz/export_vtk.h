@@ -35,8 +35,8 @@ struct VtkPiece {
 /// Every point of every pass, and the bands between adjacent passes as they are drawn, over all points. `points` and `own_points`
 /// stay empty.
 [[nodiscard]] VtkPiece whole_of(const ClSurface& surface);
-/// `own`: as part_with_neighbours() takes it.
-[[nodiscard]] VtkPiece piece_of(const SurfacePart& part, const PointRange& own);
+/// What belongs to the part's own points.
+[[nodiscard]] VtkPiece piece_of(const SurfacePart& part);
 /// Points that are not its own are marked in `vtkGhostType`, as VTK does it.
 void write_vtp(const std::string& path, VtkPiece piece, const std::vector<PointData>& data);
 

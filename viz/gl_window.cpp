@@ -1,5 +1,7 @@
 #include "viz/gl_window.h"
 
+#include <algorithm>
+
 #include <vtkUnsignedCharArray.h>
 
 #include "core/error.h"
@@ -75,17 +77,43 @@ GlWindow::~GlWindow() {
     vtkLogger::SetStderrVerbosity(verbosity_before_);
 }
 
-Image GlWindow::render(int factor) {
+Column<std::uint8_t> GlWindow::render(const SampleRect& rect) {
     window_->Render();
+    vtkNew<vtkUnsignedCharArray> pixels;
+    window_->GetPixelData(rect.x, rect.y, rect.x + rect.width - 1, rect.y + rect.height - 1, 0, pixels, 0);
+    const std::string& errors = static_cast<const Complaints*>(complaints_.Get())->errors();
+    if (!errors.empty()) throw SystemError("VTK cannot draw: " + errors);
+    if (static_cast<std::size_t>(pixels->GetNumberOfValues()) != 3 * rect.count())
+        throw SystemError("VTK returned no picture");
+    Column<std::uint8_t> rgb(3 * rect.count());
+    std::copy_n(pixels->GetPointer(0), rgb.size(), rgb.data());
+    return rgb;
+}
+
+Image GlWindow::render(int factor) {
     const int* size = window_->GetSize();
     const int width = size[0];
     const int height = size[1];
+    const Column<std::uint8_t> pixels = render(SampleRect{0, 0, width, height});
+    return shrink_from_below(pixels.data(), width, height, factor);
+}
+
+Column<float> GlWindow::depths(const SampleRect& rect) {
+    Column<float> depths(rect.count());
+    if (window_->GetZbufferData(rect.x, rect.y, rect.x + rect.width - 1, rect.y + rect.height - 1, depths.data()) ==
+        VTK_ERROR)
+        throw SystemError("VTK returned no depths");
+    return depths;
+}
+
+void GlWindow::put(const Column<std::uint8_t>& rgb) {
+    window_->Render();  // makes the buffers
+    const int* size = window_->GetSize();
     vtkNew<vtkUnsignedCharArray> pixels;
-    window_->GetPixelData(0, 0, width - 1, height - 1, 0, pixels, 0);
-    const std::string& errors = static_cast<const Complaints*>(complaints_.Get())->errors();
-    if (!errors.empty()) throw SystemError("VTK cannot draw: " + errors);
-    if (pixels->GetNumberOfValues() != vtkIdType{3} * width * height) throw SystemError("VTK returned no picture");
-    return shrink_from_below(pixels->GetPointer(0), width, height, factor);
+    pixels->SetNumberOfComponents(3);
+    pixels->SetArray(const_cast<std::uint8_t*>(rgb.data()), static_cast<vtkIdType>(rgb.size()), 1);
+    if (window()->SetPixelData(0, 0, size[0] - 1, size[1] - 1, pixels, 0, 0) == VTK_ERROR)
+        throw SystemError("VTK takes no pixels");
 }
 
 }  // namespace clsurf::viz

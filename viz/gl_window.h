@@ -12,6 +12,7 @@
 
 #include "viz/gl_context.h"
 #include "viz/image.h"
+#include "viz/mesh_samples.h"
 
 namespace clsurf::viz {
 
@@ -28,6 +29,12 @@ public:
     /// Renders and reads the pixels, the mean of each `factor` × `factor`. Throws SystemError with what
     /// VTK complained about.
     [[nodiscard]] Image render(int factor);
+    /// Renders and reads the colours of a rectangle, in rows from the bottom. Throws SystemError as render() does.
+    [[nodiscard]] Column<std::uint8_t> render(const SampleRect& rect);
+    /// The depths of what was rendered.
+    [[nodiscard]] Column<float> depths(const SampleRect& rect);
+    /// Puts pixels of the whole window, in rows from the bottom, in place of what was rendered.
+    void put(const Column<std::uint8_t>& rgb);
 
 private:
     class Complaints;

@@ -5,15 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "viz/beyond.h"
 #include "viz/colour_map.h"
 #include "viz/map_layout.h"
 
 namespace clsurf::viz {
-
-/// What the colours of a map leave out: values beyond the range by more than can be read off it.
-struct Beyond {
-    bool below = false, above = false, missing = false;
-};
 
 /// Words in as many lines as they need, at most `most_lines`, from `line.y` down; what has no room is left out of the middle of the
 /// last one. Returns the middle of the line after them [px].

@@ -64,8 +64,6 @@ struct MapPanel {
     const Relief* relief = nullptr;         ///< drawn in place of the surface; the field is then one of its vertices
     std::vector<PointRange> pale = {};      ///< points in a lighter tone, rising: ramps that all passes have
     std::function<Vec3(PointIndex)> place_of = {};  ///< where points and lines are marked [mm]; empty: on the surface
-    /// extent_of() of a surface of which parts are in memory only; empty: that of `surface`.
-    std::function<Box3(const ViewAxes&)> extent = {};
 };
 
 struct MapTexts {

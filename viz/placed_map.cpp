@@ -79,7 +79,6 @@ PlacedMap placed_map(Arrangement arrangement, const std::vector<MapPanel>& panel
 }  // namespace
 
 Box3 extent_of_panel(const MapPanel& map, const ViewAxes& axes) {
-    if (map.extent) return map.extent(axes);
     return map.relief != nullptr ? extent_of(*map.relief, axes) : extent_of(*map.surface, axes);
 }
 

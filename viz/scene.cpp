@@ -134,7 +134,7 @@ Beyond paint_panel(Detail& detail, const MapPanel& map, const ColourScale& scale
 }
 
 /// What pixels can show of a panel, and somewhat more: a triangle over its edge has corners outside.
-Detail detail_of(const MapPanel& map, const Camera& camera, const Look& look) {
+Detail detail_of(const MapPanel& map, const Camera& camera, const Look& look, const PointRange& own) {
     const double room =
         std::min(2.0 * map.surface->step_over / camera.mm_per_pixel + 8.0, static_cast<double>(camera.width));
     DetailRequest request;
@@ -144,31 +144,15 @@ Detail detail_of(const MapPanel& map, const Camera& camera, const Look& look) {
     request.height = camera.height + 2 * static_cast<int>(std::ceil(room));
     request.style = look.style;
     request.box = look.box;
+    request.own = own;
     return map.relief != nullptr ? relief_detail(*map.relief, map.field->values, request)
                                  : visible_detail(*map.surface, map.field->values, request);
 }
 
-/// Leaves the cells of `size` corners whose first one is a point that belongs to the part.
-void keep_own(Column<std::uint32_t>& cells, std::size_t size, const Column<PointIndex>& vertices,
-              const PanelPart& part) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i + size <= cells.size(); i += size) {
-        const PointIndex point = (*part.points)[static_cast<std::size_t>(vertices[cells[i]])];
-        if (point < part.own.first || point > part.own.last) continue;
-        for (std::size_t k = 0; k < size; ++k) cells[kept++] = cells[i + k];
-    }
-    cells.resize(kept);
-}
-
-/// What pixels show of a panel, painted, on a panel that has its rectangle and its camera. `part`: of a map in parts.
+/// What pixels show of a panel, painted, on a panel that has its rectangle and its camera. `own`: of a map in parts.
 Beyond fill_panel(const MapPanel& map, const ColourScale& scale, const Look& look, MeshPanel& panel,
-                  const PanelPart* part = nullptr) {
-    Detail detail = detail_of(map, panel.camera, look);
-    if (part != nullptr) {
-        keep_own(detail.geometry.triangles, 3, detail.points, *part);
-        keep_own(detail.geometry.segments, 2, detail.points, *part);
-        keep_own(detail.geometry.points, 1, detail.points, *part);
-    }
+                  const PointRange& own = DetailRequest().own) {
+    Detail detail = detail_of(map, panel.camera, look, own);
     const Beyond here = paint_panel(detail, map, scale, look, panel);
     if (!map.pale.empty()) panel.pale = paleness_of(detail.points, map.pale);
     panel.geometry = std::move(detail.geometry);
@@ -205,12 +189,6 @@ void add_programmed_below(const MapPanel& map, const Look& look, MeshPanel& pane
             add(to);
         }
     }
-}
-
-void widen(Beyond& beyond, const Beyond& other) {
-    beyond.below = beyond.below || other.below;
-    beyond.above = beyond.above || other.above;
-    beyond.missing = beyond.missing || other.missing;
 }
 
 Sheet empty_sheet(const Look& look) {
@@ -268,7 +246,7 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const PlacedMap& placed, co
         MeshPanel panel;
         panel.rect = panel_rect(panels, k, look, placed);
         panel.camera = placed.camera;  // each panel shows the same part at the same scale
-        widen(beyond, fill_panel(map, scale, look, panel));
+        beyond.widen(fill_panel(map, scale, look, panel));
         add_programmed_below(map, look, panel);
         if (map.defects != nullptr) add_defects(sheet, map, panel, legend, look, layout);
         without_room += add_marks(sheet, map, panel, look, layout);
@@ -289,33 +267,33 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const PlacedMap& placed, co
     return sheet;
 }
 
-Image draw_map(const MapInParts& map, const PlacedMap& placed, const ColourScale& scale, const Look& look) {
-    const std::vector<MapPanel> panels{map.whole};
+DrawnParts draw_parts(const MapPanel& whole, const std::function<std::optional<PanelPart>()>& next,
+                      const PlacedMap& placed, const ColourScale& scale, const Look& look) {
+    MeshPainter painter(look.width, look.height, look.gl, look.supersample);
+    DrawnParts drawn{painter.empty(), DepthBuffer(placed.camera), {}};
+    while (const std::optional<PanelPart> part = next()) {
+        MeshPanel panel;
+        panel.rect = panel_rect({whole}, 0, look, placed);
+        panel.camera = placed.camera;
+        drawn.beyond.widen(fill_panel(part->panel, scale, look, panel, part->own));
+        if (has_box(look)) drawn.depth.add(panel.geometry);
+        painter.draw(panel, drawn.samples);
+    }
+    return drawn;
+}
+
+Image draw_map(const DrawnParts& parts, const MapPanel& whole, const PlacedMap& placed, const ColourScale& scale,
+               MapTexts texts, const Look& look) {
+    const std::vector<MapPanel> panels{whole};
     MeshPanel frame;
     frame.rect = panel_rect(panels, 0, look, placed);
     frame.camera = placed.camera;
-    Beyond beyond;
-    DepthBuffer depth(placed.camera);
-    SheetInParts sheet;
-    sheet.empty = empty_sheet(look);
-    sheet.next = [&](MeshPanel& panel) {
-        const std::optional<PanelPart> part = map.next();
-        if (!part) return false;
-        panel = MeshPanel();
-        panel.rect = frame.rect;
-        panel.camera = placed.camera;
-        widen(beyond, fill_panel(part->panel, scale, look, panel, &*part));
-        if (has_box(look)) depth.add(panel.geometry);
-        return true;
-    };
-    sheet.finish = [&](Sheet& finished) {
-        MapTexts texts = map.texts();
-        note_labels_without_room(add_marks(finished, map.whole, frame, look, placed.layout), texts);
-        add_scales_of(finished, map.whole, frame, texts.frame, true, look, placed.layout, &depth);
-        add_words(finished, map.whole, scale, texts, beyond, legend_rect(panels, frame.rect, look, placed), look,
-                  placed.layout);
-    };
-    return draw(sheet, look.gl, look.supersample);
+    Sheet sheet = empty_sheet(look);
+    note_labels_without_room(add_marks(sheet, whole, frame, look, placed.layout), texts);
+    add_scales_of(sheet, whole, frame, texts.frame, true, look, placed.layout, &parts.depth);
+    add_words(sheet, whole, scale, texts, parts.beyond, legend_rect(panels, frame.rect, look, placed), look,
+              placed.layout);
+    return draw(sheet, parts.samples, look.gl, look.supersample);
 }
 
 Image draw_map(const std::vector<MapPanel>& panels, const PlacedMap& placed, const ColourScale& scale,

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "viz/drawn_parts.h"
 #include "viz/map_panel.h"
 #include "viz/placed_map.h"
 
@@ -19,24 +20,20 @@ namespace clsurf::viz {
 [[nodiscard]] Image draw_map(const std::vector<MapPanel>& panels, const PlacedMap& placed, const ColourScale& scale,
                              const MapTexts& texts, const Look& look);
 
-/// Some passes of a surface, and what lies beside them (surface/surface_part.h).
+/// Some passes of a surface, and what lies beside them (surface/surface_part.h). All parts together have every cell once.
 struct PanelPart {
-    MapPanel panel;                              ///< surface, field and pale points of the part
-    const Column<PointIndex>* points = nullptr;  ///< of the whole surface, by point of the part
-    PointRange own;                              ///< cells that begin at these points of the whole are drawn
+    MapPanel panel;  ///< surface, field and pale points of the part
+    PointRange own;  ///< points of the part: what is made at them is drawn (DetailRequest::own)
 };
 
-/// A map whose surface is in memory in parts, one at a time. All parts together have every cell once.
-struct MapInParts {
-    /// Without classes. Of its surface step-over and origin are read, and `extent`; the places of marked points and lines, too.
-    MapPanel whole;
-    std::function<std::optional<PanelPart>()> next;  ///< nothing: there are no more
-    std::function<MapTexts()> texts;                 ///< asked for after the last part
-};
+/// Draws the parts of a map without classes that next() gives, one at a time; nothing: there are no more. `whole` is the
+/// panel of the whole map, and `placed` is placed_map() of it. Throws SystemError.
+[[nodiscard]] DrawnParts draw_parts(const MapPanel& whole, const std::function<std::optional<PanelPart>()>& next,
+                                    const PlacedMap& placed, const ColourScale& scale, const Look& look);
 
-/// Draws it: the same picture as draw_map() of the whole. `placed` is placed_map() of the whole. Throws SystemError,
+/// The map of all of its parts, byte for byte that of draw_map() of the whole, with the marks of `whole`. Throws SystemError,
 /// UsageError.
-[[nodiscard]] Image draw_map(const MapInParts& map, const PlacedMap& placed, const ColourScale& scale,
-                             const Look& look);
+[[nodiscard]] Image draw_map(const DrawnParts& parts, const MapPanel& whole, const PlacedMap& placed,
+                             const ColourScale& scale, MapTexts texts, const Look& look);
 
 }  // namespace clsurf::viz

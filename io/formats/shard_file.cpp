@@ -2,35 +2,18 @@
 
 #include <bit>
 #include <cstdint>
-#include <span>
 #include <stdexcept>
-#include <string_view>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "io/files/crc32c.h"
 #include "io/files/json_value.h"
+#include "io/formats/sealed_json.h"
 
 namespace clsurf::io {
 namespace {
 
 constexpr const char* shard_hint = "clsurf check part.nc run.biip --survey run.survey --shard 1/8 -o shard1.json";
-
-/// The last key of a shard: the CRC-32C of all of its text before it.
-constexpr std::string_view shard_seal = R"(,"crc32c":")";
-constexpr std::string_view shard_end = "\"}\n";
-
-std::string sealed(std::string text) {
-    text.pop_back();  // }
-    const std::uint32_t crc = crc32c(std::as_bytes(std::span(text)));
-    return text + fmt::format("{}{:08x}{}", shard_seal, crc, shard_end);
-}
-
-bool is_sealed(std::string_view text) {
-    const std::size_t seal = text.rfind(shard_seal);
-    return seal != std::string_view::npos && sealed(std::string(text.substr(0, seal)) + "}") == text;
-}
 
 Json json_of(const Distribution& sizes) {
     Json numbers = Json::array(), counts = Json::array();
@@ -59,9 +42,7 @@ std::string shard_json(const ShardFindings& findings, const ShardNumber& shard, 
     Json json;
     json["kind"] = "shard";
     json["shard"] = {shard.number, shard.count};
-    json["log"] = origin.log_sha256;
-    json["program"] = origin.program_sha256;
-    json["options"] = origin.options;
+    json.update(json_of(origin));
     json["settings"] = settings;
     json["points"] = {findings.points.first, findings.points.last};
     json["compared"] = {findings.compared.compared, findings.compared.away_from_ends};
@@ -75,7 +56,7 @@ std::string shard_json(const ShardFindings& findings, const ShardNumber& shard, 
     Json report;
     report["schema_version"] = schema_version;
     report.update(json);
-    return sealed(dump_compact(report));
+    return sealed_json(report);
 }
 
 ShardFindings read_shard(const std::string& path, const SurveyOrigin& origin, const std::string& settings) {
@@ -86,12 +67,10 @@ ShardFindings read_shard(const std::string& path, const SurveyOrigin& origin, co
     // It is ours, and may be large: its keys are few.
     const nlohmann::json json = nlohmann::json::parse(source.text(), nullptr, false);
     if (!json.is_object() || json.value("kind", "") != "shard") fail("is not what clsurf check --shard writes");
-    if (!is_sealed(source.text())) fail("is cut or damaged: its checksum differs");
+    if (!is_sealed_json(source.text())) fail("is cut or damaged: its checksum differs");
     ShardFindings findings;
     try {
-        const SurveyOrigin own{json.at("log").get<std::string>(), json.at("program").get<std::string>(),
-                               json.at("options").get<std::string>()};
-        if (own != origin) fail("is a shard of another log or program, or was judged with other options");
+        if (origin_of(json) != origin) fail("is a shard of another log or program, or was judged with other options");
         if (json.at("settings").get<std::string>() != settings)
             fail("was judged with " + json.at("settings").get<std::string>() + ", not with " + settings);
         findings.points = {json.at("points").at(0).get<PointIndex>(), json.at("points").at(1).get<PointIndex>()};

@@ -21,8 +21,9 @@ void declare_shards(po::options_description& options) {
 }
 
 ExitCode check_shard(PartOptions options, const ShardNumber& shard, const po::variables_map& values) {
-    for (const char* name : {"merge", "scratch", "budget", "fail-on", "accepted", "max-depth", "baseline", "record",
-                             "measured", "follow", "format", "json"}) {
+    for (const char* name :
+         {"merge", "shards", "scratch", "budget", "fail-on", "accepted", "max-depth", "baseline", "record", "measured",
+          "follow", "format", "json", "before", "fields", "color", "max-size", "gl"}) {
         if (given(values, name))
             throw UsageError(fmt::format("--{} does not apply to --shard, only to the whole log", name),
                              "give it where the shards are merged");

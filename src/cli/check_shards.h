@@ -1,5 +1,5 @@
 #pragma once
-// --shard and --merge of `check`.
+// --shard and --merge of `check`; `report` has the same --shard.
 
 #include <optional>
 

@@ -69,7 +69,7 @@ ExitCode write_shard(const PartOptions& options, const ShardNumber& shard, const
     const PointRange own = points_of_shard(surface.passes, log.survey.points, shard);
     if (own.size() <= 0) throw UsageError("--shard: no pass begins in this shard", "fewer shards are enough");
     const SurfacePart with_neighbours = part_with_neighbours(surface, own);
-    viz::VtkPiece piece = viz::piece_of(with_neighbours, own);
+    viz::VtkPiece piece = viz::piece_of(with_neighbours);
     const std::vector<io::ExportColumn> columns = exported_columns(names, part, surface, with_neighbours.ranges,
                                                                    std::span(piece.points.data(), piece.points.size()));
     const std::vector<viz::PointData> data = point_data_of(columns);

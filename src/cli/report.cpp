@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cli/check_shards.h"
 #include "cli/followed_output.h"
 #include "cli/output_format.h"
 #include "cli/report_classes.h"
@@ -9,6 +10,7 @@
 #include "cli/report_log.h"
 #include "cli/report_options.h"
 #include "cli/report_shards.h"
+#include "cli/survey_options.h"
 #include "compare/run_alignment.h"
 #include "io/files/atomic_file.h"
 #include "viz/image_library.h"
@@ -77,6 +79,8 @@ ExitCode write_page(const ReportOptions& options, const po::variables_map& value
 }
 
 ExitCode run_report(const po::variables_map& values) {
+    if (const std::optional<ShardNumber> shard = read_shard_number(values))
+        return check_shard(read_part_options(values), *shard, values);
     ReportOptions options = read_report_options(values);
     read_report_shards(values, options);
     const std::optional<FollowOptions> follow = read_follow(values);

@@ -61,8 +61,7 @@ public:
         viz::PanelPart part;
         part.panel.surface = &part_.surface;
         part.panel.field = &field_;
-        part.points = &part_.points;
-        part.own = own;
+        part.own = part_.own;
         return part;
     }
 
@@ -77,9 +76,11 @@ private:
 std::string draw_in_shards(const viz::MapPanel& panel, int shards, const ShownRange& range, const viz::MapTexts& texts,
                            const viz::Look& look) {
     PartsOfPanel parts(panel, shards);
-    const viz::MapInParts map{panel, [&] { return parts.next(); }, [&] { return texts; }};
     const viz::ColourScale scale = viz::scale_of(panel.field->info, range.low, range.high);
-    return viz::encode_image(viz::draw_map(map, viz::placed_map({panel}, look), scale, look), texts.title, "png");
+    const viz::PlacedMap placed = viz::placed_map({panel}, look);
+    const viz::DrawnParts drawn = viz::draw_parts(
+        panel, [&] { return parts.next(); }, placed, scale, look);
+    return viz::encode_image(viz::draw_map(drawn, panel, placed, scale, texts, look), texts.title, "png");
 }
 
 /// "part.ngc · run.csv"

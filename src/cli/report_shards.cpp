@@ -26,12 +26,14 @@ std::string folder_of(const std::string& path) {
 
 void declare_report_with_shards(po::options_description& options) {
     declare_report(options);
+    declare_shard(
+        options,
+        "judge one of N parts of the log, cut at passes, and write what is found to -o FILE for --merge, as `clsurf check --shard` does");
     // clang-format off
     options.add_options()
-        ("survey", po::value<std::string>()->value_name("FILE"), "the survey of the log (`clsurf survey`): it is judged and drawn shard by shard, and columns of the whole log are kept in files")
-        ("shards", po::value<int>()->default_value(8)->value_name("N"), "with --survey: how many parts the log is cut into")
-        ("merge", po::value<std::vector<std::string>>()->multitoken()->value_name("FILE…"), "with --survey: what `clsurf check --shard` found in all shards (default: the shards are judged here)")
-        ("scratch", po::value<std::string>()->value_name("FOLDER"), "with --survey: the folder of these files (default: that of the page)");
+        ("merge", po::value<std::vector<std::string>>()->multitoken()->value_name("FILE…"), "the page from what was found in all shards")
+        ("shards", po::value<int>()->default_value(8)->value_name("N"), "with --survey alone: how many parts the log is cut into, which are judged here one after the other, and in any case how many the map is drawn in")
+        ("scratch", po::value<std::string>()->value_name("FOLDER"), "with --survey: columns of the whole log are kept in files in this folder (default: that of the page)");
     // clang-format on
 }
 

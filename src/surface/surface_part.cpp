@@ -70,7 +70,8 @@ public:
         part_.surface.passes.push_back({first, size() - 1, pass.kind});
     }
 
-    SurfacePart finish() {
+    SurfacePart finish(const PointRange& own) {
+        part_.own = {place_of(own.first), place_of(own.last)};
         ClSurface& surface = part_.surface;
         for (const Side side : {Side::left, Side::right}) {
             Column<std::int32_t>& column = side == Side::left ? surface.neighbours.left : surface.neighbours.right;
@@ -122,7 +123,7 @@ SurfacePart part_with_neighbours(const ClSurface& surface, const PointRange& own
     if (own.size() <= 0) return {};
     PartBuilder builder(surface);
     for (const std::size_t k : passes_of(surface, own)) builder.add(surface.passes[k]);
-    return builder.finish();
+    return builder.finish(own);
 }
 
 }  // namespace clsurf

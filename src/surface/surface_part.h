@@ -11,6 +11,7 @@ struct SurfacePart {
     ClSurface surface;          ///< its passes that do not follow each other are held apart by a point that is nowhere
     Column<PointIndex> points;  ///< of the whole surface, by point, rising; −1: nowhere
     std::vector<PointRange> ranges;  ///< of the whole surface that are in it
+    PointRange own;                  ///< points of the part that it was made for
 };
 
 /// The points `own`, which begin and end where passes do, with some passes before and after them, and on either side the

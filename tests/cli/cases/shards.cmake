@@ -29,7 +29,8 @@ clsurf_shard_test(bottle_uneven.nc bottle_uneven 2 TOOL bull:6,1.5)
 # Lines that are found by geometry.
 clsurf_shard_test(planted_zigzag.nc planted_zigzag 3 LINES --ignore-lines TEXT)
 
-set(shard_run "@DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip")
+set(shard_run_args @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip)
+list(JOIN shard_run_args " " shard_run)
 set(shards_made "$CLSURF survey ${shard_run} -o run.survey -q; for i in 1 2; do $CLSURF check ${shard_run} --survey run.survey --shard $i/2 -o shard$i.json -q; done")
 # Of the first test, which makes them.
 set(same_shards "cp @AFTER@/run.survey @AFTER@/shard1.json @AFTER@/shard2.json .")
@@ -100,13 +101,15 @@ clsurf_partitions_error_test(one_is_cut "head -c 300000 piece2.vtkhdf > cut.vtkh
 clsurf_partitions_error_test(one_is_not_there : "piece1.vtkhdf;nowhere.vtkhdf;-o;map.vtkhdf" 3 "nowhere.vtkhdf.*No such file")
 clsurf_cli_test(NAME shards_partitions_that_differ AFTER shards_partitions SETUP "${same_partitions}; $CLSURF export ${shard_run} --survey @AFTER@/run.survey --shard 2/3 --columns point -o other.vtkhdf -q" ARGS export --merge piece1.vtkhdf other.vtkhdf piece3.vtkhdf -o map.vtkhdf EXIT 3 STDERR "other.vtkhdf: error: has other columns than piece1.vtkhdf")
 
-# ---- the map, shard by shard: the same picture, but for the rounding of few pixels ----
+# ---- the map, drawn shard by shard, here or in pieces: the same picture, byte for byte ----
+# Of COUNT shards.
 function(clsurf_map_of_shards_test name program log count)
   string(REPLACE ";" " " options "${ARGN}")
   set(run "@DATA@/programs/${program} @LOGS@/${log}.biip")
+  set(look "${options} --size 800x600 -q")
   clsurf_cli_test(NAME shards_map_${name}
-    SETUP "$CLSURF render ${run} ${options} --size 800x600 -o whole.png -q; $CLSURF survey ${run} -o run.survey -q; $CLSURF render ${run} --survey run.survey --shards ${count} ${options} --size 800x600 -o shards.png -q; $CLSURF render ${run} --survey run.survey --shards 1 ${options} --size 800x600 -o one.png -q; cmp whole.png one.png"
-    ARGS compare whole.png shards.png STDOUT "^equal: 0 pixels differ")
+    SETUP "$CLSURF render ${run} ${look} -o whole.png; $CLSURF survey ${run} -o run.survey -q; $CLSURF render ${run} --survey run.survey --shards ${count} ${look} -o shards.png; for i in $(seq ${count}); do $CLSURF render ${run} --survey run.survey --shard $i/${count} ${look} -o $i.piece; done; $CLSURF render ${run} --survey run.survey --merge $(seq -f %g.piece ${count} -1 1) ${look} -o merged.png"
+    ARGS compare whole.png merged.png STDOUT "^equal: 0 pixels differ" SAME whole.png shards.png merged.png)
 endfunction()
 clsurf_map_of_shards_test(zigzag petal_zigzag_g64.ngc petal_zigzag_g64 5)
 clsurf_map_of_shards_test(loops petal_loops_g64.ngc petal_loops_g64 3 --color jerk --range 0,100000 --view top)
@@ -119,21 +122,39 @@ clsurf_cli_test(NAME shards_map_of_a_field_of_the_whole AFTER shards_say_what_th
 clsurf_cli_test(NAME shards_map_of_classes AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${map_args} --survey run.survey --color line EXIT 2 STDERR "'line' has classes")
 clsurf_cli_test(NAME shards_map_with_marks AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${map_args} --survey run.survey --mark-point 7 EXIT 2 STDERR "--mark-point needs the whole log: leave out --survey")
 clsurf_cli_test(NAME shards_map_without_a_survey ARGS ${map_args} --shards 3 EXIT 2 STDERR "--shards goes with --survey")
+# One sample of these two is as near on a line as on a triangle of the shard beside.
+clsurf_map_of_shards_test(ties dome_loops.nc dome_loops 5 --size 1600x1200)
+set(piece_made "$CLSURF render ${shard_run} --survey run.survey --size 400x300 -q")
+clsurf_cli_test(NAME shards_map_piece AFTER shards_say_what_they_read SETUP "${same_shards}; ${piece_made} --shard 1/2 -o a.piece" ARGS render ${shard_run_args} --survey run.survey --size 400x300 --shard 2/2 -o b.piece FILE b.piece)
+set(same_pieces "cp @AFTER@/run.survey @AFTER@/a.piece @AFTER@/b.piece .")
+function(clsurf_map_piece_error_test name setup arguments exit words)
+  clsurf_cli_test(NAME shards_map_piece_${name} AFTER shards_map_piece SETUP "${same_pieces}; ${setup}" ARGS render ${shard_run_args} --survey run.survey --size 400x300 -o map.png ${arguments} EXIT ${exit} STDERR "${words}")
+endfunction()
+clsurf_map_piece_error_test(is_missing "true" "--merge;b.piece" 2 "piece 1/2 is missing")
+clsurf_map_piece_error_test(is_there_twice "true" "--merge;a.piece;b.piece;a.piece" 2 "piece 1/2 is there twice")
+clsurf_map_piece_error_test(of_others "${piece_made} --shard 2/3 -o c.piece" "--merge;a.piece;c.piece" 2 "c.piece is one of 3 pieces, a.piece is one of 2")
+clsurf_map_piece_error_test(of_another_look "true" "--merge;a.piece;b.piece;--view;top" 3 "a.piece: error: was drawn with .*, not with .*--view top")
+clsurf_map_piece_error_test(is_cut "head -c -1 b.piece > c.piece" "--merge;a.piece;c.piece" 3 "c.piece: error: is cut or damaged: the checksum of its pixels differs")
+clsurf_map_piece_error_test(is_damaged "sed s/settings/settinks/ b.piece > c.piece" "--merge;a.piece;c.piece" 3 "c.piece: error: is cut or damaged: the checksum of its head differs")
+clsurf_map_piece_error_test(is_none "cp @AFTER@/run.survey c.piece" "--merge;a.piece;c.piece" 3 "c.piece: error: is not what clsurf render --shard writes")
+clsurf_map_piece_error_test(and_shards "true" "--merge;a.piece;b.piece;--shards;2" 2 "--shards does not go with --merge")
+clsurf_map_piece_error_test(with_marks "true" "--shard;1/2;--mark-line;7" 2 "--mark-line needs the whole log: leave out --survey")
+clsurf_cli_test(NAME shards_map_piece_without_a_survey ARGS ${map_args} --shard 1/3 EXIT 2 STDERR "--shard goes with --survey")
 clsurf_cli_test(NAME shards_map_of_no_shards AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${map_args} --survey run.survey --shards 0 EXIT 2 STDERR "--shards: 0 is not 1")
 
-# ---- the page: the same byte for byte, but for the rounding of few pixels of its map ----
-set(split_page "/usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/cli/split_page.py")
-# Findings of `check --shard`, and the formed surface.
+# ---- the page: the same, byte for byte ----
+# Findings of `check --shard` and `report --shard`, which are the same, and the formed surface.
 clsurf_cli_test(NAME shards_page_of_findings AFTER shards_say_what_they_read
-  SETUP "cp @AFTER@/run.survey .; $CLSURF report ${shard_run} --tool ball:6 -o whole.html; for i in 1 2; do $CLSURF check ${shard_run} --survey run.survey --shard $i/2 --tool ball:6 -o shard$i.json -q; done; $CLSURF report ${shard_run} --tool ball:6 --survey run.survey --merge shard*.json --shards 4 -o shards.html; ${split_page} whole.html shards.html whole.png shards.png; grep -q 'id=.defect-list' shards.html"
-  ARGS compare whole.png shards.png STDOUT "^equal: 0 pixels differ")
-# Shards that are judged for the page, and points that are left out; with a single shard the page is the same byte for byte.
+  SETUP "cp @AFTER@/run.survey .; $CLSURF report ${shard_run} --tool ball:6 -o whole.html; for i in 1 2; do $CLSURF check ${shard_run} --survey run.survey --shard $i/2 --tool ball:6 -o checked$i.json -q; $CLSURF report ${shard_run} --survey run.survey --shard $i/2 --tool ball:6 -o shard$i.json -q; cmp checked$i.json shard$i.json; done; grep -q 'id=.defect-list' whole.html"
+  ARGS report ${shard_run_args} --tool ball:6 --survey run.survey --merge shard1.json shard2.json --shards 4 -o shards.html SAME whole.html shards.html)
+# Shards that are judged for the page, and points that are left out.
 set(page_of "$CLSURF report ${shard_run} --color jerk --max-size 2")
 clsurf_cli_test(NAME shards_page AFTER shards_say_what_they_read
-  SETUP "cp @AFTER@/run.survey .; mkdir files; ${page_of} -o whole.html; grep -q 'of 44[^0-9]*930 points are in this page' whole.html; ${page_of} --survey run.survey --shards 1 --scratch files -o one.html; cmp whole.html one.html; ${page_of} --survey run.survey -o shards.html; ${split_page} whole.html shards.html whole.png shards.png"
-  ARGS compare whole.png shards.png --threshold 0.008 STDOUT "^equal: ")
+  SETUP "cp @AFTER@/run.survey .; mkdir files; ${page_of} -o whole.html; grep -q 'of 44[^0-9]*930 points are in this page' whole.html; ${page_of} --survey run.survey --shards 1 --scratch files -o one.html"
+  ARGS report ${shard_run_args} --color jerk --max-size 2 --survey run.survey -o shards.html SAME whole.html one.html shards.html)
 set(page_args report @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip -o page.html)
 clsurf_cli_test(NAME shards_page_before AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${page_args} --survey run.survey --before @LOGS@/planted_loops.biip EXIT 2 STDERR "--before needs the whole log: leave out --survey")
+clsurf_cli_test(NAME shards_page_shard_with_fields AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS report ${shard_run_args} --survey run.survey --shard 1/2 --fields speed -o shard.json EXIT 2 STDERR "--fields does not apply to --shard, only to the whole log")
 clsurf_cli_test(NAME shards_page_without_a_survey ARGS ${page_args} --shards 3 EXIT 2 STDERR "--shards goes with --survey")
 clsurf_cli_test(NAME shards_page_with_one_missing AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${page_args} --survey run.survey --merge shard2.json EXIT 2 STDERR "points 0 … [0-9]+ are in none of the shards")
 

@@ -1,0 +1,16 @@
+#pragma once
+// Beyond: what the colours of a map leave out: values beyond the range by more than can be read off it, and missing ones.
+
+namespace clsurf::viz {
+
+struct Beyond {
+    bool below = false, above = false, missing = false;
+
+    void widen(const Beyond& other) {
+        below = below || other.below;
+        above = above || other.above;
+        missing = missing || other.missing;
+    }
+};
+
+}  // namespace clsurf::viz

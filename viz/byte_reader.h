@@ -1,0 +1,32 @@
+#pragma once
+// Values in a row of bytes, as they are in memory.
+
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace clsurf::viz {
+
+static_assert(std::endian::native == std::endian::little, "values are written as they are in memory");
+
+template <typename T>
+void append_bytes(std::string& bytes, std::span<const T> values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    bytes.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+}
+
+/// Takes values off the front; false: there are fewer.
+template <typename T, std::size_t Size>
+bool take_bytes(std::string_view& bytes, std::span<T, Size> values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    if (bytes.size() < values.size_bytes()) return false;
+    if (!values.empty()) std::memcpy(values.data(), bytes.data(), values.size_bytes());
+    bytes.remove_prefix(values.size_bytes());
+    return true;
+}
+
+}  // namespace clsurf::viz
