@@ -49,6 +49,14 @@ void print_matches(const std::vector<QueryMatch>& matches, bool of_a_line) {
     }
 }
 
+void print_answer(const QueryAnswer& answer, const po::variables_map& values) {
+    print_matches(answer.matches, values.count("line") > 0);
+    if (answer.tip_line) {
+        fmt::print("On a map, whose axes show the tool tip, these numbers are in line {}: --at tip:{}\n",
+                   *answer.tip_line, values["at"].as<std::string>());
+    }
+}
+
 ExitCode run_query(const po::variables_map& values) {
     if (values.count("point") + values.count("at") + values.count("line") + values.count("time") == 0) {
         throw UsageError("what to look for is missing", "--point N, --at X,Y,Z, --line N or --time T");
@@ -56,14 +64,14 @@ ExitCode run_query(const po::variables_map& values) {
     StageClock clock(read_common(values), 3);
     const Part part = load_part(read_part_options(values), clock);
     Diagnostics diagnostics = part.diagnostics;
-    const std::vector<QueryMatch> matches = find_matches(part, values, diagnostics);
+    const QueryAnswer answer = find_matches(part, values, diagnostics);
     if (read_json(values)) {
-        write_to_stdout(io::query_json(matches, diagnostics));
+        write_to_stdout(io::query_json(answer.matches, diagnostics));
     } else {
         print(diagnostics, values);
-        if (!read_common(values).quiet) print_matches(matches, values.count("line") > 0);
+        if (!read_common(values).quiet) print_answer(answer, values);
     }
-    return matches.empty() ? ExitCode::check_failed : ExitCode::done;
+    return answer.matches.empty() ? ExitCode::check_failed : ExitCode::done;
 }
 
 }  // namespace

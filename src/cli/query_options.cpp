@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -13,8 +14,12 @@ namespace {
 
 constexpr int most_nearest = 100'000;
 
-/// "X,Y,Z" or "X,Y", also with blanks.
-WantedPlace parse_place(std::string text) {
+constexpr std::string_view of_tip = "tip:";
+
+/// "X,Y,Z" or "X,Y", also with blanks, and "tip:" before it.
+WantedPlace parse_place(const std::string& given) {
+    const bool tip = given.starts_with(of_tip);
+    const std::string text = tip ? given.substr(of_tip.size()) : given;
     std::string commas;
     for (std::size_t i = 0; i < text.size(); ++i) {
         if (text[i] != ' ' && text[i] != '\t') {
@@ -27,8 +32,9 @@ WantedPlace parse_place(std::string text) {
     WantedPlace wanted;
     const std::vector<double> numbers = parse_numbers(commas, "--at", 0);
     if (numbers.size() != 2 && numbers.size() != 3)
-        throw UsageError(fmt::format("--at: '{}' is not a place", text),
-                         "--at X,Y,Z, or --at X,Y for what lies topmost there");
+        throw UsageError(fmt::format("--at: '{}' is not a place", given),
+                         "--at X,Y,Z, or --at X,Y for what lies topmost there; --at tip:X,Y for the tool tip");
+    wanted.of_tip = tip;
     wanted.from_above = numbers.size() == 2;
     wanted.at = Vec3(numbers[0], numbers[1], wanted.from_above ? 0 : numbers[2]);
     return wanted;
@@ -59,6 +65,18 @@ std::vector<FoundPlace> find_on_part(const PointQuery& query, const WantedPlace&
              {}});
     }
     return found;
+}
+
+/// QueryAnswer::tip_line.
+std::optional<LineNumber> tip_line(const PointQuery& query, WantedPlace wanted, const FoundPlace& contact) {
+    if (wanted.of_tip || !query.knows_contacts()) return std::nullopt;
+    wanted.of_tip = true;
+    wanted.pieces = 1;
+    const std::vector<FoundPlace> tips = query.find_nearest(wanted);
+    if (tips.empty() || query.is_off_the_part(tips.front().distance)) return std::nullopt;
+    const LineMap& lines = *query.part().lines;
+    const LineNumber line = lines.line_at(tips.front().point);
+    return line == lines.line_at(contact.point) ? std::nullopt : std::optional(line);
 }
 
 void check_point(const Log& log, PointIndex point) {
@@ -105,7 +123,7 @@ void declare_query(po::options_description& options) {
     // clang-format off
     options.add_options()
         ("point", po::value<long long>()->value_name("N"), "the point with this number, from 0")
-        ("at", po::value<std::string>()->value_name("X,Y[,Z]"), "the point nearest to a place on the part [mm], among contact points if the tool is known, else among tool tips; X,Y: the highest point there")
+        ("at", po::value<std::string>()->value_name("[tip:]X,Y[,Z]"), "the point nearest to a place on the part [mm], among contact points if the tool is known, else among tool tips; X,Y: the highest point there; tip:X,Y[,Z]: among tool tips, which the axes of maps show")
         ("nearest", po::value<int>()->value_name("K"), "with --at: the nearest point of each of the K nearest passes (of lines, if there is one pass)")
         ("line", po::value<std::string>()->value_name("N|FILE:N"), "every execution of this line, in the program or in a file that it calls; the first point of each")
         ("time", po::value<double>()->value_name("T"), "the point nearest to this time [s]")
@@ -116,8 +134,9 @@ void declare_query(po::options_description& options) {
     declare_derivative(options);
 }
 
-std::vector<QueryMatch> find_matches(const Part& part, const po::variables_map& values, Diagnostics& diagnostics) {
-    std::vector<QueryMatch> matches;
+QueryAnswer find_matches(const Part& part, const po::variables_map& values, Diagnostics& diagnostics) {
+    QueryAnswer answer;
+    std::vector<QueryMatch>& matches = answer.matches;
     std::optional<WantedPlace> wanted;
     if (values.count("at") > 0) wanted = parse_place(values["at"].as<std::string>());
     if (values.count("nearest") > 0) {
@@ -134,7 +153,9 @@ std::vector<QueryMatch> find_matches(const Part& part, const po::variables_map& 
     }
     if (wanted) {
         const std::string text = values["at"].as<std::string>();
-        for (const FoundPlace& found : find_on_part(query, *wanted, text, diagnostics)) {
+        const std::vector<FoundPlace> places = find_on_part(query, *wanted, text, diagnostics);
+        if (!places.empty()) answer.tip_line = tip_line(query, *wanted, places.front());
+        for (const FoundPlace& found : places) {
             matches.push_back(query.match(found.point));
             matches.back().distance = found.distance;
             if (found.place.contact) matches.back().place = found.place;
@@ -153,7 +174,7 @@ std::vector<QueryMatch> find_matches(const Part& part, const po::variables_map& 
         for (const PointRange& range : query.points_of_line(place.file, place.line))
             matches.push_back(query.match(range.first));
     }
-    return matches;
+    return answer;
 }
 
 }  // namespace clsurf::cli

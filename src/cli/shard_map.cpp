@@ -123,7 +123,8 @@ private:
 ShardMap::Drawn ShardMap::draw(int first, int last, int count) {
     Drawn drawn;
     Shards shards(*this, first, last, count, drawn);
-    drawn.parts = viz::draw_parts(whole_, [&] { return shards.next(); }, placed_, scale_, options_.shown.look);
+    drawn.parts = viz::draw_parts(
+        whole_, [&] { return shards.next(); }, placed_, scale_, options_.shown.look);
     return drawn;
 }
 

@@ -14,6 +14,7 @@ struct WantedPlace {
     Vec3 at = Vec3::Zero();   ///< [mm] in the workpiece
     bool from_above = false;  ///< z is not given: what lies topmost under x, y
     std::size_t pieces = 1;   ///< of how many pieces of the path the nearest point is wanted
+    bool of_tip = false;      ///< a place of the tool tip, whether the tool is known or not
 };
 
 struct FoundPlace {

@@ -69,7 +69,7 @@ CutterPlace PointQuery::place(PointIndex point) const {
 }
 
 std::vector<FoundPlace> PointQuery::find_nearest(const WantedPlace& wanted) const {
-    if (contacts_ && contacts_->known()) {
+    if (knows_contacts() && !wanted.of_tip) {
         std::vector<FoundPlace> found = contacts_->find(wanted);
         if (!found.empty() || wanted.from_above) return found;
     }

@@ -52,8 +52,10 @@ public:
     /// Domain: a point of the log. O(points of its line).
     [[nodiscard]] QueryMatch match(PointIndex point) const;
     /// The nearest point of each of the nearest passes, or of each of the nearest lines where there is one pass only. By
-    /// contact points where the tool is known. Needs the surface.
+    /// contact points where the tool is known and WantedPlace::of_tip does not ask for tips. Needs the surface.
     [[nodiscard]] std::vector<FoundPlace> find_nearest(const WantedPlace& wanted) const;
+    /// Whether places on the part are contact points, so that those of the tool tip are others.
+    [[nodiscard]] bool knows_contacts() const { return contacts_ && contacts_->known(); }
     /// Whether a place so far [mm] from the nearest one that was found does not lie on the part. Needs the surface.
     [[nodiscard]] bool is_off_the_part(double distance) const;
     /// The runs of points of a line: of the program's own file 0, or of another of its files.

@@ -120,3 +120,10 @@ clsurf_cli_test(NAME page_has_tips_and_contacts
 clsurf_cli_test(NAME page_without_a_tool_has_tips
   SETUP "$CLSURF report ${bottle_words} --tool none -o r.html --max-size 4; grep -q '\"tip_mm\":' r.html; ! grep -q '\"contact_mm\":' r.html"
   ARGS --version)
+
+# ---- a place that was read off a map, whose axes show the tool tip ----
+clsurf_cli_test(NAME query_at_a_tip ARGS query ${bottle} "--at=tip:1.9,-5.6" STDOUT "^line 564: " "tool tip X 1.8995 Y -5.6000 Z 4.7190 mm, 0.0005 mm away" NO_STDOUT "On a map")
+clsurf_cli_test(NAME query_at_a_tip_with_a_height ARGS query ${bottle} "--at=tip:1.9 -5.6 4.72" STDOUT "^line 564: ")
+clsurf_cli_test(NAME query_says_what_a_map_has_there ARGS query ${bottle} --at=1.9,-5.6 STDOUT "^line 673: .*On a map, whose axes show the tool tip, these numbers are in line 564: --at tip:1.9,-5.6")
+clsurf_cli_test(NAME query_without_a_tool_has_tips ARGS query ${bottle} --tool none --at=1.9,-5.6 STDOUT "^line 564: " NO_STDOUT "On a map")
+clsurf_cli_test(NAME query_at_half_a_tip ARGS query ${bottle} --at tip:1.9 EXIT 2 STDERR "--at: 'tip:1.9' is not a place.*--at tip:X,Y for the tool tip")

@@ -106,7 +106,10 @@ clsurf_cli_test(NAME shards_partitions_that_differ AFTER shards_partitions SETUP
 function(clsurf_map_of_shards_test name program log count)
   string(REPLACE ";" " " options "${ARGN}")
   set(run "@DATA@/programs/${program} @LOGS@/${log}.biip")
-  set(look "${options} --size 800x600 -q")
+  if(NOT options MATCHES "--size")
+    string(APPEND options " --size 800x600")
+  endif()
+  set(look "${options} -q")
   clsurf_cli_test(NAME shards_map_${name}
     SETUP "$CLSURF render ${run} ${look} -o whole.png; $CLSURF survey ${run} -o run.survey -q; $CLSURF render ${run} --survey run.survey --shards ${count} ${look} -o shards.png; for i in $(seq ${count}); do $CLSURF render ${run} --survey run.survey --shard $i/${count} ${look} -o $i.piece; done; $CLSURF render ${run} --survey run.survey --merge $(seq -f %g.piece ${count} -1 1) ${look} -o merged.png"
     ARGS compare whole.png merged.png STDOUT "^equal: 0 pixels differ" SAME whole.png shards.png merged.png)
