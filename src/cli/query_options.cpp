@@ -74,6 +74,8 @@ std::optional<LineNumber> tip_line(const PointQuery& query, WantedPlace wanted, 
     wanted.pieces = 1;
     const std::vector<FoundPlace> tips = query.find_nearest(wanted);
     if (tips.empty() || query.is_off_the_part(tips.front().distance)) return std::nullopt;
+    // With a height the numbers themselves tell which of the two they are.
+    if (!wanted.from_above && tips.front().distance > contact.distance) return std::nullopt;
     const LineMap& lines = *query.part().lines;
     const LineNumber line = lines.line_at(tips.front().point);
     return line == lines.line_at(contact.point) ? std::nullopt : std::optional(line);

@@ -13,7 +13,8 @@ void declare_query(po::options_description& options);
 
 struct QueryAnswer {
     std::vector<QueryMatch> matches;
-    /// The line in which the tool tip was at the numbers of --at, where they are a place on the part and that line is another one.
+    /// The line in which the tool tip was at the numbers of --at, where they are a place on the part, may have been read off a map,
+    /// and that line is another one.
     std::optional<LineNumber> tip_line;
 };
 
