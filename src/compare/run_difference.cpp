@@ -6,6 +6,7 @@
 
 #include "core/block.h"
 #include "core/not_finite.h"
+#include "core/point_count.h"
 #include "core/statistics.h"
 #include "field/field_set.h"
 #include "log/quantum.h"
@@ -137,10 +138,6 @@ void smooth(Column<float>& values, const std::vector<PointRange>& sections, Poin
                 value = known > 0 ? static_cast<float>(sum / static_cast<double>(known)) : missing<float>;
         }
     }
-}
-
-PointIndex points_in(double seconds, double period) {
-    return std::max<PointIndex>(1, std::lround(std::min(seconds / period, 1e6)));
 }
 
 /// The root mean square of the jerk round each point of a run.

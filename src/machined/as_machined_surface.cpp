@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/parallel.h"
+#include "core/point_count.h"
 #include "machined/contact.h"
 #include "machined/contact_points.h"
 #include "machined/passes_between.h"
@@ -28,7 +29,7 @@ constexpr std::size_t most_kept = 1000;  ///< sections whose passes between are 
 constexpr double most_between = 1000;    ///< contact points between two positions
 
 int smoother_points(double period) {
-    const int points = static_cast<int>(std::lround(std::min(smooth_seconds / period, 2000.0))) | 1;
+    const int points = window_points(smooth_seconds, period);
     return points >= 5 ? points : 1;
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/point_count.h"
 #include "core/vectorised.h"
 
 namespace clsurf {
@@ -73,8 +74,7 @@ DerivativeFilter derivative_filter(int derivative, double period) {
     filter.order = std::max(2, derivative);
     filter.period = period;
     const double seconds = derivative >= 3 ? jerk_window_seconds : window_seconds;
-    const int points = static_cast<int>(std::lround(std::min(seconds / period, 2000.0))) | 1;
-    filter.points = std::max(points, (filter.order + 2) | 1);
+    filter.points = window_points(seconds, period, (filter.order + 2) | 1);
     return filter;
 }
 
@@ -82,7 +82,7 @@ DerivativeFilter derivative_filter(int derivative, double period, double coarses
     DerivativeFilter filter = derivative_filter(derivative, period);
     const DerivativeFilter other = derivative_filter(derivative, std::max(period, coarsest));
     const double seconds = (other.points - 1) * other.period;
-    filter.points = std::max(filter.points, static_cast<int>(std::lround(std::min(seconds / period, 2000.0))) | 1);
+    filter.points = window_points(seconds, period, filter.points);
     return filter;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/point_count.h"
 #include "core/point_ranges.h"
 
 namespace clsurf {
@@ -76,7 +77,7 @@ bool explains(const Defect& height, const Defect& other) {
 }  // namespace
 
 std::vector<BuiltDefect> unexplained(std::span<std::vector<BuiltDefect>> of_family, double period) {
-    const PointIndex room = std::lround(std::min(effect_seconds / period, 1e6));
+    const PointIndex room = points_in(effect_seconds, period, 0);
     std::vector<BuiltDefect> all;
     std::vector<BuiltDefect> programmed;
     for (std::size_t family = 0; family < of_family.size(); family += 2) {

@@ -11,6 +11,7 @@
 
 #include "core/block.h"
 #include "core/not_finite.h"
+#include "core/point_count.h"
 #include "core/point_ranges.h"
 #include "core/statistics.h"
 #include "log/health.h"
@@ -43,10 +44,6 @@ constexpr PointIndex lead = 16;       ///< points that it may come before: logs 
 constexpr float farthest_lag = 2.0F;  ///< step-overs; farther, the paths have nothing to do with each other
 constexpr double end_step_overs = 2;  ///< that are not judged at the ends of passes, at least
 constexpr float slowest = 1e-3F;      ///< [mm/s]; slower, the feed has no direction
-
-int window_points(double seconds, double period, int least) {
-    return std::max(least, static_cast<int>(std::lround(std::min(seconds / period, 2000.0))) | 1);
-}
 
 /// Standard deviation of a derivative for independent errors of the positions of 1 mm each [1/s^d].
 double noise_gain(const DerivativeFilter& filter) {
@@ -141,9 +138,8 @@ public:
           out_(out),
           speed_(speed_filter(usual_speed, quantum, path.period)),
           acceleration_(acceleration_filter(usual_speed, quantum, path.period)),
-          smoother_(window_points(height_window, path.period, 1)),
-          reach_(std::clamp(static_cast<PointIndex>(std::lround(std::min(longest_lag / path.period, 1e6))),
-                            shortest_reach, longest_reach)) {}
+          smoother_(window_points(height_window, path.period)),
+          reach_(std::min<PointIndex>(points_in(longest_lag, path.period, shortest_reach), longest_reach)) {}
 
     /// `scatter` [mm]: position_noise().
     void note_noise(double quantum, double scatter, Signals& signals) const {
@@ -326,7 +322,7 @@ double usual_speed_of(const ClSurface& surface, double period) {
     constexpr double chord_seconds = 0.010;
     const Positions& positions = surface.positions;
     const PointIndex every = std::max<PointIndex>(1, positions.size() / chosen);
-    const PointIndex chord = std::max<PointIndex>(1, std::lround(std::min(chord_seconds / period, 1e6)));
+    const PointIndex chord = points_in(chord_seconds, period);
     std::vector<float> speeds;
     for (const Pass& pass : surface.passes) {
         if (pass.kind != PassKind::cut) continue;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/point_count.h"
 #include "core/point_ranges.h"
 
 namespace clsurf {
@@ -23,7 +24,7 @@ ZoneMarker::ZoneMarker(const Passes& passes, const std::vector<PointRange>& piec
       arc_length_(arc_length),
       end_zone_(end_zone),
       reach_(2 * end_zone.usual + longest_ramp),
-      stride_(std::max<PointIndex>(1, std::lround(std::min(rise_seconds / period, 1e6)))),
+      stride_(points_in(rise_seconds, period)),
       samples_(samples) {}
 
 void ZoneMarker::mark(const PointRange& points) const {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/block.h"
+#include "core/point_count.h"
 #include "toolpath/smoother_fit.h"
 
 namespace clsurf {
@@ -23,8 +24,7 @@ std::array<double, 3> position(const Trajectory& path, PointIndex i) {
 /// Where the tool stands inside a range, in order. Looked at are records half a standstill apart: one that is long enough
 /// holds two of them.
 std::vector<PointRange> standstills(const Trajectory& path, PointRange range) {
-    const PointIndex least =
-        std::max(fewest_standing, static_cast<PointIndex>(std::lround(std::min(standing_seconds / path.period, 1e6))));
+    const PointIndex least = points_in(standing_seconds, path.period, fewest_standing);
     const PointIndex stride = std::max<PointIndex>(1, (least - 1) / 2);
     std::vector<std::vector<PointRange>> of_block(
         static_cast<std::size_t>((range.size() + block_points - 1) / block_points));
