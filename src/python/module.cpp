@@ -120,7 +120,7 @@ NamesWithUnits channels_with_units(const SharedPart& part) {
 
 std::string query(const SharedPart& part, std::optional<PointIndex> point, std::optional<LineNumber> line,
                   const std::string& file, std::optional<double> time, const std::optional<std::vector<double>>& at,
-                  int nearest) {
+                  bool of_tip, int nearest) {
     constexpr int most_nearest = 100'000;
     Wanted wanted{point, line, file, time, std::nullopt};
     if (nearest < 1 || nearest > most_nearest) throw UsageError("nearest must be 1 … " + std::to_string(most_nearest));
@@ -130,6 +130,7 @@ std::string query(const SharedPart& part, std::optional<PointIndex> point, std::
         place.from_above = at->size() == 2;
         place.at = Vec3((*at)[0], (*at)[1], place.from_above ? 0 : (*at)[2]);
         place.pieces = static_cast<std::size_t>(nearest);
+        place.of_tip = of_tip;
     }
     return part->query(wanted);
 }
@@ -171,7 +172,7 @@ void bind_part(py::module_& module) {
         .def(
             "check", [](const SharedPart& part) { return part->check(); }, Unlocked())
         .def("query", &query, Unlocked(), py::arg("point"), py::arg("line"), py::arg("file"), py::arg("time"),
-             py::arg("at"), py::arg("nearest"))
+             py::arg("at"), py::arg("of_tip"), py::arg("nearest"))
         .def("picture", &picture);
 }
 

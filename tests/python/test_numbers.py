@@ -110,6 +110,7 @@ def test_a_log_that_cannot_be_judged_warns(tmp_path, clean_plane):
         ({"time": 4.822}, ["--time", "4.822"]),
         ({"at": (1.5, -4.7, 4.9)}, ["--at", "1.5,-4.7,4.9"]),
         ({"at": (1.5, -4.7), "nearest": 3}, ["--at", "1.5,-4.7", "--nearest", "3"]),
+        ({"at": (1.9, -5.6), "of_tip": True}, ["--at", "tip:1.9,-5.6"]),
     ],
 )
 def test_query_is_that_of_the_program(uneven, uneven_files, wanted, words):

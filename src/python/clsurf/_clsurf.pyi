@@ -59,6 +59,7 @@ class Part:
         file: str,
         time: Optional[float],
         at: Optional[Sequence[float]],
+        of_tip: bool,
         nearest: int,
     ) -> str: ...
     def picture(

@@ -253,6 +253,7 @@ class Part:
         at: Optional[Sequence[float]] = None,
         time: Optional[float] = None,
         file: str = "",
+        of_tip: bool = False,
         nearest: int = 1,
     ) -> List[Dict[str, Any]]:
         """What is known of points: the `matches` of `clsurf query --json`.
@@ -262,7 +263,9 @@ class Part:
         Args:
             point: number of a point.
             line: every execution of a line: the first point of each.
-            at: (x, y, z) [mm], the nearest point on the part; (x, y): the highest one there.
+            at: (x, y, z) [mm], the nearest point on the part, or among tool tips where no tool is known;
+                (x, y): the highest one there.
+            of_tip: `at` is a place of the tool tip, which the axes of pictures show.
             time: [s], the point nearest to it.
             file: the file of `line`, if not the main program.
             nearest: with `at`, the nearest point of each of so many passes.
@@ -275,7 +278,9 @@ class Part:
 
             raise UsageError("what to look for is missing", "point=, line=, at= or time=")
         place = None if at is None else [float(x) for x in at]
-        report = self._native.query(point=point, line=line, file=file, time=time, at=place, nearest=nearest)
+        report = self._native.query(
+            point=point, line=line, file=file, time=time, at=place, of_tip=of_tip, nearest=nearest
+        )
         return json.loads(report)["matches"]
 
     def surface(self) -> Surface:
