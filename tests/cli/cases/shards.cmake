@@ -22,8 +22,9 @@ function(clsurf_shard_test program log count)
     SETUP "$CLSURF check ${run} ${judging} -o whole.json -q; $CLSURF survey ${run} ${part} -o run.survey -q; for i in $(seq ${count}); do $CLSURF check ${run} --survey run.survey --shard $i/${count} ${judging} -o shard$i.json -q; done; $CLSURF check ${run} --survey run.survey --merge shard*.json ${judging} -o merged.json -q; /usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/cli/read_merged.py whole.json merged.json; grep -q '\"severity\"' merged.json; $CLSURF check ${run} --survey run.survey --merge shard*.json ${judging} --scratch . -o in_files.json -q; cmp merged.json in_files.json"
     ARGS ${as_text})
 endfunction()
-clsurf_shard_test(petal_zigzag_g64.ngc petal_zigzag_g64 5)
-clsurf_shard_test(petal_loops_g64.ngc petal_loops_g64 3)
+# Without the surface after cutting, which takes most of the time and is judged with the tools below.
+clsurf_shard_test(petal_zigzag_g64.ngc petal_zigzag_g64 5 TOOL none)
+clsurf_shard_test(petal_loops_g64.ngc petal_loops_g64 3 TOOL none)
 clsurf_shard_test(planted_loops.nc planted_loops 4 TOOL ball:6 TEXT)
 clsurf_shard_test(bottle_uneven.nc bottle_uneven 2 TOOL bull:6,1.5)
 # Lines that are found by geometry.
