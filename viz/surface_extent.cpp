@@ -58,6 +58,9 @@ Eigen::AlignedBox3f bound_of(const std::vector<Eigen::AlignedBox3f>& boxes, cons
     for (PointIndex block = piece.first / block_points; block <= piece.last / block_points; ++block)
         box.extend(boxes[static_cast<std::size_t>(block)]);
     if (box.isEmpty()) return box;
+    // Along the axes of the workpiece floats are only swapped and negated.
+    if ((turned.array() != 0).count() == 3)
+        return Eigen::AlignedBox3f(Eigen::Vector3f(turned * box.min())).extend(Eigen::Vector3f(turned * box.max()));
     constexpr float rounding = 8 * std::numeric_limits<float>::epsilon();
     const Eigen::Vector3f middle = turned * box.center();
     const Eigen::Vector3f reach = turned.cwiseAbs() * (0.5F * box.sizes());
@@ -70,7 +73,7 @@ void extend_by_bounds(Eigen::AlignedBox3f& box, const ClSurface& surface, std::s
                       const Eigen::Matrix3f& turned) {
     std::vector<Eigen::AlignedBox3f> bounds;
     bounds.reserve(pieces.size());
-    for (const Piece& piece : pieces) bounds.push_back(bound_of(surface.boxes, piece, turned));
+    for (const Piece& piece : pieces) bounds.push_back(bound_of(surface.surface_boxes, piece, turned));
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
         std::size_t lowest = 0, highest = 0;
         for (std::size_t k = 1; k < pieces.size(); ++k) {
@@ -96,7 +99,7 @@ Box3 extent_of(const ClSurface& surface, const ViewAxes& axes) {
     if (pieces.empty()) return {};
     const Eigen::Matrix3f turned = axes.cast<float>();
     Eigen::AlignedBox3f box;
-    if (surface.boxes.empty())
+    if (surface.surface_boxes.empty())
         extend(box, surface.positions, pieces, turned);
     else
         extend_by_bounds(box, surface, pieces, turned);

@@ -7,7 +7,7 @@
 namespace clsurf::viz {
 
 /// Extent along the axes of a view of the points that do not belong to rapids [mm]. O(points), parallel. Where the surface has
-/// boxes, only points that may widen the extent are read: O(blocks), and few points.
+/// surface_boxes, only points that may widen the extent are read: O(blocks), and few points.
 [[nodiscard]] Box3 extent_of(const ClSurface& surface, const ViewAxes& axes);
 
 }  // namespace clsurf::viz

@@ -33,7 +33,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "a survey is read in place");
 
 constexpr std::string_view survey_magic = "CLSURVEY";
-constexpr std::uint32_t survey_layout = 2;
+constexpr std::uint32_t survey_layout = 3;
 constexpr std::size_t survey_head = 24;
 constexpr std::size_t survey_page = 4096;
 constexpr std::size_t survey_crc_at = 16;
@@ -42,6 +42,7 @@ constexpr std::size_t survey_crc_at = 16;
 enum class SurveySection : std::size_t {
     arc_lengths,
     boxes,
+    surface_boxes,
     passes,
     low_links,
     moves,
@@ -261,14 +262,27 @@ void check_survey_ranges(const SurveyReader& reader, std::span<const Range> rang
     if (next > points || (whole && next != points)) reader.fail(SurveyReader::cut);
 }
 
+std::vector<Corners> corners_of(const std::vector<Eigen::AlignedBox3f>& boxes) {
+    std::vector<Corners> corners;
+    for (const Eigen::AlignedBox3f& b : boxes)
+        corners.push_back({b.min().x(), b.min().y(), b.min().z(), b.max().x(), b.max().y(), b.max().z()});
+    return corners;
+}
+
+std::vector<Eigen::AlignedBox3f> boxes_of(std::span<const Corners> corners) {
+    std::vector<Eigen::AlignedBox3f> boxes;
+    for (const Corners& c : corners)
+        boxes.emplace_back(Eigen::Vector3f(c[0], c[1], c[2]), Eigen::Vector3f(c[3], c[4], c[5]));
+    return boxes;
+}
+
 void read_survey_columns(const SurveyReader& reader, Survey& s) {
     const auto points = static_cast<std::size_t>(s.points);
     s.arc_lengths =
         Column<double>::borrowed(reader.column<double>(SurveySection::arc_lengths, ArcLength::sum_count(s.points)));
     const std::size_t blocks = (points + block_points - 1) / block_points;
-    for (const Corners& box : reader.column<Corners>(SurveySection::boxes, blocks)) {
-        s.boxes.emplace_back(Eigen::Vector3f(box[0], box[1], box[2]), Eigen::Vector3f(box[3], box[4], box[5]));
-    }
+    s.boxes = boxes_of(reader.column<Corners>(SurveySection::boxes, blocks));
+    s.surface_boxes = boxes_of(reader.column<Corners>(SurveySection::surface_boxes, blocks));
     s.passes = Passes::borrowed(reader.column<Pass>(SurveySection::passes));
     if (std::ranges::any_of(s.passes, [](const Pass& pass) { return pass.kind > PassKind::other; }))
         reader.fail(SurveyReader::cut);
@@ -371,13 +385,12 @@ std::string hash_of_ends(const Source& log) {
 
 void write_survey(const std::string& path, const Survey& s, const SurveyOrigin& origin) {
     const std::vector<std::uint8_t> low(s.low_links.begin(), s.low_links.end());
-    std::vector<Corners> box;
-    for (const Eigen::AlignedBox3f& b : s.boxes)
-        box.push_back({b.min().x(), b.min().y(), b.min().z(), b.max().x(), b.max().y(), b.max().z()});
+    const std::vector<Corners> box = corners_of(s.boxes), surface_box = corners_of(s.surface_boxes);
     const std::vector<std::byte> passes = bytes_of_passes(s.passes);
     std::array<SurveyBytes, survey_sections> columns{
         survey_bytes(s.arc_lengths.data(), s.arc_lengths.size()),
         survey_bytes(box.data(), box.size()),
+        survey_bytes(surface_box.data(), surface_box.size()),
         passes,
         survey_bytes(low.data(), low.size()),
         survey_bytes(s.step_over_moves.data(), s.step_over_moves.size()),

@@ -34,7 +34,9 @@ ShardMap::ShardMap(const RenderOptions& options, Shown shown, const Survey& surv
       range_(choose_field()),
       scale_(scale_of(shown_.field.info, range_, options.shown)),
       whole_{&shown_.surface, &shown_.field, "", {}, {}, {}},
-      placed_(viz::placed_map({whole_}, options.shown.look)) {}
+      placed_(viz::placed_map({whole_}, options.shown.look)) {
+    shown_.surface.positions.forget();  // what told how far the surface reaches
+}
 
 ShownRange ShardMap::choose_field() {
     const std::string usual = fields_.can_compute("feed_share") ? "feed_share" : "speed";

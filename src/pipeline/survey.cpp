@@ -9,6 +9,7 @@
 
 #include "core/block.h"
 #include "core/error.h"
+#include "core/point_ranges.h"
 #include "machined/contact_points.h"
 #include "pipeline/placement.h"
 #include "pipeline/roles.h"
@@ -44,6 +45,24 @@ std::vector<Eigen::AlignedBox3f> boxes_of(const Trajectory& path, const Trajecto
         Eigen::AlignedBox3f box;
         extend_by(path, origin, first, last, box);
         if (measured != nullptr) extend_by(*measured, origin, first, last, box);
+        boxes[static_cast<std::size_t>(first / block_points)] = box;
+    });
+    return boxes;
+}
+
+std::vector<Eigen::AlignedBox3f> surface_boxes_of(const ClSurface& surface) {
+    const PointIndex count = surface.positions.size();
+    std::vector<Eigen::AlignedBox3f> boxes(static_cast<std::size_t>((count + block_points - 1) / block_points));
+    for_each_block(count, [&](PointIndex first, PointIndex last) {
+        Eigen::AlignedBox3f box;
+        for (auto pass = range_at(surface.passes, first); pass != surface.passes.end() && pass->first < last; ++pass) {
+            if (!is_of_surface(pass->kind)) continue;
+            const PointIndex end = std::min(last, pass->last + 1);
+            for (PointIndex i = std::max(first, pass->first); i < end; ++i) {
+                const Eigen::Vector3f at = surface.positions[i];
+                if (at.allFinite()) box.extend(at);
+            }
+        }
         boxes[static_cast<std::size_t>(first / block_points)] = box;
     });
     return boxes;
@@ -128,6 +147,7 @@ Survey make_survey(const Part& part, std::optional<Role> wanted) {
         measured = reconstruct_like(part.log, *role, part.path);
     const Trajectory* const heights_of = measured ? &*measured : nullptr;
     survey.boxes = boxes_of(part.path, heights_of, survey.origin);
+    survey.surface_boxes = surface_boxes_of(surface);
     for (const Pass& pass : surface.passes) {
         survey.low_links.push_back(pass.kind == PassKind::link &&
                                    stays_low(surface.positions, pass, surface.step_over));
@@ -186,6 +206,7 @@ ClSurface surveyed_surface(const Part& part, const Survey& survey, PointIndex bl
     surface.cut_length = survey.cut_length;
     surface.low_links = survey.low_links;
     surface.boxes = survey.boxes;
+    surface.surface_boxes = survey.surface_boxes;
     return surface;
 }
 

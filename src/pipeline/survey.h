@@ -20,9 +20,10 @@ struct Survey {
     Role role = Role::commanded;
     Vec3 offset = Vec3::Zero();  ///< of the trajectory
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-    Vec3 origin = Vec3::Zero();              ///< of the positions
-    Column<double> arc_lengths;              ///< ArcLength::sums()
-    std::vector<Eigen::AlignedBox3f> boxes;  ///< ClSurface::boxes
+    Vec3 origin = Vec3::Zero();                      ///< of the positions
+    Column<double> arc_lengths;                      ///< ArcLength::sums()
+    std::vector<Eigen::AlignedBox3f> boxes;          ///< ClSurface::boxes
+    std::vector<Eigen::AlignedBox3f> surface_boxes;  ///< ClSurface::surface_boxes
     Passes passes;
     std::vector<bool> low_links;  ///< ClSurface::low_links
     std::vector<PointRange> step_over_moves;

@@ -23,9 +23,10 @@ struct ClSurface {
     /// Points that cut and belong to no finishing pass (surface/finishing.h); among the passes they count as rapid.
     PointIndex not_finishing = 0;
     /// What was measured before, of a surface of which only parts are looked at; elsewhere nothing.
-    std::optional<double> cut_length;        ///< [mm] of all cut passes
-    std::vector<bool> low_links;             ///< by pass: stays_low() (machined/contact_points.h)
-    std::vector<Eigen::AlignedBox3f> boxes;  ///< [mm] of the positions shown and measured, by block
+    std::optional<double> cut_length;                ///< [mm] of all cut passes
+    std::vector<bool> low_links;                     ///< by pass: stays_low() (machined/contact_points.h)
+    std::vector<Eigen::AlignedBox3f> boxes;          ///< [mm] of the positions shown and measured, by block
+    std::vector<Eigen::AlignedBox3f> surface_boxes;  ///< [mm] of the positions of passes and links, by block
 };
 
 /// Arc length of all cut passes [mm]. O(passes).

@@ -234,6 +234,10 @@ TEST_F(Shards, ASurveyComesBackFromItsFile) {
     EXPECT_TRUE(std::equal(again.neighbours.left.begin(), again.neighbours.left.end(), survey.neighbours.left.begin()));
     EXPECT_TRUE(std::equal(again.arc_lengths.begin(), again.arc_lengths.end(), survey.arc_lengths.begin()));
     for (std::size_t k = 0; k < survey.boxes.size(); ++k) EXPECT_TRUE(again.boxes[k].isApprox(survey.boxes[k], 0));
+    for (std::size_t k = 0; k < survey.surface_boxes.size(); ++k) {
+        EXPECT_TRUE(again.surface_boxes[k].isApprox(survey.surface_boxes[k], 0));
+        EXPECT_TRUE(survey.boxes[k].contains(survey.surface_boxes[k]));
+    }
 }
 
 /// Changes a byte of a file that may be mapped, and changes it back.

@@ -33,11 +33,13 @@ ClSurface wavy() {
 }
 
 /// The boxes of its blocks, as a survey has them.
-std::vector<Eigen::AlignedBox3f> boxes_of(const Positions& positions) {
-    std::vector<Eigen::AlignedBox3f> boxes;
-    for (PointIndex i = 0; i < positions.size(); ++i) {
-        if (i % block_points == 0) boxes.emplace_back();
-        if (positions[i].allFinite()) boxes.back().extend(positions[i]);
+std::vector<Eigen::AlignedBox3f> boxes_of(const ClSurface& surface) {
+    std::vector<Eigen::AlignedBox3f> boxes(static_cast<std::size_t>(surface.positions.size() / block_points + 1));
+    for (const Pass& pass : surface.passes) {
+        for (PointIndex i = pass.first; pass.kind == PassKind::cut && i <= pass.last; ++i) {
+            if (surface.positions[i].allFinite())
+                boxes[static_cast<std::size_t>(i / block_points)].extend(surface.positions[i]);
+        }
     }
     return boxes;
 }
@@ -45,7 +47,7 @@ std::vector<Eigen::AlignedBox3f> boxes_of(const Positions& positions) {
 TEST(SurfaceExtent, IsTheSameByTheBoxesOfBlocks) {
     const ClSurface whole = wavy();
     ClSurface by_boxes = wavy();
-    by_boxes.boxes = boxes_of(by_boxes.positions);
+    by_boxes.surface_boxes = boxes_of(by_boxes);
     for (const View view : {View{45, 35}, View{0, 90}, View{0, 0}, View{123, -12}}) {
         const Box3 expected = extent_of(whole, axes_of(view)), found = extent_of(by_boxes, axes_of(view));
         EXPECT_EQ(found.min(), expected.min()) << view.azimuth;

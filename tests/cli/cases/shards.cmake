@@ -56,7 +56,7 @@ clsurf_cli_test(NAME shards_of_five_axes SETUP "$CLSURF simulate @DATA@/programs
 clsurf_cli_test(NAME shards_of_text SETUP "head -n 2000 @LOGS@/mixed.csv > run.csv" ARGS survey @DATA@/programs/mixed.ngc run.csv -o run.survey EXIT 2 STDERR "run.csv is not a BIIP log: only these can be read in parts")
 clsurf_cli_test(NAME shards_damaged_findings AFTER shards_say_what_they_read SETUP "${same_shards}; sed -i s/compared/comparef/ shard2.json" ARGS ${merge_args} --merge shard1.json shard2.json -o whole.json EXIT 3 STDERR "shard2.json: error: is cut or damaged: its checksum differs")
 # The last bytes of the file are those of a section with a checksum, and zeros up to the end of the page.
-clsurf_cli_test(NAME shards_damaged_section AFTER shards_say_what_they_read SETUP "${same_shards}; printf x | dd of=run.survey bs=1 seek=$(($(stat -c %s run.survey) - 1)) conv=notrunc status=none" ARGS ${merge_args} --shard 1/2 -o shard.json EXIT 3 STDERR "run.survey: error: is damaged: the checksum of section 12 differs")
+clsurf_cli_test(NAME shards_damaged_section AFTER shards_say_what_they_read SETUP "${same_shards}; printf x | dd of=run.survey bs=1 seek=$(($(stat -c %s run.survey) - 1)) conv=notrunc status=none" ARGS ${merge_args} --shard 1/2 -o shard.json EXIT 3 STDERR "run.survey: error: is damaged: the checksum of section 13 differs")
 clsurf_cli_test(NAME shards_damaged_survey AFTER shards_say_what_they_read SETUP "${same_shards}; head -c 9000 run.survey > cut; mv cut run.survey" ARGS ${merge_args} --shard 1/2 -o shard.json EXIT 3 STDERR "run.survey: error: is cut or damaged")
 
 # ---- the surface in pieces ----
