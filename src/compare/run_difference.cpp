@@ -1,6 +1,7 @@
 #include "compare/run_difference.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -221,11 +222,57 @@ Derivation derivation_of(const ComparedRun& run, const ComparedRun& other, const
     return {estimate_motion(run.derivative, *run.log, run.path, passes), other.log->period};
 }
 
+/// What the steps of the positions of a run may make of its jerk [mm/s³].
+float jerk_of_steps(const ComparedRun& run, const Derivation& derivation) {
+    return quantum_of(run.path) * static_cast<float>(derivation.filter(3, run.log->period).step_response());
+}
+
+/// The shortest window [s] in which the steps of the positions of both runs make little of a jerk; 0: the usual one. A vibration
+/// that is shorter than the window does not show.
+double shortest_jerk_window(const ComparedRun& a, const ComparedRun& b, float usual_jerk) {
+    constexpr float little = 0.05F;
+    constexpr double growth = 1.4;
+    const double coarser = std::max(a.log->period, b.log->period);
+    const DerivativeFilter usual = derivative_filter(3, coarser);
+    for (double points = usual.order + 1; points < usual.points - 1; points *= growth) {
+        Derivation of_a, of_b;
+        of_a.jerk_window = of_b.jerk_window = points * coarser;
+        if (jerk_of_steps(a, of_a) <= little * usual_jerk && jerk_of_steps(b, of_b) <= little * usual_jerk)
+            return points * coarser;
+    }
+    return 0;
+}
+
+/// The roughness of both runs, in the shortest window that their steps allow.
+void compare_roughness(const ComparedRun& a, const ComparedRun& b, const ClSurface& surface,
+                       std::array<Derivation, 2> derivations, RunDifferences& out) {
+    const Passes whole_a = whole(a.path), whole_b = whole(b.path);
+    const auto roughness = [&](const ComparedRun& run, const Passes& passes, const Derivation& derivation) {
+        return rough_motion(FieldSet(*run.log, run.path, passes, derivation), run.log->period);
+    };
+    const auto take_a = [&] {
+        out.jerk_of_a = roughness(a, whole_a, derivations[0]);
+        out.usual_jerk = percentile_at_feed(out.jerk_of_a, surface.passes, 0.95);
+    };
+    take_a();
+    const bool by_window = !derivations[0].estimate && !derivations[1].estimate;
+    if (const double window = by_window ? shortest_jerk_window(a, b, out.usual_jerk) : 0; window > 0) {
+        for (Derivation& derivation : derivations) derivation.jerk_window = window;
+        take_a();
+    }
+    Column<float>& jerk = out.of[index_of(RunQuantity::jerk)];
+    jerk = out.jerk_of_a;
+    subtract(roughness(b, whole_b, derivations[1]), out.alignment, jerk);
+    out.jerk_tolerance = out.rules.usual_jerk * out.usual_jerk +
+                         std::max(jerk_of_steps(a, derivations[0]), jerk_of_steps(b, derivations[1]));
+}
+
 void compare_motion(const ComparedRun& a, const ComparedRun& b, const ClSurface& surface, RunDifferences& out) {
     const Passes whole_a = whole(a.path);
     const Passes whole_b = whole(b.path);
-    const FieldSet of_a(*a.log, a.path, whole_a, derivation_of(a, b, whole_a));
-    const FieldSet of_b(*b.log, b.path, whole_b, derivation_of(b, a, whole_b));
+    const std::array derivations{derivation_of(a, b, whole_a), derivation_of(b, a, whole_b)};
+    const FieldSet of_a(*a.log, a.path, whole_a, derivations[0]);
+    const FieldSet of_b(*b.log, b.path, whole_b, derivations[1]);
     out.speed_of_a = of_a.get("speed").values;
     out.usual_speed = percentile_at_feed(out.speed_of_a, surface.passes, 0.95);
     out.of[index_of(RunQuantity::speed)] = out.speed_of_a;
@@ -234,17 +281,7 @@ void compare_motion(const ComparedRun& a, const ComparedRun& b, const ClSurface&
     acceleration = of_a.get("acceleration").values;
     out.usual_acceleration = percentile_at_feed(acceleration, surface.passes, 0.99);
     subtract(of_b.get("acceleration").values, out.alignment, acceleration);
-    Column<float>& jerk = out.of[index_of(RunQuantity::jerk)];
-    out.jerk_of_a = rough_motion(of_a, a.log->period);
-    out.usual_jerk = percentile_at_feed(out.jerk_of_a, surface.passes, 0.95);
-    jerk = out.jerk_of_a;
-    subtract(rough_motion(of_b, b.log->period), out.alignment, jerk);
-}
-
-/// What the steps of the positions of a run may make of its jerk [mm/s³].
-float jerk_of_steps(const ComparedRun& run, const ComparedRun& other) {
-    const DerivativeFilter filter = derivative_filter(3, run.log->period, other.log->period);
-    return quantum_of(run.path) * static_cast<float>(filter.step_response());
+    compare_roughness(a, b, surface, derivations, out);
 }
 
 }  // namespace
@@ -302,7 +339,6 @@ RunDifferences compare_runs(const ComparedRun& a, const ClSurface& surface, cons
     const float height_quantum = std::max(quantum_of(height_a), quantum_of(height_b));
     out.speed_tolerance =
         rules.period * static_cast<float>(std::max(a.log->period, b.log->period)) * out.usual_acceleration;
-    out.jerk_tolerance = rules.usual_jerk * out.usual_jerk + std::max(jerk_of_steps(a, b), jerk_of_steps(b, a));
     out.threshold = {rules.speed * out.usual_speed + out.speed_tolerance, rules.acceleration * out.usual_acceleration,
                      std::max(rules.height, rules.lag_quanta * lag_quantum),
                      std::max(rules.height, rules.height_quanta * height_quantum),

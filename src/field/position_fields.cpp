@@ -8,6 +8,7 @@
 
 #include "core/block.h"
 #include "core/error.h"
+#include "core/point_count.h"
 #include "field/path_curvature.h"
 #include "numeric/derivative.h"
 #include "surface/smoothing_segments.h"
@@ -121,7 +122,7 @@ Samples samples_of(const Plan& plan, const Trajectory& path) {
     return Samples(path);
 }
 
-void complete(Plan& plan, const Trajectory& path, double coarsest_period) {
+void complete(Plan& plan, const Trajectory& path, const Derivation& derivation) {
     plan.count = path.count;
     for (const Wanted& wanted : plan.rows) plan.needs |= wanted.row->needs;
     if (!plan.smoothed && (plan.needs & (needs::position | needs::derivatives)) != 0)
@@ -129,7 +130,7 @@ void complete(Plan& plan, const Trajectory& path, double coarsest_period) {
     for (int d = 1; d <= 3 && !plan.smoothed; ++d) {
         if ((plan.needs & bit_of_derivative(d)) == 0) continue;
         auto& filter = plan.derivatives[static_cast<std::size_t>(d - 1)];
-        filter.emplace(derivative_filter(d, plan.log->period, coarsest_period));
+        filter.emplace(derivation.filter(d, plan.log->period));
         plan.reach = std::max(plan.reach, filter->reach());
     }
     if ((plan.needs & needs::curvature) != 0) plan.curvature.emplace(*plan.log, path);
@@ -285,6 +286,12 @@ std::vector<PointRange> pieces_of(const Log& log, const Trajectory& path, const 
 
 }  // namespace
 
+DerivativeFilter Derivation::filter(int derivative, double period) const {
+    DerivativeFilter filter = derivative_filter(derivative, period, coarsest_period);
+    if (derivative == 3 && jerk_window > 0) filter.points = window_points(jerk_window, period, filter.order + 2);
+    return filter;
+}
+
 PositionFields::PositionFields(const Log& log, const Trajectory& path, const Passes& passes, Derivation derivation,
                                std::span<const FieldRow> rows)
     : log_(std::make_shared<const Log>(log)),
@@ -315,7 +322,7 @@ std::string PositionFields::note_of(const FieldRow& row) const {
     const int d = derivative_of(row);
     if (d == 0) return is_smoothed(row, derivation_) ? derivation_.estimate->note(d) : std::string();
     if (derivation_.estimate && row.subject == FieldSubject::tip) return derivation_.estimate->note(d);
-    const DerivativeFilter filter = derivative_filter(d, log_->period, derivation_.coarsest_period);
+    const DerivativeFilter filter = derivation_.filter(d, log_->period);
     return fmt::format("{}-point window ({:.3g} ms, \u22123 dB at {:.0f} Hz)", filter.points,
                        filter.points * filter.period * 1e3, filter.bandwidth());
 }
@@ -344,7 +351,7 @@ std::vector<Field> PositionFields::compute(std::span<const std::string_view> nam
         plan->rows.push_back({&asked, field.values.data()});
     }
     for (Plan& plan : plans) {
-        complete(plan, path_, derivation_.coarsest_period);
+        complete(plan, path_, derivation_);
         for_each_block(points.size(), [&](PointIndex first, PointIndex last) {
             compute_range(plan, pieces_, {points.first + first, points.first + last - 1}, points.first);
         });

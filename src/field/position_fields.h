@@ -7,6 +7,7 @@
 #include "field/field_row.h"
 #include "field/field_table.h"
 #include "log/log.h"
+#include "numeric/derivative.h"
 #include "surface/passes.h"
 #include "toolpath/motion_estimate.h"
 #include "toolpath/trajectory.h"
@@ -20,6 +21,10 @@ struct Derivation {
     /// [s] of another log whose fields are to be compared; 0: none. Windows then reach over standstills: a pause has no
     /// length, and only their share of it appears at the adjacent places.
     double coarsest_period = 0;
+    double jerk_window = 0;  ///< [s] from the first point of it to the last one; 0: as derivative_filter() has it
+
+    /// Of a derivative of a log with that period.
+    [[nodiscard]] DerivativeFilter filter(int derivative, double period) const;
 };
 
 class PositionFields : public FieldProvider {

@@ -403,7 +403,7 @@ clsurf_cli_test(NAME diff_of_another_format ARGS diff @LOGS@/dome_loops.biip @LO
 clsurf_cli_test(NAME diff_of_half_the_speed SETUP "${as_recorded}" ARGS diff a.biip slow.biip --program @DATA@/programs/mixed.ngc
   STDOUT "100.0 % of" "speed +-(49.9|50.0) % +-49.9 %")
 clsurf_cli_test(NAME diff_lists_three_of_each_quantity ARGS diff @LOGS@/bottle_uneven.biip @LOGS@/bottle_uneven_repaired.biip --tool none --program @DATA@/programs/bottle_uneven.nc
-  STDOUT "4 speed" "9 lag" "16 height" "[0-9]+ acceleration" "and [0-9]+ more: --json")
+  STDOUT "4 speed" "9 lag" "17 height" "[0-9]+ acceleration" "and [0-9]+ more: --json")
 clsurf_cli_test(NAME diff_budget_not_held SETUP "${as_recorded}; echo 'max_speed_difference_percent = 10' > runs.toml"
   ARGS diff a.biip slow.biip --budget runs.toml --json EXIT 1 STDOUT "\"within_budget\": false" "\"max_speed_difference_percent\"")
 clsurf_cli_test(NAME diff_budget_held SETUP "${as_recorded}; printf 'max_height_difference_um = 1\\nmin_aligned_percent = 99\\n' > runs.toml"

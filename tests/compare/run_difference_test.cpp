@@ -130,16 +130,38 @@ TEST(RunDifference, FindsWhereARunIsRougher) {
     constexpr double omega = 2 * std::numbers::pi * hertz;
     const MadeRun a = make_run(zigzag_recipe());
     RunRecipe recipe = zigzag_recipe();
-    recipe.speed = [](double s) { return s > 96 && s < 108 ? v0 + swing * std::sin(omega * (s - 96) / v0) : v0; };
+    recipe.speed = [](double s) {
+        // It grows and fades over 2 mm: a jump of the acceleration would be rougher than the swing.
+        const double u = std::clamp(std::min(s - 96, 108 - s) / 2, 0.0, 1.0);
+        return v0 + swing * u * u * (3 - 2 * u) * std::sin(omega * (s - 96) / v0);
+    };
     const MadeRun b = make_run(recipe);
     const auto found = sections_of(compare(a, b).report, RunQuantity::jerk);
     ASSERT_EQ(found.size(), 1U);
     EXPECT_NEAR(found[0].peak, swing * omega * omega / std::numbers::sqrt2, 0.3 * swing * omega * omega);
-    EXPECT_NEAR(a.arc_length[static_cast<std::size_t>(found[0].points.first)], 96, 1.5);
-    EXPECT_NEAR(a.arc_length[static_cast<std::size_t>(found[0].points.last)], 108, 1.5);
+    EXPECT_NEAR(a.arc_length[static_cast<std::size_t>(found[0].points.first)], 97, 1.5);
+    EXPECT_NEAR(a.arc_length[static_cast<std::size_t>(found[0].points.last)], 107, 1.5);
     const auto back = sections_of(compare(b, a).report, RunQuantity::jerk);
     ASSERT_EQ(back.size(), 1U);
     EXPECT_NEAR(back[0].peak, -found[0].peak, 0.05 * found[0].peak);
+}
+
+// A vibration of 125 Hz: a window of 40 ms takes the mean over five of its periods. A sin ωt has the jerk A ω³, root mean square
+// A ω³/√2, of which a window of five records shows three quarters.
+TEST(RunDifference, FindsAVibrationThatIsShorterThanTheUsualWindow) {
+    constexpr double v = 30, hertz = 125, amplitude = 0.002;
+    constexpr double omega = 2 * std::numbers::pi * hertz;
+    const MadeRun a = make_run(zigzag_recipe());
+    RunRecipe recipe = zigzag_recipe();
+    recipe.shift = [](double s) {
+        return s > 96 && s < 108 ? Vec3(amplitude * std::sin(omega * (s - 96) / v), 0, 0) : Vec3(0, 0, 0);
+    };
+    const auto found = sections_of(compare(a, make_run(recipe)).report, RunQuantity::jerk);
+    ASSERT_EQ(found.size(), 1U);
+    const double expected = amplitude * omega * omega * omega / std::numbers::sqrt2;
+    EXPECT_GT(found[0].mean, 0.5 * expected);
+    EXPECT_LT(found[0].mean, 1.1 * expected);
+    EXPECT_NEAR(found[0].length, 12, 3);
 }
 
 TEST(RunDifference, ChangesItsSignWhenTheRunsAreSwapped) {
