@@ -352,7 +352,7 @@ private:
             case Row::bend: return at_cap;
             case Row::tangential_acceleration:
             case Row::axis_acceleration: return LimitingFactor::axis_acceleration;
-            case Row::corner_jerk: return LimitingFactor::corner_tolerance;
+            case Row::bend_jerk: return LimitingFactor::corner_tolerance;
             default: return LimitingFactor::jerk;
         }
     }

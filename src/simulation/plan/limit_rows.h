@@ -20,7 +20,7 @@ enum class Row : std::uint8_t {
     axis_acceleration,
     tangential_jerk,
     axis_jerk,
-    corner_jerk
+    bend_jerk,  ///< that the bend of the path alone takes of an axis, at constant speed
 };
 
 struct LimitRow {

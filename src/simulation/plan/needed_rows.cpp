@@ -318,7 +318,7 @@ void AxisSpeedProblem<Axes>::make_rows_of(std::size_t i) {
                 const double limit = jerk_share * limits_.jerk[x];
                 const double steady = std::abs(sample.third[x]) * cell.limits.cap * cell.limits.cap * cell.limits.cap;
                 const Three moving = sum(1.5 * sample.second[x], w.slope, sample.third[x], w.b);
-                add_jerk(number + 1, steady > 0.5 * limit ? Row::corner_jerk : Row::axis_jerk, i,
+                add_jerk(number + 1, steady > 0.5 * limit ? Row::bend_jerk : Row::axis_jerk, i,
                          sum(0.5 * sample.first[x], w.curve, 1, moving), w.b, limit);
             }
         }

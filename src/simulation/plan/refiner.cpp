@@ -30,13 +30,14 @@ constexpr int most_shortenings = 2;
 constexpr std::size_t fewest_cells = 8;
 constexpr double long_cruise = 20, cruise_left = 4;  ///< cells
 
-LimitingFactor limiting_of(Row row, LimitingFactor at_cap, LimitingFactor in_bend) {
+LimitingFactor limiting_of(Row row, LimitingFactor at_cap, LimitingFactor in_bend, bool rounded) {
     switch (row) {
         case Row::cap: return at_cap;
         case Row::bend: return in_bend;
         case Row::tangential_acceleration:
         case Row::axis_acceleration: return LimitingFactor::axis_acceleration;
-        case Row::corner_jerk: return LimitingFactor::corner_tolerance;
+        // A wider tolerance rounds a corner more gently; the bend of an arc or a spline is the program's own.
+        case Row::bend_jerk: return rounded ? LimitingFactor::corner_tolerance : LimitingFactor::jerk;
         default: return LimitingFactor::jerk;
     }
 }
@@ -233,6 +234,7 @@ void Refiner::close_cell() {
 /// What a part of the open cell, `begin` after its begin, leaves of the limits; where it is bent, its samples.
 void Refiner::add_part(CellPart& part, double begin, CellLimits& limits) {
     const Span& span = *part.span;
+    open_.rounded = open_.rounded || span.rounded;
     const auto cap = [&](double speed, LimitingFactor why) {
         if (speed < limits.cap) limits.cap = speed, open_.at_cap = why;
     };
@@ -419,9 +421,9 @@ void Refiner::run_cells(std::size_t count, bool to_rest) {
     while (to_rest && braking > 0 && motions[braking - 1].acceleration < 0) --braking;
     std::size_t part = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const LimitingFactor limiting = i >= braking
-                                            ? LimitingFactor::lookahead_end
-                                            : limiting_of(problem_.limiting(i), cells_[i].at_cap, cells_[i].in_bend);
+        const LimitingFactor limiting =
+            i >= braking ? LimitingFactor::lookahead_end
+                         : limiting_of(problem_.limiting(i), cells_[i].at_cap, cells_[i].in_bend, cells_[i].rounded);
         sink_->run(motions[i], std::span(parts_).subspan(part, cells_[i].parts), limiting);
         part += cells_[i].parts;
     }

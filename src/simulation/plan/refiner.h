@@ -45,6 +45,7 @@ private:
         std::int64_t run = 0;            ///< that it begins on
         std::int64_t block = 0;
         LimitingFactor at_cap = LimitingFactor::feed, in_bend = LimitingFactor::axis_acceleration;
+        bool rounded = false;  ///< a corner rounding is in it
         // Where it ends in the plan.
         KnotState end;
         std::int64_t end_run = 0;
