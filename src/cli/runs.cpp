@@ -30,7 +30,8 @@ void simulate_into(LoadedRun& run, const io::Source& source, const RunOptions& o
     as_programmed.coordinates.reset();
     Program program = io::read_program(source, as_programmed);
     if (runs_on_five_axes(program, options.machine)) run.kinematics = options.kinematics;
-    run.pose = prepare_run(program, options.machine, options.poses, *in_coordinates_of(options, run.log).coordinates);
+    run.pose = prepare_run(program, options.machine, options.poses, options.start,
+                           *in_coordinates_of(options, run.log).coordinates);
     SimulatedRun made = simulate_to_log(program, options.machine, options.start, {}, run.pose.translation());
     run.log = std::move(made.log);
     run.log.name = program.main().name();

@@ -74,7 +74,7 @@ WrittenRun write_run(const Machine& machine, const std::string& output, const po
     io::ProgramOptions options = read_program_options(values);
     options.coordinates.reset();
     Program program = io::read_program(source, options);
-    const Eigen::Isometry3d pose = prepare_five_axes(program, machine, poses);
+    const Eigen::Isometry3d pose = prepare_five_axes(program, machine, poses, read_start(values));
     if (machine.controller.feed == FeedRule::intervals) hold_interval_speeds(program, machine);
     const bool known = poses.zero || !pose.translation().isZero(0);
     io::SimulatedLogWriter log = open_log(known ? std::optional(poses.zero.value_or(pose)) : std::nullopt);

@@ -23,7 +23,7 @@ ProgramMatch match_log(Program program, const Log& log, const FramePoses& given,
         program.diagnostics = {};
         solve_tool_axes(program, *kinematics, {}, {}, pose.linear());
         diagnostics.append(program.diagnostics);
-        make_tip_motions(program, *kinematics, pose);
+        make_tip_motions(program, *kinematics, pose, start_of(log, *kinematics, pose));
     } else {
         note_rotary(log, role, diagnostics);
     }

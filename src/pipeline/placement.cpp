@@ -1,5 +1,6 @@
 #include "pipeline/placement.h"
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -83,12 +84,18 @@ Eigen::Isometry3d place_with(Program& program, const Log& log, const FramePoses&
     return own_or_none(program, log, pose, diagnostics);
 }
 
+Vec3 start_of(const Log& log, const Kinematics& kinematics, const Eigen::Isometry3d& pose) {
+    const Role role = shown_role(log);
+    if (log.records == 0 || !log.has(role)) return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+    return pose.inverse() * (reconstruct(log, role, Vec3::Zero()).at(0) - kinematics.zero_position());
+}
+
 Eigen::Isometry3d place_tips_with(Program& program, const Log& log, const FramePoses& given,
                                   const Kinematics* kinematics, Diagnostics& diagnostics) {
     const Eigen::Isometry3d pose = place_with(program, log, given, kinematics, diagnostics);
     if (kinematics != nullptr) {
         solve_tool_axes(program, *kinematics, {}, {}, pose.linear());
-        make_tip_motions(program, *kinematics, pose);
+        make_tip_motions(program, *kinematics, pose, start_of(log, *kinematics, pose));
     }
     return pose;
 }

@@ -29,7 +29,11 @@ namespace clsurf {
 Eigen::Isometry3d place_program(Program& program, const Log& log, FramePoses given, const Kinematics* kinematics,
                                 Diagnostics& diagnostics);
 
-/// The same, and with kinematics the motions are those of the tip: what the tips of the log are compared with.
+/// Where the axes stood in the first record [mm], as make_tip_motions() takes it (toolpath/tip_motions.h). NaN: the log has no
+/// positions.
+[[nodiscard]] Vec3 start_of(const Log& log, const Kinematics& kinematics, const Eigen::Isometry3d& pose);
+
+/// As place_with(), and with kinematics the motions are those of the tip: what the tips of the log are compared with.
 [[nodiscard]] Eigen::Isometry3d place_tips_with(Program& program, const Log& log, const FramePoses& given,
                                                 const Kinematics* kinematics, Diagnostics& diagnostics);
 

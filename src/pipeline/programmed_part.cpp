@@ -32,7 +32,7 @@ SimulatedPart simulated_part(Program program, PartRules rules, const Vec3& start
         rules.kinematics = nullptr;
     }
     Program placed = program;
-    const Eigen::Isometry3d pose = prepare_run(placed, machine, rules.poses);
+    const Eigen::Isometry3d pose = prepare_run(placed, machine, rules.poses, start);
     SimulatedRun run = simulate_to_log(placed, machine, start, progress, pose.translation());
     return {assemble(std::move(program), std::move(run.log), rules), std::move(run.summary)};
 }

@@ -78,17 +78,17 @@ bool runs_on_five_axes(const Program& program, const Machine& machine) {
     return machine.kinematics.has_rotary() && !(program.motions.rotary.empty() && program.motions.tool_axis.empty());
 }
 
-Eigen::Isometry3d prepare_five_axes(Program& program, const Machine& machine, FramePoses poses) {
+Eigen::Isometry3d prepare_five_axes(Program& program, const Machine& machine, FramePoses poses, const Vec3& start) {
     poses.tool_by_kinematics = true;
     const Eigen::Isometry3d pose = place_motions(program, poses, Coordinates::level);
     solve_tool_axes(program, machine);
-    make_tip_motions(program, machine.kinematics, -pose.translation());
+    make_tip_motions(program, machine.kinematics, -pose.translation(), start);
     return pose;
 }
 
-Eigen::Isometry3d prepare_run(Program& program, const Machine& machine, const FramePoses& poses,
+Eigen::Isometry3d prepare_run(Program& program, const Machine& machine, const FramePoses& poses, const Vec3& start,
                               Coordinates three_axes) {
-    if (runs_on_five_axes(program, machine)) return prepare_five_axes(program, machine, poses);
+    if (runs_on_five_axes(program, machine)) return prepare_five_axes(program, machine, poses, start);
     (void)place_motions(program, {}, three_axes);
     return Eigen::Isometry3d::Identity();
 }

@@ -14,16 +14,18 @@ namespace clsurf {
 [[nodiscard]] bool runs_on_five_axes(const Program& program, const Machine& machine);
 
 /// Brings a program, read with its motions as programmed, to where it is simulated on five axes: zero in its own, axes
-/// along those of the machine, motions those of the tip. `poses`: where its zero lies, both angles zero. Returns
+/// along those of the machine, motions those of the tip. `poses`: where its zero lies, both angles zero. `start`: as
+/// simulate_to_log() takes it. Returns
 /// machine = pose · workpiece, whose translation is the `zero` of simulate_to_log(). Throws what solve_tool_axes()
 /// throws (toolpath/tip_motions.h). O(motions).
-[[nodiscard]] Eigen::Isometry3d prepare_five_axes(Program& program, const Machine& machine, FramePoses poses);
+[[nodiscard]] Eigen::Isometry3d prepare_five_axes(Program& program, const Machine& machine, FramePoses poses,
+                                                  const Vec3& start);
 
 /// Brings a program, read with its motions as programmed, to where it is simulated: as prepare_five_axes() does where it runs
 /// on five axes, else into `three_axes` by its own work offsets. Returns machine = pose · workpiece, whose translation is the
 /// `zero` of simulate_to_log(); on three axes the identity. O(motions).
 [[nodiscard]] Eigen::Isometry3d prepare_run(Program& program, const Machine& machine, const FramePoses& poses,
-                                            Coordinates three_axes = Coordinates::machine);
+                                            const Vec3& start, Coordinates three_axes = Coordinates::machine);
 
 struct SimulatedRun {
     Log log;  ///< cmd.*, fb.*, line, limit; owns its columns

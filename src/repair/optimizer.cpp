@@ -390,7 +390,7 @@ Optimized optimize(const Program& program, const ReadProgram& read, const Machin
         return Optimizer(program, read, machine, rules, progress, diagnostics).run(std::move(measured));
     const auto of_the_tip = [&](Program programmed) {
         solve_tool_axes(programmed, machine);
-        make_tip_motions(programmed, machine.kinematics, -rules.zero);
+        make_tip_motions(programmed, machine.kinematics, -rules.zero, rules.start);
         return programmed;
     };
     Program turned = program;

@@ -24,7 +24,7 @@ constexpr int most_chords = 2000;                 ///< of a motion
 
 class TipMaker {
 public:
-    TipMaker(Program& program, const Kinematics& kinematics, const Eigen::Isometry3d& pose)
+    TipMaker(Program& program, const Kinematics& kinematics, const Eigen::Isometry3d& pose, const Vec3& start)
         : program_(&program),
           from_(&program.motions),
           kinematics_(&kinematics),
@@ -33,13 +33,14 @@ public:
           zero_(kinematics.zero_position()),
           control_(program),
           feed_mode_(program),
-          path_(program.motions, Vec3::Constant(std::numeric_limits<double>::quiet_NaN())) {}
+          path_(program.motions, start),
+          start_(start) {}
 
     Motions make() {
         std::vector<std::int64_t> first(from_->kind.size() + 1);  // where each motion begins now
         to_.start = from_->start;
         to_.calls = from_->calls;
-        tip_ = from_->start.vec();
+        tip_ = known(from_->start.vec());
         RotaryAngles before;
         for (std::int64_t i = 0; i < from_->size(); ++i) {
             const auto at = static_cast<std::size_t>(i);
@@ -49,7 +50,7 @@ public:
             const bool level = is_zero(before) && is_zero(angles);
             if (tip_programmed != tips_) read_anew(tip_programmed, before);
             for (int axis = 0; axis < 3; ++axis) {
-                const double word = from_->end[at].vec()[axis];
+                const double word = known(from_->end[at].vec())[axis];
                 if (word != last_[axis]) held_[axis] = std::numeric_limits<double>::quiet_NaN();
                 last_[axis] = word;
             }
@@ -69,6 +70,11 @@ public:
 private:
     static bool is_zero(const RotaryAngles& angles) { return angles.tilt == 0 && angles.rotation == 0; }
 
+    /// Coordinates that no word has set are those of the start.
+    [[nodiscard]] Vec3 known(const Vec3& programmed) const {
+        return programmed.array().isNaN().select(start_, programmed);
+    }
+
     /// Tip for a programmed position of the axes, and back.
     [[nodiscard]] Vec3 tip_of(const Vec3& position, const RotaryAngles& angles) const {
         return back_ * kinematics_->to_workpiece(pose_ * position + zero_, angles).tip;
@@ -84,7 +90,7 @@ private:
         if (!is_zero(angles)) held_ = tips ? tip_ : position_of(tip_, angles);
     }
     [[nodiscard]] Vec3 programmed(std::int64_t motion) const {
-        return held_.array().isNaN().select(from_->end[static_cast<std::size_t>(motion)].vec(), held_);
+        return held_.array().isNaN().select(known(from_->end[static_cast<std::size_t>(motion)].vec()), held_);
     }
 
     void put(std::int64_t motion, MotionKind kind, const Vec3& end, const Xyz& rotary) {
@@ -107,7 +113,7 @@ private:
             to_.arcs.back().motion = to_.size();
         }
         if (const Curve* curve = from_->curve_of(motion)) {
-            const Vec3 off = programmed(motion) - from_->end[at].vec();
+            const Vec3 off = programmed(motion) - known(from_->end[at].vec());
             const Vec3 shift = off.array().isNaN().select(0.0, off);
             put_curve(*curve, [&](const Vec3& p) { return Vec3(p + shift); });
         }
@@ -127,7 +133,7 @@ private:
         const Vec3 end = programmed(motion);
         if (const Curve* curve = from_->curve_of(motion)) {
             // No rotary axis turns along a curve.
-            put_curve(*curve, [&](const Vec3& p) { return tip_of(p, after); });
+            put_curve(*curve, [&](const Vec3& p) { return tip_of(known(p), after); });
             put(motion, kind, tip_of(end, after), from_->rotary[at]);
             return;
         }
@@ -180,6 +186,7 @@ private:
     FeedModeCursor feed_mode_;
     Toolpath path_;
     Motions to_;
+    Vec3 start_;
     Vec3 tip_;
     bool tips_ = false;
     Vec3 last_ = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< programmed
@@ -189,13 +196,14 @@ private:
 
 }  // namespace
 
-void make_tip_motions(Program& program, const Kinematics& kinematics, const Eigen::Isometry3d& pose) {
+void make_tip_motions(Program& program, const Kinematics& kinematics, const Eigen::Isometry3d& pose,
+                      const Vec3& start) {
     if (program.motions.rotary.empty() || kinematics.always_tool_centre_point || !kinematics.has_rotary()) return;
-    program.motions = TipMaker(program, kinematics, pose).make();
+    program.motions = TipMaker(program, kinematics, pose, start).make();
 }
 
-void make_tip_motions(Program& program, const Kinematics& kinematics, const Vec3& offset) {
-    make_tip_motions(program, kinematics, Eigen::Isometry3d(Eigen::Translation3d(-offset)));
+void make_tip_motions(Program& program, const Kinematics& kinematics, const Vec3& offset, const Vec3& start) {
+    make_tip_motions(program, kinematics, Eigen::Isometry3d(Eigen::Translation3d(-offset)), start);
 }
 
 void solve_tool_axes(Program& program, const Machine& machine) {

@@ -12,9 +12,12 @@ namespace clsurf {
 /// with the rotary axes at rest a line stays a line, an arc becomes chords within 1 µm; where they turn
 /// with the others, chords of at most half a degree. machine = pose · workpiece.
 /// Events of the program move along with the motions that they stand before. O(motions).
-void make_tip_motions(Program& program, const Kinematics& kinematics, const Eigen::Isometry3d& pose);
+/// `start` [mm]: where the axes stand before the program, with the rotary axes at zero, in its coordinates. It counts for
+/// coordinates that the program has not named: where an axis turns, the tip depends on all of them. A tip that depends on
+/// one that is not known (NaN) is not known either.
+void make_tip_motions(Program& program, const Kinematics& kinematics, const Eigen::Isometry3d& pose, const Vec3& start);
 /// workpiece = machine + offset [mm]
-void make_tip_motions(Program& program, const Kinematics& kinematics, const Vec3& offset);
+void make_tip_motions(Program& program, const Kinematics& kinematics, const Vec3& offset, const Vec3& start);
 
 /// Sets the angles of motions whose tool axis is a vector: those solutions, within the ranges, that turn the
 /// axes least over each run of such motions; motions after it that do not name an axis leave it there. Throws

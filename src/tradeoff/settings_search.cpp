@@ -47,7 +47,7 @@ public:
           rules_(rules),
           progress_(progress),
           prepared_(program),
-          zero_(prepare_run(prepared_, machine, judging.poses).translation()) {
+          zero_(prepare_run(prepared_, machine, judging.poses, rules.start).translation()) {
         judging_.identity = ProgramIdentity::same;
         judging_.limits.clear();
         if (!runs_on_five_axes(program, machine)) judging_.kinematics = nullptr;

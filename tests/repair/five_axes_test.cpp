@@ -43,7 +43,7 @@ Machine trunnion() {
 Program of_the_tip(const std::string& text, const Machine& machine) {
     Program program = read_text(text);
     solve_tool_axes(program, machine);
-    make_tip_motions(program, machine.kinematics, -zero);
+    make_tip_motions(program, machine.kinematics, -zero, Vec3::Zero());
     return program;
 }
 

@@ -35,7 +35,7 @@ Recorded run(const std::string& text, const Machine& machine) {
     Recorded r;
     r.program = test::parse_text(text);
     solve_tool_axes(r.program, machine);
-    make_tip_motions(r.program, machine.kinematics, -zero);
+    make_tip_motions(r.program, machine.kinematics, -zero, Vec3::Zero());
     r.summary = simulate_five_axis(
         r.program, machine, zero, Vec3::Zero(),
         [&](std::span<const FiveAxisPoint> p) { r.points.insert(r.points.end(), p.begin(), p.end()); }, {});
@@ -177,7 +177,7 @@ TEST(FiveAxisSimulator, ATurnAboutTheTipIsOne) {
     machine.kinematics = {};
     machine.kinematics.type = KinematicsType::table_table;
     Program program = test::parse_text("G21 G90\nG1 Z5 F3000\nC90 F3600\nM30\n");
-    make_tip_motions(program, machine.kinematics, Vec3::Zero());
+    make_tip_motions(program, machine.kinematics, Vec3::Zero(), Vec3::Zero());
     const FiveAxisSummary summary =
         simulate_five_axis(program, machine, Vec3::Zero(), Vec3::Zero(), [](std::span<const FiveAxisPoint>) {}, {});
     EXPECT_NEAR(summary.run.duration, 1.7, 0.15);
@@ -191,6 +191,22 @@ TEST(FiveAxisSimulator, AShortLineTakesTheTimeOfItsFeed) {
     EXPECT_TRUE(r.summary.run.limits_ok);
     EXPECT_GT(r.summary.run.duration, 1.2);
     EXPECT_LT(r.summary.run.duration, 1.4);
+}
+
+// Without control of the tip, X moves while A turns, whether Y and Z were named before or not.
+TEST(FiveAxisSimulator, AxesThatWereNotNamedStandAtTheStart) {
+    Machine machine;
+    machine.kinematics.type = KinematicsType::table_table;
+    for (const char* text : {"G21 G90\nG1 X20 A40 F1000\nM30\n", "G21 G90\nG0 X0 Y0\nG1 X20 C40 F1000\nM30\n",
+                             "G21 G90\nG0 Z0\nG0 X0 A0\nG1 X20 A40 F1000\nM30\n"}) {
+        const Recorded r = run(text, machine);
+        EXPECT_GT(r.summary.run.duration, 1.2) << text;
+        EXPECT_LT(r.summary.run.duration, 1.8) << text;  // F counts along the tip, which the turn moves as well
+        const std::array<double, 5>&first = r.points.front().commanded, &last = r.points.back().commanded;
+        EXPECT_NEAR(last[0] - first[0], 20, 1e-4) << text;
+        EXPECT_NEAR(last[1] - first[1], 0, 1e-4) << text;
+        EXPECT_NEAR(last[2] - first[2], 0, 1e-4) << text;
+    }
 }
 
 // From corner to corner of such a zigzag the tip nearly reverses, where its speed has to fall within a thousandth of a millimetre.

@@ -36,7 +36,7 @@ std::string tilted_program() {
 double right_share(Program program, const Kinematics& kinematics) {
     test::MadeLog made = test::run(program, kinematics, zero, 0.05);
     made.finish(0.001);
-    make_tip_motions(program, kinematics, -zero);
+    make_tip_motions(program, kinematics, -zero, Vec3::Zero());
     const Trajectory path = reconstruct(made.log, Role::commanded, -zero, std::make_shared<Kinematics>(kinematics));
     Diagnostics diagnostics;
     const LineMap lines = map_lines(path, made.log, program, false, diagnostics);
@@ -74,7 +74,7 @@ TEST(FiveAxisLines, PositionsOfTheAxesBecomeTips) {
     k.type = KinematicsType::table_table;
     Program program = test::parse_text("G21 G90\nG0 X0 Y0 Z0 A-90\nG1 X1 Y-3 Z2 F100\nM30\n");
     ASSERT_EQ(program.motions.size(), 2);
-    make_tip_motions(program, k, Vec3::Zero());
+    make_tip_motions(program, k, Vec3::Zero(), Vec3::Zero());
     const Vec3 end = program.motions.end[program.motions.end.size() - 1].vec();
     EXPECT_LE((end - Vec3(1, 2, 3)).norm(), 1e-12) << end.transpose();
     // A quarter of a turn is made of chords; the last line is one.
@@ -102,7 +102,7 @@ TEST(FiveAxisLines, ATurnTakesTheTimeOfItsFeed) {
         Program program =
             test::parse_text(std::string("G90 ") + units +
                              " G0 Y0 Z0 A0 C0\nG1 C90 F360\nG93 G1 C0 F2\nG1 X0.4 C90 F4\nG94 X0.5 F60\nM30\n");
-        make_tip_motions(program, k, Vec3::Zero());
+        make_tip_motions(program, k, Vec3::Zero(), Vec3::Zero());
         EXPECT_NEAR(time_of_line(program, 2), 15, 1e-3) << units;
         EXPECT_NEAR(time_of_line(program, 3), 30, 1e-3) << units;
         EXPECT_NEAR(time_of_line(program, 4), 15, 1e-3) << units;
@@ -129,7 +129,7 @@ TEST(FiveAxisLines, EventsStayBeforeTheirMotions) {
     Kinematics k;
     k.type = KinematicsType::table_table;
     Program program = test::parse_text("G21 G90\nG0 X0 Y0 Z0 A-90\nG43.4 H1\nG1 X1 F100\nG49\nG1 X2\nM30\n");
-    make_tip_motions(program, k, Vec3::Zero());
+    make_tip_motions(program, k, Vec3::Zero(), Vec3::Zero());
     ToolCentrePoint control(program);
     for (std::int64_t m = 0; m < program.motions.size(); ++m)
         EXPECT_EQ(control.on(m), program.motions.line[static_cast<std::size_t>(m)] == 4);
@@ -195,7 +195,7 @@ TEST(TiltedPlanes, AreWaysOfTheTipWithTheToolUprightOnThem) {
         EXPECT_EQ(m.rotary[4], m.rotary[3]) << dialect;  // G69 turns nothing back
         EXPECT_EQ(m.rotary[5], Xyz(0, 0, 0)) << dialect;
         const LineNumber after = m.line[4];
-        make_tip_motions(program, k, Vec3::Zero());
+        make_tip_motions(program, k, Vec3::Zero(), Vec3::Zero());
         ToolCentrePoint control(program);
         std::int64_t in_plane = 0;
         Vec3 axes = Vec3::Zero();  // of the last motion of the line behind the plane: those of the axes again
@@ -246,7 +246,7 @@ TEST(TiltedPlanes, GiveTheirPointsTheirLines) {
         made.finish(0.001);
         Program program = test::parse_text(text, dialect);
         solve_tool_axes(program, k);
-        make_tip_motions(program, k, Vec3::Zero());
+        make_tip_motions(program, k, Vec3::Zero(), Vec3::Zero());
         const Trajectory path = reconstruct(made.log, Role::commanded, Vec3(0, 0, 0), std::make_shared<Kinematics>(k));
         Diagnostics diagnostics;
         const LineMap map = map_lines(path, made.log, program, false, diagnostics);

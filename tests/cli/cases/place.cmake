@@ -127,3 +127,8 @@ clsurf_cli_test(NAME query_at_a_tip_with_a_height ARGS query ${bottle} "--at=tip
 clsurf_cli_test(NAME query_says_what_a_map_has_there ARGS query ${bottle} --at=1.9,-5.6 STDOUT "^line 673: .*On a map, whose axes show the tool tip, these numbers are in line 564: --at tip:1.9,-5.6")
 clsurf_cli_test(NAME query_without_a_tool_has_tips ARGS query ${bottle} --tool none --at=1.9,-5.6 STDOUT "^line 564: " NO_STDOUT "On a map")
 clsurf_cli_test(NAME query_at_half_a_tip ARGS query ${bottle} --at tip:1.9 EXIT 2 STDERR "--at: 'tip:1.9' is not a place.*--at tip:X,Y for the tool tip")
+
+# ---- rotary axes without control of the tool tip: axes that were not named stand at the start ----
+set(wheel "printf '[kinematics]\\ntype = \"table-table\"\\nrotary = [\"a\", \"c\"]\\n' > kin.toml; printf 'G21 G90 G94 G17\\nG0 Z30\\nG0 X0 A0\\nG1 Z19 F500\\nG1 X40 A100 F1000\\nG1 X0 A0\\nG1 X40 A50\\nG0 Z30\\nM2\\n' > wheel.ngc")
+clsurf_cli_test(NAME simulate_axes_that_were_not_named SETUP "${wheel}; printf 'G21 G90 G94\\nG1 X20 A40 F1000\\nM30\\n' > a40.nc" ARGS simulate a40.nc --machine kin.toml -o a40.biip STDOUT "1[.]31[0-9] s")
+clsurf_cli_test(NAME simulated_axes_that_were_not_named_are_on_their_lines SETUP "${wheel}; $CLSURF simulate wheel.ngc --dialect linuxcnc --machine kin.toml -o w.biip -q" ARGS info wheel.ngc w.biip --dialect linuxcnc --machine kin.toml -v STDOUT "positions lie 0[.]00[0-9]+ mm .median. and 0[.]0[0-9]+ mm")
