@@ -26,14 +26,14 @@ const { defects } = checkedBottle();
 /** From here on the page notes each picture: boxes of markers, and of texts by what they say. */
 async function watchDrawing(page) {
     await page.evaluate(() => {
-        const drawn = (window.drawn = { markers: [], texts: [] });
+        const drawn = (window.drawn = { markers: [], texts: [], longest: 0 });
         const overlay = document.querySelector('.overlay');
-        const { roundRect, fillText } = window.CanvasRenderingContext2D.prototype;
+        const { roundRect, fillText, stroke } = window.CanvasRenderingContext2D.prototype;
         const size = Object.getOwnPropertyDescriptor(window.HTMLCanvasElement.prototype, 'width');
         Object.defineProperty(overlay, 'width', {
             get: () => size.get.call(overlay),
             set(value) {
-                drawn.markers.length = drawn.texts.length = 0; // a new picture begins
+                drawn.markers.length = drawn.texts.length = drawn.longest = 0; // a new picture begins
                 size.set.call(overlay, value);
             },
         });
@@ -41,6 +41,28 @@ async function watchDrawing(page) {
             if (this.canvas === overlay)
                 drawn.markers.push({ left: x, top: y, right: x + width, bottom: y + height, text: '' });
             return roundRect.call(this, x, y, width, height, radius);
+        };
+        // Lines along the surface are paths of short pieces.
+        const { moveTo, lineTo, closePath } = window.Path2D.prototype;
+        const goOn = (path, to) => {
+            if (path.at) path.longest = Math.max(path.longest ?? 0, Math.hypot(to[0] - path.at[0], to[1] - path.at[1]));
+            path.at = to;
+        };
+        window.Path2D.prototype.moveTo = function (x, y) {
+            this.first = this.at = [x, y];
+            return moveTo.call(this, x, y);
+        };
+        window.Path2D.prototype.lineTo = function (x, y) {
+            goOn(this, [x, y]);
+            return lineTo.call(this, x, y);
+        };
+        window.Path2D.prototype.closePath = function () {
+            if (this.first) goOn(this, this.first);
+            return closePath.call(this);
+        };
+        window.CanvasRenderingContext2D.prototype.stroke = function (path, ...rest) {
+            if (this.canvas === overlay && path) drawn.longest = Math.max(drawn.longest, path.longest ?? 0);
+            return path ? stroke.call(this, path, ...rest) : stroke.call(this);
         };
         window.CanvasRenderingContext2D.prototype.fillText = function (text, x, y, ...rest) {
             if (this.canvas === overlay) {
@@ -54,6 +76,8 @@ async function watchDrawing(page) {
         };
     });
 }
+
+const mostPiece = 30; // px, of a line along the surface
 
 const meet = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 const drawn = (page) => page.evaluate(() => window.drawn);
@@ -131,6 +155,17 @@ test('places without a value are hatched, and the legend names them only there',
     await choose('Speed difference');
     assert.equal(await isNamed(), true);
     assert.ok((await greys()) > without + 200);
+    await closeReport(page);
+});
+
+test('no line of a defect leaves the surface: it has no chord from one end of a pass to the other', async () => {
+    const page = await openReport(browser, reports.ball);
+    await watchDrawing(page);
+    for (const { id } of defects.map((_, k) => ({ id: k + 1 }))) {
+        await press(page, 'd');
+        const { longest } = await drawn(page);
+        assert.ok(longest > 0 && longest < mostPiece, `defect ${id}: a piece of ${longest} px`);
+    }
     await closeReport(page);
 });
 

@@ -75,7 +75,7 @@ export interface Defect {
     point: number;
     runs: DefectRun[];
     neighbours: DefectRun[];
-    outlines: number[][]; // x, y, z of the corners of closed lines
+    outlines: number[][]; // x, y, z of the corners of open lines: pieces of its border
 }
 
 /** Why the tool is slow: pieces of text, one a line, and for each vertex which of them are joined. */

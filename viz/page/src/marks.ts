@@ -36,7 +36,7 @@ export function marksOf(
         const step = Math.max(1, Math.floor((end - begin) / mostCorners));
         for (let i = begin; i < end; i += step) corners.push(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
         if (corners.length === 3) corners.push(...corners);
-        marks.polylines.push({ xyz: corners, closed: false, colour, width, between });
+        marks.polylines.push({ xyz: corners, colour, width, between });
     };
     const beside = styleValue('--second');
     if (state.pass > 0)
@@ -101,7 +101,6 @@ function addDefects(manifest: Manifest, state: Readonly<State>, marks: Marks): v
         for (const corners of outlines) {
             marks.polylines.push({
                 xyz: corners.map((c, i) => c - origin[i % 3]),
-                closed: true,
                 colour: styleValue(chosen ? '--accent' : '--ink'),
                 width: chosen ? 2.5 : 1.3,
             });

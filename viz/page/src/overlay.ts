@@ -10,8 +10,7 @@ import type { ShownClass } from './classes';
 import { boxAt, labelPlace, markerPlace, meet, type Box } from './label_place';
 
 export interface Polyline {
-    xyz: number[]; // 3 per corner [mm] from the origin
-    closed: boolean;
+    xyz: number[]; // 3 per corner [mm] from the origin; open
     colour: string;
     width: number;
     between?: number; // [mm] to the next of many such lines
@@ -122,7 +121,6 @@ export class Overlay {
             if (i === 0) path.moveTo(x, y);
             else path.lineTo(x, y);
         }
-        if (line.closed) path.closePath();
         g.lineJoin = 'round';
         g.lineCap = 'round';
         // Many lines close together would hide the map.
