@@ -42,6 +42,7 @@ struct PageSurface {
     const KeptPoints* kept = nullptr;
     std::span<const Field> fields;                         ///< one value per point of the log
     std::span<const std::vector<PageClass>> classes = {};  ///< per field; empty: its values are numbers
+    std::span<const std::vector<PointRange>> ramps = {};   ///< per field: points in a lighter tone, rising
     std::span<const std::uint8_t> joined;                  ///< per kept point: goes on from the one before
     std::span<const std::uint32_t> triangles;              ///< numbers of kept points
     std::span<const std::uint32_t> segments;

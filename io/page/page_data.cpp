@@ -72,6 +72,13 @@ PackedColumn pack_numbers(std::span<const T> numbers, int stride) {
     return pack_integers(std::vector<std::int64_t>(numbers.begin(), numbers.end()), stride);
 }
 
+/// First and last point of each.
+PackedColumn pack_ranges(std::span<const PointRange> ranges) {
+    std::vector<std::int64_t> ends;
+    for (const PointRange& range : ranges) ends.insert(ends.end(), {range.first, range.last});
+    return pack_integers(ends, 2);
+}
+
 Json::json_pointer at(const std::string& base, const std::string& name) { return Json::json_pointer(base) / name; }
 
 /// The steps that the values of a field are rounded to.
@@ -103,6 +110,8 @@ void add_field(Blocks& blocks, Json& json, const std::string& base, const PageSu
     if (has_classes(field.info)) json.back()["classes"] = classes_json(surface.classes[index], quantum);
     const std::string here = base + "/fields/" + std::to_string(json.size() - 1);
     blocks.add(at(here, "values"), [&kept, quantum, value] { return pack_kept(kept, quantum, value); });
+    if (index < surface.ramps.size() && !surface.ramps[index].empty())
+        blocks.add(at(here, "ramps"), [&ramps = surface.ramps[index]] { return pack_ranges(ramps); });
     std::string missing(kept.points.size(), '\0');
     for (std::size_t k = 0; k < missing.size(); ++k) missing[k] = std::isfinite(value(kept.points[k])) ? '\0' : '\1';
     if (missing.find('\1') == std::string::npos) return;

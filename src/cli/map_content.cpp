@@ -72,7 +72,7 @@ viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, c
                          : fmt::format("{} · {} · {}", program, run_name(shown, options), counts);
     if (!options.selection.is_all()) texts.notes.push_back("only " + options.selection.words);
     if (!shown.field.info.note.empty()) texts.notes.push_back(shown.field.info.note);
-    if (!shown.relief && is_speed(shown.field.info)) texts.notes.emplace_back("paler: ramps at the ends of passes");
+    if (!shown.relief && is_speed(shown.field.info)) texts.notes.emplace_back(ramps_note);
     if (options.programmed) texts.notes.emplace_back("thin lines: the programmed path");
     if (options.defects)
         texts.notes.push_back(shown.defects.outlines.empty()

@@ -58,6 +58,7 @@ ExitCode write_page(const ReportOptions& options, const po::variables_map& value
 
     clock.begin("measure");
     name_classes(logs);
+    find_ramps(logs);
     io::ReportPage page = report_page_of(shown, logs, options);
     page.programmed = programmed_path(shown, options);
     if (options.measurement) page.measured = measured_for_report(shown, options, clock);

@@ -84,7 +84,7 @@ ReportedForm form_for_report(const ReportLog& shown, const ReportOptions& option
 
 void add_report_pictures(io::ReportPage& page, const ReportLog& shown, const ReportOptions& options,
                          const std::optional<ReportedForm>& as_machined) {
-    PicturedPart pictured{&shown.part, &shown.surface, shown.fields,  page.ranges, &shown.quality.report,
+    PicturedPart pictured{&shown.part, &shown.surface, shown.fields,  page.ranges, shown.ramps, &shown.quality.report,
                           {},          options.gl,     options.shards};
     std::optional<PartContacts> contacts;
     if (as_machined && shown.part.tool) contacts.emplace(shown.part, shown.surface, *shown.part.tool);

@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "cli/map_content.h"
 #include "core/error.h"
+#include "field/pass_ramps.h"
 #include "pipeline/part_fields.h"
 #include "surface/stitch.h"
 #include "viz/colour_map.h"
@@ -39,6 +41,7 @@ io::PageSurface page_surface(const ReportLog& shown) {
     page.kept = &shown.kept;
     page.fields = shown.fields;
     page.classes = shown.classes;
+    page.ramps = shown.ramps;
     page.joined = shown.vertices.joined;
     page.triangles = shown.bands.triangles;
     page.segments = shown.bands.segments;
@@ -99,6 +102,15 @@ ReportLog load_report_log(const PartOptions& part_options, const ReportOptions& 
     shown.other_roles = other_roles(shown.part);
     clock.end();
     return shown;
+}
+
+void find_ramps(std::vector<ReportLog>& logs) {
+    for (ReportLog& log : logs) {
+        for (const Field& field : log.fields) {
+            log.ramps.emplace_back();
+            if (is_speed(field.info)) log.ramps.back() = pass_ramps(field, log.surface.passes, log.part.log.period);
+        }
+    }
 }
 
 std::string fit_page(io::ReportPage& page, std::vector<ReportLog>& logs) {

@@ -24,6 +24,7 @@ struct ReportLog {
     std::optional<io::Acceptance> acceptance;  ///< of the log that is shown, where there is a file
     std::vector<Field> fields;
     std::vector<std::vector<io::PageClass>> classes;  ///< per field
+    std::vector<std::vector<PointRange>> ramps;       ///< per field: points in a lighter tone, rising
     Column<float> speed;                              ///< per point [mm/s], where it is none of the fields
     std::vector<Trajectory> other_roles;
     Column<PathLocation> places_before;  ///< per point, on the log before; empty: there is none
@@ -39,6 +40,9 @@ struct ReportLog {
 /// Reads and judges a log, and computes its fields. Throws InputError, UsageError.
 [[nodiscard]] ReportLog load_report_log(const PartOptions& part_options, const ReportOptions& options,
                                         StageClock& clock);
+
+/// Finds in the speeds of all logs the ramps that all passes have.
+void find_ramps(std::vector<ReportLog>& logs);
 
 /// The page with all points of its logs, or with as many as its `most_bytes` allow. Throws UsageError where the
 /// least that a page must hold is more than that.

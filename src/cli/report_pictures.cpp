@@ -7,8 +7,10 @@
 
 #include "cli/defect_card.h"
 #include "cli/defect_map.h"
+#include "cli/map_content.h"
 #include "core/file_name.h"
 #include "core/not_finite.h"
+#include "core/point_ranges.h"
 #include "io/reports/quality_words.h"
 #include "pipeline/shards.h"
 #include "surface/surface_part.h"
@@ -61,11 +63,26 @@ public:
         viz::PanelPart part;
         part.panel.surface = &part_.surface;
         part.panel.field = &field_;
+        part.panel.pale = pale_of_part();
         part.own = part_.own;
         return part;
     }
 
 private:
+    /// The pale points of the whole panel that are in the part: a pass beside it may be there without its ends.
+    [[nodiscard]] std::vector<PointRange> pale_of_part() const {
+        std::vector<PointRange> pale;
+        for (std::size_t k = 0; k < part_.points.size(); ++k) {
+            if (part_.points[k] < 0 || !any_has(whole_.pale, part_.points[k])) continue;
+            const auto here = static_cast<PointIndex>(k);
+            if (!pale.empty() && pale.back().last + 1 == here)
+                pale.back().last = here;
+            else
+                pale.push_back({here, here});
+        }
+        return pale;
+    }
+
     const viz::MapPanel& whole_;
     int shards_;
     int number_ = 0;  ///< of the last shard that was drawn
@@ -92,6 +109,7 @@ viz::MapTexts texts_of(const PicturedPart& shown, const FieldInfo& info, const S
     viz::MapTexts texts;
     texts.title = fmt::format("{}, {} surface", info.label, name_of(shown.part->path.role));
     texts.subtitle = names_of(shown);
+    if (is_speed(info)) texts.notes.emplace_back(ramps_note);
     if (!range.note.empty()) texts.notes.push_back(range.note);
     return texts;
 }
@@ -112,7 +130,8 @@ io::PagePicture picture_of_defects(const PicturedPart& shown) {
 io::PagePicture picture_of_part(const PicturedPart& shown, const std::string& name) {
     const std::size_t k = index_of_field(shown, name);
     const viz::Look look = map_look(shown);
-    const viz::MapPanel panel{shown.surface, &shown.fields[k], "", {}, {}, shown.outlines};
+    viz::MapPanel panel{shown.surface, &shown.fields[k], "", {}, {}, shown.outlines};
+    panel.pale = shown.ramps[k];
     const FieldInfo& info = shown.fields[k].info;
     const viz::MapTexts texts = texts_of(shown, info, shown.ranges[k]);
     return {info.label, shown.outlines.empty() ? "" : "Defects are outlined; 1 stands out most.",

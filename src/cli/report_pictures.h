@@ -16,7 +16,8 @@ struct PicturedPart {
     const Part* part = nullptr;
     const ClSurface* surface = nullptr;
     std::span<const Field> fields;
-    std::span<const ShownRange> ranges;  ///< per field
+    std::span<const ShownRange> ranges;              ///< per field
+    std::span<const std::vector<PointRange>> ramps;  ///< per field, of all points
     const QualityReport* report = nullptr;
     std::vector<viz::OutlineMark> outlines;  ///< one per defect of the report
     std::string gl;

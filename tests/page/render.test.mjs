@@ -6,7 +6,7 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { test } from 'node:test';
 
-import { clsurf, folder, press, reports, settled, useReport } from './browser.mjs';
+import { clsurf, countPixels, folder, press, reports, settled, useReport } from './browser.mjs';
 
 let page;
 useReport(
@@ -81,6 +81,19 @@ const cases = {
         await press(page, 'h');
     },
 };
+
+/** No colour of magma, but the lighter tone of its dark end. */
+const isPale = (r, g, b) => r > 120 && r < 195 && Math.abs(r - g) < 25 && r - b > 12 && r - b < 60;
+
+test('ramps at the ends of passes have a lighter tone, in the view and in the picture', async () => {
+    await press(page, 'i');
+    assert.ok((await page.getByLabel('field', { exact: true }).inputValue()) === '0');
+    const pale = await countPixels(page, page.locator('.layer'), isPale);
+    const picture = page.locator('#maps img[alt^="Path speed"]');
+    const pictured = await countPixels(page, picture, isPale);
+    assert.ok(pale > 80, `${pale} pixels`);
+    assert.ok(pictured > 250, `${pictured} pixels`);
+});
 
 for (const [name, prepare] of Object.entries(cases)) {
     test(name, async () => {

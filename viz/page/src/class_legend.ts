@@ -1,7 +1,7 @@
-// The legend of a field whose values are names: colour, name and share of each.
+// The legend of a field whose values are names: colour, name and share of each; and swatches that other legends have, too.
 
 import { shareText, type ShownClass } from './classes';
-import { cssColour, missingColour, type Rgb } from './colour';
+import { cssColour, missingColour, paler, rampOf, type ColourScale, type Rgb } from './colour';
 import { styleValue } from './dom';
 import type { Box } from './label_place';
 
@@ -42,6 +42,24 @@ export function drawHatched(g: CanvasRenderingContext2D, left: number, top: numb
     g.lineWidth = 1.5;
     g.stroke();
     g.restore();
+    strokeSwatch(g, left, top, ink);
+}
+
+/** The lighter tone of a scale: of what all passes have. */
+export function drawPaler(
+    g: CanvasRenderingContext2D,
+    left: number,
+    top: number,
+    scale: ColourScale,
+    ink: string,
+): void {
+    const [width, height] = swatch;
+    paler(rampOf(scale, width))
+        .slice(1, -1)
+        .forEach((rgb, x) => {
+            g.fillStyle = cssColour(rgb);
+            g.fillRect(left + x, top, 1, height);
+        });
     strokeSwatch(g, left, top, ink);
 }
 

@@ -5,6 +5,7 @@ import type { ColourMapInfo } from './manifest';
 
 export type Rgb = [number, number, number];
 export const missingColour: Rgb = [150, 150, 150];
+const paleness = 0.6; // how far a lighter tone is from the colour to the lightest one of the ramp
 
 export class ColourMap {
     readonly name: string;
@@ -57,6 +58,19 @@ export function colourAlong(scale: ColourScale, x: number): Rgb {
     if (bins > 0) at = (Math.min(Math.floor(at * bins), bins - 1) + 0.5) / bins;
     if (scale.map.centred && low < 0 && high > 0) at = 0.5 + (0.5 * (low + at * (high - low))) / Math.max(-low, high);
     return scale.map.at(at);
+}
+
+/** Colours along a scale, evenly, with those of values outside its range at the ends. */
+export function rampOf(scale: ColourScale, count: number): Rgb[] {
+    const along = Array.from({ length: count }, (_, i) => colourAlong(scale, i / (count - 1)));
+    return [scale.map.below, ...along, scale.map.above];
+}
+
+/** The same colours in a lighter tone: nearer to the lightest one, by the rule of viz/canvas.cpp. */
+export function paler(ramp: readonly Rgb[]): Rgb[] {
+    const lightness = ([r, g, b]: Rgb) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    const lightest = ramp.reduce((a, b) => (lightness(b) > lightness(a) ? b : a));
+    return ramp.map((rgb) => rgb.map((c, k) => Math.round(c + paleness * (lightest[k] - c))) as Rgb);
 }
 
 export function cssColour(rgb: readonly number[]): string {

@@ -13,14 +13,17 @@ import vtkTexture from '@kitware/vtk.js/Rendering/Core/Texture';
 import vtkOpenGLRenderWindow from '@kitware/vtk.js/Rendering/OpenGL/RenderWindow';
 
 import type { Camera } from './camera';
-import { colourAlong, missingColour, slackAlong, type ColourScale, type Rgb } from './colour';
-import { rampImage } from './ramp_image';
+import { missingColour, paler, rampOf, slackAlong, type ColourScale, type Rgb } from './colour';
+import { rampImage, textureRows } from './ramp_image';
 import type { Style } from './store';
 
 const rampColours = 1024;
 const texels = rampColours + 2; // the colours of values outside the range at its ends
-const rampRow = 0.25; // of the texture
-const missingRow = 0.75;
+// Rows of the texture: their middles.
+const rampRow = 1 / 6;
+const paleRow = 1 / 2;
+const missingRow = 5 / 6;
+const missingPlace = 50; // as far off the others that cells with such a corner have it all over
 const coarsePoints = 40_000;
 
 export interface Mesh {
@@ -81,14 +84,14 @@ function keepToCovered(): object[] {
 
 /**
  * Cells of which a corner has no value are hatched, as `render` hatches them: any grey could be the colour of a value. Their
- * places lie off the row of the ramp; the other row has the colour between the lines, then that of the lines.
+ * places lie off the rows of the ramp; the last row has the colour between the lines, then that of the lines.
  */
 function hatchMissing(): object {
     const place = '//VTK::TCoord::Impl';
     const replacementValue = `${place}
-  if (tcoordVCVSOutput.y > ${(rampRow + 0.02).toFixed(2)}) {
+  if (tcoordVCVSOutput.y > ${(paleRow + 0.02).toFixed(2)}) {
     bool onLine = mod(gl_FragCoord.x + gl_FragCoord.y, 8.0) < 1.5;
-    ambientColor = diffuseColor = texture2D(texture1, vec2(onLine ? 0.9 : 0.1, ${missingRow})).rgb;
+    ambientColor = diffuseColor = texture2D(texture1, vec2(onLine ? 0.9 : 0.1, ${missingRow.toFixed(4)})).rgb;
   }
 `;
     return { shaderType: 'Fragment', originalValue: place, replaceFirst: true, replacementValue, replaceAll: false };
@@ -226,8 +229,8 @@ export class GlView {
         return true;
     }
 
-    /** Places of values on the ramp: u along it, v which row: the ramp, or no value. */
-    setValues(values: Float32Array, scale: ColourScale): void {
+    /** Places of values on the ramp: u along it, v which row: the ramp, its lighter tone where `pale` has 1, or no value. */
+    setValues(values: Float32Array, scale: ColourScale, pale: Uint8Array | null): void {
         const { low, high } = scale;
         const slack = slackAlong(scale);
         const places = new Float32Array(2 * values.length);
@@ -238,7 +241,7 @@ export class GlView {
             let along = known ? (high > low ? (value - low) / span : 0.5) : 0;
             if (along >= -slack && along <= 1 + slack) along = Math.min(Math.max(along, 0), 1);
             places[2 * i] = (1.5 + along * (rampColours - 1)) / texels;
-            places[2 * i + 1] = known ? rampRow : missingRow;
+            places[2 * i + 1] = !known ? missingPlace : pale?.[i] ? paleRow : rampRow;
         }
         const array = vtkDataArray.newInstance({ name: 'places', numberOfComponents: 2, values: places });
         this.data.getPointData().setTCoords(array);
@@ -252,12 +255,12 @@ export class GlView {
     }
 
     setColours(scale: ColourScale): void {
-        const pixels = new Uint8ClampedArray(4 * 2 * texels);
-        const put = (i: number, rgb: Rgb) => pixels.set([...rgb, 255], 4 * i);
-        for (let i = 0; i < rampColours; ++i) put(i + 1, colourAlong(scale, i / (rampColours - 1)));
-        put(0, scale.map.below);
-        put(texels - 1, scale.map.above);
-        for (let i = 0; i < texels; ++i) put(texels + i, i < texels / 2 ? this.background : missingColour);
+        const pixels = new Uint8ClampedArray(4 * textureRows * texels);
+        const put = (row: number, i: number, rgb: Rgb) => pixels.set([...rgb, 255], 4 * (row * texels + i));
+        const ramp = rampOf(scale, rampColours);
+        ramp.forEach((rgb, i) => put(0, i, rgb));
+        paler(ramp).forEach((rgb, i) => put(1, i, rgb));
+        for (let i = 0; i < texels; ++i) put(2, i, i < texels / 2 ? this.background : missingColour);
         const texture = vtkTexture.newInstance({ interpolate: scale.bins === 0 });
         texture.setInputData(rampImage(pixels));
         for (const actor of [this.actor, this.coarse]) {

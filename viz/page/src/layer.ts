@@ -91,13 +91,13 @@ export class Layer {
         return this.drawn.some((cells) => cells.some((vertex) => Number.isNaN(values[source(vertex)])));
     }
 
-    /** `values`: one per vertex of the surface, or of the relief; not used where there are classes. */
-    setValues(values: Float32Array, scale: ColourScale): void {
-        if (!this.classes) return this.view.setValues(values, scale);
+    /** `values`: one per vertex of the surface, or of the relief; not used where there are classes. `pale`: 1, a lighter tone. */
+    setValues(values: Float32Array, scale: ColourScale, pale: Uint8Array | null): void {
+        if (!this.classes) return this.view.setValues(values, scale, pale);
         const { places } = this.classes;
         const all = new Float32Array(places.length + this.sources.length);
         all.set(places);
         this.sources.forEach((source, k) => (all[places.length + k] = places[source]));
-        this.view.setValues(all, scale);
+        this.view.setValues(all, scale, null);
     }
 }

@@ -114,7 +114,14 @@ export interface SurfaceInfo {
     };
     slow?: SlowInfo; // where the tool is slow anywhere
     roles: { name: string; x: PackedColumn; y: PackedColumn; z: PackedColumn }[];
-    fields: { name: string; quantum: number; values: PackedColumn; missing?: PackedColumn; classes?: ClassInfo[] }[];
+    fields: {
+        name: string;
+        quantum: number;
+        values: PackedColumn;
+        missing?: PackedColumn;
+        classes?: ClassInfo[];
+        ramps?: PackedColumn; // first and last points of what is drawn in a lighter tone: all passes have it
+    }[];
 }
 
 export interface ReliefInfo {

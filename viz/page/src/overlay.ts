@@ -5,7 +5,7 @@ import { views, type Camera } from './camera';
 import { colourAlong, cssColour, niceTicks, tickText, type ColourScale } from './colour';
 import { styleValue } from './dom';
 import { label } from './canvas_text';
-import { drawClassLegend, drawHatched } from './class_legend';
+import { drawClassLegend, drawHatched, drawPaler } from './class_legend';
 import type { ShownClass } from './classes';
 import { boxAt, labelPlace, markerPlace, meet, type Box } from './label_place';
 
@@ -39,6 +39,7 @@ export interface OverlayScene {
     scale: ColourScale;
     classes: ShownClass[] | null; // the legend of values that are names
     missing: boolean; // something has no value
+    ramps: boolean; // the ends of passes have a lighter tone
     lowest: number; // of the values
     highest: number;
     title: string;
@@ -301,9 +302,16 @@ export class Overlay {
             g.stroke();
             text(tick, y, step, false);
         }
+        let below = top + height + 20;
         if (scene.missing) {
-            drawHatched(g, left, top + height + 20, ink);
-            label(g, 'no value', left + 22, top + height + 26, ink, halo, 'left');
+            drawHatched(g, left, below, ink);
+            label(g, 'no value', left + 22, below + 6, ink, halo, 'left');
+            below += 20;
+        }
+        if (scene.ramps) {
+            drawPaler(g, left, below, scale, ink);
+            label(g, 'ramps at', left + 22, below + 6, ink, halo, 'left');
+            label(g, 'pass ends', left + 22, below + 20, ink, halo, 'left');
         }
         label(g, scene.unit ? `[${scene.unit}]` : '', left, top - 22, ink, halo, 'left', true);
     }

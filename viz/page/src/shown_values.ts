@@ -35,6 +35,13 @@ export class ShownValues {
         return surface.fields[field];
     }
 
+    /** 1 at the vertices of a log's surface that have a lighter tone; null: none. */
+    pale(surface: Surface): Uint8Array | null {
+        const { formed, field, shown } = this.store.state;
+        if (surface === this.surfaces[0] && ((formed && this.relief) || shown === 'difference')) return null;
+        return surface.ramps[field];
+    }
+
     /** Where what is coloured are names; null: numbers. */
     classes(surface: Surface): FieldClasses | null {
         const { formed, field, shown } = this.store.state;

@@ -34,6 +34,7 @@ export class Surface {
         readonly segments: Uint32Array,
         readonly fields: Float32Array[], // shown units; NaN: no value
         readonly classes: (FieldClasses | null)[], // of fields whose values are names
+        readonly ramps: (Uint8Array | null)[], // per field and vertex: 1, a ramp at the end of a pass, drawn in a lighter tone
         readonly passes: Float64Array, // first and last point of each cut pass
         readonly slow: SlowWords | null, // null: the tool is slow nowhere, or it is not known
         readonly before: Float64Array | null, // the same place on the log before, in points; < 0: none
@@ -200,6 +201,22 @@ async function readField(field: SurfaceInfo['fields'][number]): Promise<Float32A
     return values;
 }
 
+/** 1 at the vertices whose points lie in one of the ranges, which rise: first and last point of each. */
+function inRanges(point: Float64Array, ranges: Float64Array): Uint8Array {
+    const inside = new Uint8Array(point.length);
+    for (let r = 0, i = 0; r < ranges.length; r += 2) {
+        while (i < point.length && point[i] < ranges[r]) ++i;
+        while (i < point.length && point[i] <= ranges[r + 1]) inside[i++] = 1;
+    }
+    return inside;
+}
+
+async function readRamps(info: SurfaceInfo, point: Float64Array): Promise<(Uint8Array | null)[]> {
+    const all: (Uint8Array | null)[] = [];
+    for (const { ramps } of info.fields) all.push(ramps ? inRanges(point, await readNumbers(ramps)) : null);
+    return all;
+}
+
 export async function readSurface(manifest: Manifest, index: number): Promise<Surface> {
     const info = manifest.surfaces[index];
     const { columns } = info;
@@ -221,6 +238,7 @@ export async function readSurface(manifest: Manifest, index: number): Promise<Su
         await readIndices(columns.segments),
         fields,
         info.fields.map(({ classes, quantum }, k) => (classes ? classesOf(classes, fields[k], quantum) : null)),
+        await readRamps(info, point),
         await readNumbers(columns.passes),
         info.slow ? await readSlowWords(info.slow) : null,
         columns.before ? (await readNumbers(columns.before)).map((n) => n / 16 - 1) : null,

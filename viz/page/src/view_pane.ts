@@ -124,7 +124,8 @@ export class ViewPane {
                 layer.view.setPathColour(rgbOf(styleValue('--ink')));
             }
             if (any(...mesh) || !layer.isDividedBy(this.shown.classes(layer.surface))) this.remesh(layer);
-            if (any(...values)) layer.setValues(this.shown.of(layer.surface), this.scaleOf(layer));
+            if (any(...values))
+                layer.setValues(this.shown.of(layer.surface), this.scaleOf(layer), this.shown.pale(layer.surface));
             if (any(...values, 'map', 'bins', 'theme')) layer.view.setColours(this.scaleOf(layer));
         }
         if (any(...mesh, 'field', 'shown')) this.missing = this.active.lacksValues(this.values);
@@ -255,6 +256,7 @@ export class ViewPane {
             ...this.ends(),
             classes: this.classes?.shown ?? null,
             missing: this.missing,
+            ramps: this.shown.pale(surface) !== null,
             title: formed
                 ? 'Formed surface over its form'
                 : state.shown === 'difference'
