@@ -31,6 +31,12 @@ test('the wrong program is said in red, and what was found is grey', async () =>
     for (const badge of await page.$$('.severity'))
         assert.equal(await badge.evaluate((e) => getComputedStyle(e).backgroundColor), 'rgb(107, 114, 128)');
     assert.ok((await page.locator('.severity').count()) > 0);
+    const room = await page.evaluate(() => {
+        const [toolbar, alarm] = ['.toolbar', '.alarm'].map((name) => document.querySelector(name));
+        const { left, right } = alarm.getBoundingClientRect();
+        return { cut: toolbar.scrollHeight - toolbar.clientHeight, left, right, width: innerWidth };
+    });
+    assert.deepEqual(room, { cut: 0, left: 0, right: 1280, width: 1280 });
     await closeReport(page);
 });
 
