@@ -30,7 +30,7 @@ async function violations(page) {
 const tooWide = (page) =>
     page.evaluate(() => {
         const width = document.documentElement.clientWidth;
-        const inside = (e) => e.closest('.wide, .program, .toolbar select'); // these scroll for themselves
+        const inside = (e) => e.closest('.wide, .program, .toolbar > *'); // these scroll for themselves
         return [...document.body.querySelectorAll('*')]
             .filter((e) => !inside(e) && e.getBoundingClientRect().right > width + 1)
             .map((e) => `${e.tagName} ${e.className}`);
@@ -120,6 +120,37 @@ test('on a phone everything stands in one column', async () => {
         Object.keys(tops).sort((a, b) => tops[a] - tops[b]),
     );
     assert.ok((await numbers(page)).Point > 0);
+    await closeReport(page);
+});
+
+test('on a phone the map is near the top, and the card of a defect comes into sight', async () => {
+    const page = await openReport(browser, file, { width: 390, height: 844 });
+    const at = async (name) => {
+        const { y, height } = await page.locator(name).boundingBox();
+        return { top: y, bottom: y + height };
+    };
+    assert.ok((await at('.view')).top < 844 / 3, `the map begins at ${(await at('.view')).top}`);
+    const inSight = async (how) => {
+        await settled(page);
+        const [view, card] = [await at('.view'), await at('.card')];
+        assert.ok(card.top >= 0 && card.bottom <= 844, `${how}: the card is at ${card.top} … ${card.bottom}`);
+        assert.ok(view.bottom > 200, `${how}: ${view.bottom} px of the map are seen`);
+    };
+    await press(page, 'd');
+    await inSight('the key D');
+    await page.click('[data-action="next-defect"]');
+    await inSight('the button');
+    await page.evaluate(() => window.scrollTo(0, document.body.scrollHeight));
+    await page.click('#defect-list tr[data-defect="2"] td:nth-child(3)');
+    await inSight('the list');
+    await closeReport(page);
+});
+
+test('on a phone the pictures are as wide as the page', async () => {
+    const page = await openReport(browser, file, { width: 390, height: 844 });
+    const widths = await page.$$eval('figure img', (all) => all.map((image) => image.getBoundingClientRect().right));
+    assert.ok(widths.length >= 8);
+    for (const right of widths) assert.ok(right > 300 && right <= 390, `a picture ends at ${right}`);
     await closeReport(page);
 });
 

@@ -6,6 +6,7 @@ import type { Defect, DefectRun, Manifest } from './manifest';
 import type { Store } from './store';
 
 const mostRuns = 6; // of a list of lines
+const oneColumn = matchMedia('(max-width: 700px)'); // as style.css has it
 
 export interface CardDeeds {
     step: (by: number) => void;
@@ -40,6 +41,14 @@ export class DefectCard {
             if (changed.has('pinned')) this.draw();
             else if (changed.has('accepted') && !this.element.contains(document.activeElement)) this.draw();
         });
+    }
+
+    /** Brings it into sight where it stands below the map, and as much of the map as has room. */
+    reveal(map: HTMLElement): void {
+        if (!oneColumn.matches) return;
+        const { top, bottom } = map.getBoundingClientRect();
+        if (top < 0 || bottom > innerHeight) map.scrollIntoView();
+        this.element.scrollIntoView({ block: 'nearest' });
     }
 
     private button(name: string, text: string, title: string, act: () => void): HTMLElement {

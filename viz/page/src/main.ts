@@ -137,6 +137,7 @@ async function begin(app: HTMLElement): Promise<void> {
             defect.bounds_mm[0].map((c, k) => c - origin[k]),
             defect.bounds_mm[1].map((c, k) => c - origin[k]),
         );
+        card.reveal(view.element);
     };
     view.showDefect = goToDefect;
     const goToGone = (index: number) => {
@@ -246,8 +247,8 @@ async function begin(app: HTMLElement): Promise<void> {
     const list = document.getElementById('defect-list');
     if (list)
         new DefectList(list, manifest, store, (index) => {
-            goToDefect(index);
             app.scrollIntoView();
+            goToDefect(index);
         });
     const linked = defectOfLink(location.hash, manifest.defects.length);
     if (linked !== null) goToDefect(linked);
