@@ -9,6 +9,7 @@
 #include "io/reports/defect_fingerprint.h"
 #include "io/reports/quality_words.h"
 #include "predictor/severity.h"
+#include "program/frame_placement.h"
 
 namespace clsurf::io {
 namespace {
@@ -418,6 +419,7 @@ PageData page_data(const ReportPage& page) {
            {"options", page.reading_options},
            {"formed", page.as_machined_options}}},
          {"first_field", page.first_field},
+         {"work_system", common_work_system(page.quality.program->motions)},
          {"judged", page.quality.report->judgement.judged()}};
     if (page.quality.tool) {
         const PageSurface& shown = page.surfaces.front();

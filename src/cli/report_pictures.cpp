@@ -13,6 +13,7 @@
 #include "core/point_ranges.h"
 #include "io/reports/quality_words.h"
 #include "pipeline/shards.h"
+#include "program/frame_placement.h"
 #include "surface/surface_part.h"
 #include "viz/field_colours.h"
 #include "viz/map_texts.h"
@@ -109,6 +110,7 @@ viz::MapTexts texts_of(const PicturedPart& shown, const FieldInfo& info, const S
     viz::MapTexts texts;
     texts.title = fmt::format("{}, {} surface", info.label, name_of(shown.part->path.role));
     texts.subtitle = names_of(shown);
+    texts.frame = common_work_system(shown.part->program.motions);
     if (is_speed(info)) texts.notes.emplace_back(ramps_note);
     if (!range.note.empty()) texts.notes.push_back(range.note);
     return texts;

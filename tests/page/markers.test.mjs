@@ -6,6 +6,7 @@ import { after, before, test } from 'node:test';
 
 import {
     checkedBottle,
+    clickView,
     closeReport,
     countPixels,
     goTo,
@@ -177,6 +178,71 @@ test('lengths are measured to a micrometre', async () => {
     await settled(page);
     const text = names((await drawn(page)).texts).find((t) => t.includes('ΔX'));
     assert.match(text, /^\d+\.\d{3} mm {3}ΔX −?\d+\.\d{3} {2}ΔY −?\d+\.\d{3} {2}ΔZ −?\d+\.\d{3}$/);
+    await closeReport(page);
+});
+
+/** The numbers along an edge: what they say, and where they stand in pixels. */
+const along = (texts, isThere, middle) =>
+    texts
+        .filter((text) => /^-?[\d.]+$/.test(text.text) && isThere(text))
+        .map((text) => ({ value: Number(text.text), at: middle(text) }));
+
+/** The numbers along the lower and the left edge of the view. */
+async function edgesOf(page) {
+    const { texts, markers } = await drawn(page);
+    const height = await page.locator('.view').evaluate((view) => view.clientHeight);
+    const inMarkers = (text) => markers.some((box) => meet(box, text));
+    const across = along(
+        texts,
+        ({ top }) => top > height - 18,
+        ({ left, right }) => (left + right) / 2,
+    );
+    const upward = along(
+        texts,
+        (text) => text.right < 40 && text.bottom < height - 14 && !inMarkers(text),
+        ({ top, bottom }) => (top + bottom) / 2,
+    );
+    return { across, upward, names: names(texts).filter((text) => /^[XYZ] \[mm/.test(text)) };
+}
+
+/** Where a pixel lies by the numbers of its edge. */
+function valueAt(numbers_, pixel) {
+    const [first, last] = [numbers_[0], numbers_.at(-1)];
+    for (const { value, at } of numbers_) {
+        const expected = first.at + ((value - first.value) * (last.at - first.at)) / (last.value - first.value);
+        assert.ok(Math.abs(at - expected) < 0.5, `${value} is at ${at}, not ${expected}`);
+    }
+    return first.value + ((pixel - first.at) * (last.value - first.value)) / (last.at - first.at);
+}
+
+test('a view along an axis has its millimetres at two edges', async () => {
+    const page = await openReport(browser, reports.ball);
+    await watchDrawing(page);
+    await press(page, 'i');
+    assert.deepEqual((await edgesOf(page)).names, []);
+    for (const [key, expected] of [
+        ['f', ['X [mm, G54]', 'Z [mm]']],
+        ['l', ['Y [mm, G54]', 'Z [mm]']],
+        ['t', ['X [mm, G54]', 'Y [mm]']],
+    ]) {
+        await press(page, key);
+        const { names: found, across, upward } = await edgesOf(page);
+        assert.deepEqual(found, expected);
+        assert.ok(across.length > 2 && upward.length > 2, `${key}: ${across.length} and ${upward.length} numbers`);
+    }
+    // What is clicked has the coordinates that the edges say, also after the view moved and came closer.
+    for (const zoom of [0, -300]) {
+        await page.mouse.move(480, 300);
+        await page.mouse.wheel(0, zoom);
+        await clickView(page, 330, 180);
+        const { across, upward } = await edgesOf(page);
+        const [x, y] = (await numbers(page))['X Y Z'].match(/-?[\d.]+/g).map(Number);
+        assert.ok(Math.abs(valueAt(across, 330) - x) < 0.5, `X is ${x}, not ${valueAt(across, 330)}`);
+        assert.ok(Math.abs(valueAt(upward, 180) - y) < 0.5, `Y is ${y}, not ${valueAt(upward, 180)}`);
+    }
+    const { markers, texts } = await drawn(page);
+    for (const text of texts.filter((t) => /^[XYZ] \[mm/.test(t.text)))
+        assert.deepEqual(names(markers.filter((box) => meet(box, text))), [], `behind "${text.text}"`);
     await closeReport(page);
 });
 

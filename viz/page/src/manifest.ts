@@ -175,6 +175,7 @@ export interface Manifest {
     tool?: ToolInfo;
     program: { name: string; lines: number; text: PackedColumn };
     command: { program: string; log: string; before: string; options: string[]; formed: string[] };
+    work_system: string; // that positions count in, "G54"; empty: several, or not known
     first_field: string;
     colour_maps: ColourMapInfo[];
     fields: FieldInfo[];

@@ -8,6 +8,7 @@ import { label } from './canvas_text';
 import { drawClassLegend, drawHatched, drawPaler } from './class_legend';
 import type { ShownClass } from './classes';
 import { boxAt, labelPlace, markerPlace, meet, type Box } from './label_place';
+import { boxesOf, drawRuler, rulerOf, type Ruler, type Zero } from './ruler';
 
 export interface Polyline {
     xyz: number[]; // 3 per corner [mm] from the origin; open
@@ -48,6 +49,7 @@ export interface OverlayScene {
     measure: readonly number[][]; // up to two places
     box: [number, number, number, number] | null; // of box zoom [px]
     wipe: number | null; // of the width
+    zero: Zero;
 }
 
 export const legendWidth = 104; // px beside the map
@@ -70,6 +72,7 @@ function barLength(camera: Camera): number {
 export class Overlay {
     private markers: { box: Box; tag: Tag }[] = []; // that are drawn
     private hidden = 0; // markers that have no room
+    private ruler: Ruler | null = null; // of a view along an axis
 
     constructor(readonly canvas: HTMLCanvasElement) {}
 
@@ -82,6 +85,7 @@ export class Overlay {
         g.font = `12px ${styleValue('--font')}`;
         const ink = styleValue('--ink');
         const halo = styleValue('--view');
+        this.ruler = rulerOf(g, camera, scene.zero);
         for (const line of scene.polylines) this.polyline(g, camera, line, halo);
         // A marker is over the ring of its point: its number stays readable.
         for (const ring of scene.rings) this.ring(g, camera, ring, halo);
@@ -111,6 +115,7 @@ export class Overlay {
         this.legend(g, camera, scene, ink, halo);
         this.axes(g, camera, ink, halo);
         this.scaleBar(g, camera, ink, halo);
+        if (this.ruler) drawRuler(g, this.ruler, camera, styleValue('--faint'), halo);
     }
 
     private polyline(g: CanvasRenderingContext2D, camera: Camera, line: Polyline, halo: string): void {
@@ -145,13 +150,20 @@ export class Overlay {
         const title = 16 + g.measureText(scene.title).width;
         g.font = `12px ${font}`;
         const caption = 16 + g.measureText(scene.caption + hiddenText(mostHidden)).width;
-        const { height } = camera;
+        const { ruler } = this;
+        const [left, bottom] = this.corner(camera);
         return [
+            ...(ruler ? boxesOf(ruler, camera, (text) => g.measureText(text).width) : []),
             { left: 0, top: 0, right: title, bottom: 27 },
             { left: 0, top: 27, right: caption, bottom: scene.caption ? 45 : 27 },
-            { left: 0, top: height - 96, right: 96, bottom: height },
-            { left: 96, top: height - 46, right: 110 + barLength(camera) / camera.mmPerPixel, bottom: height },
+            { left: 0, top: bottom - 96, right: left + 96, bottom },
+            { left: left + 96, top: bottom - 46, right: left + 110 + barLength(camera) / camera.mmPerPixel, bottom },
         ];
+    }
+
+    /** The lower left corner of what the edges leave. */
+    private corner(camera: Camera): [number, number] {
+        return [this.ruler?.left ?? 0, camera.height - (this.ruler?.below ?? 0)];
     }
 
     /** Where two would lie on each other, the worse one stays and the other one moves, with a line to its place. */
@@ -319,7 +331,8 @@ export class Overlay {
     /** The directions of X, Y and Z, lower left. */
     private axes(g: CanvasRenderingContext2D, camera: Camera, ink: string, halo: string): void {
         const { right, up } = camera.axes;
-        const [x0, y0] = [46, camera.height - 46];
+        const [left, bottom] = this.corner(camera);
+        const [x0, y0] = [left + 46, bottom - 46];
         for (const [k, name] of ['X', 'Y', 'Z'].entries()) {
             const [dx, dy] = [right[k] * 30, -up[k] * 30];
             if (Math.hypot(dx, dy) < 4) continue;
@@ -336,7 +349,8 @@ export class Overlay {
 
     private scaleBar(g: CanvasRenderingContext2D, camera: Camera, ink: string, halo: string): void {
         const length = barLength(camera);
-        const [x, y] = [104.5, camera.height - 22.5];
+        const [left, bottom] = this.corner(camera);
+        const [x, y] = [left + 104.5, bottom - 22.5];
         g.strokeStyle = ink;
         g.beginPath();
         g.moveTo(x, y - 5);

@@ -270,6 +270,7 @@ export class ViewPane {
             measure: this.places,
             box: this.box,
             wipe: state.shown === 'wipe' ? state.wipe : null,
+            zero: { origin: this.manifest.surfaces[0].origin_mm, system: this.manifest.work_system },
         };
     }
 
