@@ -110,8 +110,9 @@ std::string svg_text(const Drawing& drawing, const std::string& title) {
     svg += "</g>\n";
     for (std::size_t i = 0; i < drawing.texts.size(); ++i) {
         const FlatText& text = drawing.texts[i];
+        // Texts may have several spaces in a row, and are told their width with them. Chromium does not take that from <svg>.
         svg += fmt::format(
-            "<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{:.2f}\"{} text-anchor=\"{}\" fill=\"{}\" textLength=\"{:.2f}\" "
+            "<text xml:space=\"preserve\" x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{:.2f}\"{} text-anchor=\"{}\" fill=\"{}\" textLength=\"{:.2f}\" "
             "lengthAdjust=\"spacingAndGlyphs\">{}</text>\n",
             text.x, down(text.y) + baseline * text.size, text.size, text.bold ? " font-weight=\"bold\"" : "",
             anchor_of(text.align), hex(text.rgb), drawing.text_widths[i], xml(text.text));

@@ -88,6 +88,18 @@ TEST(Drawing, ClipsAreWrittenOnceAndMoveWithTheirPicture) {
     EXPECT_EQ(svg.find("clip2"), std::string::npos) << svg;
 }
 
+TEST(Drawing, KeepsTheSpacesOfTexts) {
+    Drawing drawing;
+    drawing.width = 200;
+    drawing.height = 60;
+    drawing.texts.push_back({});
+    drawing.texts.back().text = "6  ±75.4 µm";
+    drawing.text_widths.push_back(70);
+    const std::string svg = svg_text(drawing, "spaces");
+    EXPECT_NE(svg.find(">6  ±75.4 µm</text>"), std::string::npos) << svg;
+    EXPECT_NE(svg.find("<text xml:space=\"preserve\""), std::string::npos) << svg;  // of <svg> it is not inherited
+}
+
 TEST(Drawing, GivesWhatLiesBetweenVerticesAColourOfTheRamp) {
     Sheet sheet = red_square();
     MeshPanel& panel = sheet.panels[0];
