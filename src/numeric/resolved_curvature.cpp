@@ -11,7 +11,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double resolved = 0.1;                ///< standard error over curvature
+constexpr double resolved = 0.1;                ///< greatest error over curvature
 constexpr double unknown = 0.5;                 ///< standard error over curvature that tells nothing
 constexpr std::size_t most_points = 31;         ///< of a section that are fitted; more would only take longer
 constexpr double much_shorter = 0.5;            ///< a section, than one that ends where it resolved a curvature
@@ -19,6 +19,10 @@ constexpr double growth = std::numbers::sqrt2;  ///< of the sections from one tr
 
 struct Estimate {
     double curvature = 0, standard_error = 0;  ///< [1/mm]
+    /// [1/mm] of rounding, if it moves each point the worst way. A standard error does not do to stop at: of thousands of
+    /// points those stop first whose error makes the curvature large, and the greatest of them is what speeds follow from.
+    /// And beside an axis the roundings of dense points are not independent: they are the steps of a stair.
+    double greatest_error = 0;
 };
 
 /// Points first … last.
@@ -29,16 +33,18 @@ struct Section {
 class RoundedPath {
 public:
     /// `step` [mm]: of the coordinates
-    RoundedPath(std::span<const Vec3> points, double step) : points_(points), deviation_(step / std::sqrt(12.0)) {
+    RoundedPath(std::span<const Vec3> points, double step)
+        : points_(points), step_(step), deviation_(step / std::sqrt(12.0)) {
         arc_length_.assign(points.size(), 0);
         for (std::size_t i = 1; i < points.size(); ++i)
             arc_length_[i] = arc_length_[i - 1] + (points[i] - points[i - 1]).norm();
     }
 
     [[nodiscard]] Estimate of_neighbours(std::size_t i) const {
-        const double shorter = std::min(between(i - 1, i), between(i, i + 1));
+        const double before = between(i - 1, i), after = between(i, i + 1), shorter = std::min(before, after);
+        const Vec3 bend = (points_[i + 1] - points_[i]) / after - (points_[i] - points_[i - 1]) / before;
         return {three_point_curvature(points_[i - 1], points_[i], points_[i + 1]),
-                std::sqrt(6.0) * deviation_ / (shorter * shorter)};
+                std::sqrt(6.0) * deviation_ / (shorter * shorter), 2 * step_ * along(bend) / (before * after)};
     }
 
     /// The points within `reach` [mm] of `at` on each side, inside of `bounds`: what one side lacks is added to the other.
@@ -60,27 +66,47 @@ public:
     [[nodiscard]] Estimate fit(const Section& section, std::size_t at) const {
         const double scale = std::max(between(section.first, at), between(at, section.last));
         const std::size_t stride = (section.last - section.first + most_points - 1) / most_points;
+        const auto each = [&](const auto& add) {
+            const auto one = [&](std::size_t i) {
+                const double u = (arc_length_[i] - arc_length_[at]) / scale;
+                add(i, Vec3(1, u, u * u));
+            };
+            // From both ends, so that both directions of travel give the same.
+            std::size_t low = section.first, high = section.last;
+            for (; low < high; low += stride, high -= stride) {
+                one(low);
+                one(high);
+            }
+            if (low == high) one(low);
+        };
         Eigen::Matrix3d normal = Eigen::Matrix3d::Zero(), right = Eigen::Matrix3d::Zero();
-        const auto add = [&](std::size_t i) {
-            const double u = (arc_length_[i] - arc_length_[at]) / scale;
-            const Vec3 powers(1, u, u * u);
+        each([&](std::size_t i, const Vec3& powers) {
             normal += powers * powers.transpose();
             right += powers * (points_[i] - points_[at]).transpose();
-        };
-        for (std::size_t i = section.first; i < section.last; i += stride) add(i);
-        add(section.last);
+        });
         const Eigen::Matrix3d inverse = normal.inverse();
         const Eigen::Matrix3d coefficients = inverse * right;
         const Vec3 first = coefficients.row(1) / scale, second = 2 * coefficients.row(2) / (scale * scale);
+        double weights = 0;  // of the points in the quadratic coefficient
+        each([&](std::size_t, const Vec3& powers) { weights += std::abs(inverse.row(2) * powers); });
         const double speed = first.norm();
+        const Vec3 bend = second - second.dot(first) / (speed * speed) * first;
         return {second.cross(first).norm() / (speed * speed * speed),
-                2 * deviation_ * std::sqrt(inverse(2, 2)) / (scale * scale)};
+                2 * deviation_ * std::sqrt(inverse(2, 2)) / (scale * scale),
+                step_ * along(bend) * weights / (scale * scale)};
     }
 
 private:
+    /// How far along a direction a point can be moved, over how far along an axis: 1 along an axis, √2 halfway between two.
+    static double along(const Vec3& direction) {
+        const double length = direction.norm();
+        return length > 0 ? direction.lpNorm<1>() / length : 1;
+    }
+
     [[nodiscard]] double between(std::size_t i, std::size_t k) const { return arc_length_[k] - arc_length_[i]; }
 
     std::span<const Vec3> points_;
+    double step_;       ///< of the coordinates [mm]
     double deviation_;  ///< standard, of a coordinate [mm]
     std::vector<double> arc_length_;
 };
@@ -116,7 +142,7 @@ std::vector<double> resolved_curvatures(std::span<const Vec3> points, double ste
     if (n < 3) return result;
     const RoundedPath path(points, step);
     const auto is_resolved = [&](const Estimate& e) {
-        return e.standard_error <= resolved * std::max(e.curvature, least);
+        return e.greatest_error <= resolved * std::max(e.curvature, least);
     };
     std::vector<std::size_t> open;
     std::vector<double> resolved_over(n, std::numeric_limits<double>::infinity());

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -40,6 +41,42 @@ TEST(ResolvedCurvature, OfRoundedCirclesIsRightWhereThreePointsAreNot) {
     double greatest = 0;
     for (const double k : curvatures(points)) greatest = std::max(greatest, k);
     EXPECT_GT(greatest, 0.4);
+}
+
+double greatest_of(const std::vector<double>& curvature) {
+    return *std::max_element(curvature.begin(), curvature.end());
+}
+
+// The greatest of thousands, which limits the speed, is no more wrong than the others.
+TEST(ResolvedCurvature, OfRoundedCirclesHasTheRightGreatest) {
+    for (const double radius : {2.0, 10.0, 50.0}) {
+        for (const double spacing : {0.01, 0.02, 0.05, 0.1, 0.5}) {
+            const double greatest =
+                greatest_of(resolved_curvatures(circle(radius, spacing, 0.001), 0.001, least)) * radius;
+            EXPECT_GT(greatest, 0.99) << radius << " " << spacing;
+            EXPECT_LT(greatest, 1.05) << radius << " " << spacing;
+        }
+    }
+}
+
+/// A line, an arc of radius 1 mm and a line.
+std::vector<Vec3> fillet(double turn, double spacing, double step) {
+    std::vector<Vec3> points;
+    for (double way = -5; way < 5 + turn; way += spacing) {
+        const double angle = std::clamp(way, 0.0, turn), beyond = way - angle;
+        points.push_back(rounded(
+            Vec3(std::sin(angle) + beyond * std::cos(angle), 1 - std::cos(angle) + beyond * std::sin(angle), 0), step));
+    }
+    return points;
+}
+
+TEST(ResolvedCurvature, OfAShortFilletIsSeen) {
+    for (const double turn : {0.5, 0.8, std::numbers::pi / 2}) {
+        for (const double spacing : {0.02, 0.05, 0.1}) {
+            const double greatest = greatest_of(resolved_curvatures(fillet(turn, spacing, 0.001), 0.001, least));
+            EXPECT_NEAR(greatest, 1, 0.1) << turn << " " << spacing;
+        }
+    }
 }
 
 TEST(ResolvedCurvature, OfExactPointsIsThatOfTheirCircle) {
