@@ -9,11 +9,25 @@
 
 namespace clsurf::viz {
 
-std::string counts_of(const ClSurface& surface) {
+namespace {
+
+std::string counts_of(const ClSurface& surface, const std::string& points) {
     PointIndex passes = 0;
     for (const Pass& pass : surface.passes) passes += pass.kind == PassKind::cut ? 1 : 0;
-    return fmt::format("{} points, {} {}{}", surface.positions.size(), passes, passes == 1 ? "pass" : "passes",
+    return fmt::format("{} points, {} {}{}", points, passes, passes == 1 ? "pass" : "passes",
                        surface.step_over > 0 ? fmt::format(", {:.3g} mm apart", surface.step_over) : "");
+}
+
+}  // namespace
+
+std::string counts_of(const ClSurface& surface) {
+    return counts_of(surface, fmt::format("{}", surface.positions.size()));
+}
+
+std::string counts_of_selection(const ClSurface& surface) {
+    PointIndex shown = 0;
+    for (const Pass& piece : surface.passes) shown += is_of_surface(piece.kind) ? piece.last - piece.first + 1 : 0;
+    return counts_of(surface, fmt::format("{} of {}", shown, surface.positions.size()));
 }
 
 std::vector<std::string> notes_of(const ShownRange& range) {

@@ -66,7 +66,8 @@ viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, c
     if (shown.relief) texts.title = fmt::format("{}, {}", shown.field.info.label, to_text(*shown.part.tool));
     const std::string program = file_name(options.part.program);
     // The captions of two panels name the logs.
-    const std::string counts = viz::counts_of(shown.surface);
+    const std::string counts =
+        options.selection.is_all() ? viz::counts_of(shown.surface) : viz::counts_of_selection(shown.surface);
     texts.subtitle = before
                          ? fmt::format("{} · before: {} · after: {}", program, viz::counts_of(before->surface), counts)
                          : fmt::format("{} · {} · {}", program, run_name(shown, options), counts);

@@ -39,6 +39,7 @@ void keep_points(ClSurface& surface, const std::vector<PointRange>& ranges) {
         }
     }
     surface.passes = cut_at(surface.passes, ranges);
+    surface.step_over_moves = intersection(surface.step_over_moves, ranges);  // those outside would be links again
 }
 
 std::vector<PointRange> intersection(const std::vector<PointRange>& a, const std::vector<PointRange>& b) {

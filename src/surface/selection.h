@@ -8,7 +8,7 @@
 namespace clsurf {
 
 /// Leaves the points of `ranges`, which rise and do not overlap: passes end where a range ends, what lies outside counts as
-/// rapid, and nobody has a neighbour there. Point numbers stay. O(points).
+/// rapid, and nobody has a neighbour or a step-over move there. Point numbers stay. O(points).
 void keep_points(ClSurface& surface, const std::vector<PointRange>& ranges);
 
 /// Points that are in both. Each rises. O(ranges).

@@ -45,6 +45,13 @@ TEST(Selection, NobodyHasANeighbourOutside) {
     EXPECT_FALSE(surface.neighbours.has(Side::left, 11));
 }
 
+TEST(Selection, StepOverMovesOutsideAreNone) {
+    ClSurface surface = two_passes();
+    surface.step_over_moves = {{1, 2}, {4, 5}, {9, 10}};
+    keep_points(surface, {{3, 4}, {6, 11}});
+    EXPECT_EQ(surface.step_over_moves, (std::vector<PointRange>{{4, 4}, {9, 10}}));
+}
+
 TEST(Selection, NothingIsLeftOfNoRange) {
     ClSurface surface = two_passes();
     keep_points(surface, {});

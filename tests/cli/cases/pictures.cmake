@@ -105,6 +105,9 @@ clsurf_cli_test(NAME render_programmed_from_standard_input
 # A part of the part.
 clsurf_cli_test(NAME render_passes
   SETUP "$CLSURF render @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip --passes 3..5 -o map.png --size 320x240 -q" ARGS --version)
+clsurf_cli_test(NAME render_points_are_counted
+  SETUP "$CLSURF render @DATA@/programs/dome_loops.nc @LOGS@/dome_loops.biip --points 5000..5200 -o map.svg -q && python3 ${CMAKE_CURRENT_LIST_DIR}/../read_svg.py map.svg images 1 ' · 201 of 18531 points, 1 pass' && $CLSURF render @DATA@/programs/dome_loops.nc @LOGS@/dome_loops.biip -o whole.svg -q && python3 ${CMAKE_CURRENT_LIST_DIR}/../read_svg.py whole.svg images 1 ' · 18531 points, '"
+  ARGS --version)
 clsurf_cli_test(NAME render_lines_and_points ARGS render ${bottle} --lines 1000.. --points ..20000 --size 320x240 -o map.png FILE map.png)
 clsurf_cli_test(NAME render_lines_that_cut_nothing ARGS render ${bottle} --lines 1..2 -o map.png EXIT 2 STDERR "no finishing pass has points of lines 1[.][.]2" NO_FILE map.png)
 clsurf_cli_test(NAME render_passes_out_of_order ARGS render ${bottle} --passes 5..3 -o map.png EXIT 2 STDERR "--passes: '5[.][.]3' ends before it begins")
