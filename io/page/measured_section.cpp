@@ -93,6 +93,8 @@ std::string measured_section(const ReportPage& page) {
     if (!alignment.parameters.empty())
         text += fmt::format("; {:.3f} µm rms from the predicted surface", alignment.rms * um_per_mm);
     text += ".</p>\n";
+    if (const std::optional<std::string> misfit = misfit_of(alignment))
+        text += fmt::format("<p><b>Its place on the part is in doubt.</b> {}.</p>\n", html(*misfit));
     for (const std::string& reason : alignment.reasons)
         text += fmt::format("<p><b>Its place on the part is not determined.</b> {}.</p>\n", html(reason));
     if (alignment.determined()) {

@@ -61,6 +61,7 @@ Json alignment_keys(const MeasuredData& data, const Alignment& alignment) {
     const Vec3 turns = turns_of(alignment.pose.turn) * deg_per_rad;
     const Vec3& shift = alignment.pose.shift;
     json["rms_um"] = number(mm_as_um(alignment.rms), 3);
+    json["scatter_um"] = alignment.scatter > 0 ? number(mm_as_um(alignment.scatter), 3) : Json(nullptr);
     json["worst_um"] = number(mm_as_um(alignment.worst), 3);
     json["correlated_points"] = number(alignment.correlated, 1);
     json["pose"] = {{"x_mm", number(shift.x(), 5)},  {"y_mm", number(shift.y(), 5)},  {"z_mm", number(shift.z(), 5)},

@@ -19,7 +19,7 @@ ExitCode run_align(const po::variables_map& values) {
     const std::optional<Role> role = take_measured_role(options);
     const MeasuredData data = io::read_measured(points, measured.columns);
     StageClock clock(read_common(values), 7);
-    const Part part = load_part(options, clock);
+    Part part = load_part(options, clock);
     const CuttingTool tool = required_tool(part, "align", "--tool ball:6");
     clock.begin("stitch the surface");
     const ClSurface surface = stitch(part);
@@ -31,6 +31,7 @@ ExitCode run_align(const po::variables_map& values) {
     const Alignment alignment =
         align_by_roughness(data, as_machined.surface(), as_machined.signals(), measured.rules).alignment;
     clock.end();
+    warn_of_misfit(data, alignment, part.diagnostics);
     if (json) {
         write_to_stdout(io::alignment_json(data, alignment, tool, part.diagnostics));
     } else {

@@ -56,6 +56,7 @@ io::ReportedMeasurement compare_measured(CheckedRun& run, std::optional<Role> ro
                                          StageClock& clock) {
     io::ReportedMeasurement measured =
         compare_measured(run.part, run.surface, run.quality.report, role, std::move(input.measurement), clock);
+    warn_of_misfit(measured.data, measured.result.alignment, run.part.diagnostics);
     const std::string& reason = measured.result.comparison.reason;
     if (input.picture && reason.empty()) {
         const MeasuredPicture picture =

@@ -25,6 +25,11 @@ void declare_measured(po::options_description& options) {
     // clang-format on
 }
 
+void warn_of_misfit(const MeasuredData& data, const Alignment& alignment, Diagnostics& diagnostics) {
+    if (const std::optional<std::string> misfit = misfit_of(alignment))
+        diagnostics.add({Severity::warning, "measured.misfit", Place::of_file(data.name), *misfit, {}});
+}
+
 const char* given_measured_option(const po::variables_map& values) {
     for (const char* name : {"measured-at", "measured-columns", "measured-free", "measured-search"}) {
         if (given(values, name)) return name;

@@ -25,6 +25,8 @@ struct Measurement {
 };
 /// Reads the file of --measured. Throws UsageError; InputError: the file cannot be read.
 [[nodiscard]] Measurement read_measurement(const po::variables_map& values);
+/// Warns of a pose that the scatter of the data does not explain.
+void warn_of_misfit(const MeasuredData& data, const Alignment& alignment, Diagnostics& diagnostics);
 /// The first of these options that is on the command line; nullptr: none.
 [[nodiscard]] const char* given_measured_option(const po::variables_map& values);
 

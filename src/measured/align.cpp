@@ -32,6 +32,8 @@ constexpr double least_far_off = 2e-4;      ///< [mm]
 constexpr double unknown_error = 1e6;       ///< [mm] of a degree of freedom that changes no distance
 constexpr double main_share = 0.4;          ///< of a direction's length, of an axis that names it
 constexpr std::size_t fewest_each = 4;      ///< points for each degree of freedom that scallops tell
+constexpr double above_scatter = 3;         ///< rms over the scatter, from which a profile may lie beside its place
+constexpr double far_above_scatter = 10;    ///< … that scatter does not explain
 
 std::size_t known_points(const MeasuredData& measured) {
     return measured.points.size() - (measured.kind == MeasuredKind::areal ? measured.missing : 0);
@@ -72,6 +74,18 @@ double correlated_points(std::span<const Vec3> points, const FittedPose& fit, co
     double squares = 0;
     for (const auto& [cell, sum] : sums) squares += sum * sum;
     return fit.distances.squares > 0 ? std::max(1.0, squares / fit.distances.squares) : 1.0;
+}
+
+/// [mm] between one point and the next; other scatter than that of the surface's form and of its prediction.
+double scatter_of(const FittedPose& fit, const PoseFit& by) {
+    std::vector<double> steps;
+    const std::vector<double>& distances = fit.distances.along_normal;
+    for (std::size_t i = 1; i < distances.size(); ++i) {
+        const bool used = !by.is_left_out(i - 1) && !by.is_left_out(i);
+        if (used && std::isfinite(distances[i - 1]) && std::isfinite(distances[i]))
+            steps.push_back(distances[i] - distances[i - 1]);
+    }
+    return steps.empty() ? 0 : robust_spread(steps).deviation / std::sqrt(2.0);
 }
 
 /// Variance [mm²] of one independent point.
@@ -224,6 +238,7 @@ private:
         for (const double distance : best.distances.along_normal) {
             if (std::abs(distance) > std::abs(result_.worst)) result_.worst = distance;
         }
+        if (kind_ != MeasuredKind::points) result_.scatter = scatter_of(best, fine);
         result_.correlated = correlated_points(points_, best, fine, step_over_);
         const double variance = variance_of(best, unknowns_, result_.correlated);
         judge(fine.information(best.pose), variance, fine);
@@ -300,7 +315,31 @@ private:
     Alignment result_;
 };
 
+bool is_above_scatter(const Alignment& alignment, double times) {
+    return alignment.rms > times * std::max(alignment.scatter, surface_error);
+}
+
+/// Along the profile, and where that leaves more than scatter, across it as well: beside its place a profile has another form.
+Alignment align_profile(const MeasuredData& measured, const AsMachinedSurface& as_machined, const AlignRules& rules) {
+    Alignment stated = Aligner(measured, as_machined, rules).run();
+    if (rules.free || !is_above_scatter(stated, above_scatter)) return stated;
+    AlignRules across = rules;
+    across.free = usual_free_axes(MeasuredKind::profile);
+    (*across.free)[static_cast<std::size_t>(PoseAxis::y)] = true;
+    Alignment moved = Aligner(measured, as_machined, across).run();
+    return moved.determined() && much_farther * moved.rms < stated.rms ? moved : stated;
+}
+
 }  // namespace
+
+std::optional<std::string> misfit_of(const Alignment& alignment) {
+    if (!alignment.determined() || !(alignment.scatter > 0) || !is_above_scatter(alignment, far_above_scatter))
+        return std::nullopt;
+    return fmt::format(
+        "the fit leaves {:.3f} µm rms, and neighbouring points scatter by {:.3f} µm: the start is farther off than was "
+        "tried, or the part has another form than the log says; pose, depths and roughness may be wrong",
+        alignment.rms * um_per_mm, alignment.scatter * um_per_mm);
+}
 
 FreeAxes usual_free_axes(MeasuredKind kind) {
     if (kind == MeasuredKind::profile) return {true, false, true, false, true, false};
@@ -328,7 +367,8 @@ Alignment align(const MeasuredData& measured, const AsMachinedSurface& as_machin
                                              name_of(static_cast<PoseAxis>(k))));
         }
     }
-    return Aligner(measured, as_machined, rules).run();
+    return measured.kind == MeasuredKind::profile ? align_profile(measured, as_machined, rules)
+                                                  : Aligner(measured, as_machined, rules).run();
 }
 
 }  // namespace clsurf

@@ -4,7 +4,8 @@
 // First the form alone leads, from the stated start on. Then poses about the result are tried, an eighth of a step-over
 // apart, since surfaces with scallops fit nearly as well one step-over beside the right place, and the best of them are
 // fitted to the surface with its scallops. The best of these is fitted once more without points that lie too far off: where a
-// mark is missing, the others tell the pose. A result is refused where the data do not determine it: too few points, a
+// mark is missing, the others tell the pose. A profile is shifted along itself; where it fits worse than it scatters, poses
+// across it are tried, too, and the best is taken if the surface tells it. A result is refused where the data do not determine it: too few points, a
 // degree of freedom that the surface does not hold (a plane can be shifted), or a second pose that fits as well.
 
 #include <optional>
@@ -45,11 +46,15 @@ struct Alignment {
     std::size_t left_out = 0;          ///< of those: too far from the surface, or where nothing was cut
     double rms = 0;                    ///< [mm] distance of the used points from the surface, along its normal
     double worst = 0;                  ///< [mm] the greatest, of all
+    double scatter = 0;                ///< [mm] from one point to the next along a profile or a row of a map; points: 0
     double correlated = 1;             ///< how many neighbouring points scatter as one
     std::vector<std::string> reasons;  ///< why the pose is not determined, as sentences; empty: it is
 
     [[nodiscard]] bool determined() const { return reasons.empty(); }
 };
+
+/// Why a determined pose may be wrong all the same: its distances are far above what the scatter of the data explains.
+[[nodiscard]] std::optional<std::string> misfit_of(const Alignment& alignment);
 
 /// Free by default.
 [[nodiscard]] FreeAxes usual_free_axes(MeasuredKind kind);

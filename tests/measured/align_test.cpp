@@ -15,21 +15,24 @@ constexpr double radius = 3, apart = 0.3, length = 12;
 constexpr int passes = 30;
 constexpr double mark = 0.008;  ///< [mm] depth of pass 15
 
-/// A wavy part, or a plane; one pass may run too low.
+/// A wavy part, or a plane; one pass may run too low. `bend`: of its profiles along Y, that grows with x.
 struct Cut {
     test::MadeSurface made;
     Signals signals;
     std::vector<PointRange> pieces;
     AsMachinedSurface surface;
 
-    Cut(double wave, double depth)
+    Cut(double wave, double depth, double bend = 0)
         : made(test::made_zigzag(
               std::vector<double>(passes, 50), length, apart,
               [=](const Vec3& p, const Vec3&) {
                   const bool marked = std::abs(p.y() - 15 * apart) < 0.1 * apart;
                   return Vec3(p.x(), p.y(), p.z() - (marked ? depth : 0));
               },
-              [=](const Vec3& flat) { return Vec3(flat.x(), flat.y(), height(wave, flat.x(), flat.y())); })),
+              [=](const Vec3& flat) {
+                  return Vec3(flat.x(), flat.y(),
+                              height(wave, flat.x(), flat.y()) + bend * flat.x() * std::pow(flat.y() - 4, 2));
+              })),
           signals(made.signals()),
           pieces(pieces_of(made)),
           surface(made.surface, signals, Role::commanded, made.measured, pieces, {ToolKind::ball, radius, radius}) {}
@@ -131,6 +134,36 @@ TEST(Align, AProfileThatBeginsElsewhereIsFound) {
     const Alignment found = align(traced(cut, {6, 1.5}, 5e-5), cut.surface, rules);
     ASSERT_TRUE(found.determined()) << found.reasons.front();
     EXPECT_NEAR(found.pose.shift.y(), 1.5, 5e-4);
+}
+
+// 0.2 mm beside its place a profile bends by 4 µm more over 4 mm, and no tilt makes up for that.
+TEST(Align, AProfileThatLiesBesideItsPlaceIsFound) {
+    const Cut cut(0.4, mark, 0.005);
+    const MeasuredData data = traced(cut, {6, 1.5}, 5e-5);
+    for (const double beside : {-0.7, -0.2, 0.2, 0.7}) {
+        AlignRules rules;
+        rules.start = MeasuredPlace{Vec2(6 + beside, 1.7), 0.5 * M_PI};
+        const Alignment found = align(data, cut.surface, rules);
+        ASSERT_TRUE(found.determined()) << found.reasons.front();
+        EXPECT_NEAR(found.pose.shift.x(), 6, 0.003) << beside;
+        EXPECT_NEAR(found.pose.shift.y(), 1.5, 0.003) << beside;
+        EXPECT_LT(found.rms, 1e-4);
+        EXPECT_TRUE(parameter(found, PoseAxis::y).fitted) << beside;
+        EXPECT_FALSE(misfit_of(found));
+    }
+}
+
+TEST(Align, AFitFarAboveTheScatterIsSaid) {
+    const Cut cut(0.4, mark);
+    MeasuredData data = traced(cut, {6, 1.5}, 5e-5);
+    for (Vec3& point : data.points) point.z() += 0.003 * std::sin(5 * point.x());  // no place has this form
+    AlignRules rules;
+    rules.start = MeasuredPlace{Vec2(6, 1.5), 0.5 * M_PI};
+    const Alignment found = align(data, cut.surface, rules);
+    ASSERT_TRUE(found.determined()) << found.reasons.front();
+    EXPECT_NEAR(found.scatter, 5e-5, 2e-5);
+    ASSERT_TRUE(misfit_of(found));
+    EXPECT_NE(misfit_of(found)->find("neighbouring points scatter by 0.0"), std::string::npos) << *misfit_of(found);
 }
 
 TEST(Align, RoughnessThatIsNotThatOfThePlaceIsInDoubt) {
