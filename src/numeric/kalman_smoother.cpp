@@ -76,6 +76,19 @@ RealMatrix variance_alone(const RealMatrix& filtered, const RealMatrix& back, co
     return stay * filtered * stay.transpose() + back * q * back.transpose();
 }
 
+/// The first point whose prediction is nearly as sure as those far from the start. `filtered`: covariances after a point.
+template <typename Matrices>
+std::size_t first_sure_prediction(const Matrices& filtered, double wandering, double innovation_variance) {
+    constexpr double nearly = 1.2;
+    const Eigen::RowVector4d ahead = transition().row(0).cast<double>();
+    const double added = wandering * static_cast<double>(wandering_of_one()(0, 0));
+    std::size_t i = 1;
+    while (i < filtered.size() &&
+           ahead.dot(filtered[i - 1] * ahead.transpose()) + added + 1 > nearly * innovation_variance)
+        ++i;
+    return i;
+}
+
 /// Variances backward from an end, all that went before being settled.
 std::vector<std::array<double, 4>> variances_at_end(const RealMatrix& last, const RealMatrix& back,
                                                     const RealMatrix& alone) {
@@ -170,6 +183,8 @@ void KalmanSmoother::smooth(const Measurements& measured, std::span<SmoothedStat
     origin = origin.isNaN().select(0.0, origin);
     const bool speeds = model_.has_speed();
     const bool accelerations = model_.has_acceleration();
+    const std::size_t sure =
+        innovations.empty() ? 0 : first_sure_prediction(filtered_, model_.wandering, innovation_variance_);
     SmoothedState x{Eigen::Array4d::Zero(), Eigen::Array4d::Zero(), Eigen::Array4d::Zero(), Eigen::Array4d::Zero()};
     const auto predict = [](const SmoothedState& s) {
         return SmoothedState{s[0] + s[1] + 0.5 * s[2] + (1.0 / 6) * s[3], s[1] + s[2] + 0.5 * s[3], s[2] + s[3], s[3]};
@@ -185,8 +200,7 @@ void KalmanSmoother::smooth(const Measurements& measured, std::span<SmoothedStat
         const Eigen::Array4d position = lanes(measured.position, i) - origin;
         if (!innovations.empty()) {
             const Eigen::Array4d off = (position / unit[0] - x[0]) / std::sqrt(innovation_variance_);
-            const bool settling = static_cast<PointIndex>(i) < reach();
-            innovations[i] = settling ? Eigen::Array4d::Zero() : Eigen::Array4d(off.isNaN().select(0.0, off));
+            innovations[i] = i < sure ? Eigen::Array4d::Zero() : Eigen::Array4d(off.isNaN().select(0.0, off));
         }
         take(0, position);
         if (speeds) take(1, lanes(measured.speed, i));

@@ -11,6 +11,7 @@
 #include "core/statistics.h"
 #include "core/units.h"
 #include "log/quantum.h"
+#include "toolpath/jumps_at_beginning.h"
 #include "toolpath/smoother_fit.h"
 
 namespace clsurf {
@@ -49,6 +50,7 @@ MotionEstimate::MotionEstimate(const Log& log, const Trajectory& path, const std
     if (path.is_of_linear_axes()) measure_components(pieces);
     if (!model_.has_speed() && (path.role == Role::commanded || !log.has(Role::commanded))) measure_path_speed(pieces);
     calibrate(pieces);
+    corners_.emplace(*across_, along_ ? &*along_ : nullptr);
 }
 
 void MotionEstimate::measure_positions(const std::vector<PointRange>& pieces, NoiseFitter& fitter) {
@@ -203,6 +205,7 @@ void MotionEstimate::calibrate(const std::vector<PointRange>& pieces) {
     model.position_sigma = model_.position_sigma;
     model.wandering = two_periods_7 * model_.wandering;
     const KalmanSmoother half(model);
+    const AccelerationCorners half_corners(half), corners(*across_);
     const double of_difference = std::pow(model_.position_sigma / model_.period, 2) / 2;
     const double known = std::pow(across_->sigma(1), 2);
     const double of_channel =
@@ -236,15 +239,17 @@ void MotionEstimate::calibrate(const std::vector<PointRange>& pieces) {
         sigmas.resize(count);
         half.smooth({{even[0], even[1], even[2]}, {}, {}}, halved.states, halved.innovations);
         half.sigmas(1, static_cast<PointIndex>(count), 0, sigmas);
-        set_inflation(0, 0, static_cast<PointIndex>(count) - 1, halved);
+        set_inflation(half_corners, 0, 0, static_cast<PointIndex>(count) - 1, halved);
+        raise_at_beginning(half_corners, half, {{even[0], even[1], even[2]}, {}, {}}, 0, 0, halved.inflation);
         for (std::size_t k = 1; k + 1 < count; ++k) {
             compare(0, norm(halved.states[k], 1) - difference(2 * k),
-                    sigmas[k] * sigmas[k] * halved.inflation[k] + of_difference);
+                    sigmas[k] * sigmas[k] * halved.inflation[1][k] + of_difference);
         }
-        set_inflation(0, 0, static_cast<PointIndex>(n) - 1, scratch);
+        set_inflation(corners, 0, 0, static_cast<PointIndex>(n) - 1, scratch);
+        raise_at_beginning(corners, *across_, all_of(scratch), 0, 0, scratch.inflation);
         for (std::size_t i = 1; i + 1 < n; ++i) {
             const double speed = norm(scratch.states[i], 1);
-            const double variance = known * scratch.inflation[i];
+            const double variance = known * scratch.inflation[1][i];
             compare(1, speed - difference(i), variance + of_difference);
             if (path_speed_ != nullptr) compare(2, speed - scratch.path_speed[i], variance + of_channel);
         }
@@ -286,13 +291,14 @@ PointIndex MotionEstimate::disturbed_points() const {
 
 /// Of points [first, last], where the innovations begin at `from`: the greatest around a point, if they are no chance. A jump
 /// shows in one of them, or in the sum of as many as the estimate averages over.
-void MotionEstimate::set_inflation(PointIndex from, PointIndex first, PointIndex last, Scratch& scratch) const {
+void MotionEstimate::set_inflation(const AccelerationCorners& corners, PointIndex from, PointIndex first,
+                                   PointIndex last, Scratch& scratch) const {
     const PointIndex reach = disturbed_points();
-    scratch.inflation.assign(static_cast<std::size_t>(last - first + 1), 1.0);
+    std::vector<double> of_jumps(static_cast<std::size_t>(last - first + 1), 1.0);
     const auto raise = [&](PointIndex around, PointIndex by, double squared) {
         if (!(squared > jump_gate)) return;
         for (PointIndex i = std::max(first, around - by); i <= std::min(last, around + by); ++i) {
-            double& inflation = scratch.inflation[static_cast<std::size_t>(i - first)];
+            double& inflation = of_jumps[static_cast<std::size_t>(i - first)];
             inflation = std::max(inflation, squared);
         }
     };
@@ -305,6 +311,8 @@ void MotionEstimate::set_inflation(PointIndex from, PointIndex first, PointIndex
         if (i >= reach) sum -= innovations[static_cast<std::size_t>(i - reach)];
         raise(from + i - reach / 2, reach, sum.square().maxCoeff() / static_cast<double>(reach));
     }
+    scratch.inflation.fill(of_jumps);
+    corners.raise(innovations, from, first, scratch.inflation);
 }
 
 void MotionEstimate::read(PointIndex first, PointIndex last, Scratch& scratch) const {
@@ -331,7 +339,7 @@ void MotionEstimate::read(PointIndex first, PointIndex last, Scratch& scratch) c
 void MotionEstimate::estimate(PointRange piece, PointIndex first, PointIndex last, Scratch& scratch,
                               std::array<std::array<std::vector<double>, 3>, 4>& out) const {
     // Jumps beside the points disturb them, too, and their innovations need settled gains.
-    const PointIndex reach = std::max(across_->reach(), along_ ? along_->reach() : 0) + 2 * disturbed_points();
+    const PointIndex reach = 3 * std::max(across_->reach(), along_ ? along_->reach() : 0) + 2 * disturbed_points();
     const PointIndex from = std::max(piece.first, first - reach);
     const PointIndex to = std::min(piece.last, last + reach);
     read(from, to, scratch);
@@ -341,7 +349,8 @@ void MotionEstimate::estimate(PointRange piece, PointIndex first, PointIndex las
     scratch.states.resize(n);
     scratch.innovations.resize(n);
     across_->smooth(measured, scratch.states, scratch.innovations);
-    set_inflation(from, first, last, scratch);
+    set_inflation(*corners_, from, first, last, scratch);
+    if (from == piece.first) raise_at_beginning(*corners_, *across_, measured, from, first, scratch.inflation);
     if (along_) {
         // What the speed measures is the velocity along the way that the positions tell.
         for (std::size_t i = 0; i < n; ++i) {
@@ -380,7 +389,8 @@ void MotionEstimate::estimate(PointRange piece, PointIndex first, PointIndex las
 void MotionEstimate::sigmas(int derivative, PointRange piece, PointIndex first, const Scratch& scratch,
                             std::span<double> out) const {
     best(derivative).sigmas(derivative, piece.size(), first - piece.first, out);
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] *= scale_ * std::sqrt(scratch.inflation[i]);
+    const std::vector<double>& inflation = scratch.inflation[static_cast<std::size_t>(derivative)];
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] *= scale_ * std::sqrt(inflation[i]);
     if (!fused_) return;
     std::vector<double> worst(out.size(), 0.0), of_axis(out.size());
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -396,7 +406,7 @@ void MotionEstimate::position_sigmas(PointRange piece, PointIndex first, const S
     const std::size_t n = out[0].size();
     std::vector<double> common(n), of_axis(n, 0.0);
     best(0).sigmas(0, piece.size(), first - piece.first, common);
-    for (std::size_t i = 0; i < n; ++i) common[i] *= scale_ * std::sqrt(scratch.inflation[i]);
+    for (std::size_t i = 0; i < n; ++i) common[i] *= scale_ * std::sqrt(scratch.inflation[0][i]);
     for (std::vector<double>& variances : out) variances.assign(n, 0.0);
     for (std::size_t axis = 0; axis < 3 && fused_; ++axis) {
         difference_sigmas(axis, 0, piece, first, of_axis);

@@ -12,8 +12,8 @@
 // Controls record some signals earlier than others: LinuxCNC's speed belongs to the position two records later.
 // A channel is therefore first shifted by the lead at which it agrees best with what the positions tell.
 //
-// A machine does not move like the model: its acceleration jumps. Where a position is far from its prediction, the
-// standard deviations grow with it (Mehra 1972, "Approaches to adaptive filtering": the innovations tell whether a
+// A machine does not move like the model: its acceleration jumps. Where the predictions show that, the standard deviations
+// grow by the errors that such a jump makes (acceleration_corners.h), and where a position is far from its prediction, with it (Mehra 1972, "Approaches to adaptive filtering": the innovations tell whether a
 // filter is consistent). What then remains is measured: from every second record the speeds at these records are
 // estimated and compared with the differences of the records held out, and the path's speed with its channel. All
 // standard deviations are scaled so that three of them hold 99.73 % of these errors. Where their mean square then still
@@ -27,6 +27,7 @@
 
 #include "log/log.h"
 #include "numeric/kalman_smoother.h"
+#include "toolpath/acceleration_corners.h"
 #include "toolpath/fused_positions.h"
 #include "toolpath/trajectory.h"
 
@@ -49,7 +50,7 @@ public:
         std::vector<double> path_speed;
         std::vector<SmoothedState> states, with_speed;
         std::vector<Eigen::Array4d> innovations;  ///< of the positions, in standard deviations
-        std::vector<double> inflation;            ///< of the variances at the points that were estimated last, from 1
+        Inflation inflation;                      ///< of the variances at the points that were estimated last
     };
     /// `out[d][axis][i]`: derivative d of point first + i [mm/s^d]; NaN where the position is missing.
     void estimate(PointRange piece, PointIndex first, PointIndex last, Scratch& scratch,
@@ -89,7 +90,8 @@ private:
     void set_scale(std::array<std::vector<double>, 3>& ratios, std::vector<double>& of_difference);
     void read(PointIndex first, PointIndex last, Scratch& scratch) const;
     [[nodiscard]] PointIndex disturbed_points() const;
-    void set_inflation(PointIndex from, PointIndex first, PointIndex last, Scratch& scratch) const;
+    void set_inflation(const AccelerationCorners& corners, PointIndex from, PointIndex first, PointIndex last,
+                       Scratch& scratch) const;
     /// Calls visit(scratch, i) for the points of the sampled sections, smoothed by their positions alone.
     template <typename Visit>
     void visit_samples(const std::vector<PointRange>& pieces, Visit&& visit) const;
@@ -113,6 +115,7 @@ private:
     SmootherModel model_;
     std::optional<KalmanSmoother> across_;  ///< of all that is measured of the components
     std::optional<KalmanSmoother> along_;   ///< and of the path's speed
+    std::optional<AccelerationCorners> corners_;
 };
 
 }  // namespace clsurf
