@@ -92,6 +92,9 @@ std::string cut_text(const CutReport& report, const ScanCut& cut) {
                         report.rules.radius > 0 ? fmt::format("path of a ball of radius {:g} mm", report.rules.radius)
                                                 : std::string("fit"),
                         report.rules.tolerance);
+    text += fmt::format("  simulated on {}: within {:.4f} mm of it (tolerance and corners allow {:g} mm), {:.2f} s\n",
+                        report.simulated.machine, report.simulated.deviation, report.simulated.allowed,
+                        report.simulated.duration);
     return text;
 }
 
@@ -126,6 +129,11 @@ std::string cut_json(const CutReport& report, const ScanCut& cut, const Diagnost
               {"output_points", report.written.motions + 1},
               {"tolerance_mm", number(report.rules.tolerance)},
               {"chord_error_mm", number(report.written.deviation)},
+              {"simulation",
+               {{"machine", report.simulated.machine},
+                {"deviation_mm", number(report.simulated.deviation)},
+                {"allowed_mm", number(report.simulated.allowed)},
+                {"time_s", number(report.simulated.duration)}}},
               {"diagnostics", list(diagnostics)}};
     if (report.corrected) {
         const Compensation& by = report.corrected->by;

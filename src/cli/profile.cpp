@@ -14,7 +14,9 @@
 #include "cli/planned_cut.h"
 #include "cli/profile_options.h"
 #include "cli/profile_picture.h"
+#include "cli/simulated_cut.h"
 #include "core/file_name.h"
+#include "io/readers/machine_file.h"
 #include "io/readers/program_file.h"
 #include "io/reports/cut_report.h"
 #include "scan/cut_program.h"
@@ -40,6 +42,19 @@ std::string program_of(const ScanCut& cut, const ProfileOptions& options, const 
     return options.splines ? span_program(cut.path.spans(), rules) : line_program(cut.path.points(), rules);
 }
 
+/// A fit that rounds off what was scanned: scatter alone is not that far.
+void warn_of_misfit(const MeasuredData& data, const ScanCut& cut, double tolerance, Diagnostics& diagnostics) {
+    constexpr double far_above_tolerance = 10, above_scatter = 3, above_rms = 6;
+    const double worst = cut.residuals.worst, rms = cut.residuals.rms;
+    const bool more_than_scatter = worst > above_rms * rms || rms > above_scatter * cut.scan.scatter;
+    if (!(worst > far_above_tolerance * tolerance && more_than_scatter)) return;
+    diagnostics.add(
+        {Severity::warning, "profile.misfit", Place::of_file(data.name),
+         fmt::format("the fit is {:.4f} mm away from a scanned point, at X {:.6g} mm: {:.0f} times the tolerance",
+                     worst, cut.residuals.worst_x, worst / tolerance),
+         "a shorter --window follows more; a step in the part is rounded off by any"});
+}
+
 ExitCode run_profile(const po::variables_map& values) {
     const std::string scan = required(values, "SCAN");
     const std::string path = required(values, "output");
@@ -54,22 +69,22 @@ ExitCode run_profile(const po::variables_map& values) {
     PlannedCut planned = planned_cut(data, options);
     const ScanCut& cut = planned.cut;
     const std::string text = program_of(cut, options, data, planned.plane);
-    const Program program = read_written(path, text, options.dialect);
-    io::CutReport report{data.name,
-                         path,
-                         options.dialect,
-                         data.points.size(),
-                         data.missing,
-                         options.cut,
-                         read_back(program, cut.path),
-                         options.splines,
-                         std::move(planned.corrected)};
+    Program program = read_written(path, text, options.dialect);
+    const ReadBack written = read_back(program, cut.path);
+    const Machine machine =
+        values.count("machine") > 0 ? io::read_machine(values["machine"].as<std::string>()) : Machine{};
+    io::CutReport report{data.name,       path,
+                         options.dialect, data.points.size(),
+                         data.missing,    options.cut,
+                         written,         simulated_cut(program, cut, options.cut.tolerance, machine),
+                         options.splines, std::move(planned.corrected)};
     const double rounding = std::pow(10.0, -cut_decimals);
     if (report.written.deviation > options.cut.tolerance + rounding)
         throw InputError(
             Place::of_file(data.name),
             fmt::format("the program would be {:.4f} mm away from the fit, beyond the tolerance: it is not written",
                         report.written.deviation));
+    if (!report.corrected) warn_of_misfit(data, cut, options.cut.tolerance, program.diagnostics);
     if (picture) draw_fit(report, cut, *picture);
     output.write(text);
     output.commit();
@@ -93,8 +108,8 @@ Subcommand profile_subcommand() {
             "SCAN has points along X, as delimited text (comma, semicolon, tab or blanks): x and z in mm, or in the unit that\n"
             "stands behind the column's name, z [µm]. Outliers are rejected. Polynomials are fitted to windows of points, by\n"
             "least squares, and joined. The program has lines or splines that stay within the tolerance of the fit, in the XZ\n"
-            "plane. It is read again and compared with the fit before the file appears. Tool, spindle and work offset are for\n"
-            "you to add.\n\n"
+            "plane. It is read again, simulated on --machine, and compared with the fit before the file appears. Tool, spindle and\n"
+            "work offset are for you to add.\n\n"
             "The window decides what is form and what is noise: a long one is smooth and misses short waves. --picture shows\n"
             "the residuals.\n\n"
             "With --tool-offset a ball leaves the profile. If it would cut below it, because the profile is tighter than the\n"
@@ -113,6 +128,10 @@ Subcommand profile_subcommand() {
                     ("picture", po::value<std::string>()->value_name("FILE"), "fit and residuals as a picture");
                 // clang-format on
                 declare_profile_options(options);
+                // clang-format off
+                options.add_options()
+                    ("machine", po::value<std::string>()->value_name("FILE"), "machine file of the simulation that verifies the program (default: that of clsurf machine --defaults)");
+                // clang-format on
                 declare_json(options);
             },
         .positional = {"SCAN"},

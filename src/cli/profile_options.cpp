@@ -47,7 +47,7 @@ void declare_profile_options(po::options_description& options) {
         ("tool-offset", po::value<double>()->value_name("RADIUS")->default_value(0, "0"), "radius of a ball that leaves the fitted profile [mm]: its tip is programmed; without it the tip follows the fit")
         ("compensate", po::value<std::string>()->value_name("PROGRAM"), "SCAN has deviations along this finished pass, measured height less wanted height: the pass is corrected by them; --tool-offset is then the radius of the ball that made it")
         ("tolerance", po::value<double>()->value_name("MM")->default_value(0.01, "0.01"), "distance between program and path [mm], at most")
-        ("blocks", po::value<std::string>()->value_name("lines|splines"), "what is written (default: lines): G1 (L), or cubic splines: POLY of siemens, SPL of klartext")
+        ("blocks", po::value<std::string>()->value_name("lines|splines"), "what is written (default: lines): G1 (L), or cubic splines: POLY of siemens, SPL of klartext, G06.2 of fanuc")
         ("dialect", po::value<std::string>()->value_name("DIALECT"), "language of the program (default: linuxcnc)")
         ("feed", po::value<double>()->value_name("MM/MIN")->default_value(1000, "1000"), "feed of the cut")
         ("clearance", po::value<double>()->value_name("MM")->default_value(5, "5"), "height of approach and retract above the highest point");
@@ -79,7 +79,8 @@ ProfileOptions read_profile_options(const po::variables_map& values) {
         throw UsageError(fmt::format("unknown dialect '{}'", options.dialect), "`clsurf help dialects` lists them");
     if (options.splines && !writes_spans(options.dialect))
         throw UsageError(
-            fmt::format("--blocks splines does not apply to {}, only to siemens and klartext", options.dialect));
+            fmt::format("--blocks splines does not apply to {}, only to siemens, klartext and fanuc{}", options.dialect,
+                        options.dialect == "linuxcnc" ? ": its G5 lies in the XY plane, and a profile in XZ" : ""));
     constexpr double slowest = 1;  // mm/min
     options.feed = number_of(values, "feed", slowest, longest);
     options.clearance = number_of(values, "clearance", 0, longest);

@@ -11,6 +11,8 @@
 namespace clsurf {
 namespace {
 
+constexpr double same_place = 1e-6;  ///< [mm] between spans that hang together
+
 std::string number(double value, bool plus) {
     return without_end_zeros(plus ? signed_nc_number(value, cut_decimals) : nc_number(value, cut_decimals));
 }
@@ -82,6 +84,24 @@ public:
         }
         at_ = span.end;
     }
+    /// Bézier curves one after the other: each knot between two of them three times, so that each is shaped by its own points.
+    void nurbs(std::span<const CutSpan> spans) {
+        int knot = 0;
+        const auto point = [&](const Vec2& at, const std::string& before) {
+            block(fmt::format("{}K{} {} {}", before, knot, axis('X', at.x()), axis('Z', at.y())));
+        };
+        point(spans.front().begin, "G06.2 P4 ");
+        for (int n = 1; const CutSpan& span : spans) {
+            point(span.begin + span.begin_slope / 3, "");
+            point(span.end - span.end_slope / 3, "");
+            point(span.end, "");
+            knot = n++;
+        }
+        knot = static_cast<int>(spans.size());
+        for (int n = 0; n < 4; ++n) block(fmt::format("K{}", knot));
+        block("G1");
+        at_ = spans.back().end;
+    }
     [[nodiscard]] std::string end() {
         rapid(axis('Z', rules_.clearance_z));
         if (klartext_) {
@@ -124,7 +144,9 @@ private:
 
 }  // namespace
 
-bool writes_spans(std::string_view dialect) { return dialect == "siemens" || dialect == "klartext"; }
+bool writes_spans(std::string_view dialect) {
+    return dialect == "siemens" || dialect == "klartext" || dialect == "fanuc";
+}
 
 std::string line_program(const std::vector<Vec2>& points, const CutProgramRules& rules) {
     BlockWriter writer(rules);
@@ -136,9 +158,17 @@ std::string line_program(const std::vector<Vec2>& points, const CutProgramRules&
 std::string span_program(const std::vector<CutSpan>& spans, const CutProgramRules& rules) {
     BlockWriter writer(rules);
     writer.begin(spans.front().begin);
-    for (const CutSpan& span : spans) {
-        if (!writer.stands_at(span.begin)) writer.line(span.begin);
-        writer.span(span);
+    const bool knotted = rules.dialect == "fanuc";
+    for (std::size_t first = 0; first < spans.size();) {
+        if (!writer.stands_at(spans[first].begin)) writer.line(spans[first].begin);
+        std::size_t end = first + 1;
+        // Of those that hang together one NURBS.
+        while (knotted && end < spans.size() && (spans[end].begin - spans[end - 1].end).norm() < same_place) ++end;
+        if (knotted)
+            writer.nurbs(std::span(spans).subspan(first, end - first));
+        else
+            writer.span(spans[first]);
+        first = end;
     }
     return writer.end();
 }

@@ -20,7 +20,7 @@ struct CutProgramRules {
 /// Decimals of coordinates: 0.1 µm.
 inline constexpr int cut_decimals = 4;
 
-/// Whether a dialect has a spline of one cubic a block: POLY of siemens, SPL of klartext.
+/// Whether a dialect has splines in the XZ plane: POLY of siemens and SPL of klartext, one cubic a block, and G06.2 of fanuc.
 [[nodiscard]] bool writes_spans(std::string_view dialect);
 
 /// Lines between points. `points`: at least two.

@@ -23,7 +23,7 @@ double greatest_distance(std::span<const Vec2> places, std::span<const Vec2> cho
     std::size_t near = 0;
     for (const Vec2& place : places) {
         while (near + 2 < chords.size() && chords[near + 1].x() < place.x()) ++near;
-        constexpr std::size_t beside = 2;
+        constexpr std::size_t beside = 64;  // on steep flanks points of a run are in no order of x
         const std::size_t first = near < beside ? 0 : near - beside;
         const std::size_t end = std::min(chords.size() - 1, near + beside + 1);
         double least = (place - chords[first]).norm();
@@ -51,8 +51,28 @@ ReadBack read_back(const Program& program, const CutPath& path) {
         append_tips(motions, i, chords);
     }
     if (chords.size() < 2) throw InputError(Place::of_file(program.main().name()), "does not move at feed");
-    result.deviation = std::max(greatest_distance(path.samples(), chords), greatest_distance(chords, path.samples()));
+    result.deviation = distance_from(path, chords);
     return result;
+}
+
+double distance_from(const CutPath& path, std::span<const Vec2> places) {
+    return std::max(greatest_distance(path.samples(), places), greatest_distance(places, path.samples()));
+}
+
+std::pair<LineNumber, LineNumber> lines_of_cut(const Program& program) {
+    const Motions& motions = program.motions;
+    LineNumber first = 0, last = 0;
+    bool approached = false;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(motions.size()); ++k) {
+        if (!is_cut(motions.kind[k])) continue;
+        if (!approached) {
+            approached = true;
+            continue;
+        }
+        if (first == 0) first = motions.line[k];
+        last = motions.line[k];
+    }
+    return {first, last};
 }
 
 }  // namespace clsurf

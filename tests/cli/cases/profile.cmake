@@ -15,7 +15,7 @@ clsurf_cli_test(NAME profile_of_two_columns_of_any_name SETUP "awk 'BEGIN { prin
 clsurf_cli_test(NAME profile_of_distances
   SETUP "${scanned} make .; $CLSURF profile laser.txt --x way --z distance --distance 120 --sensor-offset 35 --window 40 -o cut.nc --json > ../r.json; ${scanned} check cut.nc ../r.json --outliers 0"
   ARGS profile laser.txt --x 1 --z 2 --distance 120 --sensor-offset 35 --window 40 --degree 5 --dialect klartext -o c.h FILE c.h STDOUT "X 0 to 149.9 mm" "0 points rejected")
-foreach(dialect linuxcnc siemens klartext)
+foreach(dialect linuxcnc siemens klartext fanuc)
   set(blocks lines)
   if(NOT dialect STREQUAL "linuxcnc")
     set(blocks splines)
@@ -24,6 +24,17 @@ foreach(dialect linuxcnc siemens klartext)
     SETUP "${scanned} make .; $CLSURF profile scan.csv --x x --z height --window 40 --tool-offset 3 --dialect ${dialect} --blocks ${blocks} -o cut.nc"
     ARGS simulate cut.nc --dialect ${dialect} -o run.biip FILE run.biip STDOUT "off the path +0[.]0[01]" "[0-9]+ points, 1[0-9][.]")
 endforeach()
+# The run of the program on a machine is part of the answer, and a machine that leaves the fit too far is a warning.
+clsurf_cli_test(NAME profile_is_simulated
+  SETUP "${scanned} make .; $CLSURF profile scan.csv --x x --z height --window 40 -o first.nc 2> said.txt && ! grep -q warning said.txt"
+  ARGS profile scan.csv --x x --z height --window 40 -o cut.nc --machine @DATA@/machines/three_axis_mill.toml FILE cut.nc
+  STDOUT "simulated on .*: within 0[.]0[012][0-9]+ mm of it .tolerance and corners allow 0[.]0[0-9]+ mm., [0-9.]+ s")
+clsurf_cli_test(NAME profile_simulation_in_json SETUP "${scanned} make ."
+  ARGS profile scan.csv --x x --z height --window 40 -o cut.nc --json STDOUT "\"simulation\": ." "\"deviation_mm\": 0[.]0" "\"allowed_mm\": 0[.]02" "\"time_s\": [0-9]")
+# A step is rounded off by every fit.
+clsurf_cli_test(NAME profile_of_a_step
+  SETUP "awk 'BEGIN { print \"x,z\"; for (i = 0; i < 400; ++i) printf \"%g,%g\\n\", i / 10, i < 200 ? 0 : 5 }' > step.csv"
+  ARGS profile step.csv --outliers 0 -o c.nc FILE c.nc STDERR "step.csv: warning: the fit is [0-9.]+ mm away from a scanned point, at X (19|20)[0-9.]* mm: [0-9]+ times the tolerance")
 clsurf_cli_test(NAME profile_windows_apart SETUP "${scanned} make ."
   ARGS profile scan.csv --x x --z height --join none -o cut.nc STDOUT "it jumps between windows at 149 places: 0.00[0-9]+ mm rms")
 clsurf_cli_test(NAME profile_outliers_kept SETUP "${scanned} make ."
@@ -41,7 +52,7 @@ clsurf_cli_test(NAME profile_of_space SETUP "printf 'x,y,z\\n0,1,2\\n1,2,3\\n2,3
 clsurf_cli_test(NAME profile_degree_of_c1 SETUP "${few}" ARGS profile m.csv --degree 1 -o c.nc EXIT 2 STDERR "--degree of --join c1 must be from 2 to 9")
 clsurf_cli_test(NAME profile_short_window SETUP "${few}" ARGS profile m.csv --window 3 -o c.nc EXIT 2 STDERR "--window must be at least 4 points for degree 3")
 clsurf_cli_test(NAME profile_ball_over_jumps SETUP "${few}" ARGS profile m.csv --join none --tool-offset 2 -o c.nc EXIT 2 STDERR "needs a profile without jumps")
-clsurf_cli_test(NAME profile_splines_of_fanuc SETUP "${few}" ARGS profile m.csv --blocks splines --dialect fanuc -o c.nc EXIT 2 STDERR "does not apply to fanuc, only to siemens and klartext")
+clsurf_cli_test(NAME profile_splines_of_linuxcnc SETUP "${few}" ARGS profile m.csv --blocks splines -o c.nc EXIT 2 STDERR "does not apply to linuxcnc, only to siemens, klartext and fanuc: its G5 lies in the XY plane")
 clsurf_cli_test(NAME profile_unknown_dialect SETUP "${few}" ARGS profile m.csv --dialect rs -o c.nc EXIT 2 STDERR "rs")
 clsurf_cli_test(NAME profile_over_its_scan SETUP "${few}" ARGS profile m.csv --degree 2 --window 3 -o m.csv EXIT 2)
 
