@@ -307,14 +307,15 @@ TEST_F(ModbusRecording, MakesGapsOfAnswersToOtherRequests) {
         if (request == 3) ++frame[1];                                   // another transaction
         if (request == 4) frame[7] = 4;                                 // another function
         if (request == 5) frame[8] = 4, frame[5] = 7, frame += "\1\2";  // two registers
+        if (request == 6) ++frame[6];                                   // another unit behind a gateway
         return frame.size();
     });
     const Recorded run = record(server.address(), one_channel(), rules(20, 0.8, 1));
-    EXPECT_EQ(run.recording.damaged, 3);
-    EXPECT_EQ(run.recording.gaps[0], 3);
+    EXPECT_EQ(run.recording.damaged, 4);
+    EXPECT_EQ(run.recording.gaps[0], 4);
     const std::vector<double> counts = run.values("count");
-    for (std::size_t i = 2; i < 5; ++i) EXPECT_TRUE(std::isnan(counts[i])) << i;
-    EXPECT_EQ(counts[5], 6);
+    for (std::size_t i = 2; i < 6; ++i) EXPECT_TRUE(std::isnan(counts[i])) << i;
+    EXPECT_EQ(counts[6], 7);
 }
 
 }  // namespace
