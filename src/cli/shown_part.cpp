@@ -147,7 +147,7 @@ void show_selection(Shown& shown, const Selection& selection) {
     keep_points(shown.surface, ranges);
     const auto is_shown = [](const Pass& pass) { return is_of_surface(pass.kind); };
     if (std::none_of(shown.surface.passes.begin(), shown.surface.passes.end(), is_shown))
-        throw UsageError("no finishing pass has points of " + selection.words);
+        throw UsageError("no finishing pass lies in " + selection.words);
 }
 
 void show_as_machined(Shown& shown, const RenderOptions& options, StageClock& clock) {

@@ -109,7 +109,7 @@ clsurf_cli_test(NAME render_points_are_counted
   SETUP "$CLSURF render @DATA@/programs/dome_loops.nc @LOGS@/dome_loops.biip --points 5000..5200 -o map.svg -q && python3 ${CMAKE_CURRENT_LIST_DIR}/../read_svg.py map.svg images 1 ' · 201 of 18531 points, 1 pass' && $CLSURF render @DATA@/programs/dome_loops.nc @LOGS@/dome_loops.biip -o whole.svg -q && python3 ${CMAKE_CURRENT_LIST_DIR}/../read_svg.py whole.svg images 1 ' · 18531 points, '"
   ARGS --version)
 clsurf_cli_test(NAME render_lines_and_points ARGS render ${bottle} --lines 1000.. --points ..20000 --size 320x240 -o map.png FILE map.png)
-clsurf_cli_test(NAME render_lines_that_cut_nothing ARGS render ${bottle} --lines 1..2 -o map.png EXIT 2 STDERR "no finishing pass has points of lines 1[.][.]2" NO_FILE map.png)
+clsurf_cli_test(NAME render_lines_that_cut_nothing ARGS render ${bottle} --lines 1..2 -o map.png EXIT 2 STDERR "no finishing pass lies in lines 1[.][.]2" NO_FILE map.png)
 clsurf_cli_test(NAME render_passes_out_of_order ARGS render ${bottle} --passes 5..3 -o map.png EXIT 2 STDERR "--passes: '5[.][.]3' ends before it begins")
 clsurf_cli_test(NAME render_passes_count_from_one ARGS render ${bottle} --passes 0..3 -o map.png EXIT 2 STDERR "--passes: they are counted from 1")
 clsurf_cli_test(NAME render_points_no_range ARGS render ${bottle} --points a..b -o map.png EXIT 2 STDERR "'a[.][.]b' is not a range of whole numbers")
