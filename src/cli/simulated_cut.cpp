@@ -25,11 +25,10 @@ io::SimulatedCut simulated_cut(Program& program, const ScanCut& cut, double tole
     if (places.size() > 1) simulated.deviation = distance_from(cut.path, places);
     if (simulated.deviation > simulated.allowed)
         program.diagnostics.add(
-            {Severity::warning,
-             "profile.simulated",
-             Place::of_file(program.main().name()),
-             fmt::format("simulated on {}, the tool is {:.4f} mm away from the fit; tolerance and corners allow {:.4f} mm",
-                         simulated.machine, simulated.deviation, simulated.allowed),
+            {Severity::warning, "profile.simulated", Place::of_file(program.main().name()),
+             fmt::format(
+                 "simulated on {}, the tool is {:.4f} mm away from the fit; tolerance and corners allow {:.4f} mm",
+                 simulated.machine, simulated.deviation, simulated.allowed),
              "a smaller --tolerance, a lower --feed, or a smaller tolerance of corners in the machine file"});
     return simulated;
 }
