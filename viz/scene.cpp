@@ -149,11 +149,32 @@ Detail detail_of(const MapPanel& map, const Camera& camera, const Look& look, co
                                  : visible_detail(*map.surface, map.field->values, request);
 }
 
+/// Whether shown cutting points of a map have values beyond the range. A vertex is the mean of the points in a pixel, which hides
+/// those of a few.
+Beyond beyond_of_points(const MapPanel& map, const ColourScale& scale, const Look& look, const Camera& camera,
+                        const PointRange& own) {
+    Beyond beyond;
+    const double unit = map.field->info.unit.per_inside;
+    for (const Pass& pass : map.surface->passes) {
+        if (pass.kind != PassKind::cut) continue;
+        for (PointIndex i = std::max(pass.first, own.first); i <= std::min(pass.last, own.last); ++i) {
+            const double value = map.field->values[static_cast<std::size_t>(i)] * unit;
+            const bool is_new = (scale.is_below(value) && !beyond.below) || (scale.is_above(value) && !beyond.above);
+            if (!is_new || !shows(camera, look, map.surface->positions.absolute(i))) continue;
+            beyond.widen({scale.is_below(value), scale.is_above(value), false});
+        }
+        if (beyond.below && beyond.above) break;
+    }
+    return beyond;
+}
+
 /// What pixels show of a panel, painted, on a panel that has its rectangle and its camera. `own`: of a map in parts.
 Beyond fill_panel(const MapPanel& map, const ColourScale& scale, const Look& look, MeshPanel& panel,
                   const PointRange& own = DetailRequest().own) {
     Detail detail = detail_of(map, panel.camera, look, own);
-    const Beyond here = paint_panel(detail, map, scale, look, panel);
+    Beyond here = paint_panel(detail, map, scale, look, panel);
+    if (map.defects == nullptr && map.classes == nullptr && map.relief == nullptr)
+        here.widen(beyond_of_points(map, scale, look, panel.camera, own));
     if (!map.pale.empty()) panel.pale = paleness_of(detail.points, map.pale);
     panel.geometry = std::move(detail.geometry);
     if (is_path(map)) panel.line_width = path_width;

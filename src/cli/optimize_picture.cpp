@@ -25,8 +25,8 @@ viz::Image draw_pair(const Optimized& result, const Field& before, const Field& 
     look.view = viz::parse_view("top");
     look.height = 720;
     look.keep_drawing = keep_drawing;
-    const ShownRange a = find_range(before, result.before.surface.passes, {}, {}),
-                     b = find_range(after, result.after.surface.passes, {}, {});
+    const ShownRange a = find_range(before, result.before.surface, {}, {}, result.before.report.sections()),
+                     b = find_range(after, result.after.surface, {}, {}, result.after.report.sections());
     const viz::ColourScale scale = viz::scale_of(before.info, std::min(a.low, b.low), std::max(a.high, b.high));
     return viz::draw_map(panels, viz::placed_map(panels, look), scale, texts, look);
 }

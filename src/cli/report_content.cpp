@@ -30,10 +30,11 @@ constexpr int relief_pixels = 700;  ///< of the formed surface across the page
 std::vector<ShownRange> ranges_of(const std::vector<ReportLog>& logs) {
     std::vector<ShownRange> ranges;
     for (std::size_t k = 0; k < logs.front().fields.size(); ++k) {
-        ShownRange range = find_range(logs.front().fields[k], logs.front().surface, {});
-        for (std::size_t other = 1; other < logs.size(); ++other) {
-            range = wider(range, find_range(logs[other].fields[k], logs[other].surface, {}));
-        }
+        const auto range_in = [&](const ReportLog& log) {
+            return find_range(log.fields[k], log.surface, {}, {}, log.quality.report.sections());
+        };
+        ShownRange range = range_in(logs.front());
+        for (std::size_t other = 1; other < logs.size(); ++other) range = wider(range, range_in(logs[other]));
         ranges.push_back(std::move(range));
     }
     return ranges;

@@ -172,7 +172,8 @@ ShownRange range_in_picture(const Shown& shown, const RenderOptions& options, co
                           shown.relief ? shown.relief->at(i) : shown.surface.positions.absolute(i));
     };
     const ShownPoints points = whole ? ShownPoints() : ShownPoints(in_picture);
-    if (!shown.relief) return find_range(shown.field, shown.surface, options.shown.range, points);
+    if (!shown.relief)
+        return find_range(shown.field, shown.surface, options.shown.range, points, shown.defects.report.sections());
     return find_range(shown.field, all_as_one_cut(static_cast<PointIndex>(shown.field.values.size())),
                       options.shown.range, points);
 }

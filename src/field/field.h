@@ -62,6 +62,8 @@ struct FieldInfo {
     double slack = 0;                 ///< beyond usual_range that still counts as its end, inside units
     double least_span = 0;            ///< of colours, inside units: smaller differences do not matter
     double least_span_of_median = 0;  ///< likewise, as a share of the median
+    /// Of a difference that counts as a discontinuity where some points in a row exceed it, inside units; 0: none.
+    double threshold = 0;
 };
 
 /// Whether values are names or numbers of things: between two of them is nothing.

@@ -1,6 +1,7 @@
 #include "field/patches.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <unordered_map>
 #include <vector>
@@ -31,6 +32,26 @@ public:
 private:
     std::vector<std::size_t> parent_, size_;
 };
+
+/// Whether a point is one of at least `size` connected points of a kind. `size` is small.
+template <typename IsOfKind>
+bool is_of_section(PointIndex point, const Pass& pass, const Adjacency* neighbours, std::size_t size,
+                   const IsOfKind& is_of_kind) {
+    std::vector<PointIndex> found{point};
+    const auto visit = [&](PointIndex i) {
+        if (std::find(found.begin(), found.end(), i) == found.end() && is_of_kind(i)) found.push_back(i);
+    };
+    for (std::size_t k = 0; k < found.size() && found.size() < size; ++k) {
+        const PointIndex i = found[k];
+        if (i != pass.first) visit(i - 1);
+        if (i != pass.last) visit(i + 1);
+        if (neighbours == nullptr) continue;
+        for (const Side side : {Side::left, Side::right}) {
+            if (neighbours->has(side, i)) visit(neighbours->neighbour(side, i));
+        }
+    }
+    return found.size() >= size;
+}
 
 }  // namespace
 
@@ -73,6 +94,26 @@ float end_without_patches(const Field& field, const Passes& passes, const Adjace
         }
     }
     return end;
+}
+
+float end_with_sections(const Field& field, const Passes& passes, const Adjacency* neighbours, const ShownPoints& shown,
+                        float end, bool above, float threshold, std::size_t size) {
+    const auto last = static_cast<PointIndex>(field.values.size()) - 1;
+    const auto size_of = [&](PointIndex i) {
+        const float value = field.values[static_cast<std::size_t>(i)];
+        return above ? value : -value;
+    };
+    const auto exceeds = [&](PointIndex i) { return i >= 0 && i <= last && size_of(i) > threshold; };
+    float farthest = above ? end : -end;
+    for (const Pass& pass : passes) {
+        if (pass.kind != PassKind::cut) continue;
+        for (PointIndex i = pass.first; i <= pass.last; ++i) {
+            // Few points lie farther out than all before them.
+            if (!(size_of(i) > farthest) || !exceeds(i) || size_of(i) > std::numeric_limits<float>::max()) continue;
+            if ((!shown || shown(i)) && is_of_section(i, pass, neighbours, size, exceeds)) farthest = size_of(i);
+        }
+    }
+    return above ? farthest : -farthest;
 }
 
 }  // namespace clsurf

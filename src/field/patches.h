@@ -17,4 +17,11 @@ using ShownPoints = std::function<bool(PointIndex)>;
 [[nodiscard]] float end_without_patches(const Field& field, const Passes& passes, const Adjacency* neighbours,
                                         const ShownPoints& shown, float end, bool above, std::size_t size);
 
+/// The least end ≥ `end` (the greatest ≤ `end`) that holds whole sections: at least `size` connected cutting points that exceed
+/// `threshold` (for `above`; else that lie below −threshold). What fewer points exceed it, such as the spike of one, does
+/// not count. Inside units, threshold > 0. O(points).
+[[nodiscard]] float end_with_sections(const Field& field, const Passes& passes, const Adjacency* neighbours,
+                                      const ShownPoints& shown, float end, bool above, float threshold,
+                                      std::size_t size);
+
 }  // namespace clsurf

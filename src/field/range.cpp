@@ -101,9 +101,50 @@ void round_outwards(ShownRange& range, int bins, bool even) {
     range.low = lowest;
 }
 
+/// Where the points of a range are looked for.
+struct Source {
+    const Field& field;
+    const Passes& passes;
+    const Adjacency* neighbours;  ///< nullptr: not known
+    const ShownPoints& shown;
+    std::span<const PointRange> defects;
+};
+
+/// The end that holds all values of the defects as well, in inside units.
+float end_with_defects(const Source& source, float end, bool above) {
+    for (const PointRange& section : source.defects) {
+        for (PointIndex i = section.first; i <= section.last; ++i) {
+            const float value = source.field.values[static_cast<std::size_t>(i)];
+            if (!(above ? value > end : value < end) || !std::isfinite(value)) continue;
+            // Of a selection the other points are no longer cut.
+            if (source.passes[pass_of(source.passes, i)].kind != PassKind::cut) continue;
+            if (!source.shown || source.shown(i)) end = value;
+        }
+    }
+    return end;
+}
+
+/// An end of the range, moved to where nothing is cut off that may not be.
+float widened(const Source& source, float end, bool above) {
+    end = end_without_patches(source.field, source.passes, source.neighbours, source.shown, end, above, least_patch);
+    const auto threshold = static_cast<float>(source.field.info.threshold);
+    if (threshold > 0)
+        end = end_with_sections(source.field, source.passes, source.neighbours, source.shown, end, above, threshold,
+                                least_section);
+    return end_with_defects(source, end, above);
+}
+
+/// ", and all patches of 20 points and reported defects"
+std::string words_of_widening(const Source& source) {
+    std::string words = fmt::format(", and all patches of {} points", least_patch);
+    if (source.field.info.threshold > 0) words += fmt::format(", or {} beyond the threshold", least_section);
+    if (!source.defects.empty()) words += ", and all defects";
+    return words;
+}
+
 /// What all rules but the fixed ones do.
-ShownRange range_of_values(const Field& field, const Passes& passes, const Adjacency* neighbours, const RangeRule& rule,
-                           const ShownPoints& shown, Values& values) {
+ShownRange range_of_values(const Source& source, const RangeRule& rule, Values& values) {
+    const Field& field = source.field;
     const double unit = field.info.unit.per_inside;
     ShownRange range{0, 0, values.lowest * unit, values.highest * unit, ""};
     const bool automatic = rule.kind == RangeRule::Kind::automatic;
@@ -112,11 +153,11 @@ ShownRange range_of_values(const Field& field, const Passes& passes, const Adjac
     float low = nearest_quantile(values.sampled, p_low / 100);
     float high = nearest_quantile(values.sampled, p_high / 100);
     range.note = fmt::format("range: percentiles {:g} to {:g} of {} {}cutting points", p_low, p_high, values.cutting,
-                             shown ? "shown " : "");
+                             source.shown ? "shown " : "");
     if (automatic) {
-        const float low_end = end_without_patches(field, passes, neighbours, shown, low, false, least_patch);
-        const float high_end = end_without_patches(field, passes, neighbours, shown, high, true, least_patch);
-        if (low_end < low || high_end > high) range.note += fmt::format(", and all patches of {} points", least_patch);
+        const float low_end = widened(source, low, false);
+        const float high_end = widened(source, high, true);
+        if (low_end < low || high_end > high) range.note += words_of_widening(source);
         low = low_end;
         high = high_end;
     }
@@ -134,8 +175,10 @@ ShownRange range_of_values(const Field& field, const Passes& passes, const Adjac
     return range;
 }
 
-ShownRange find_range_among(const Field& field, const Passes& passes, const Adjacency* neighbours,
-                            const RangeRule& rule, const ShownPoints& shown) {
+ShownRange find_range_among(const Source& source, const RangeRule& rule) {
+    const Field& field = source.field;
+    const Passes& passes = source.passes;
+    const ShownPoints& shown = source.shown;
     Values values = shown ? values_of_shown(field, passes, shown) : values_of_all(field, passes);
     const double unit = field.info.unit.per_inside;
     if (rule.kind == RangeRule::Kind::fixed)
@@ -149,17 +192,18 @@ ShownRange find_range_among(const Field& field, const Passes& passes, const Adja
     if (rule.kind == RangeRule::Kind::automatic && field.info.usual_range)
         return {field.info.usual_range->low * unit, field.info.usual_range->high * unit, values.lowest * unit,
                 values.highest * unit, "the same range in all pictures"};
-    return range_of_values(field, passes, neighbours, rule, shown, values);
+    return range_of_values(source, rule, values);
 }
 
 }  // namespace
 
-ShownRange find_range(const Field& field, const ClSurface& surface, const RangeRule& rule, const ShownPoints& shown) {
-    return find_range_among(field, surface.passes, &surface.neighbours, rule, shown);
+ShownRange find_range(const Field& field, const ClSurface& surface, const RangeRule& rule, const ShownPoints& shown,
+                      std::span<const PointRange> defects) {
+    return find_range_among({field, surface.passes, &surface.neighbours, shown, defects}, rule);
 }
 
 ShownRange find_range(const Field& field, const Passes& passes, const RangeRule& rule, const ShownPoints& shown) {
-    return find_range_among(field, passes, nullptr, rule, shown);
+    return find_range_among({field, passes, nullptr, shown, {}}, rule);
 }
 
 double round_up(double value) {

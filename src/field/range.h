@@ -27,12 +27,16 @@ struct ShownRange {
 /// Points of a patch that no automatic range cuts off.
 inline constexpr std::size_t least_patch = 20;
 
+/// Points of a section beyond the threshold of a field that no automatic range cuts off.
+inline constexpr std::size_t least_section = 3;
+
 /// `automatic`: the field's usual range where it has one. Else the 1st to the 99th percentile of the cutting points that are
-/// shown, widened so that no connected patch of 20 points lies outside, to the least span of the field, and to round numbers;
-/// about 0 for diverging fields. Percentiles are those of some 10^6 evenly spaced points. Throws InputError where no point has a value,
-/// UsageError where none is shown. O(points).
+/// shown, widened so that no connected patch of 20 points lies outside, no 3 connected points beyond the threshold of the field,
+/// and none of `defects`; to the least span of the field, and to round numbers; about 0 for diverging fields. Percentiles are
+/// those of some 10^6 evenly spaced points. Throws InputError where no point has a value, UsageError where none is shown.
+/// `defects`: sections of passes at fault, where they are known. O(points).
 [[nodiscard]] ShownRange find_range(const Field& field, const ClSurface& surface, const RangeRule& rule,
-                                    const ShownPoints& shown = {});
+                                    const ShownPoints& shown = {}, std::span<const PointRange> defects = {});
 /// The same where adjacent passes are not known: patches are sections of a pass.
 [[nodiscard]] ShownRange find_range(const Field& field, const Passes& passes, const RangeRule& rule,
                                     const ShownPoints& shown = {});

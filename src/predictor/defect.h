@@ -109,6 +109,8 @@ struct QualityReport {
         return not_finishing > 0 ? static_cast<double>(not_finishing) / static_cast<double>(points + not_finishing) : 0;
     }
     [[nodiscard]] int worst_severity() const;  ///< 0: no defects
+    /// All sections of passes at fault, defect by defect.
+    [[nodiscard]] std::vector<PointRange> sections() const;
 };
 
 }  // namespace clsurf

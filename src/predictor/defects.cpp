@@ -402,6 +402,14 @@ int QualityReport::worst_severity() const {
     return worst;
 }
 
+std::vector<PointRange> QualityReport::sections() const {
+    std::vector<PointRange> found;
+    for (const Defect& defect : defects) {
+        for (const DefectRun& run : defect.runs) found.push_back(run.points);
+    }
+    return found;
+}
+
 QualityReport find_defects(const ClSurface& surface, const Signals& signals, const LineMap& lines,
                            const Program& program, double period, const QualityRules& rules) {
     QualityReport report;

@@ -122,7 +122,8 @@ Field compute_row(const QualityFieldRow& row, const ClSurface& surface, const Si
     if (!signals.measured && !row.label_unmeasured.empty()) field.info.label = row.label_unmeasured;
     // Two thresholds, of values that are signed to either side of 0.
     const double sides = row.scale == FieldScale::diverging ? 2 : 1;
-    if (row.threshold != nullptr) field.info.least_span = 2 * sides * row.threshold(thresholds, signals.measured);
+    if (row.threshold != nullptr) field.info.threshold = row.threshold(thresholds, signals.measured);
+    field.info.least_span = 2 * sides * field.info.threshold;
     field.values.resize(static_cast<std::size_t>(points.size()));
     std::vector<PointIndex> with(static_cast<std::size_t>((points.size() + block_points - 1) / block_points));
     for_each_block(points.size(), [&](PointIndex first, PointIndex last) {

@@ -45,6 +45,37 @@ TEST_F(RangeTest, APatchReachesOverAdjacentPasses) {
     EXPECT_EQ(find_range(field_, surface_.passes, {}).high, 100) << "adjacent passes are not known";
 }
 
+TEST_F(RangeTest, ASectionBeyondTheThresholdIsShownWhole) {
+    field_.info.threshold = 200;
+    set(1000, 2, 900);
+    EXPECT_EQ(find_range(field_, surface_, {}).high, 100) << "two points are a spike";
+    set(1500, 2, 900);
+    surface_.neighbours.left[1001] = 499;
+    EXPECT_GE(find_range(field_, surface_, {}).high, 900) << "the adjacent pass has it as well";
+    set(1000, 1000, 100);
+    set(3000, 3, 300);
+    set(3001, 1, 700);
+    EXPECT_GE(find_range(field_, surface_, {}).high, 700);
+    field_.info.threshold = 400;
+    EXPECT_EQ(find_range(field_, surface_, {}).high, 100) << "one point alone exceeds the threshold";
+    set(3000, 3, -500);
+    EXPECT_LE(find_range(field_, surface_, {}).low, -500);
+}
+
+TEST_F(RangeTest, DefectsAreShownWhole) {
+    set(1000, 2, 500);
+    set(3000, 1, -50);
+    const std::vector<PointRange> defects{{998, 1001}, {2999, 3000}};
+    const auto is_shown = [](PointIndex i) { return i < 2000; };
+    EXPECT_GE(find_range(field_, surface_, {}, {}, defects).high, 500);
+    EXPECT_LE(find_range(field_, surface_, {}, {}, defects).low, -50);
+    EXPECT_EQ(find_range(field_, surface_, {}, is_shown, defects).low, 100) << "outside the picture";
+    surface_.passes = Passes();
+    for (const Pass& pass : {Pass{0, 999}, Pass{1000, 1001, PassKind::link}, Pass{1002, 9999}})
+        surface_.passes.push_back(pass);
+    EXPECT_LT(find_range(field_, surface_, {}, {}, defects).high, 110) << "left out of the selection";
+}
+
 TEST_F(RangeTest, EndsAndEdgesAreRound) {
     set(1000, 200, 2137.3F);
     set(4000, 200, 384.7F);
