@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "surface/missing_pass.h"
 #include "viz/geometry.h"
 
 namespace clsurf::viz {
@@ -20,7 +21,6 @@ constexpr float longest_seam =
 constexpr float widest_seam = 2.2F;          ///< of an edge of a seam, in widths of the band that it goes on from
 constexpr double tangent_step_overs = 0.08;  ///< arc length on either side that gives the direction at a vertex
 constexpr float most_askew = 0.3F;           ///< cosine between the way and what lies across it
-constexpr float missing_width = 1.7F;        ///< of a gap, in widths of those beside it, that a pass is missing from
 constexpr float least_width = 0.6F;          ///< of a band, in step-overs; a narrower one already runs into a corner
 constexpr float widest_end = 1.5F;           ///< of a seam between two ends, in widths
 constexpr float leading_away = 0.85F;        ///< growth of the edge with the way, above which the way leads away
@@ -104,27 +104,7 @@ private:
         const float step = m < i ? distance(goes_on(a, -1) ? a - 1 : a, goes_on(a, +1) ? a + 1 : a) : 0.0F;
         if (along > (most_askew * d.norm() + 0.5F * step) * tangent.norm()) return none;
         if (m > i) return later;
-        return misses_pass(i, m, side) ? apart : static_cast<std::int32_t>(a);
-    }
-
-    /// Whether a pass is missing between a point and the neighbour on a side: they lie much farther apart than
-    /// each from its neighbour on the other side (and than a step-over), in space and seen from above. Passes even in plan
-    /// are farther apart in space on steep flanks, passes even in space are so in plan where it is flat.
-    [[nodiscard]] bool misses_pass(PointIndex i, PointIndex m, Side side) const {
-        const Vec3f gap = s_.positions[m] - s_.positions[i];
-        if (gap.norm() < missing_width * static_cast<float>(s_.step_over)) return false;
-        const Side other = side == Side::left ? Side::right : Side::left;
-        if (!s_.neighbours.has(other, i)) return false;
-        const Vec3f own = s_.positions[s_.neighbours.neighbour(other, i)] - s_.positions[i];
-        for (const Side beyond : {Side::left, Side::right}) {
-            if (!s_.neighbours.has(beyond, m)) continue;
-            const Vec3f next = s_.positions[s_.neighbours.neighbour(beyond, m)] - s_.positions[m];
-            if (next.dot(gap) <= 0) continue;  // of the two beside it the one away from here
-            constexpr float much = missing_width * missing_width;
-            return gap.squaredNorm() > much * own.norm() * next.norm() &&
-                   gap.head<2>().squaredNorm() > much * own.head<2>().norm() * next.head<2>().norm();
-        }
-        return false;
+        return misses_pass(s_, i, side) ? apart : static_cast<std::int32_t>(a);
     }
 
     /// Whether the same pass lies across a vertex as across the one before.

@@ -5,6 +5,7 @@
 
 #include "core/point_ranges.h"
 #include "predictor/candidates.h"
+#include "surface/missing_pass.h"
 
 namespace clsurf {
 namespace {
@@ -47,11 +48,11 @@ private:
     /// A clean pass beside point `i` with one of the defect's own beyond it.
     void note_clean_beside(PointIndex i, std::vector<PointIndex>& found) const {
         for (const Side side : {Side::left, Side::right}) {
-            if (!surface_.neighbours.has(side, i)) continue;
+            if (!has_surface(surface_, i, side)) continue;
             const PointIndex clean = surface_.neighbours.neighbour(side, i);
             if (holds(clean)) continue;
             for (const Side other : {Side::left, Side::right}) {
-                if (!surface_.neighbours.has(other, clean)) continue;
+                if (!has_surface(surface_, clean, other)) continue;
                 const PointIndex beyond = surface_.neighbours.neighbour(other, clean);
                 const bool goes_on = (surface_.positions[beyond] - surface_.positions[clean])
                                          .dot(surface_.positions[clean] - surface_.positions[i]) > 0;
@@ -86,11 +87,12 @@ private:
 
 using PlaceOf = std::function<Vec3(PointIndex)>;
 
-/// Half way to the pass on a side; by the other side where there is none.
+/// Half way to the pass on a side; by the other side where there is none, and the pass itself beside a gap of the surface.
 Vec3 border(const ClSurface& surface, const PlaceOf& at, PointIndex i, Side side) {
     const Side other = side == Side::left ? Side::right : Side::left;
-    if (surface.neighbours.has(side, i)) return 0.5 * (at(i) + at(surface.neighbours.neighbour(side, i)));
-    if (surface.neighbours.has(other, i)) return 1.5 * at(i) - 0.5 * at(surface.neighbours.neighbour(other, i));
+    if (surface.neighbours.has(side, i))
+        return misses_pass(surface, i, side) ? at(i) : 0.5 * (at(i) + at(surface.neighbours.neighbour(side, i)));
+    if (has_surface(surface, i, other)) return 1.5 * at(i) - 0.5 * at(surface.neighbours.neighbour(other, i));
     return at(i);
 }
 
@@ -106,7 +108,7 @@ void add_side(const Region& region, const ClSurface& surface, const PlaceOf& pla
     std::optional<Vec3> before;
     for (const PointIndex i : samples) {
         const Vec3 at = border(surface, place_of, i, side);
-        const bool inside = surface.neighbours.has(side, i) && region.holds(surface.neighbours.neighbour(side, i));
+        const bool inside = has_surface(surface, i, side) && region.holds(surface.neighbours.neighbour(side, i));
         if (!inside && piece.empty() && before) piece.push_back(*before);
         if (!inside || !piece.empty()) piece.push_back(at);
         if (inside) finish();

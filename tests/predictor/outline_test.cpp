@@ -16,19 +16,24 @@ constexpr double to = 20;      ///< … along X
 class Outline : public testing::Test {
 protected:
     [[nodiscard]] std::vector<std::vector<Vec3>> of_passes(std::initializer_list<std::size_t> passes) const {
+        return of_passes(passes, made_);
+    }
+
+    static std::vector<std::vector<Vec3>> of_passes(std::initializer_list<std::size_t> passes,
+                                                    const test::MadeSurface& made) {
         Defect defect;
         for (const std::size_t k : passes) {
             DefectRun run;
             run.points = {std::numeric_limits<PointIndex>::max(), -1};
-            const Pass& pass = cut(k);
+            const Pass& pass = cut(made, k);
             for (PointIndex i = pass.first; i <= pass.last; ++i) {
-                const double x = made_.surface.positions.absolute(i).x();
+                const double x = made.surface.positions.absolute(i).x();
                 if (x < from || x > to) continue;
                 run.points = {std::min(run.points.first, i), std::max(run.points.last, i)};
             }
             defect.runs.push_back(run);
         }
-        return outlines_of(defect, made_.surface);
+        return outlines_of(defect, made.surface);
     }
 
     static double length_of(const std::vector<std::vector<Vec3>>& lines) {
@@ -48,9 +53,9 @@ protected:
     }
 
 private:
-    [[nodiscard]] const Pass& cut(std::size_t k) const {
+    static const Pass& cut(const test::MadeSurface& made, std::size_t k) {
         std::size_t seen = 0;
-        for (const Pass& pass : made_.surface.passes) {
+        for (const Pass& pass : made.surface.passes) {
             if (pass.kind == PassKind::cut && seen++ == k) return pass;
         }
         throw std::out_of_range("no such pass");
@@ -86,6 +91,18 @@ TEST_F(Outline, TwoCleanPassesBetweenPartIt) {
 TEST_F(Outline, TheOutermostPassHasAnOuterSideToo) {
     const Box3 box = bounds_of(of_passes({0}));
     EXPECT_NEAR(box.min().y(), -0.5 * apart, 0.01);
+}
+
+TEST_F(Outline, DoesNotReachIntoTheGapOfAMissingPass) {
+    const auto parted = [](const Vec3& flat) { return Vec3(flat + Vec3(0, flat.y() > 5.5 * apart ? apart : 0, 0)); };
+    const test::MadeSurface made = test::flat_zigzag(12, length, apart, 50, {}, parted);
+    const auto lines = of_passes({4, 5, 6, 7}, made);
+    EXPECT_NEAR(length_of(lines), 4 * (to - from) + 6 * apart, 0.3) << "one outline on each side of the gap";
+    for (const std::vector<Vec3>& line : lines) {
+        for (const Vec3& p : line) {
+            EXPECT_TRUE(p.y() < 5.01 * apart || p.y() > 6.99 * apart) << "in the gap at y = " << p.y();
+        }
+    }
 }
 
 }  // namespace
