@@ -274,7 +274,21 @@ std::vector<Vec2> clipped(std::vector<Vec2> corners, const Rect& rect, int super
     return corners;
 }
 
-/// Lines as quads along their steps: llvmpipe's wide lines have no joints.
+/// A step of a line as a quad: llvmpipe's wide lines have no joints. Of a band two triangles, since its edges may cross.
+std::vector<std::vector<Vec2>> polygons_of_step(const FlatLine& line, std::size_t i, int supersample) {
+    const Vec2 a = line.points[i - 1] * supersample;
+    const Vec2 b = line.points[i] * supersample;
+    if (!line.opposite.empty()) {
+        const Vec2 c = line.opposite[i] * supersample;
+        return {{a, line.opposite[i - 1] * supersample, c}, {a, c, b}};
+    }
+    const double length = (b - a).norm();
+    if (!(length > 0)) return {};
+    const Vec2 along = 0.5 * line.width * supersample / length * (b - a);
+    const Vec2 side(-along.y(), along.x());
+    return {{a - along * 0.5 + side, a - along * 0.5 - side, b + along * 0.5 - side, b + along * 0.5 + side}};
+}
+
 void add_lines(vtkRenderer* renderer, const std::vector<FlatLine>& lines, Level level, int supersample) {
     vtkNew<vtkPoints> points;
     vtkNew<vtkCellArray> polygons;
@@ -283,19 +297,13 @@ void add_lines(vtkRenderer* renderer, const std::vector<FlatLine>& lines, Level 
     for (const FlatLine& line : lines) {
         if (line.level != level) continue;
         for (std::size_t i = 1; i < line.points.size(); ++i) {
-            const Vec2 a = line.points[i - 1] * supersample;
-            const Vec2 b = line.points[i] * supersample;
-            const double length = (b - a).norm();
-            if (!(length > 0)) continue;
-            const Vec2 along = 0.5 * line.width * supersample / length * (b - a);
-            const Vec2 side(-along.y(), along.x());
-            std::vector<Vec2> corners{a - along * 0.5 + side, a - along * 0.5 - side, b + along * 0.5 - side,
-                                      b + along * 0.5 + side};
-            if (line.clip) corners = clipped(std::move(corners), *line.clip, supersample);
-            if (corners.empty()) continue;
-            polygons->InsertNextCell(static_cast<int>(corners.size()));
-            for (const Vec2& p : corners) polygons->InsertCellPoint(points->InsertNextPoint(p.x(), p.y(), 0));
-            colours->InsertNextTypedTuple(line.rgb.data());
+            for (std::vector<Vec2>& corners : polygons_of_step(line, i, supersample)) {
+                if (line.clip) corners = clipped(std::move(corners), *line.clip, supersample);
+                if (corners.empty()) continue;
+                polygons->InsertNextCell(static_cast<int>(corners.size()));
+                for (const Vec2& p : corners) polygons->InsertCellPoint(points->InsertNextPoint(p.x(), p.y(), 0));
+                colours->InsertNextTypedTuple(line.rgb.data());
+            }
         }
     }
     add_flat(renderer, points, polygons, colours);

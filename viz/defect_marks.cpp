@@ -11,6 +11,7 @@
 #include "viz/depth_buffer.h"
 #include "viz/label_placer.h"
 #include "viz/leader_slots.h"
+#include "viz/mark_strokes.h"
 
 namespace clsurf::viz {
 namespace {
@@ -32,35 +33,6 @@ Rgb mixed(const Rgb& rgb, double share) {
         result[k] = static_cast<std::uint8_t>(std::lround(share * rgb[k] + (1 - share) * 255));
     return result;
 }
-
-/// Parts of a line on the picture, from one length along it to another.
-std::vector<Vec2> part_of(const std::vector<Vec2>& line, double from, double to) {
-    std::vector<Vec2> part;
-    double length = 0;
-    for (std::size_t i = 1; i < line.size(); ++i) {
-        const double step = (line[i] - line[i - 1]).norm();
-        const double begin = std::clamp((from - length) / step, 0.0, 1.0);
-        const double end = std::clamp((to - length) / step, 0.0, 1.0);
-        if (step > 0 && end > begin) {
-            if (part.empty()) part.emplace_back(line[i - 1] + begin * (line[i] - line[i - 1]));
-            part.emplace_back(line[i - 1] + end * (line[i] - line[i - 1]));
-        }
-        length += step;
-    }
-    return part;
-}
-
-double length_of(const std::vector<Vec2>& line) {
-    double length = 0;
-    for (std::size_t i = 1; i < line.size(); ++i) length += (line[i] - line[i - 1]).norm();
-    return length;
-}
-
-/// A section of a pass in the picture, all of it seen or all of it hidden.
-struct Stroke {
-    std::vector<Vec2> line;
-    bool hidden = false;
-};
 
 class DefectDrawer {
 public:
@@ -86,7 +58,7 @@ public:
                 if (marks_[k].region == region) anchors[k] = draw_mark(marks_[k]);
             }
         }
-        // A mark is as wide as its strip of the part; where it runs along an edge of the picture, half of it is outside.
+        // A mark is as wide as its strip of the part; where it runs along an edge of the picture, some of it is outside.
         for (std::size_t k = before; k < sheet_.lines.size(); ++k) sheet_.lines[k].clip = panel_.rect;
         if (!look_.legend) return;
         if (layout_.arrangement == Arrangement::tall)
@@ -105,64 +77,35 @@ private:
 
     [[nodiscard]] const DefectKind& kind_of(const DefectMark& mark) const { return map_.defects->kinds[mark.kind]; }
 
-    /// How wide the strip of a pass is in the picture: from half way to the one neighbour to half way to the other [px].
-    [[nodiscard]] double width_at(PointIndex i) const {
-        const ClSurface& surface = *map_.surface;
-        const Vec2 here = panel_.camera.pixel(surface.positions.absolute(i));
-        double width = 0;
-        int sides = 0;
-        for (const Side side : {Side::left, Side::right}) {
-            if (!surface.neighbours.has(side, i)) continue;
-            const PointIndex other = surface.neighbours.neighbour(side, i);
-            width += 0.5 * (panel_.camera.pixel(surface.positions.absolute(other)) - here).norm();
-            ++sides;
-        }
-        if (sides == 0) return surface.step_over / panel_.camera.mm_per_pixel;
-        return width * 2 / sides;
+    void add_band(const Band& band, const Rgb& rgb, Level level) {
+        sheet_.lines.push_back({band.left, 0, rgb, level, {}, band.right});
     }
 
-    [[nodiscard]] std::vector<Stroke> strokes_of(const PointRange& section) const {
-        std::vector<Stroke> strokes;
-        bool goes_on = false;
-        for (PointIndex i = section.first; i <= section.last; ++i) {
-            const Vec3 place = map_.surface->positions.absolute(i);
-            if (!shows(panel_.camera, look_, place)) {
-                goes_on = false;
-                continue;
-            }
-            const Vec2 at = corner_ + panel_.camera.pixel(place);
-            const bool hidden = depth_.hides(place, map_.surface->step_over);
-            if (goes_on && strokes.back().hidden == hidden) {
-                if ((at - strokes.back().line.back()).norm() >= 0.7) strokes.back().line.push_back(at);
-                continue;
-            }
-            Stroke next{{}, hidden};
-            if (goes_on) next.line.push_back(strokes.back().line.back());
-            next.line.push_back(at);
-            strokes.push_back(std::move(next));
-            goes_on = true;
-        }
-        for (Stroke& stroke : strokes) {
-            if (stroke.line.size() == 1) stroke.line.emplace_back(stroke.line[0] + Vec2(0.5, 0));
-        }
-        return strokes;
-    }
-
-    void add_dots(const std::vector<Vec2>& line, double width, double on, double every, const Rgb& rgb) {
-        const double length = length_of(line);
+    void add_dashes(const Band& band, double on, double every, const Rgb& rgb) {
+        const double length = length_of(band);
         for (double at = 0; at < length; at += every)
-            sheet_.lines.push_back({part_of(line, at, std::min(at + on, length)), width, rgb, Level::mark});
+            add_band(part_of(band, at, std::min(at + on, length)), rgb, Level::mark);
     }
 
-    void add_stroke(const std::vector<Vec2>& line, const DefectKind& kind, double width, const Rgb& rgb) {
+    /// Dots of one width, whatever the band's is.
+    void add_dots(const Band& band, const Rgb& rgb) {
+        const double width = hidden_width * layout_.text;
+        const double length = length_of(band);
+        for (double at = 0; at < length; at += dot_every * layout_.text) {
+            const Band dot = part_of(band, at, std::min(at + width, length));
+            sheet_.lines.push_back({dot.centre_line(), width, rgb, Level::mark});
+        }
+    }
+
+    void add_stroke(const Band& band, const DefectKind& kind, const Rgb& rgb) {
         const double t = layout_.text;
         switch (kind.style) {
-            case StrokeStyle::solid: sheet_.lines.push_back({line, width, rgb, Level::mark}); break;
-            case StrokeStyle::dashed: add_dots(line, width, 0.8 * t, 1.1 * t, rgb); break;
-            case StrokeStyle::dotted: add_dots(line, width, 0.2 * t, 0.7 * t, rgb); break;
+            case StrokeStyle::solid: add_band(band, rgb, Level::mark); break;
+            case StrokeStyle::dashed: add_dashes(band, 0.8 * t, 1.1 * t, rgb); break;
+            case StrokeStyle::dotted: add_dashes(band, 0.2 * t, 0.7 * t, rgb); break;
             case StrokeStyle::double_line:
-                sheet_.lines.push_back({line, width, rgb, Level::mark});
-                sheet_.lines.push_back({line, 0.34 * width, {255, 255, 255}, Level::inlay});
+                add_band(band, rgb, Level::mark);
+                add_band(narrowed(band, 0.34), {255, 255, 255}, Level::inlay);
                 break;
         }
     }
@@ -177,17 +120,19 @@ private:
         bool names_told = false;
         for (const PointRange& section : mark.sections) {
             const bool told = mark.point < 0 || (mark.point >= section.first && mark.point <= section.last);
-            for (const Stroke& stroke : strokes_of(section)) {
+            const double least = least_mark_width * layout_.text;
+            for (const Stroke& stroke :
+                 strokes_of(*map_.surface, section, panel_.camera, corner_, look_, depth_, least)) {
                 // Of the other sections of a region only what is seen: dots of its many lines would tangle.
                 if (stroke.hidden && mark.region && !told) continue;
-                draw_stroke(mark, section, stroke, rgb);
+                draw_stroke(mark, stroke, rgb);
                 // The longest part; what is seen before what is hidden.
-                const double length = length_of(stroke.line);
+                const double length = length_of(stroke.band);
                 const double rank = (told ? 2 : 0) + (stroke.hidden ? 0 : 1) + length / (1 + length);
                 if (rank <= highest) continue;
                 highest = rank;
                 names_told = told;
-                anchor = part_of(stroke.line, 0.5 * length, length).front();
+                anchor = part_of(stroke.band, 0.5 * length, length).centre(0);
             }
         }
         if (!anchor) return anchor;
@@ -202,16 +147,14 @@ private:
         return anchor;
     }
 
-    void draw_stroke(const DefectMark& mark, const PointRange& section, const Stroke& stroke, const Rgb& rgb) {
-        const double t = layout_.text;
+    void draw_stroke(const DefectMark& mark, const Stroke& stroke, const Rgb& rgb) {
         if (stroke.hidden) {
             any_hidden_ = true;
-            add_dots(stroke.line, hidden_width * t, hidden_width * t, dot_every * t, rgb);
+            add_dots(stroke.band, rgb);
         } else if (mark.region) {
-            sheet_.lines.push_back({stroke.line, region_width * t, rgb, Level::area});
+            sheet_.lines.push_back({stroke.band.centre_line(), region_width * layout_.text, rgb, Level::area});
         } else {
-            const double strip = width_at((section.first + section.last) / 2);
-            add_stroke(stroke.line, kind_of(mark), std::max(least_mark_width * t, strip), rgb);
+            add_stroke(stroke.band, kind_of(mark), rgb);
         }
     }
 
@@ -372,15 +315,15 @@ private:
         const double row = 1.3 * layout_.small_text;
         double y = bottom + 0.5 * row;
         const Rgb grey = faint(ink_, look_.background);
-        const auto line = [&] { return std::vector<Vec2>{{x, y}, {x + 2.2 * t, y}}; };
+        const auto band = [&] { return band_of({x, y}, {x + 2.2 * t, y}, 0.4 * t); };
         if (any_hidden_) {
-            add_dots(line(), hidden_width * t, hidden_width * t, dot_every * t, grey);
+            add_dots(band(), grey);
             text(x + 2.6 * t, y, "hidden", layout_.small_text, false, grey);
             y += row;
         }
         for (std::size_t k = map_.defects->kinds.size(); k-- > 0; y += row) {
             const DefectKind& kind = map_.defects->kinds[k];
-            add_stroke(line(), kind, 0.4 * t, kind.rgb);
+            add_stroke(band(), kind, kind.rgb);
             text(x + 2.6 * t, y, kind.name, layout_.small_text, false, grey);
         }
         return y;

@@ -17,6 +17,7 @@ void add(Drawing& onto, const Drawing& other, double x, double y) {
     }
     for (FlatLine line : other.lines) {
         for (Vec2& point : line.points) point += Vec2(x, y);
+        for (Vec2& point : line.opposite) point += Vec2(x, y);
         if (line.clip) {
             line.clip->x += x;
             line.clip->y += y;

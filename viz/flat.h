@@ -43,6 +43,15 @@ struct FlatLine {
     Rgb rgb{0, 0, 0};
     Level level = Level::line;
     std::optional<Rect> clip{};  ///< nothing is drawn outside; by default, all of it is drawn
+    /// Of a band between two edges, point by point, instead of `width`: the other edge.
+    std::vector<Vec2> opposite{};
 };
+
+/// Its points; of a band, once around it.
+[[nodiscard]] inline std::vector<Vec2> outline_of(const FlatLine& line) {
+    std::vector<Vec2> around = line.points;
+    around.insert(around.end(), line.opposite.rbegin(), line.opposite.rend());
+    return around;
+}
 
 }  // namespace clsurf::viz

@@ -63,8 +63,11 @@ void draw_line(cairo_t* page, const FlatLine& line, double height) {
         cairo_rectangle(page, r.x, height - r.y - r.height, r.width, r.height);
         cairo_clip(page);
     }
-    for (const Vec2& point : line.points) cairo_line_to(page, point.x(), height - point.y());
-    cairo_stroke(page);
+    for (const Vec2& point : outline_of(line)) cairo_line_to(page, point.x(), height - point.y());
+    if (line.opposite.empty())
+        cairo_stroke(page);
+    else
+        cairo_fill(page);
     cairo_restore(page);
 }
 

@@ -101,10 +101,16 @@ std::string svg_text(const Drawing& drawing, const std::string& title) {
                     found->second, r.x, down(r.y + r.height), r.width, r.height);
             clip = fmt::format(" clip-path=\"url(#clip{})\"", found->second);
         }
-        svg +=
-            fmt::format("<polyline{} stroke=\"{}\" stroke-width=\"{:.2f}\" points=\"", clip, hex(line.rgb), line.width);
-        for (std::size_t i = 0; i < line.points.size(); ++i)
-            svg += fmt::format("{}{:.2f},{:.2f}", i > 0 ? " " : "", line.points[i].x(), down(line.points[i].y()));
+        if (line.opposite.empty())
+            svg += fmt::format("<polyline{} stroke=\"{}\" stroke-width=\"{:.2f}\" points=\"", clip, hex(line.rgb),
+                               line.width);
+        else
+            svg += fmt::format("<polygon{} fill=\"{}\" points=\"", clip, hex(line.rgb));
+        std::string_view separator;
+        for (const Vec2& point : outline_of(line)) {
+            svg += fmt::format("{}{:.2f},{:.2f}", separator, point.x(), down(point.y()));
+            separator = " ";
+        }
         svg += "\"/>\n";
     }
     svg += "</g>\n";

@@ -325,17 +325,17 @@ std::vector<std::string> in_order(const std::vector<std::string>& pieces, Totals
     std::ranges::sort(known, {}, [](const Known& piece) { return piece.own.first; });
     std::vector<std::string> ordered;
     PointIndex next = 0;
-    const auto none = [](PointIndex from, PointIndex to) {
+    const auto refuse = [](PointIndex from, PointIndex to) {
         throw UsageError(fmt::format("points {} … {} are in none of the pieces", from, to - 1));
     };
     for (const Known& piece : known) {
         if (piece.own.first < next)
             throw UsageError(fmt::format("points {} … {} are in two of the pieces", piece.own.first, next - 1));
-        if (piece.own.first > next) none(next, piece.own.first);
+        if (piece.own.first > next) refuse(next, piece.own.first);
         next = piece.own.last + 1;
         ordered.push_back(piece.path);
     }
-    if (next != first.of) none(next, first.of);
+    if (next != first.of) refuse(next, first.of);
     return ordered;
 }
 

@@ -20,10 +20,10 @@ public:
     Part() : surface_(test::surface_of(test::zigzag(21, 10, 0.5, 0.1), 0.5)) {
         field_.values = Column<float>(static_cast<std::size_t>(surface_.positions.size()), 1.0F);
     }
-    [[nodiscard]] Sheet sheet(const DefectMap& defects, const Zoom& zoom = {}) const {
+    [[nodiscard]] Sheet sheet(const DefectMap& defects, const Zoom& zoom = {}, const std::string& view = "top") const {
         Look look;
         look.zoom = zoom;
-        look.view = parse_view("top");
+        look.view = parse_view(view);
         look.names = true;
         MapPanel panel;
         panel.surface = &surface_;
@@ -112,6 +112,36 @@ TEST(DefectMarks, TheKeyHasWhatIsInThePicture) {
     const Sheet sheet = part.sheet(map_of({mark_of("1", {{1020, 1060}})}));
     EXPECT_TRUE(has_text(sheet, "speed"));
     EXPECT_FALSE(has_text(sheet, "hidden")) << "nothing hides a flat part";
+}
+
+/// All that a mark is drawn with.
+std::vector<Vec2> drawn_marks(const Sheet& sheet) {
+    std::vector<Vec2> all;
+    for (const FlatLine& line : sheet.lines) {
+        if (line.level != Level::mark || !line.clip) continue;
+        for (const Vec2& point : outline_of(line)) all.push_back(point);
+    }
+    return all;
+}
+
+double height_of(const std::vector<Vec2>& points) {
+    const auto [low, high] =
+        std::minmax_element(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) { return a.y() < b.y(); });
+    return high->y() - low->y();
+}
+
+TEST(DefectMarks, AMarkIsAsWideAsItsStripOfThePartIsSeen) {
+    const Part part;
+    const DefectMap middle = map_of({mark_of("1", {{1070, 1100}})});
+    const auto step_over = [&](const Sheet& sheet) { return 0.5 / sheet.panels[0].camera.mm_per_pixel; };
+    const Sheet above = part.sheet(middle);
+    EXPECT_NEAR(height_of(drawn_marks(above)), step_over(above), 1);
+    const Sheet border = part.sheet(map_of({mark_of("1", {{20, 60}})}));
+    EXPECT_NEAR(height_of(drawn_marks(border)), 0.5 * step_over(border), 1) << "the surface ends at the outermost pass";
+    // From the side the flat part is a line, and a mark on it has its least width.
+    const Sheet flat = part.sheet(middle, {}, "front");
+    EXPECT_LT(height_of(drawn_marks(flat)), 0.3 * step_over(flat));
+    EXPECT_GT(height_of(drawn_marks(flat)), 1);
 }
 
 }  // namespace

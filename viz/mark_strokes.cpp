@@ -1,0 +1,177 @@
+#include "viz/mark_strokes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "surface/missing_pass.h"
+
+namespace clsurf::viz {
+namespace {
+
+constexpr double finest_step = 0.7;  ///< [px] between points of a band
+
+void append(Band& band, const Band& from, std::size_t k) {
+    band.left.push_back(from.left[k]);
+    band.right.push_back(from.right[k]);
+}
+
+/// Between two points of a band.
+void append_between(Band& band, const Band& from, std::size_t k, double share) {
+    band.left.emplace_back(from.left[k] + share * (from.left[k + 1] - from.left[k]));
+    band.right.emplace_back(from.right[k] + share * (from.right[k + 1] - from.right[k]));
+}
+
+Vec2 turned_left(const Vec2& way) { return {-way.y(), way.x()}; }
+
+/// The way of a band at a point, of length 1. `lonely`: that of a band of one place.
+Vec2 direction_at(const Band& band, std::size_t k, const Vec2& lonely) {
+    const std::size_t before = k > 0 ? k - 1 : k;
+    const std::size_t behind = std::min(k + 1, band.size() - 1);
+    const Vec2 way = band.centre(behind) - band.centre(before);
+    return way.norm() > 0 ? Vec2(way.normalized()) : lonely;
+}
+
+/// Where the strip is seen from the side it is a line, and could not be seen.
+void widen(Band& band, double least, const Vec2& lonely) {
+    Band wide = band;
+    for (std::size_t k = 0; k < band.size(); ++k) {
+        const Vec2 across = turned_left(direction_at(band, k, lonely));
+        const double width = (band.left[k] - band.right[k]).dot(across);
+        if (std::abs(width) >= least) continue;
+        const Vec2 half = (width < 0 ? -0.5 : 0.5) * least * across;
+        wide.left[k] = band.centre(k) + half;
+        wide.right[k] = band.centre(k) - half;
+    }
+    band = std::move(wide);
+}
+
+void lengthen(Band& band, double least, const Vec2& lonely) {
+    const double more = 0.5 * (least - length_of(band));
+    if (!(more > 0)) return;
+    const Vec2 first = direction_at(band, 0, lonely), last = direction_at(band, band.size() - 1, lonely);
+    append(band, band, band.size() - 1);
+    for (std::vector<Vec2>* edge : {&band.left, &band.right}) {
+        edge->back() += more * last;
+        edge->insert(edge->begin(), Vec2(edge->front() - more * first));
+    }
+}
+
+class StrokeMaker {
+public:
+    StrokeMaker(const ClSurface& surface, const Camera& camera, const Vec2& corner, const Look& look,
+                const DepthBuffer& depth)
+        : surface_(surface), camera_(camera), corner_(corner), look_(look), depth_(depth) {}
+
+    [[nodiscard]] std::vector<Stroke> strokes(const PointRange& section) const {
+        std::vector<Stroke> strokes;
+        bool goes_on = false;
+        for (PointIndex i = section.first; i <= section.last; ++i) {
+            const Vec3 place = surface_.positions.absolute(i);
+            if (!shows(camera_, look_, place)) {
+                goes_on = false;
+                continue;
+            }
+            const bool hidden = depth_.hides(place, surface_.step_over);
+            if (goes_on && strokes.back().hidden == hidden) {
+                add(strokes.back().band, i);
+                continue;
+            }
+            Stroke next{{}, hidden};
+            if (goes_on) append(next.band, strokes.back().band, strokes.back().band.size() - 1);
+            add(next.band, i);
+            strokes.push_back(std::move(next));
+            goes_on = true;
+        }
+        return strokes;
+    }
+
+    /// The way of the pass at a point, of length 1.
+    [[nodiscard]] Vec2 direction(PointIndex i) const {
+        const PointIndex last = surface_.positions.size() - 1;
+        const Vec2 way = at(surface_.positions.absolute(std::min(i + 1, last))) -
+                         at(surface_.positions.absolute(std::max<PointIndex>(i - 1, 0)));
+        return way.norm() > 0 ? Vec2(way.normalized()) : Vec2(1, 0);
+    }
+
+private:
+    [[nodiscard]] Vec2 at(const Vec3& place) const { return corner_ + camera_.pixel(place); }
+
+    [[nodiscard]] Vec2 edge(PointIndex i, Side side) const {
+        const Vec3 place = surface_.positions.absolute(i);
+        if (!has_surface(surface_, i, side)) return at(place);
+        return at(0.5 * (place + surface_.positions.absolute(surface_.neighbours.neighbour(side, i))));
+    }
+
+    void add(Band& band, PointIndex i) const {
+        const Vec2 left = edge(i, Side::left), right = edge(i, Side::right);
+        if (band.size() > 0 && (0.5 * (left + right) - band.centre(band.size() - 1)).norm() < finest_step) return;
+        band.left.push_back(left);
+        band.right.push_back(right);
+    }
+
+    const ClSurface& surface_;
+    const Camera& camera_;
+    Vec2 corner_;
+    const Look& look_;
+    const DepthBuffer& depth_;
+};
+
+}  // namespace
+
+std::vector<Vec2> Band::centre_line() const {
+    std::vector<Vec2> line;
+    for (std::size_t k = 0; k < size(); ++k) line.push_back(centre(k));
+    return line;
+}
+
+Band band_of(const Vec2& from, const Vec2& to, double width) {
+    const Vec2 half = 0.5 * width * turned_left((to - from).normalized());
+    return {{from + half, to + half}, {from - half, to - half}};
+}
+
+double length_of(const Band& band) {
+    double length = 0;
+    for (std::size_t k = 1; k < band.size(); ++k) length += (band.centre(k) - band.centre(k - 1)).norm();
+    return length;
+}
+
+Band part_of(const Band& band, double from, double to) {
+    Band part;
+    double length = 0;
+    for (std::size_t k = 1; k < band.size(); ++k) {
+        const double step = (band.centre(k) - band.centre(k - 1)).norm();
+        const double begin = std::clamp((from - length) / step, 0.0, 1.0);
+        const double end = std::clamp((to - length) / step, 0.0, 1.0);
+        if (step > 0 && end > begin) {
+            if (part.size() == 0) append_between(part, band, k - 1, begin);
+            append_between(part, band, k - 1, end);
+        }
+        length += step;
+    }
+    return part;
+}
+
+Band narrowed(const Band& band, double share) {
+    Band narrow;
+    for (std::size_t k = 0; k < band.size(); ++k) {
+        const Vec2 half = 0.5 * share * (band.left[k] - band.right[k]);
+        narrow.left.emplace_back(band.centre(k) + half);
+        narrow.right.emplace_back(band.centre(k) - half);
+    }
+    return narrow;
+}
+
+std::vector<Stroke> strokes_of(const ClSurface& surface, const PointRange& section, const Camera& camera,
+                               const Vec2& corner, const Look& look, const DepthBuffer& depth, double least_size) {
+    const StrokeMaker maker(surface, camera, corner, look, depth);
+    std::vector<Stroke> strokes = maker.strokes(section);
+    const Vec2 lonely = maker.direction((section.first + section.last) / 2);
+    for (Stroke& stroke : strokes) {
+        widen(stroke.band, least_size, lonely);
+        lengthen(stroke.band, least_size, lonely);
+    }
+    return strokes;
+}
+
+}  // namespace clsurf::viz
