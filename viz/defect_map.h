@@ -38,7 +38,7 @@ struct DefectMap {
     std::vector<DefectMark> marks;  ///< the strongest first
 };
 
-/// Most defects that are named beside the part.
+/// Most defects that are named beside the part: every region, and the strongest of the others.
 inline constexpr std::size_t most_named_defects = 12;
 
 }  // namespace clsurf::viz

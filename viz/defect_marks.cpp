@@ -171,25 +171,32 @@ private:
         const double bottom = std::max(add_key(x, 0.9 * t), axes_height * t);
         const double slot = 2.0 * t;
         const auto room = static_cast<std::size_t>(std::max(0.0, (highest - bottom - 0.8 * t) / slot));
-        std::vector<std::size_t> named;
-        std::size_t outside = 0;
-        for (std::size_t k = 0; k < anchors.size(); ++k) {
-            if (!anchors[k])
-                ++outside;
-            else if (named.size() < std::min(most_named_defects, room))
-                named.push_back(k);
-        }
+        const std::vector<std::size_t> named = most_wanted(anchors, std::min(most_named_defects, room));
         std::vector<Vec2> from;
         for (const std::size_t k : named) from.push_back(*anchors[k]);
         const double line_end = x - 1.2 * t;
         const NameColumn column = place_names(from, slot, bottom + 0.8 * t, highest, line_end, leader_clearance * t);
         for (std::size_t k = 0; k < named.size(); ++k)
             add_name(marks_[named[k]], from[k], Vec2(x, column.slots[column.slot_of[k]]), line_end);
-        tell_rest(anchors.size() - outside - named.size(), outside, x,
-                  column.top - slot * static_cast<double>(named.size()) - 0.5 * t);
+        tell_rest(anchors, named.size(), x, column.top - slot * static_cast<double>(named.size()) - 0.5 * t);
     }
 
-    void tell_rest(std::size_t more, std::size_t outside, double x, double y) {
+    /// Which marks in the picture get a name: all regions, which are most of what is drawn, and the strongest of the others.
+    [[nodiscard]] std::vector<std::size_t> most_wanted(const std::vector<std::optional<Vec2>>& anchors,
+                                                       std::size_t most) const {
+        std::vector<std::size_t> named;
+        for (const bool region : {true, false}) {
+            for (std::size_t k = 0; k < anchors.size() && named.size() < most; ++k) {
+                if (anchors[k] && marks_[k].region == region) named.push_back(k);
+            }
+        }
+        std::sort(named.begin(), named.end());
+        return named;
+    }
+
+    void tell_rest(const std::vector<std::optional<Vec2>>& anchors, std::size_t named, double x, double y) {
+        const auto outside = static_cast<std::size_t>(std::count(anchors.begin(), anchors.end(), std::nullopt));
+        const std::size_t more = anchors.size() - outside - named;
         std::string words;
         if (more > 0) words = fmt::format("and {} more", more);
         if (outside > 0) words += fmt::format("{}{} outside the picture", words.empty() ? "" : ", ", outside);
@@ -218,14 +225,8 @@ private:
         const double wanted = std::min(static_cast<double>(most_named_defects), static_cast<double>(shown));
         const double row = row_height((top - lowest) / t, std::ceil(wanted / columns));
         const double rows = std::max(0.0, std::floor((top - lowest) / (row * t)));
-        std::vector<std::size_t> named;
-        std::size_t outside = 0;
-        for (std::size_t k = 0; k < anchors.size(); ++k) {
-            if (!anchors[k])
-                ++outside;
-            else if (static_cast<double>(named.size()) < rows * columns)
-                named.push_back(k);
-        }
+        const std::vector<std::size_t> named =
+            most_wanted(anchors, std::min(most_numbers, static_cast<std::size_t>(rows * columns)));
         double below = top;
         for (std::size_t k = 0; k < named.size(); ++k) {
             const auto place = static_cast<double>(k);
@@ -240,8 +241,7 @@ private:
                 text(x, y - 3.45 * t, mark.cause, layout_.small_text, false, grey, width / columns - t);
             below = y - row * t;
         }
-        tell_rest(anchors.size() - outside - named.size(), outside, layout_.margin, below - 0.6 * t);
-        if (named.size() > most_numbers) named.resize(most_numbers);
+        tell_rest(anchors, named.size(), layout_.margin, below - 0.6 * t);
         number_marks(named, anchors);
     }
 

@@ -114,6 +114,17 @@ TEST(DefectMarks, TheKeyHasWhatIsInThePicture) {
     EXPECT_FALSE(has_text(sheet, "hidden")) << "nothing hides a flat part";
 }
 
+TEST(DefectMarks, ARegionIsNamedHoweverWeakItIs) {
+    std::vector<DefectMark> marks;
+    for (int k = 0; k < 16; ++k) marks.push_back(mark_of(std::to_string(k + 1), {{105 * k + 20, 105 * k + 40}}));
+    marks[14].region = true;
+    const Sheet sheet = Part().sheet(map_of(std::move(marks)));
+    EXPECT_TRUE(has_text(sheet, "line 11"));
+    EXPECT_FALSE(has_text(sheet, "line 12")) << "the twelfth name is that of the region";
+    EXPECT_TRUE(has_text(sheet, "line 15"));
+    EXPECT_TRUE(has_text(sheet, "and 4 more"));
+}
+
 /// All that a mark is drawn with.
 std::vector<Vec2> drawn_marks(const Sheet& sheet) {
     std::vector<Vec2> all;
