@@ -49,7 +49,8 @@ public:
           corner_(panel.rect.x, panel.rect.y),
           depth_(panel.geometry, panel.camera) {}
 
-    void draw() {
+    /// How many numbers have no room.
+    int draw() {
         std::vector<std::optional<Vec2>> anchors(marks_.size());
         const std::size_t before = sheet_.lines.size();
         // The strongest last, on top of the others; regions below all.
@@ -60,11 +61,12 @@ public:
         }
         // A mark is as wide as its strip of the part; where it runs along an edge of the picture, some of it is outside.
         for (std::size_t k = before; k < sheet_.lines.size(); ++k) sheet_.lines[k].clip = panel_.rect;
-        if (!look_.legend) return;
+        if (!look_.legend) return 0;
         if (layout_.arrangement == Arrangement::tall)
             tabulate(anchors);
         else
             name(anchors);
+        return without_room_;
     }
 
 private:
@@ -245,18 +247,31 @@ private:
         number_marks(named, anchors);
     }
 
-    /// The numbers of marks beside their anchors, as far as there is room.
+    /// The numbers of marks beside their anchors, as far as there is room; those of a narrow part above it, where they hide
+    /// nothing.
     void number_marks(const std::vector<std::size_t>& named, const std::vector<std::optional<Vec2>>& anchors) {
+        constexpr double narrow = 10, rows_above = 2.6, axis_name = 7;  // in text sizes
         const double t = layout_.text;
-        LabelPlacer placer(panel_.rect);
+        const double top = panel_.rect.y + panel_.rect.height;
+        const bool above = panel_.rect.height < narrow * t;
+        Rect room = panel_.rect;
+        if (above) room.height += rows_above * t;
+        LabelPlacer placer(room);
+        // The name of the upright scale.
+        if (above) placer.take({room.x, top, std::max(0.0, axis_name * t - room.x), 1.8 * t});
         for (const std::size_t k : named)
             placer.take({anchors[k]->x() - 0.3 * t, anchors[k]->y() - 0.3 * t, 0.6 * t, 0.6 * t});
         for (const std::size_t k : named) {
             const DefectMark& mark = marks_[k];
             FlatText flat{0, 0, mark.number, 0.92 * t, Align::centre, true, ink_of(mark)};
             const Vec2 size(text_width(flat) + 0.3 * t, 1.15 * t);
-            const std::optional<Rect> rect = placer.place(*anchors[k] + Vec2(0, t), size);
-            if (!rect) continue;
+            const Vec2 wanted(anchors[k]->x(), above ? std::max(top, anchors[k]->y()) + 0.8 * t : anchors[k]->y() + t);
+            const std::optional<Rect> rect = placer.place(wanted, size);
+            add_anchor(*anchors[k]);
+            if (!rect) {
+                ++without_room_;
+                continue;
+            }
             flat.x = rect->x + 0.5 * rect->width;
             flat.y = rect->y + 0.5 * rect->height;
             const Vec2 at(flat.x, flat.y);
@@ -265,7 +280,6 @@ private:
                                     size.y(),
                                     look_.background,
                                     Level::halo});
-            add_anchor(*anchors[k]);
             sheet_.texts.push_back(std::move(flat));
         }
     }
@@ -340,13 +354,14 @@ private:
     Vec2 corner_;
     DepthBuffer depth_;
     bool any_hidden_ = false;  ///< a part of a mark is dotted
+    int without_room_ = 0;     ///< numbers that are not on the part
 };
 
 }  // namespace
 
-void add_defects(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const Rect& room, const Look& look,
-                 const MapLayout& layout) {
-    DefectDrawer(sheet, map, panel, room, look, layout).draw();
+int add_defects(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const Rect& room, const Look& look,
+                const MapLayout& layout) {
+    return DefectDrawer(sheet, map, panel, room, look, layout).draw();
 }
 
 }  // namespace clsurf::viz

@@ -249,7 +249,9 @@ void add_words(Sheet& sheet, const MapPanel& map, const ColourScale& scale, cons
 }
 
 void note_labels_without_room(int count, MapTexts& texts) {
-    if (count > 0) texts.notes.push_back(fmt::format("{} labels have no room in this picture", count));
+    if (count > 0)
+        texts.notes.push_back(count == 1 ? "1 label has no room in this picture"
+                                         : fmt::format("{} labels have no room in this picture", count));
 }
 
 }  // namespace
@@ -269,7 +271,7 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const PlacedMap& placed, co
         panel.camera = placed.camera;  // each panel shows the same part at the same scale
         beyond.widen(fill_panel(map, scale, look, panel));
         add_programmed_below(map, look, panel);
-        if (map.defects != nullptr) add_defects(sheet, map, panel, legend, look, layout);
+        if (map.defects != nullptr) without_room += add_defects(sheet, map, panel, legend, look, layout);
         without_room += add_marks(sheet, map, panel, look, layout);
         if (!map.caption.empty()) {
             // The name of the upright scale stands above the frame.

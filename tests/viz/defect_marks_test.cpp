@@ -20,8 +20,8 @@ public:
     Part() : surface_(test::surface_of(test::zigzag(21, 10, 0.5, 0.1), 0.5)) {
         field_.values = Column<float>(static_cast<std::size_t>(surface_.positions.size()), 1.0F);
     }
-    [[nodiscard]] Sheet sheet(const DefectMap& defects, const Zoom& zoom = {}, const std::string& view = "top") const {
-        Look look;
+    [[nodiscard]] Sheet sheet(const DefectMap& defects, const Zoom& zoom = {}, const std::string& view = "top",
+                              Look look = {}) const {
         look.zoom = zoom;
         look.view = parse_view(view);
         look.names = true;
@@ -123,6 +123,32 @@ TEST(DefectMarks, ARegionIsNamedHoweverWeakItIs) {
     EXPECT_FALSE(has_text(sheet, "line 12")) << "the twelfth name is that of the region";
     EXPECT_TRUE(has_text(sheet, "line 15"));
     EXPECT_TRUE(has_text(sheet, "and 4 more"));
+}
+
+TEST(DefectMarks, NumbersOfANarrowPartStandAboveItOrAreCounted) {
+    std::vector<DefectMark> marks;
+    for (int k = 0; k < 10; ++k) marks.push_back(mark_of(std::to_string(k + 1), {{105 * k + 20, 105 * k + 40}}));
+    Look tall;
+    tall.width = 400;
+    tall.height = 800;
+    const DefectMap few = map_of({marks[0], marks[1], marks[2]});
+    const Sheet sheet = Part().sheet(few, {}, "front", tall);
+    const MeshPanel& panel = sheet.panels[0];
+    for (const std::string number : {"1", "2", "3"}) {
+        const auto text = std::find_if(sheet.texts.begin(), sheet.texts.end(),
+                                       [&](const FlatText& each) { return each.text == number; });
+        ASSERT_NE(text, sheet.texts.end());
+        EXPECT_GT(text->y, panel.rect.y + panel.rect.height) << "it would hide the part";
+    }
+    // All at one place.
+    for (int k = 0; k < 200; ++k) marks.push_back(marks[static_cast<std::size_t>(k % 10)]);
+    tall.height = 4000;
+    tall.width = 200;
+    const Sheet full = Part().sheet(map_of(std::move(marks)), {}, "front", tall);
+    const bool counted = std::any_of(full.texts.begin(), full.texts.end(), [](const FlatText& text) {
+        return text.text.find("no room in this picture") != std::string::npos;
+    });
+    EXPECT_TRUE(counted);
 }
 
 /// All that a mark is drawn with.
