@@ -254,19 +254,19 @@ private:
         const double t = layout_.text;
         const double top = panel_.rect.y + panel_.rect.height;
         const bool above = panel_.rect.height < narrow * t;
-        Rect room = panel_.rect;
-        if (above) room.height += rows_above * t;
-        LabelPlacer placer(room);
+        LabelPlacer placer(panel_.rect);
+        LabelPlacer placer_above({panel_.rect.x, top, panel_.rect.width, rows_above * t});
         // The name of the upright scale.
-        if (above) placer.take({room.x, top, std::max(0.0, axis_name * t - room.x), 1.8 * t});
+        placer_above.take({panel_.rect.x, top, std::max(0.0, axis_name * t - panel_.rect.x), 1.8 * t});
         for (const std::size_t k : named)
             placer.take({anchors[k]->x() - 0.3 * t, anchors[k]->y() - 0.3 * t, 0.6 * t, 0.6 * t});
         for (const std::size_t k : named) {
             const DefectMark& mark = marks_[k];
             FlatText flat{0, 0, mark.number, 0.92 * t, Align::centre, true, ink_of(mark)};
             const Vec2 size(text_width(flat) + 0.3 * t, 1.15 * t);
-            const Vec2 wanted(anchors[k]->x(), above ? std::max(top, anchors[k]->y()) + 0.8 * t : anchors[k]->y() + t);
-            const std::optional<Rect> rect = placer.place(wanted, size);
+            std::optional<Rect> rect;
+            if (above) rect = placer_above.place(Vec2(anchors[k]->x(), top + 0.8 * t), size);
+            if (!rect) rect = placer.place(*anchors[k] + Vec2(0, t), size);
             add_anchor(*anchors[k]);
             if (!rect) {
                 ++without_room_;
