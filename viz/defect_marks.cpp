@@ -45,6 +45,7 @@ public:
           look_(look),
           layout_(layout),
           marks_(map.defects->marks),
+          drawn_(marks_.size()),
           ink_(ink_for(look.background)),
           corner_(panel.rect.x, panel.rect.y),
           depth_(panel.geometry, panel.camera) {}
@@ -56,7 +57,7 @@ public:
         // The strongest last, on top of the others; regions below all.
         for (const bool region : {true, false}) {
             for (std::size_t k = marks_.size(); k-- > 0;) {
-                if (marks_[k].region == region) anchors[k] = draw_mark(marks_[k]);
+                if (marks_[k].region == region) anchors[k] = draw_mark(k);
             }
         }
         // A mark is as wide as its strip of the part; where it runs along an edge of the picture, some of it is outside.
@@ -114,7 +115,8 @@ private:
 
     /// Where its name's line begins: on the section that its words are of, where that is in the picture. Nothing: no section
     /// is.
-    std::optional<Vec2> draw_mark(DefectMark& mark) {
+    std::optional<Vec2> draw_mark(std::size_t index) {
+        DefectMark& mark = marks_[index];
         const Rgb rgb =
             mixed(kind_of(mark).rgb, mark.region ? region_share : lightest + (1 - lightest) * mark.strength);
         std::optional<Vec2> anchor;
@@ -128,6 +130,7 @@ private:
                 // Of the other sections of a region only what is seen: dots of its many lines would tangle.
                 if (stroke.hidden && mark.region && !told) continue;
                 draw_stroke(mark, stroke, rgb);
+                if (!mark.region) drawn_[index].push_back({stroke, told});
                 // The longest part; what is seen before what is hidden.
                 const double length = length_of(stroke.band);
                 const double rank = (told ? 2 : 0) + (stroke.hidden ? 0 : 1) + length / (1 + length);
@@ -149,6 +152,36 @@ private:
         return anchor;
     }
 
+    /// Whether a stronger mark is drawn over a place of one.
+    [[nodiscard]] bool is_covered(std::size_t index, const Vec2& at) const {
+        const auto covers_it = [&](const DrawnStroke& drawn) {
+            return !drawn.stroke.hidden && covers(drawn.stroke.band, at);
+        };
+        return std::any_of(drawn_.begin(), drawn_.begin() + static_cast<std::ptrdiff_t>(index),
+                           [&](const auto& strokes) { return std::any_of(strokes.begin(), strokes.end(), covers_it); });
+    }
+
+    /// Moves the anchors of named marks that lie below stronger ones to a place of their own, on the section that the words
+    /// are of where it has one.
+    void uncover(const std::vector<std::size_t>& named, std::vector<std::optional<Vec2>>& anchors) const {
+        for (const std::size_t k : named) {
+            if (marks_[k].region || !is_covered(k, *anchors[k])) continue;
+            int highest = -1;
+            for (const DrawnStroke& drawn : drawn_[k]) {
+                const int rank = (drawn.told ? 2 : 0) + (drawn.stroke.hidden ? 0 : 1);
+                if (rank <= highest) continue;
+                const double length = length_of(drawn.stroke.band);
+                for (const double share : {0.5, 0.3, 0.7, 0.1, 0.9}) {
+                    const Vec2 at = part_of(drawn.stroke.band, share * length, length).centre(0);
+                    if (is_covered(k, at)) continue;
+                    anchors[k] = at;
+                    highest = rank;
+                    break;
+                }
+            }
+        }
+    }
+
     void draw_stroke(const DefectMark& mark, const Stroke& stroke, const Rgb& rgb) {
         if (stroke.hidden) {
             any_hidden_ = true;
@@ -166,7 +199,7 @@ private:
         sheet_.texts.push_back(fitted({x, y, words, size, Align::left, bold, rgb}, room));
     }
 
-    void name(const std::vector<std::optional<Vec2>>& anchors) {
+    void name(std::vector<std::optional<Vec2>>& anchors) {
         const double t = layout_.text;
         const double highest = room_.y + room_.height - 0.6 * t;
         const double x = room_.x + 1.4 * t;
@@ -174,6 +207,7 @@ private:
         const double slot = 2.0 * t;
         const auto room = static_cast<std::size_t>(std::max(0.0, (highest - bottom - 0.8 * t) / slot));
         const std::vector<std::size_t> named = most_wanted(anchors, std::min(most_named_defects, room));
+        uncover(named, anchors);
         std::vector<Vec2> from;
         for (const std::size_t k : named) from.push_back(*anchors[k]);
         const double line_end = x - 1.2 * t;
@@ -215,7 +249,7 @@ private:
     }
 
     /// Names in columns below the part, the strongest first, row by row.
-    void tabulate(const std::vector<std::optional<Vec2>>& anchors) {
+    void tabulate(std::vector<std::optional<Vec2>>& anchors) {
         constexpr std::size_t most_numbers = 24;  // on the part; more would cover it
         constexpr double rest = 1.6;              // height below the names, in text sizes
         const double t = layout_.text;
@@ -244,6 +278,7 @@ private:
             below = y - row * t;
         }
         tell_rest(anchors, named.size(), layout_.margin, below - 0.6 * t);
+        uncover(named, anchors);
         number_marks(named, anchors);
     }
 
@@ -350,6 +385,11 @@ private:
     const Look& look_;
     const MapLayout& layout_;
     std::vector<DefectMark> marks_;  ///< as they are told: one whose strongest section is outside the picture says so
+    struct DrawnStroke {
+        Stroke stroke;
+        bool told = false;  ///< the words are of its section
+    };
+    std::vector<std::vector<DrawnStroke>> drawn_;  ///< of each mark that is no region
     Rgb ink_;
     Vec2 corner_;
     DepthBuffer depth_;

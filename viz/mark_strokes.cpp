@@ -162,6 +162,20 @@ Band narrowed(const Band& band, double share) {
     return narrow;
 }
 
+bool covers(const Band& band, const Vec2& at) {
+    const auto in_triangle = [&](const Vec2& a, const Vec2& b, const Vec2& c) {
+        const auto turn = [&](const Vec2& from, const Vec2& to) { return turned_left(to - from).dot(at - from); };
+        const double ab = turn(a, b), bc = turn(b, c), ca = turn(c, a);
+        return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+    };
+    for (std::size_t k = 1; k < band.size(); ++k) {
+        if (in_triangle(band.left[k - 1], band.right[k - 1], band.right[k]) ||
+            in_triangle(band.left[k - 1], band.right[k], band.left[k]))
+            return true;
+    }
+    return false;
+}
+
 std::vector<Stroke> strokes_of(const ClSurface& surface, const PointRange& section, const Camera& camera,
                                const Vec2& corner, const Look& look, const DepthBuffer& depth, double least_size) {
     const StrokeMaker maker(surface, camera, corner, look, depth);

@@ -27,6 +27,9 @@ struct Band {
 /// Of a share of the width.
 [[nodiscard]] Band narrowed(const Band& band, double share);
 
+/// Whether a place [px] lies on it.
+[[nodiscard]] bool covers(const Band& band, const Vec2& at);
+
 /// A section of a pass in the picture, all of it seen or all of it hidden.
 struct Stroke {
     Band band;

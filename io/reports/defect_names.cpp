@@ -5,12 +5,12 @@
 #include <cmath>
 #include <set>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "io/reports/line_ranges.h"
 
 namespace clsurf::io {
 namespace {
@@ -138,18 +138,11 @@ std::string cause_label(const Defect& d) {
 }
 
 std::string lines_label(const Defect& d) {
-    if (d.runs.empty()) return {};
-    const auto strongest = std::find_if(d.runs.begin(), d.runs.end(), [&](const DefectRun& run) {
-        return d.point >= run.points.first && d.point <= run.points.last;
-    });
-    const DefectRun& run = strongest != d.runs.end() ? *strongest : d.runs.front();
-    std::set<std::pair<LineNumber, LineNumber>> others;
-    for (const DefectRun& other : d.runs) others.insert({other.first_line, other.last_line});
-    others.erase({run.first_line, run.last_line});
-    if (run.first_line == 0) return {};
-    std::string text = run.first_line == run.last_line ? fmt::format("line {}", run.first_line)
-                                                       : fmt::format("lines {}–{}", run.first_line, run.last_line);
-    if (!others.empty()) text += fmt::format(", {} sections", others.size() + 1);
+    const std::vector<LineRange> ranges = sections_lines(d);
+    if (ranges.empty()) return {};
+    const auto& [first, last] = ranges.front();
+    std::string text = first == last ? fmt::format("line {}", first) : fmt::format("lines {}–{}", first, last);
+    if (ranges.size() > 1) text += fmt::format(", {} sections", ranges.size());
     return text;
 }
 

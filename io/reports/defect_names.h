@@ -20,7 +20,7 @@ namespace clsurf::io {
 /// Cause and predicted depth: "point spacing, 1.2 µm deep".
 [[nodiscard]] std::string cause_label(const Defect& defect);
 
-/// The lines of its strongest section: "lines 506–669", "line 12, 4 sections".
+/// The lines of its strongest section, as sections_lines() has them: "lines 506–669", "line 12, 4 sections".
 [[nodiscard]] std::string lines_label(const Defect& defect);
 
 }  // namespace clsurf::io

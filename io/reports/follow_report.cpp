@@ -48,7 +48,7 @@ std::string finding_text(const ProvisionalDefect& found, double period) {
     const Defect& d = found.defect;
     return fmt::format("{:.3f} s, finding {} (provisional): {}, {}; {}, {}, {}\n",
                        static_cast<double>(d.point) * period, found.number, sentence_of(d),
-                       named_line_ranges(d.runs, most_ranges), name_of_severity(d.severity), name_of(d.cause),
+                       named_line_ranges(d, most_ranges), name_of_severity(d.severity), name_of(d.cause),
                        place_text(d.place));
 }
 

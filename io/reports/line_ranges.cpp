@@ -9,54 +9,78 @@
 #include <fmt/format.h>
 
 namespace clsurf::io {
-
 namespace {
 
-using Range = std::pair<LineNumber, LineNumber>;
+/// A loop that begins again ends on an earlier line than it began.
+LineRange rising(LineNumber first, LineNumber last) { return std::minmax({first, std::max(last, 1U)}); }
 
-/// "3-9, 12 and 4 more"; in a sentence, "… and 4 more ranges".
-std::string text_of_ranges(std::vector<Range> ranges, std::size_t shown, bool in_sentence) {
+std::vector<LineRange> merged(std::vector<LineRange> ranges) {
     std::sort(ranges.begin(), ranges.end());
-    std::vector<Range> merged;
-    for (const auto& range : ranges) {
+    std::vector<LineRange> merged;
+    for (const LineRange& range : ranges) {
         if (!merged.empty() && range.first <= merged.back().second)
             merged.back().second = std::max(merged.back().second, range.second);
         else
             merged.push_back(range);
     }
+    return merged;
+}
+
+/// The range with a line comes first.
+void put_first(std::vector<LineRange>& ranges, LineNumber line) {
+    const auto found = std::find_if(ranges.begin(), ranges.end(),
+                                    [&](const LineRange& r) { return r.first <= line && line <= r.second; });
+    if (found != ranges.end()) std::rotate(ranges.begin(), found, found + 1);
+}
+
+/// "3-9, 12 and 4 more"; in a sentence, "… and 4 more ranges".
+std::string text_of_ranges(const std::vector<LineRange>& ranges, std::size_t shown, bool in_sentence) {
     std::string text;
-    for (std::size_t k = 0; k < std::min(shown, merged.size()); ++k) {
-        const auto& [first, last] = merged[k];
+    for (std::size_t k = 0; k < std::min(shown, ranges.size()); ++k) {
+        const auto& [first, last] = ranges[k];
         text += (k > 0 ? ", " : "") + (first == last ? fmt::format("{}", first) : fmt::format("{}-{}", first, last));
     }
-    if (merged.size() <= shown) return text;
-    const std::size_t more = merged.size() - shown;
+    if (ranges.size() <= shown) return text;
+    const std::size_t more = ranges.size() - shown;
     text += fmt::format(" and {} more", more);
     if (in_sentence) text += more == 1 ? " range" : " ranges";
     return text;
 }
 
-std::string text_of_runs(std::span<const DefectRun> runs, std::size_t shown, bool in_sentence) {
-    std::vector<Range> ranges;
-    std::map<std::string, std::vector<Range>> of_file;
-    for (const DefectRun& run : runs) {
-        // A loop that begins again ends on an earlier line than it began.
-        if (run.first_line > 0) ranges.emplace_back(std::minmax({run.first_line, std::max(run.last_line, 1U)}));
+std::string text_of(const Defect& defect, std::size_t shown, bool in_sentence) {
+    const std::vector<LineRange> ranges = sections_lines(defect);
+    if (ranges.empty()) return "-";
+    std::map<std::string, std::vector<LineRange>> of_file;
+    for (const DefectRun& run : defect.runs) {
         if (!run.file.empty()) of_file[run.file].emplace_back(run.file_first_line, run.file_last_line);
     }
-    if (ranges.empty()) return "-";
-    std::string text = text_of_ranges(std::move(ranges), shown, in_sentence);
-    for (auto& [file, lines] : of_file)
-        text += fmt::format(" (in {}: {})", file, text_of_ranges(std::move(lines), shown, in_sentence));
+    std::string text = text_of_ranges(ranges, shown, in_sentence);
+    const DefectRun* strongest = strongest_run(defect);
+    for (auto& [file, lines] : of_file) {
+        std::vector<LineRange> in_file = merged(std::move(lines));
+        if (strongest->file == file) put_first(in_file, strongest->file_first_line);
+        text += fmt::format(" (in {}: {})", file, text_of_ranges(in_file, shown, in_sentence));
+    }
     return text;
 }
 
 }  // namespace
 
-std::string line_ranges(std::span<const DefectRun> runs, std::size_t shown) { return text_of_runs(runs, shown, false); }
+std::vector<LineRange> sections_lines(const Defect& defect) {
+    std::vector<LineRange> ranges;
+    for (const DefectRun& run : defect.runs) {
+        if (run.first_line > 0) ranges.push_back(rising(run.first_line, run.last_line));
+    }
+    ranges = merged(std::move(ranges));
+    if (const DefectRun* strongest = strongest_run(defect); strongest != nullptr && strongest->first_line > 0)
+        put_first(ranges, strongest->first_line);
+    return ranges;
+}
 
-std::string named_line_ranges(std::span<const DefectRun> runs, std::size_t shown) {
-    const std::string text = text_of_runs(runs, shown, true);
+std::string line_ranges(const Defect& defect, std::size_t shown) { return text_of(defect, shown, false); }
+
+std::string named_line_ranges(const Defect& defect, std::size_t shown) {
+    const std::string text = text_of(defect, shown, true);
     if (text == "-") return "no known line";
     // Lines of a subprogram follow in brackets, ranges that are not shown behind "and"; the word is of what stands before them.
     const bool one = text.substr(0, std::min(text.find(" (in "), text.find(" and "))).find_first_not_of("0123456789") ==

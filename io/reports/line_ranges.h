@@ -1,18 +1,25 @@
 #pragma once
 // Lines of a program as a short text.
 
-#include <span>
+#include <cstddef>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "predictor/defects.h"
+#include "predictor/defect.h"
 
 namespace clsurf::io {
 
-/// The lines of runs, each once: overlapping ranges are one, in rising order: "12-13, 40", at most `shown` ranges
-/// and then "and 3 more"; "-": none has a line.
-[[nodiscard]] std::string line_ranges(std::span<const DefectRun> runs, std::size_t shown);
+using LineRange = std::pair<LineNumber, LineNumber>;
 
-/// The same with the word before it: "line 16", "lines 12-13, 40"; "no known line": none has one.
-[[nodiscard]] std::string named_line_ranges(std::span<const DefectRun> runs, std::size_t shown);
+/// The lines of the sections of a defect, each once: overlapping ranges are one. The first is that of the strongest section
+/// (strongest_run()), the others rise. Empty: no section has a line.
+[[nodiscard]] std::vector<LineRange> sections_lines(const Defect& defect);
+
+/// The same as text: "40, 12-13", at most `shown` ranges and then "and 3 more"; "-": none has a line.
+[[nodiscard]] std::string line_ranges(const Defect& defect, std::size_t shown);
+
+/// The same with the word before it: "line 16", "lines 40, 12-13"; "no known line": none has one.
+[[nodiscard]] std::string named_line_ranges(const Defect& defect, std::size_t shown);
 
 }  // namespace clsurf::io

@@ -22,7 +22,7 @@ std::string defect_lines(const ReportedQuality& q, bool worsened_only) {
         if (++count > shown) continue;
         const Defect& d = q.report->defects[i];
         text += fmt::format("{} {}: {}, {}\n", i + 1, name_of_severity(d.severity), sentence_of(d),
-                            named_line_ranges(d.runs, 3));
+                            named_line_ranges(d, 3));
     }
     if (count > shown) text += fmt::format("and {} more\n", count - shown);
     return text;

@@ -145,14 +145,14 @@ std::string verdict_text(const QualityReport& r) {
     constexpr std::size_t most_ranges = 3;
     const Defect& worst = r.defects.front();
     return text +
-           fmt::format("Stands out most: {}, {}.\n\n", sentence_of(worst), named_line_ranges(worst.runs, most_ranges));
+           fmt::format("Stands out most: {}, {}.\n\n", sentence_of(worst), named_line_ranges(worst, most_ranges));
 }
 
 /// As many ranges of lines as fit beside the numbers, three at most.
 std::size_t ranges_in_column(const Defect& d) {
     constexpr std::size_t widest = 21;
     std::size_t shown = 3;
-    while (shown > 1 && line_ranges(d.runs, shown).size() > widest) --shown;
+    while (shown > 1 && line_ranges(d, shown).size() > widest) --shown;
     return shown;
 }
 
@@ -201,10 +201,10 @@ std::string defects_table(const ReportedQuality& q) {
                             name_of_severity(d.severity), name_of(d.cause), d.score, 100 * d.speed_mismatch + 0.0,
                             depth_column(d), d.length, formed_column(q, i));
         const Vec3& at = d.place.position();
-        text += one_row ? fmt::format("  {:<22} {}\n", fmt::format("{:.2f} {:.2f} {:.2f}", at.x(), at.y(), at.z()),
-                                      line_ranges(d.runs, ranges_in_column(d)))
-                        : fmt::format("\n     {}, {}\n", place_text(d.place),
-                                      named_line_ranges(d.runs, ranges_in_column(d)));
+        text += one_row
+                    ? fmt::format("  {:<22} {}\n", fmt::format("{:.2f} {:.2f} {:.2f}", at.x(), at.y(), at.z()),
+                                  line_ranges(d, ranges_in_column(d)))
+                    : fmt::format("\n     {}, {}\n", place_text(d.place), named_line_ranges(d, ranges_in_column(d)));
     }
     if (as_machined) text += as_machined_notes(q);
     if (q.acceptance != nullptr && q.acceptance->count() > 0)

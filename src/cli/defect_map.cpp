@@ -25,12 +25,11 @@ viz::DefectKind kind_of(Quantity quantity) {
     return {};
 }
 
-/// Where it is strongest; of many sections only the longest are kept, and io::lines_label() is then of the first one.
+/// Where it is strongest, on the section that io::lines_label() names.
 PointIndex named_point(const Defect& d) {
-    const bool is_kept = std::any_of(d.runs.begin(), d.runs.end(), [&](const DefectRun& run) {
-        return d.point >= run.points.first && d.point <= run.points.last;
-    });
-    return is_kept || d.runs.empty() ? d.point : d.runs.front().points.first;
+    const DefectRun* run = strongest_run(d);
+    if (run == nullptr) return d.point;
+    return std::clamp(d.point, run->points.first, run->points.last) == d.point ? d.point : run->points.first;
 }
 
 }  // namespace

@@ -26,6 +26,15 @@ FieldInfo cause_info() {
     return info;
 }
 
+/// Where two meet, the cause of the more local one stays: a region of lag would hide the slow pass in it. Of the same area the
+/// stronger one is last.
+std::vector<const Defect*> smallest_last(const std::vector<Defect>& defects) {
+    std::vector<const Defect*> order;
+    for (std::size_t k = defects.size(); k-- > 0;) order.push_back(&defects[k]);
+    std::stable_sort(order.begin(), order.end(), [](const Defect* a, const Defect* b) { return a->area > b->area; });
+    return order;
+}
+
 }  // namespace
 
 std::vector<FieldInfo> CauseFields::fields() const { return {cause_info()}; }
@@ -41,9 +50,8 @@ std::vector<Field> CauseFields::compute(std::span<const std::string_view> names,
     for (const Pass& pass : surface_.passes) {
         if (is_of_surface(pass.kind)) fill({pass.first, pass.last}, no_defect);
     }
-    // The strongest last: where two meet, its cause stays.
-    for (std::size_t k = report.defects.size(); k-- > 0;) {
-        for (const DefectRun& run : report.defects[k].runs) fill(run.points, value_of(report.defects[k].cause));
+    for (const Defect* defect : smallest_last(report.defects)) {
+        for (const DefectRun& run : defect->runs) fill(run.points, value_of(defect->cause));
     }
     return std::vector<Field>(names.size(), field);
 }

@@ -402,6 +402,13 @@ int QualityReport::worst_severity() const {
     return worst;
 }
 
+const DefectRun* strongest_run(const Defect& defect) {
+    for (const DefectRun& run : defect.runs) {
+        if (defect.point >= run.points.first && defect.point <= run.points.last) return &run;
+    }
+    return defect.runs.empty() ? nullptr : &defect.runs.front();
+}
+
 std::vector<PointRange> QualityReport::sections() const {
     std::vector<PointRange> found;
     for (const Defect& defect : defects) {

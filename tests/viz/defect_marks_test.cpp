@@ -97,6 +97,26 @@ TEST(DefectMarks, ALeaderBeginsWhereTheWordsAreOf) {
     EXPECT_LT((anchor_in(region) - part.pixel(region, 1022)).norm(), 2) << "at the point itself";
 }
 
+TEST(DefectMarks, AStrongerMarkHidesNoAnchor) {
+    const Part part;
+    // The second one has its strongest section below the first one, but for its end.
+    DefectMark weaker = mark_of("2", {{1070, 1100}, {1280, 1310}});
+    weaker.point = 1080;
+    DefectMap map = map_of({mark_of("1", {{1060, 1092}}), weaker});
+    const auto is_at = [&](const Sheet& sheet, PointIndex point) {
+        return std::any_of(sheet.lines.begin(), sheet.lines.end(), [&](const FlatLine& line) {
+            return line.level == Level::dot_fill && (line.points.front() - part.pixel(sheet, point)).norm() < 12;
+        });
+    };
+    Sheet sheet = part.sheet(map);
+    EXPECT_FALSE(is_at(sheet, 1085));
+    EXPECT_TRUE(is_at(sheet, 1097));
+    map.marks[0].sections = {{1060, 1102}};
+    sheet = part.sheet(map);
+    EXPECT_FALSE(is_at(sheet, 1085));
+    EXPECT_TRUE(is_at(sheet, 1295)) << "no place of the section is free, another section is";
+}
+
 TEST(DefectMarks, SayWhereTheirStrongestSectionIsNotInThePicture) {
     const Part part;
     DefectMark mark = mark_of("1", {{10, 30}, {2020, 2060}});
