@@ -67,24 +67,54 @@ float height_at(HeightOf of, const PathLocation& at, const Compared& there, cons
     return of == HeightOf::measured ? there.lag + above : above;
 }
 
+/// Sections of passes at fault, with room: what lies on them is no comparison.
+class Faults {
+public:
+    Faults(const Defect& defect, const ClSurface& surface, double room) {
+        for (const DefectRun& run : defect.runs) ranges_.push_back(with_room(run.points, surface, room));
+    }
+    [[nodiscard]] bool have(PointIndex i) const {
+        return std::any_of(ranges_.begin(), ranges_.end(),
+                           [&](const PointRange& range) { return range.first <= i && i <= range.last; });
+    }
+
+private:
+    std::vector<PointRange> ranges_;
+};
+
+/// The nearest places on passes that are not at fault, up to `most` on each side; all the nearest ones where there are none.
+std::vector<PathLocation> comparable_beside(const ClSurface& surface, const Signals& signals, PointIndex i, int most,
+                                            const Faults& faults) {
+    constexpr int farthest = 8;  // passes on each side
+    std::vector<PathLocation> clean, nearest;
+    for (const Side side : {Side::left, Side::right}) {
+        int found = 0, walked = 0;
+        for (const PathLocation& at : places_beside(surface, signals, i, side, farthest)) {
+            if (walked++ < most) nearest.push_back(at);
+            if (found == most || faults.have(at.nearest())) continue;
+            clean.push_back(at);
+            ++found;
+        }
+    }
+    return clean.empty() ? nearest : clean;
+}
+
 /// What height is usual at a point; `height` gives that of a place.
 template <typename Height>
 float usual_height_at(const ClSurface& surface, const Signals& signals, PointIndex point, HeightPeers peers,
-                      const Height& height) {
+                      const Faults& faults, const Height& height) {
     constexpr int aside_of_direction = 4;  // of a zigzag two passes on each side run the same way
     const bool all = peers == HeightPeers::nearest;
     std::vector<float> heights;
-    for (const Side side : {Side::left, Side::right}) {
-        for (const PathLocation& at :
-             places_beside(surface, signals, point, side, all ? DefectProfile::aside : aside_of_direction)) {
-            if (all || signals.feed(at.nearest()).dot(signals.feed(point)) > 0) heights.push_back(height(at));
-        }
+    const int most = all ? DefectProfile::aside : aside_of_direction;
+    for (const PathLocation& at : comparable_beside(surface, signals, point, most, faults)) {
+        if (all || signals.feed(at.nearest()).dot(signals.feed(point)) > 0) heights.push_back(height(at));
     }
     return median_known(std::move(heights));
 }
 
 void add_across(DefectProfile& profile, const ClSurface& surface, const Signals& signals, const ProgrammedMarks& marks,
-                PointIndex point, HeightPeers peers) {
+                PointIndex point, HeightPeers peers, const Faults& faults) {
     const Eigen::Vector3f normal = signals.normal(point);
     const auto height = [&](const PathLocation& at) {
         return height_at(profile.height_of, at, compared_at(signals, at, normal), normal, marks);
@@ -105,7 +135,7 @@ void add_across(DefectProfile& profile, const ClSurface& surface, const Signals&
         profile.across.push_back(across);
         profile.across_height.push_back(high);
     }
-    profile.usual_across = usual_height_at(surface, signals, point, peers, height);
+    profile.usual_across = usual_height_at(surface, signals, point, peers, faults, height);
 }
 
 }  // namespace
@@ -130,8 +160,9 @@ DefectProfile profile_of(const Defect& defect, const ClSurface& surface, const S
     for (PointIndex i = section.first; i < section.last; ++i)
         length += (surface.positions[i + 1] - surface.positions[i]).norm();
     profile.section_length = length;
-    const PointRange shown =
-        with_room(section, surface, std::max(room_of_length * length, room_of_step_over * surface.step_over));
+    const double room = std::max(room_of_length * length, room_of_step_over * surface.step_over);
+    const PointRange shown = with_room(section, surface, room);
+    const Faults faults(defect, surface, room);
     double from_start = 0;
     for (PointIndex i = shown.first; i < section.first; ++i)
         from_start -= (surface.positions[i + 1] - surface.positions[i]).norm();
@@ -153,7 +184,6 @@ DefectProfile profile_of(const Defect& defect, const ClSurface& surface, const S
                 places[side == Side::left ? DefectProfile::at_fault - 1 - k : DefectProfile::at_fault + 1 + k] =
                     found[k];
         }
-        std::vector<float> other_speeds;
         for (std::size_t k = 0; k < places.size(); ++k) {
             float speed = missing<float>;
             float height = missing<float>;
@@ -164,16 +194,17 @@ DefectProfile profile_of(const Defect& defect, const ClSurface& surface, const S
             }
             profile.speed[k].push_back(speed);
             profile.height[k].push_back(height);
-            if (k == DefectProfile::at_fault) continue;
-            other_speeds.push_back(speed);
         }
+        std::vector<float> other_speeds;
+        for (const PathLocation& at : comparable_beside(surface, signals, i, DefectProfile::aside, faults))
+            other_speeds.push_back(compared_at(signals, at, signals.normal(i)).speed);
         profile.usual_speed.push_back(median_known(std::move(other_speeds)));
-        profile.usual_height.push_back(usual_height_at(surface, signals, i, peers, [&](const PathLocation& at) {
+        profile.usual_height.push_back(usual_height_at(surface, signals, i, peers, faults, [&](const PathLocation& at) {
             const Eigen::Vector3f normal = signals.normal(i);
             return height_at(profile.height_of, at, compared_at(signals, at, normal), normal, marks);
         }));
     }
-    add_across(profile, surface, signals, marks, defect.point, peers);
+    add_across(profile, surface, signals, marks, defect.point, peers, faults);
     return profile;
 }
 

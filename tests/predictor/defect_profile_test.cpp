@@ -72,6 +72,21 @@ TEST(DefectProfile, HasTheSpeedsOfFivePassesOverTheSamePath) {
     EXPECT_EQ(profile.lines[0].line, 6U);
 }
 
+TEST(DefectProfile, ComparesWithPassesThatAreNotAtFault) {
+    // The middle five of eleven passes are slow, as where a feed drops over a feature.
+    const test::MadeSurface made = test::zigzag_of_speeds({50, 50, 50, 35, 35, 35, 35, 35, 50, 50, 50}, length, apart);
+    const Signals signals = made.signals();
+    std::vector<std::uint32_t> columns;
+    const LineMap lines = lines_of(made, columns);
+    Defect defect = middle_of(made, 5, 4);
+    for (const std::size_t pass : {3, 4, 6, 7}) defect.runs.push_back(middle_of(made, pass, 4).runs[0]);
+    const DefectProfile profile = profile_of(defect, made.surface, signals, lines, {});
+    for (std::size_t i = 0; i < profile.along.size(); ++i) {
+        EXPECT_NEAR(profile.speed[DefectProfile::at_fault - 1][i], 35, 0.5) << "the curves are of the next passes";
+        EXPECT_NEAR(profile.usual_speed[i], 50, 0.5) << "the band is of those that are not at fault";
+    }
+}
+
 TEST(DefectProfile, ShowsAPassThatLiesLower) {
     const auto lower = [](const Vec3& p, const Vec3&) {
         return Vec3(p.x(), p.y(), std::abs(p.y() - 5 * apart) < 0.01 ? -0.008 : 0.0);
