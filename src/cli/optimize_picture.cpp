@@ -1,6 +1,9 @@
 #include "cli/optimize_picture.h"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -9,6 +12,7 @@
 #include "core/units.h"
 #include "field/field_set.h"
 #include "field/range.h"
+#include "predictor/quality_fields.h"
 #include "viz/field_colours.h"
 #include "viz/scene.h"
 
@@ -33,13 +37,12 @@ viz::Image draw_pair(const Optimized& result, const Field& before, const Field& 
 
 Field speed_of(const JudgedRun& run) { return FieldSet(run.log, run.path, run.surface.passes).get("speed"); }
 
-Field difference_of(const JudgedRun& run) {
-    FieldInfo info{"speed_difference",
-                   "Speed difference to the adjacent pass that differs most",
-                   unit::mm_min,
-                   FieldScale::diverging,
-                   {}};
-    return {std::move(info), run.speed_differences};
+/// The residual, which only the pass at fault has: of two passes that differ, both have the difference.
+Field mismatch_of(const JudgedRun& run) {
+    const QualityFields fields(run.surface, [&] { return run.signals; });
+    return std::move(
+        fields.compute(std::array<std::string_view, 1>{"speed_mismatch"}, {0, run.surface.positions.size() - 1})
+            .front());
 }
 
 }  // namespace
@@ -50,7 +53,8 @@ viz::Image draw_before_and_after(const Optimized& result, const std::string& pro
     viz::MapTexts speed, difference;
     speed.title = fmt::format("Path speed before and after, {}", ran ? "on the controller" : "simulated");
     speed.subtitle = file_name(program);
-    difference.title = "Speed difference to the adjacent pass that differs most";
+    const Field before = mismatch_of(result.before), after = mismatch_of(result.after);
+    difference.title = before.info.label;
     const auto summary = [](const JudgedRun& run, std::size_t defects, const std::optional<PartRoughness>& roughness) {
         const bool rough = roughness && !roughness->patches.empty();
         return fmt::format("{:.1f} s, {:.0f} mm/min between adjacent passes (95th percentile), {} defect{}{}",
@@ -59,9 +63,8 @@ viz::Image draw_before_and_after(const Optimized& result, const std::string& pro
     };
     difference.notes = {"before: " + summary(result.before, result.evaluation.defects_before, result.roughness_before),
                         "after: " + summary(result.after, result.evaluation.defects_after, result.roughness_after)};
-    return viz::stacked(
-        draw_pair(result, speed_of(result.before), speed_of(result.after), speed, keep_drawing),
-        draw_pair(result, difference_of(result.before), difference_of(result.after), difference, keep_drawing));
+    return viz::stacked(draw_pair(result, speed_of(result.before), speed_of(result.after), speed, keep_drawing),
+                        draw_pair(result, before, after, difference, keep_drawing));
 }
 
 }  // namespace clsurf::cli

@@ -91,11 +91,13 @@ void Evaluator::say(std::string_view what) const {
 
 std::string Evaluator::candidate_text() const {
     const RunMeasures was = before_.measures();
-    const double mismatch = mismatch_that_counts(was, was);
-    if (!best_ || !(mismatch > 0)) return fmt::format("candidate {}", tried_);
+    if (!best_ || !(mismatch_that_counts(was, was) > 0)) return fmt::format("candidate {}", tried_);
     if (!best_->evaluation.accepted) return fmt::format("candidate {}, none is better so far", tried_);
-    return fmt::format("candidate {}, best: {:.0f} % less mismatch, {:.1f} s", tried_,
-                       100 * (1 - mismatch_that_counts(was, best_->run.measures()) / mismatch), best_->run.duration);
+    // Candidates compete by the gain; the mismatch alone may rise while defects go.
+    const RunMeasures is = best_->measures();
+    return fmt::format("candidate {}, best: gain {:.0f} %, {} defects, {:.1f} s", tried_,
+                       100 * gain_of(measures_before(*best_), is, line_ratio(best_->evaluation), more_time_),
+                       is.defects, is.duration);
 }
 
 TriedProposal Evaluator::propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets) {
