@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -187,6 +188,7 @@ private:
             any_hidden_ = true;
             add_dots(stroke.band, rgb);
         } else if (mark.region) {
+            regions_.insert(mark.kind);
             sheet_.lines.push_back({stroke.band.centre_line(), region_width * layout_.text, rgb, Level::area});
         } else {
             add_stroke(stroke.band, kind_of(mark), rgb);
@@ -370,6 +372,15 @@ private:
             text(x + 2.6 * t, y, "hidden", layout_.small_text, false, grey);
             y += row;
         }
+        for (const std::size_t k : regions_) {
+            const DefectKind& kind = map_.defects->kinds[k];
+            for (const double aside : {-0.25 * t, 0.0, 0.25 * t})
+                sheet_.lines.push_back({{Vec2(x, y + aside), Vec2(x + 2.2 * t, y + aside)},
+                                        region_width * t,
+                                        mixed(kind.rgb, region_share)});
+            text(x + 2.6 * t, y, kind.name + ", systematic", layout_.small_text, false, grey);
+            y += row;
+        }
         for (std::size_t k = map_.defects->kinds.size(); k-- > 0; y += row) {
             const DefectKind& kind = map_.defects->kinds[k];
             add_stroke(band(), kind, kind.rgb);
@@ -393,8 +404,9 @@ private:
     Rgb ink_;
     Vec2 corner_;
     DepthBuffer depth_;
-    bool any_hidden_ = false;  ///< a part of a mark is dotted
-    int without_room_ = 0;     ///< numbers that are not on the part
+    bool any_hidden_ = false;        ///< a part of a mark is dotted
+    std::set<std::size_t> regions_;  ///< kinds that thin lines are drawn of
+    int without_room_ = 0;           ///< numbers that are not on the part
 };
 
 }  // namespace

@@ -95,7 +95,10 @@ viz::Image draw_defect_map(const Shown& shown, const RenderOptions& options) {
                                            fmt::format("{} · {} · {}", file_name(options.part.program),
                                                        run_name(shown, options), viz::counts_of(shown.surface)));
     if (options.programmed) texts.notes.emplace_back("thin lines: the programmed path");
-    return viz::draw_map({panel}, viz::placed_map({panel}, options.shown.look), {}, texts, options.shown.look);
+    // Without defects a column of names would be empty.
+    viz::Look look = options.shown.look;
+    look.names = !defects.marks.empty();
+    return viz::draw_map({panel}, viz::placed_map({panel}, look), {}, texts, look);
 }
 
 }  // namespace clsurf::cli

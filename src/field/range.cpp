@@ -99,6 +99,15 @@ void round_outwards(ShownRange& range, int bins, bool even) {
     const double lowest = low();
     range.high = bins > 0 ? lowest + bins * step : std::ceil(range.high / step - 1e-9) * step;
     range.low = lowest;
+    if (bins > 0) return;
+    // "1025" is 1030: three digits, unless the range is too narrow for that.
+    for (const bool upper : {false, true}) {
+        double& end = upper ? range.high : range.low;
+        if (end == 0) continue;
+        const double digit = std::pow(10.0, std::floor(std::log10(std::abs(end)) + 1e-9) - 2);
+        if (digit > 3 * step) continue;
+        end = (upper ? std::ceil(end / digit - 1e-9) : std::floor(end / digit + 1e-9)) * digit;
+    }
 }
 
 /// Where the points of a range are looked for.

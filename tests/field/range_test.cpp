@@ -82,6 +82,9 @@ TEST_F(RangeTest, EndsAndEdgesAreRound) {
     const ShownRange range = find_range(field_, surface_, {});
     EXPECT_EQ(range.low, 100);
     EXPECT_EQ(range.high, 2150);
+    set(1000, 200, 1013.3F);
+    EXPECT_EQ(find_range(field_, surface_, {}).high, 1020) << "three digits";
+    set(1000, 200, 2137.3F);
     RangeRule six;
     six.bins = 6;
     const ShownRange stepped = find_range(field_, surface_, six);

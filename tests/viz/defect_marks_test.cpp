@@ -132,6 +132,10 @@ TEST(DefectMarks, TheKeyHasWhatIsInThePicture) {
     const Sheet sheet = part.sheet(map_of({mark_of("1", {{1020, 1060}})}));
     EXPECT_TRUE(has_text(sheet, "speed"));
     EXPECT_FALSE(has_text(sheet, "hidden")) << "nothing hides a flat part";
+    EXPECT_FALSE(has_text(sheet, "speed, systematic"));
+    DefectMark region = mark_of("1", {{1020, 1060}});
+    region.region = true;
+    EXPECT_TRUE(has_text(Part().sheet(map_of({region})), "speed, systematic"));
 }
 
 TEST(DefectMarks, ARegionIsNamedHoweverWeakItIs) {
