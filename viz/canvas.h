@@ -4,7 +4,6 @@
 //
 // Flat things are placed in pixels of the finished picture, from its lower left corner.
 
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,23 +60,5 @@ struct Sheet {
 [[nodiscard]] Image draw(const Sheet& sheet, const std::string& gl, int supersample);
 /// The same with meshes that were drawn by a MeshPainter, of a sheet without panels.
 [[nodiscard]] Image draw(const Sheet& flat, const MeshSamples& meshes, const std::string& gl, int supersample);
-
-/// Draws the mesh of a panel in parts, which are in memory one at a time. All parts give the same samples as the whole mesh.
-class MeshPainter {
-public:
-    /// For the panels of a sheet of that size. Throws SystemError.
-    MeshPainter(int width, int height, const std::string& gl, int supersample);
-    MeshPainter(const MeshPainter&) = delete;
-    MeshPainter& operator=(const MeshPainter&) = delete;
-    ~MeshPainter();
-
-    /// Adds the next part to samples of the size that empty() has. Throws SystemError.
-    void draw(const MeshPanel& part, MeshSamples& samples);
-    [[nodiscard]] MeshSamples empty() const;
-
-private:
-    class Window;
-    std::unique_ptr<Window> window_;
-};
 
 }  // namespace clsurf::viz

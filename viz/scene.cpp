@@ -13,6 +13,7 @@
 #include "viz/map_axes.h"
 #include "viz/map_margin.h"
 #include "viz/map_marks.h"
+#include "viz/mesh_painter.h"
 
 namespace clsurf::viz {
 namespace {

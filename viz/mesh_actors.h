@@ -1,0 +1,18 @@
+#pragma once
+// Mesh actors: the mesh of a panel in VTK.
+
+#include <optional>
+
+#include "viz/canvas.h"
+
+class vtkRenderer;
+
+namespace clsurf::viz {
+
+/// Adds the cells of a panel, of one kind or of all. The panel must outlive them. Returns whether there are any.
+bool add_mesh(vtkRenderer* renderer, const MeshPanel& panel, int supersample, std::optional<CellKind> only = {});
+
+/// Shows a panel on its rectangle of a picture of that size [px].
+void place(vtkRenderer* renderer, const MeshPanel& panel, double width, double height);
+
+}  // namespace clsurf::viz
