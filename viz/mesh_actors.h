@@ -3,7 +3,8 @@
 
 #include <optional>
 
-#include "viz/canvas.h"
+#include "viz/mesh_panel.h"
+#include "viz/mesh_samples.h"
 
 class vtkRenderer;
 

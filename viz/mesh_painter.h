@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "viz/canvas.h"
+#include "viz/mesh_panel.h"
 #include "viz/mesh_samples.h"
 
 namespace clsurf::viz {

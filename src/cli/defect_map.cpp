@@ -89,7 +89,7 @@ void note_judgement(const QualityReport& report, std::string_view which, std::ve
 }
 
 void note_tool_tip(const Part& part, std::vector<std::string>& notes) {
-    if (part.tool) notes.emplace_back("axes show the tool tip; `clsurf check --tool` lists contact points");
+    if (part.tool) notes.emplace_back("axes show the tool tip: `clsurf query --at tip:X,Y`");
 }
 
 }  // namespace clsurf::cli

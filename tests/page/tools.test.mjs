@@ -192,7 +192,7 @@ test('the range is typed, dragged, and usual again', async () => {
     assert.ok(dragged[0] > usual[0] + 200 && dragged[1] === 2500, String(dragged));
     await page.click('[data-action="range-all"]');
     const all = await range();
-    assert.ok(all[0] < usual[0] && all[1] >= usual[1]);
+    assert.ok(all[0] < usual[0] && all[1] === 3000, String(all)); // the usual one has a round upper end above it
     await page.click('[data-action="range-auto"]');
     assert.deepEqual(await range(), usual);
     await page.getByLabel('lower end').fill('9999'); // above the upper end: not taken
