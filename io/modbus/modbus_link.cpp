@@ -54,7 +54,7 @@ int error_of(std::span<const std::uint8_t> answer, const RegisterBlock& block, i
     if (answer.size() < tcp_header + 2 || word_at(answer, 0) != number || word_at(answer, 2) != 0) return EMBBADDATA;
     if (answer[tcp_header - 1] != block.slave) return EMBBADSLAVE;
     if (answer[tcp_header] == (function | 0x80)) return MODBUS_ENOBASE + answer[tcp_header + 1];
-    const auto bytes = static_cast<std::size_t>(2 * block.count);
+    const std::size_t bytes = 2 * static_cast<std::size_t>(block.count);
     const bool whole = answer.size() == tcp_header + 2 + bytes && answer[tcp_header + 1] == bytes;
     return answer[tcp_header] == function && whole ? 0 : EMBBADDATA;
 }
