@@ -7,6 +7,8 @@
 
 #include "cli/render_options.h"
 #include "cli/shown_part.h"
+#include "field/field_set.h"
+#include "field/range.h"
 #include "pipeline/shards.h"
 #include "surface/surface_part.h"
 #include "viz/scene.h"
