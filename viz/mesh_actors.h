@@ -3,10 +3,10 @@
 
 #include <optional>
 
+#include <vtkRenderer.h>
+
 #include "viz/mesh_panel.h"
 #include "viz/mesh_samples.h"
-
-class vtkRenderer;
 
 namespace clsurf::viz {
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include <vtkNew.h>
-#include <vtkRenderer.h>
 
 #include "viz/gl_window.h"
 #include "viz/mesh_actors.h"
