@@ -22,13 +22,10 @@ std::string point(const Vec3& p, const SplineWords& w) {
 
 /// Knots of their own: each point but the last degree + 1 knots has one (Fanuc).
 std::vector<std::string> knotted_lines(const Nurbs& spline, const SplineWords& w) {
-    std::vector<std::string> lines;
-    for (std::size_t k = 0; k < spline.points.size(); ++k)
-        lines.push_back(fmt::format("{}K{} {}", k == 0 ? "G06.2 P4 " : "", nc_number(spline.knots[k], knot_decimals),
-                                    point(spline.points[k], w)));
-    for (std::size_t k = spline.points.size(); k < spline.knots.size(); ++k)
-        lines.push_back("K" + nc_number(spline.knots[k], knot_decimals));
-    return lines;
+    std::vector<std::string> points, knots;
+    for (const Vec3& p : spline.points) points.push_back(point(p, w));
+    for (const double knot : spline.knots) knots.push_back(nc_number(knot, knot_decimals));
+    return fanuc_nurbs_lines(points, knots);
 }
 
 /// Control points behind the first; the i-th has the length of the i-th span (Siemens).

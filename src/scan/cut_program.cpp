@@ -86,19 +86,17 @@ public:
     }
     /// Bézier curves one after the other: each knot between two of them three times, so that each is shaped by its own points.
     void nurbs(std::span<const CutSpan> spans) {
-        int knot = 0;
-        const auto point = [&](const Vec2& at, const std::string& before) {
-            block(fmt::format("{}K{} {} {}", before, knot, axis('X', at.x()), axis('Z', at.y())));
-        };
-        point(spans.front().begin, "G06.2 P4 ");
-        for (int n = 1; const CutSpan& span : spans) {
-            point(span.begin + span.begin_slope / 3, "");
-            point(span.end - span.end_slope / 3, "");
-            point(span.end, "");
-            knot = n++;
+        std::vector<std::string> points, knots{"0"};
+        const auto add = [&](const Vec2& at) { points.push_back(axis('X', at.x()) + " " + axis('Z', at.y())); };
+        add(spans.front().begin);
+        for (const CutSpan& span : spans) {
+            knots.insert(knots.end(), 3, fmt::format("{}", &span - spans.data()));
+            add(span.begin + span.begin_slope / 3);
+            add(span.end - span.end_slope / 3);
+            add(span.end);
         }
-        knot = static_cast<int>(spans.size());
-        for (int n = 0; n < 4; ++n) block(fmt::format("K{}", knot));
+        knots.insert(knots.end(), 4, fmt::format("{}", spans.size()));
+        for (const std::string& line : fanuc_nurbs_lines(points, knots)) block(line);
         block("G1");
         at_ = spans.back().end;
     }
