@@ -1,7 +1,6 @@
 #include "compare/run_difference.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -243,45 +242,56 @@ double shortest_jerk_window(const ComparedRun& a, const ComparedRun& b, float us
     return 0;
 }
 
+/// A run of which fields are compared.
+struct DerivedRun {
+    const ComparedRun& run;
+    Passes passes;
+    Derivation derivation;
+    FieldSet fields;
+
+    DerivedRun(const ComparedRun& one, const ComparedRun& other)
+        : run(one),
+          passes(whole(one.path)),
+          derivation(derivation_of(one, other, passes)),
+          fields(*one.log, one.path, passes, derivation) {}
+
+    [[nodiscard]] Column<float> roughness() const {
+        const double period = run.log->period;
+        return derivation.jerk_window > 0 ? rough_motion(FieldSet(*run.log, run.path, passes, derivation), period)
+                                          : rough_motion(fields, period);
+    }
+};
+
 /// The roughness of both runs, in the shortest window that their steps allow.
-void compare_roughness(const ComparedRun& a, const ComparedRun& b, const ClSurface& surface,
-                       std::array<Derivation, 2> derivations, RunDifferences& out) {
-    const Passes whole_a = whole(a.path), whole_b = whole(b.path);
-    const auto roughness = [&](const ComparedRun& run, const Passes& passes, const Derivation& derivation) {
-        return rough_motion(FieldSet(*run.log, run.path, passes, derivation), run.log->period);
-    };
+void compare_roughness(DerivedRun& a, DerivedRun& b, const ClSurface& surface, RunDifferences& out) {
     const auto take_a = [&] {
-        out.jerk_of_a = roughness(a, whole_a, derivations[0]);
+        out.jerk_of_a = a.roughness();
         out.usual_jerk = percentile_at_feed(out.jerk_of_a, surface.passes, 0.95);
     };
     take_a();
-    const bool by_window = !derivations[0].estimate && !derivations[1].estimate;
-    if (const double window = by_window ? shortest_jerk_window(a, b, out.usual_jerk) : 0; window > 0) {
-        for (Derivation& derivation : derivations) derivation.jerk_window = window;
+    const bool by_window = !a.derivation.estimate && !b.derivation.estimate;
+    if (const double window = by_window ? shortest_jerk_window(a.run, b.run, out.usual_jerk) : 0; window > 0) {
+        a.derivation.jerk_window = b.derivation.jerk_window = window;
         take_a();
     }
     Column<float>& jerk = out.of[index_of(RunQuantity::jerk)];
     jerk = out.jerk_of_a;
-    subtract(roughness(b, whole_b, derivations[1]), out.alignment, jerk);
+    subtract(b.roughness(), out.alignment, jerk);
     out.jerk_tolerance = out.rules.usual_jerk * out.usual_jerk +
-                         std::max(jerk_of_steps(a, derivations[0]), jerk_of_steps(b, derivations[1]));
+                         std::max(jerk_of_steps(a.run, a.derivation), jerk_of_steps(b.run, b.derivation));
 }
 
 void compare_motion(const ComparedRun& a, const ComparedRun& b, const ClSurface& surface, RunDifferences& out) {
-    const Passes whole_a = whole(a.path);
-    const Passes whole_b = whole(b.path);
-    const std::array derivations{derivation_of(a, b, whole_a), derivation_of(b, a, whole_b)};
-    const FieldSet of_a(*a.log, a.path, whole_a, derivations[0]);
-    const FieldSet of_b(*b.log, b.path, whole_b, derivations[1]);
-    out.speed_of_a = of_a.get("speed").values;
+    DerivedRun of_a(a, b), of_b(b, a);
+    out.speed_of_a = of_a.fields.get("speed").values;
     out.usual_speed = percentile_at_feed(out.speed_of_a, surface.passes, 0.95);
     out.of[index_of(RunQuantity::speed)] = out.speed_of_a;
-    subtract(of_b.get("speed").values, out.alignment, out.of[index_of(RunQuantity::speed)]);
+    subtract(of_b.fields.get("speed").values, out.alignment, out.of[index_of(RunQuantity::speed)]);
     Column<float>& acceleration = out.of[index_of(RunQuantity::acceleration)];
-    acceleration = of_a.get("acceleration").values;
+    acceleration = of_a.fields.get("acceleration").values;
     out.usual_acceleration = percentile_at_feed(acceleration, surface.passes, 0.99);
-    subtract(of_b.get("acceleration").values, out.alignment, acceleration);
-    compare_roughness(a, b, surface, derivations, out);
+    subtract(of_b.fields.get("acceleration").values, out.alignment, acceleration);
+    compare_roughness(of_a, of_b, surface, out);
 }
 
 }  // namespace

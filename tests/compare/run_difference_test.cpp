@@ -131,16 +131,16 @@ TEST(RunDifference, FindsWhereARunIsRougher) {
     const MadeRun a = make_run(zigzag_recipe());
     RunRecipe recipe = zigzag_recipe();
     recipe.speed = [](double s) {
-        // It grows and fades over 2 mm: a jump of the acceleration would be rougher than the swing.
-        const double u = std::clamp(std::min(s - 96, 108 - s) / 2, 0.0, 1.0);
+        // It grows and fades over 2 mm about its ends: a jump of the acceleration would be rougher than the swing.
+        const double u = std::clamp(std::min(s - 95, 109 - s) / 2, 0.0, 1.0);
         return v0 + swing * u * u * (3 - 2 * u) * std::sin(omega * (s - 96) / v0);
     };
     const MadeRun b = make_run(recipe);
     const auto found = sections_of(compare(a, b).report, RunQuantity::jerk);
     ASSERT_EQ(found.size(), 1U);
     EXPECT_NEAR(found[0].peak, swing * omega * omega / std::numbers::sqrt2, 0.3 * swing * omega * omega);
-    EXPECT_NEAR(a.arc_length[static_cast<std::size_t>(found[0].points.first)], 97, 1.5);
-    EXPECT_NEAR(a.arc_length[static_cast<std::size_t>(found[0].points.last)], 107, 1.5);
+    EXPECT_NEAR(a.arc_length[static_cast<std::size_t>(found[0].points.first)], 96, 1.5);
+    EXPECT_NEAR(a.arc_length[static_cast<std::size_t>(found[0].points.last)], 108, 1.5);
     const auto back = sections_of(compare(b, a).report, RunQuantity::jerk);
     ASSERT_EQ(back.size(), 1U);
     EXPECT_NEAR(back[0].peak, -found[0].peak, 0.05 * found[0].peak);
