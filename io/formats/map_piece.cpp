@@ -31,7 +31,7 @@ std::string bytes_of(const MapPiece& piece, const SurveyOrigin& origin, const st
     // As their bits: the merged map must not depend on how numbers are written.
     json["range"] = {std::bit_cast<std::uint64_t>(piece.lowest), std::bit_cast<std::uint64_t>(piece.highest)};
     json["drawn_crc32c"] = crc_of(piece.drawn);
-    return sealed_json(json) + piece.drawn;
+    return sealed_json(json).append(piece.drawn);
 }
 
 MapPiece read_map_piece(const std::string& path, const SurveyOrigin& origin, const std::string& settings) {
@@ -58,6 +58,7 @@ MapPiece read_map_piece(const std::string& path, const SurveyOrigin& origin, con
         if (crc_of(piece.drawn) != json.at("drawn_crc32c").get<std::uint32_t>())
             fail("is cut or damaged: the checksum of its pixels differs");
     } catch (const nlohmann::json::exception&) { fail("is cut or damaged"); }
+    piece.keep_alive = source.keep_alive;
     return piece;
 }
 

@@ -2,7 +2,9 @@
 // Pieces of maps (.piece): what `clsurf render --shard` draws and `--merge` reads. They are made for one log by one version of
 // clsurf: another version asks for other pieces.
 
+#include <memory>
 #include <string>
+#include <string_view>
 
 #include "io/formats/survey_file.h"
 #include "pipeline/shards.h"
@@ -12,7 +14,8 @@ namespace clsurf::io {
 struct MapPiece {
     ShardNumber shard;
     double lowest = 0, highest = 0;  ///< of the values that are shown; lowest > highest: there are none
-    std::string drawn;               ///< bytes of what was drawn (viz/drawn_parts.h)
+    std::string_view drawn;          ///< bytes of what was drawn (viz/drawn_parts.h)
+    std::shared_ptr<const void> keep_alive = nullptr;  ///< of a piece that was read: the mapped file of `drawn`
 };
 
 /// The bytes of the file: a line of JSON, and what was drawn. `settings`: what a piece depends on besides the survey.

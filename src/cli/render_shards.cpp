@@ -21,10 +21,8 @@ namespace clsurf::cli {
 namespace {
 
 void refuse_what_needs_the_whole(const RenderOptions& options, const po::variables_map& values) {
-    for (const char* name :
-         {"defects", "before", "programmed", "mark-point", "mark-line", "points", "lines", "passes", "follow"}) {
-        if (given(values, name)) throw UsageError(fmt::format("--{} needs the whole log: leave out --survey", name));
-    }
+    refuse_with_survey(
+        values, {"defects", "before", "programmed", "mark-point", "mark-line", "points", "lines", "passes", "follow"});
     if (options.part.as_machined || options.part.role)
         throw UsageError("--surface does not go with --survey: the map shows the positions that were surveyed");
     if (options.part.log.empty())
@@ -38,10 +36,7 @@ void refuse_unclear_shards(const po::variables_map& values) {
     both("shard", "shards");
     both("shard", "merge");
     both("shards", "merge");
-    if (values.count("survey") > 0) return;
-    for (const char* name : {"shard", "shards", "merge"}) {
-        if (given(values, name)) throw UsageError(fmt::format("--{} goes with --survey", name));
-    }
+    if (values.count("survey") == 0) refuse_without_survey(values, {"shard", "shards", "merge"});
 }
 
 /// What pieces must have in common besides the survey: how the map looks.
@@ -68,40 +63,45 @@ void write_piece(const RenderOptions& options, const ShardNumber& shard, const p
     clock.begin("draw");
     const ShardMap::Drawn drawn = map.draw(shard.number, shard.number, shard.count);
     clock.begin("write the piece");
-    output.write(
-        io::bytes_of({shard, drawn.lowest, drawn.highest, drawn.parts.bytes()}, log.origin, settings_of(values)));
+    const std::string bytes = drawn.parts.bytes();
+    output.write(io::bytes_of({shard, drawn.lowest, drawn.highest, bytes}, log.origin, settings_of(values)));
     output.commit();
     clock.end();
 }
 
-ShardMap::Drawn read_piece(const std::string& path, const io::MapPiece& piece, const ShardMap& map) {
-    std::optional<viz::DrawnParts> parts = viz::DrawnParts::read(piece.drawn, map.camera());
-    if (!parts) throw InputError(Place::of_file(path), "is cut or damaged");
-    return {std::move(*parts), piece.lowest, piece.highest};
+struct NamedPiece {
+    std::string path;
+    io::MapPiece piece;
+};
+
+/// Pieces of all shards, in their order. Throws UsageError: one is missing, there twice, or of other shards.
+std::vector<NamedPiece> read_pieces(const std::vector<std::string>& paths, const io::SurveyOrigin& origin,
+                                    const std::string& settings) {
+    std::vector<NamedPiece> pieces;
+    for (const std::string& path : paths) {
+        pieces.push_back({path, io::read_map_piece(path, origin, settings)});
+        const int here = pieces.back().piece.shard.count, first = pieces.front().piece.shard.count;
+        if (here != first)
+            throw UsageError(fmt::format("{} is one of {} pieces, {} is one of {}", path, here, paths.front(), first));
+    }
+    const auto number_of = [](const NamedPiece& named) { return named.piece.shard.number; };
+    std::ranges::stable_sort(pieces, {}, number_of);
+    const int count = pieces.front().piece.shard.count;
+    for (int number = 1; number <= count; ++number) {
+        const auto found = std::ranges::count(pieces, number, number_of);
+        if (found == 0) throw UsageError(fmt::format("piece {}/{} is missing", number, count));
+        if (found > 1) throw UsageError(fmt::format("piece {}/{} is there twice", number, count));
+    }
+    return pieces;
 }
 
-/// Reads pieces in the order of their shards, two in memory at a time.
-ShardMap::Drawn merged_pieces(const std::vector<std::string>& paths, const ShardMap& map,
-                              const io::SurveyOrigin& origin, const std::string& settings) {
-    std::vector<std::pair<int, std::string>> numbered;
-    int count = 0;
-    for (const std::string& path : paths) {
-        const ShardNumber shard = io::read_map_piece(path, origin, settings).shard;
-        if (count > 0 && shard.count != count)
-            throw UsageError(
-                fmt::format("{} is one of {} pieces, {} is one of {}", path, shard.count, paths.front(), count));
-        count = shard.count;
-        numbered.emplace_back(shard.number, path);
-    }
-    std::ranges::sort(numbered);
-    for (int number = 1; number <= count; ++number) {
-        const auto pieces = std::ranges::count(numbered, number, &std::pair<int, std::string>::first);
-        if (pieces == 0) throw UsageError(fmt::format("piece {}/{} is missing", number, count));
-        if (pieces > 1) throw UsageError(fmt::format("piece {}/{} is there twice", number, count));
-    }
+/// The samples of two pieces are in memory at a time.
+ShardMap::Drawn merged(const std::vector<NamedPiece>& pieces, const ShardMap& map) {
     std::optional<ShardMap::Drawn> all;
-    for (const auto& [number, path] : numbered) {
-        ShardMap::Drawn drawn = read_piece(path, io::read_map_piece(path, origin, settings), map);
+    for (const auto& [path, piece] : pieces) {
+        std::optional<viz::DrawnParts> parts = viz::DrawnParts::read(piece.drawn, map.camera());
+        if (!parts) throw InputError(Place::of_file(path), "is cut or damaged");
+        ShardMap::Drawn drawn{std::move(*parts), piece.lowest, piece.highest};
         if (all)
             all->add(drawn);
         else
@@ -138,10 +138,10 @@ bool draw_in_shards(const RenderOptions& options, const po::variables_map& value
     ShardMap map = map_of_shards(wanted, log, values, clock);
     clock.begin("draw");
     const int shards = read_shard_count(values);
-    const viz::Image image =
-        map.picture(given(values, "merge") ? merged_pieces(values["merge"].as<std::vector<std::string>>(), map,
-                                                           log.origin, settings_of(values))
-                                           : map.draw(1, shards, shards));
+    const viz::Image image = map.picture(
+        given(values, "merge")
+            ? merged(read_pieces(values["merge"].as<std::vector<std::string>>(), log.origin, settings_of(values)), map)
+            : map.draw(1, shards, shards));
     clock.begin("write the picture");
     output.write(image, fmt::format("clsurf map of {} from {}: {} {:g} to {:g} {}", file_name(wanted.part.program),
                                     run_name(map.shown(), wanted), map.shown().field.info.name, map.range().low,

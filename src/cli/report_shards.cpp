@@ -5,8 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "cli/survey_options.h"
 #include "core/column_file.h"
 #include "core/error.h"
@@ -39,14 +37,10 @@ void declare_report_with_shards(po::options_description& options) {
 
 void read_report_shards(const po::variables_map& values, ReportOptions& options) {
     if (values.count("survey") == 0) {
-        for (const char* name : {"shards", "merge", "scratch"}) {
-            if (given(values, name)) throw UsageError(fmt::format("--{} goes with --survey", name));
-        }
+        refuse_without_survey(values, {"shards", "merge", "scratch"});
         return;
     }
-    for (const char* name : {"before", "follow"}) {
-        if (given(values, name)) throw UsageError(fmt::format("--{} needs the whole log: leave out --survey", name));
-    }
+    refuse_with_survey(values, {"before", "follow"});
     options.shards = read_shard_count(values);
     SurveyedLog log = read_surveyed_log(options.part, values);
     options.merged = given(values, "merge")

@@ -23,6 +23,18 @@ void declare_shard(po::options_description& options, const char* what) {
     // clang-format on
 }
 
+void refuse_without_survey(const po::variables_map& values, std::initializer_list<const char*> names) {
+    for (const char* name : names) {
+        if (given(values, name)) throw UsageError(fmt::format("--{} goes with --survey", name));
+    }
+}
+
+void refuse_with_survey(const po::variables_map& values, std::initializer_list<const char*> names) {
+    for (const char* name : names) {
+        if (given(values, name)) throw UsageError(fmt::format("--{} needs the whole log: leave out --survey", name));
+    }
+}
+
 io::SurveyOrigin survey_origin(const PartOptions& options, const po::variables_map& values) {
     const io::Source log = io::map_file(options.log);
     if (!log.text().starts_with("\x89"

@@ -1,6 +1,7 @@
 #pragma once
 // --survey, --shard, --merge: a long log is surveyed once, judged in shards, and the shards are put together.
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,11 @@ namespace clsurf::cli {
 
 /// --survey, --shard; `what`: what is done with a shard.
 void declare_shard(po::options_description& options, const char* what);
+
+/// Throws UsageError where one of these options is given: it goes with --survey, which is not given.
+void refuse_without_survey(const po::variables_map& values, std::initializer_list<const char*> names);
+/// Throws UsageError where one of these options is given: it needs the whole log.
+void refuse_with_survey(const po::variables_map& values, std::initializer_list<const char*> names);
 
 /// The survey that --survey names, and the part of the log that is looked at.
 struct SurveyedLog {
