@@ -198,7 +198,7 @@ viz::Image draw_defect_card(const JudgedPart& judged, std::size_t index, int wid
     draw_place(judged, index, viz::card_map_size(width, height), gl, keep_drawing, card);
     card.key = {{pass_name(d), rgb}, {"next passes", near_colour}, {"second next", far_colour}};
     card.band_name = peers == HeightPeers::same_direction ? "usual ± threshold; heights: in the same direction"
-                                                          : "usual ± threshold, of passes not at fault";
+                                                          : "usual ± threshold, passes without a fault";
     std::vector<double> speed_threshold;
     for (const float usual : profile.usual_speed)
         speed_threshold.push_back(thresholds.of[index_of(Quantity::speed)] * std::max(usual, thresholds.least_speed));

@@ -70,7 +70,7 @@ void declare_look(po::options_description& options) {
         ("view", po::value<std::string>()->value_name("iso|top|front|left|right|back|bottom|AZ,EL"), "view direction; AZ,EL in degrees (default: iso)")
         ("zoom", po::value<std::string>()->value_name("X0,Y0,X1,Y1"), "part of the map, as fractions from its upper left corner")
         ("box", po::value<std::string>()->value_name("X0,Y0,Z0,X1,Y1,Z1"), "part of the workpiece [mm]; the rest is left out")
-        ("range", po::value<std::string>()->value_name("auto|MIN,MAX|pLOW,pHIGH"), "values at the ends of the colours, or percentiles of the cutting points shown (default: auto: the field's fixed range, as 0 to 100 % of the feed, else p1,p99, all patches of 20 points and all sections at fault)")
+        ("range", po::value<std::string>()->value_name("auto|MIN,MAX|pLOW,pHIGH"), "values at both ends of the colour scale, or percentiles of the cutting points shown (default: auto, the fixed range of the field, such as 0 to 100 % of the feed, or p1,p99 widened to include patches of 20 points and all defects)")
         ("colormap", po::value<std::string>()->value_name("COLORMAP|RGB,RGB,…"), "a named map (`clsurf help colormaps`) or own stops, #RRGGBB,#RRGGBB,… ; NAME_r: from its other end (default: magma for speeds, magma_r for errors, coolwarm for signed values, viridis)")
         ("bins", po::value<int>()->value_name("N"), "colours in N steps")
         ("size", po::value<std::string>()->value_name("WxH|hd|4k"), "size in pixels (default: 1600x1200)")
