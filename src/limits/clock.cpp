@@ -22,16 +22,17 @@ void read_clock(const Log& log, const ClockRules& rules, PointIndex begin, StepC
     const std::size_t n = steps.broken.size();
     std::vector<double> times(n);
     copy_block(time->values, begin, times);
-    std::vector<double> jitter(n, 0.0);
-    double most = 0;
+    std::vector<double> late(n, 0.0);
+    bool steady = true;
     for (std::size_t i = 1; i < n; ++i) {
-        const double off = std::abs(times[i] - times[i - 1] - log.period);
-        if (!(off <= lost_share * log.period)) steps.broken[i] = 1;
+        const double off = times[i] - times[i - 1] - log.period;
+        const bool broken = !(std::abs(off) <= lost_share * log.period);
+        if (broken) steps.broken[i] = 1;
+        late[i] = late[i - 1] + (broken ? 0 : off);
         // Rounding of the clock is not the machine's.
-        jitter[i] = std::max(0.0, off - 2 * rules.time_resolution);
-        if (steps.broken[i] == 0) most = std::max(most, jitter[i]);
+        steady = steady && (broken || std::abs(off) <= 2 * rules.time_resolution + 1e-6 * log.period);
     }
-    if (most > 1e-6 * log.period) steps.jitter = std::move(jitter);
+    if (!steady) steps.late = std::move(late);
 }
 
 /// What lost and repeated records look like: one step is too long or too short, and the one after it is not.

@@ -17,8 +17,9 @@ struct ClockRules {
 /// Of consecutive records: what the step that leads to each of them is like.
 struct StepClock {
     std::vector<char> broken;  ///< records are missing or repeated before this one, or the position jumps
-    std::vector<double>
-        jitter;  ///< by how much the clock's step differs from a period [s]; empty: no clock, or a steady one
+    /// By how much each record is later than a whole number of periods after the first one [s]; empty: there is no clock, or
+    /// its steps are periods as far as it shows.
+    std::vector<double> late;
 };
 
 /// Records [begin, begin + x.size()) with these positions [mm]. A step is broken where the clock says so; and, as many

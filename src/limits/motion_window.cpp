@@ -17,6 +17,39 @@ constexpr std::array<double, 4> roundings{1, 1, 2, 4};
 /// Of the greatest coordinate: what arithmetic in doubles adds.
 constexpr double last_places = 4 * std::numeric_limits<double>::epsilon();
 
+/// Positions, or vectors of them, at four instants [s] at most.
+template <typename T>
+struct Samples {
+    std::array<T, 4> at;
+    std::array<double, 4> times{};
+};
+
+/// The divided difference of the first order + 1 samples, times the factorial of the order: the derivative's mean.
+template <typename T>
+T derivative_of(Samples<T> samples, std::size_t order) {
+    for (std::size_t level = 1; level <= order; ++level) {
+        for (std::size_t i = 0; i + level <= order; ++i) {
+            const double rate = static_cast<double>(level) / (samples.times[i + level] - samples.times[i]);
+            samples.at[i] = (samples.at[i + 1] - samples.at[i]) * rate;
+        }
+    }
+    return samples.at[0];
+}
+
+/// A value if the records are a period apart, and the same by their times. Which of the two is right, or how much of each, is
+/// not known: the least of what lies between them is proved.
+double least_between(double even, double timed) {
+    return even * timed <= 0 ? 0 : std::copysign(std::min(std::abs(even), std::abs(timed)), even);
+}
+
+/// The same of the length of a vector.
+double least_norm_between(const Vec3& even, const Vec3& timed) {
+    const Vec3 change = timed - even;
+    const double squared = change.squaredNorm();
+    const double share = squared > 0 ? std::clamp(-even.dot(change) / squared, 0.0, 1.0) : 0;
+    return (even + share * change).norm();
+}
+
 /// 1 − cos of the angle between two steps; 1 where one of them has no direction.
 double one_minus_cosine(const Vec3& a, const Vec3& b) {
     const double lengths = a.norm() * b.norm();
@@ -139,31 +172,48 @@ std::vector<PointIndex> MotionWindow::broken() const {
     return found;
 }
 
-double MotionWindow::worst_jitter(std::size_t first, std::size_t last) const {
-    if (steps_.jitter.empty()) return 0;
-    double worst = 0;
-    for (std::size_t i = first + 1; i <= last; ++i) worst = std::max(worst, steps_.jitter[i]);
-    return worst;
+double MotionWindow::time_between(std::size_t first, std::size_t last) const {
+    const double late = steps_.late.empty() ? 0 : steps_.late[last] - steps_.late[first];
+    return static_cast<double>(last - first) * motion_->log().period + late;
+}
+
+/// By how much rounding grows where records are closer together than periods, for differences from `first` on.
+double MotionWindow::crowding(std::size_t first, std::size_t stride, int order) const {
+    if (!is_timed()) return 1;
+    const double even = static_cast<double>(stride) * motion_->log().period;
+    double closest = even;
+    for (std::size_t step = 0; step < static_cast<std::size_t>(order); ++step)
+        closest = std::min(closest, time_between(first + step * stride, first + (step + 1) * stride));
+    return std::pow(even / closest, order);
+}
+
+/// What rounding of the clock makes of a derivative: each time is off by half of its resolution.
+double MotionWindow::clock_noise(double speed, double rate, int order) const {
+    if (!is_timed()) return 0;
+    return roundings[static_cast<std::size_t>(order)] * speed * motion_->clock().time_resolution *
+           std::pow(rate, order);
 }
 
 MotionWindow::Value MotionWindow::of_axis(std::span<const double> x, std::size_t i, std::size_t stride,
                                           int order) const {
     const double rate = 1 / (static_cast<double>(stride) * motion_->log().period);
     const double speed = std::abs(x[i] - x[i - stride]) * rate;
-    const double fastest = order == 1 ? speed : std::max(speed, std::abs(x[i + stride] - x[i]) * rate);
     const double places = last_places * std::abs(x[i]);
-    // A step whose time is off by a share of it is off by this share of its length.
-    const auto clock = [&](std::size_t first, std::size_t last) {
-        const double share = rate * worst_jitter(first, last);
-        return fastest * share / (1 - std::min(0.5, share));
-    };
-    if (order == 1) return {speed, clock(i - stride, i) + places * rate};
-    if (order == 2) {
-        return {std::abs(x[i + stride] - 2 * x[i] + x[i - stride]) * rate * rate,
-                (2 * clock(i - stride, i + stride) + 2 * places * rate) * rate};
+    double value = 0;
+    if (order == 1) value = (x[i] - x[i - stride]) * rate;
+    if (order == 2) value = (x[i + stride] - 2 * x[i] + x[i - stride]) * rate * rate;
+    if (order == 3) value = (x[i + stride] - 3 * x[i] + 3 * x[i - stride] - x[i - 2 * stride]) * rate * rate * rate;
+    const double arithmetic = roundings[static_cast<std::size_t>(order)] * places * std::pow(rate, order);
+    if (!is_timed()) return {std::abs(value), arithmetic};
+    Samples<double> samples;
+    const std::size_t first = i - (order == 3 ? 2 : 1) * stride;
+    for (std::size_t k = 0; k <= static_cast<std::size_t>(order); ++k) {
+        samples.at[k] = x[first + k * stride];
+        samples.times[k] = time_between(first, first + k * stride);
     }
-    return {std::abs(x[i + stride] - 3 * x[i] + 3 * x[i - stride] - x[i - 2 * stride]) * rate * rate * rate,
-            (4 * clock(i - 2 * stride, i + stride) + 4 * places * rate) * rate * rate};
+    const double fastest = order == 1 ? speed : std::max(speed, std::abs(x[i + stride] - x[i]) * rate);
+    return {std::abs(least_between(value, derivative_of(samples, static_cast<std::size_t>(order)))),
+            arithmetic + clock_noise(fastest, rate, order)};
 }
 
 MotionWindow::Value MotionWindow::of_path(std::size_t i, std::size_t stride, LimitedQuantity quantity,
@@ -172,25 +222,34 @@ MotionWindow::Value MotionWindow::of_path(std::size_t i, std::size_t stride, Lim
     const Vec3 here = place(i);
     const Vec3 in = here - place(i - stride);
     const double places = last_places * here.cwiseAbs().maxCoeff();
+    const double speed = in.norm() * rate;
     if (quantity == LimitedQuantity::path_speed)
-        return {in.norm() * rate, (in.norm() * rate * worst_jitter(i - stride, i) + places) * rate};
+        return {std::min(speed, in.norm() / time_between(i - stride, i)), places * rate + clock_noise(speed, rate, 1)};
     const Vec3 out = place(i + stride) - here;
     const Vec3 chord = in + out;
     const double length = chord.norm();
-    const double clock =
-        2 * in.norm() * rate * rate * rate * worst_jitter(i - stride, i + stride) + 2 * places * rate * rate;
+    const double noise = 2 * places * rate * rate + clock_noise(std::max(speed, out.norm() * rate), rate, 2);
     const Vec3 acceleration = (out - in) * (rate * rate);
     if (!(length > 0)) return {0, 0, acceleration.norm()};  // a turn on the spot has no direction
-    const double along = acceleration.dot(chord) / length;
-    const double across = (acceleration - along / length * chord).norm();
+    double along = acceleration.dot(chord) / length;
+    Vec3 beside = acceleration - along / length * chord;
+    double across = beside.norm();
+    if (is_timed()) {
+        const Samples<Vec3> samples{{Vec3(-in), Vec3::Zero(), out, Vec3::Zero()},
+                                    {0, time_between(i - stride, i), time_between(i - stride, i + stride), 0}};
+        const Vec3 timed = derivative_of(samples, 2);
+        const double timed_along = timed.dot(chord) / length;
+        across = least_norm_between(beside, timed - timed_along / length * chord);
+        along = least_between(along, timed_along);
+    }
     // The direction turns within the difference, and rounding turns it: each part takes a share of the other.
     const double lengths = in.norm() * out.norm();
     const bool is_sharp = !(lengths > 0) || in.dot(out) < 0;  // the sine falls again beyond a right angle
     const double turn = is_sharp ? 1 : std::min(1.0, in.cross(out).norm() / lengths);
     const double slack = 0.5 * turn + std::min(1.0, rounding / (rate * rate) / length);
-    if (quantity == LimitedQuantity::tangential_acceleration) return {std::abs(along), clock, across * slack};
+    if (quantity == LimitedQuantity::tangential_acceleration) return {std::abs(along), noise, across * slack};
     if (is_sharp && may_stop(i, stride)) return {across, 0, across};
-    return {across, clock, std::abs(along) * slack};
+    return {across, noise, std::abs(along) * slack};
 }
 
 /// Whether the path may have stopped in a sharp corner between the records about one: then it has braked and leaves again along
@@ -219,10 +278,20 @@ MotionWindow::Value MotionWindow::path_jerk(std::size_t i, std::size_t stride) c
         shortening += weight * turned * chords[c].norm();
         longest = std::max(longest, chords[c].norm());
     }
-    const double value = std::abs(chords[3].norm() - 2 * chords[2].norm() + chords[1].norm()) * cubed_rate;
-    const double clock = 4 * longest * rate * worst_jitter(i - 2 * stride, i + stride);
-    const double places = 4 * last_places * place(i).cwiseAbs().maxCoeff();
-    return {value, (clock + places) * cubed_rate, shortening * cubed_rate};
+    double value = (chords[3].norm() - 2 * chords[2].norm() + chords[1].norm()) * cubed_rate;
+    if (is_timed()) {
+        // Speeds in the middle of three steps.
+        Samples<double> speeds;
+        for (std::size_t step = 0; step < 3; ++step) {
+            const std::size_t from = i + step * stride - 2 * stride;
+            const double time = time_between(from, from + stride);
+            speeds.at[step] = chords[step + 1].norm() / time;
+            speeds.times[step] = time_between(i - 2 * stride, from) + 0.5 * time;
+        }
+        value = least_between(value, derivative_of(speeds, 2));
+    }
+    const double places = 4 * last_places * place(i).cwiseAbs().maxCoeff() * cubed_rate;
+    return {std::abs(value), places + clock_noise(longest * rate, rate, 3), shortening * cubed_rate};
 }
 
 std::vector<MeasuredValue> MotionWindow::measure(const StatedLimit& limit, std::span<const Stride> strides) const {
@@ -238,8 +307,8 @@ std::vector<MeasuredValue> MotionWindow::measure(const StatedLimit& limit, std::
         for (std::size_t k = 0; k < n; ++k) {
             const std::size_t i = offset + k;
             if (i < before || i + after >= count_ || !clean(i - before, i + after)) continue;
-            const double rounding =
-                stride.roundings * (axis != nullptr ? axis->resolution : path_resolution(i - before, i, i + after));
+            const double rounding = stride.roundings * crowding(i - before, s, order) *
+                                    (axis != nullptr ? axis->resolution : path_resolution(i - before, i, i + after));
             const Value value = column != nullptr ? of_axis(*column, i, s, order)
                                 : limit.quantity == LimitedQuantity::path_jerk
                                     ? path_jerk(i, s)

@@ -94,7 +94,11 @@ private:
     /// Of the path in the records about i [mm]: on a straight way the arms are longest at its ends.
     [[nodiscard]] double path_resolution(std::size_t first, std::size_t i, std::size_t last) const;
     [[nodiscard]] bool clean(std::size_t first, std::size_t last) const { return breaks_[last] == breaks_[first]; }
-    [[nodiscard]] double worst_jitter(std::size_t first, std::size_t last) const;
+    /// Whether the log has a clock that is not steady. Then values by its times and by even periods are both possible.
+    [[nodiscard]] bool is_timed() const { return !steps_.late.empty(); }
+    [[nodiscard]] double time_between(std::size_t first, std::size_t last) const;  ///< [s]
+    [[nodiscard]] double crowding(std::size_t first, std::size_t stride, int order) const;
+    [[nodiscard]] double clock_noise(double speed, double rate, int order) const;
     [[nodiscard]] Value of_axis(std::span<const double> x, std::size_t i, std::size_t stride, int order) const;
     [[nodiscard]] Value of_path(std::size_t i, std::size_t stride, LimitedQuantity quantity, double rounding) const;
     [[nodiscard]] bool may_stop(std::size_t i, std::size_t stride) const;
