@@ -169,6 +169,18 @@ std::uint16_t AxisSpeedProblem<Axes>::broken_at(const Sample& sample, const AtBe
 }
 
 template <int Axes>
+double AxisSpeedProblem<Axes>::greatest_share(std::size_t cell, const Sample& sample) const {
+    const SampleMotion motion(sample, at_begin(cell));
+    double share = std::max({motion.path_acceleration() / limits_.path_acceleration,
+                             motion.path_jerk() / limits_.path_jerk, motion.b / (sample.cap * sample.cap)});
+    for (int x = 0; x < Axes; ++x) {
+        share = std::max(share, motion.acceleration(x) / limits_.acceleration[x]);
+        if (limits_.jerk[x] > 0) share = std::max(share, motion.jerk(x) / limits_.jerk[x]);
+    }
+    return share;
+}
+
+template <int Axes>
 double AxisSpeedProblem<Axes>::holding_share(const KnotState& start, const KnotState& end) {
     fix_ends(start, end);
     weigh();
@@ -342,6 +354,7 @@ template bool AxisSpeedProblem<3>::may_break(const Cell& cell, double part, doub
 template bool AxisSpeedProblem<5>::may_break(const Cell& cell, double part, double acceleration, double square,
                                              double jerk, double path_jerk) const;
 template double AxisSpeedProblem<3>::acceleration_at_end(std::size_t cell) const;
+template double AxisSpeedProblem<5>::greatest_share(std::size_t cell, const Sample& sample) const;
 template double AxisSpeedProblem<5>::acceleration_at_end(std::size_t cell) const;
 template AxisSpeedProblem<3>::AtBegin AxisSpeedProblem<3>::at_begin(std::size_t cell) const;
 template std::uint16_t AxisSpeedProblem<3>::broken_at(const Sample& sample, const AtBegin& at, double part) const;

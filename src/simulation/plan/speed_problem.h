@@ -87,6 +87,8 @@ public:
     [[nodiscard]] bool breaks(std::size_t cell, const Sample& sample) const {
         return broken_at(sample, at_begin(cell), 1) != 0;
     }
+    /// The greatest share that the values take of any of these limits there; of the speed its square.
+    [[nodiscard]] double greatest_share(std::size_t cell, const Sample& sample) const;
 
     /// The factor, at most 1, by which v² is to be lower everywhere, at the states of both ends too, so that the values hold
     /// every limit at the samples.

@@ -1,0 +1,77 @@
+// Blocks of very different lengths that turn back at random: the pace of the tip falls to next to nothing beside many joints,
+// over nanometres. The jerk of the path holds there, too, at periods that see it.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "io/readers/machine_file.h"
+#include "simulation/run/five_axis_simulator.h"
+#include "support/made_five_axis.h"
+#include "toolpath/tip_motions.h"
+
+namespace clsurf::five_axis_dip_test {
+namespace {
+
+/// In [-1, 1), by a linear congruential generator (Knuth, MMIX).
+class Random {
+public:
+    explicit Random(std::uint64_t seed) : state_(seed) {}
+    double next() {
+        state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
+        return static_cast<double>(state_ >> 11U) / 4503599627370496.0 - 1;
+    }
+
+private:
+    std::uint64_t state_;
+};
+
+/// Steps of 10 µm to 20 mm in all directions, with turns to match.
+std::string random_walk(std::uint64_t seed) {
+    constexpr int blocks = 100;
+    Random random(seed);
+    std::string text = "G21 G90 G94 G17\nG43.4 H1\nG0 X0 Y0 Z0 A0 C0\nG1 F3000\n";
+    double x = 0, y = 0, z = 0, a = 0, c = 0;
+    for (int i = 0; i < blocks; ++i) {
+        const double size = std::pow(10.0, 1.65 * random.next() - 1.35);
+        x += 10 * size * random.next();
+        y += 10 * size * random.next();
+        z += 4 * size * random.next();
+        a = std::clamp(a + 8 * size * random.next(), -60.0, 20.0);
+        c += 30 * size * random.next();
+        text += fmt::format("X{:.4f} Y{:.4f} Z{:.4f} A{:.4f} C{:.4f}\n", x, y, z, a, c);
+    }
+    return text + "G49\nM30\n";
+}
+
+TEST(FiveAxisDip, ThePathsJerkHoldsWhereTheTipNearlyReverses) {
+    Machine machine = io::read_machine(SAMPLE_DATA "/machines/five_axis_trunnion.toml");
+    machine.controller.period = 0.0005;
+    for (const std::uint64_t seed : {2U, 3U}) {
+        Program program = test::parse_text(random_walk(seed));
+        solve_tool_axes(program, machine);
+        make_tip_motions(program, machine.kinematics, Vec3::Zero(), Vec3::Zero());
+        std::vector<double> speeds{0, 0};
+        const FiveAxisSummary summary = simulate_five_axis(
+            program, machine, Vec3::Zero(), Vec3::Zero(),
+            [&](std::span<const FiveAxisPoint> points) {
+                for (const FiveAxisPoint& point : points) speeds.push_back(point.speed);
+            },
+            {});
+        EXPECT_TRUE(summary.run.limits_ok) << seed;
+        double jerk = 0;
+        for (std::size_t i = 2; i < speeds.size(); ++i)
+            jerk = std::max(jerk, std::abs(speeds[i] - 2 * speeds[i - 1] + speeds[i - 2]));
+        jerk /= machine.controller.period * machine.controller.period;
+        EXPECT_LE(jerk, 1.001 * machine.path.max_jerk) << seed;
+    }
+}
+
+}  // namespace
+}  // namespace clsurf::five_axis_dip_test
