@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include <Eigen/Dense>
+
 #include "core/geometry.h"
 #include "log/jump_rule.h"
 
@@ -13,6 +15,7 @@ namespace {
 constexpr double lost_share = 0.5;   ///< of a period, that a clock's step is longer or shorter
 constexpr double beyond_limit = 20;  ///< times the limit of acceleration
 constexpr double slack = 0.02;       ///< share of a limit that motion at the limit may be over it
+constexpr double certain_jerk = 3;   ///< times its limit: steps that are even otherwise are then no violation
 constexpr double long_step = 1.6;    ///< times the steps beside it
 constexpr double short_step = 0.45;  ///< times the steps beside it
 
@@ -58,13 +61,46 @@ bool is_multiple(const Vec3& before, const Vec3& step, double allowed) {
 /// A step that is what two or three steps make which a limit allows, between steps that keep it: `steps` are five in a
 /// row, the middle one is looked at. Near standstill nothing else tells a lost record from a short violation.
 bool fits_more_periods(const std::array<Vec3, 5>& steps, double allowed) {
-    const auto change = [&](std::size_t i) { return (steps[i] - steps[i - 1]).norm(); };
+    const auto greatest = [](const Vec3& of_axes) {
+        return of_axes.cwiseAbs().maxCoeff();
+    };  // limits are those of axes
+    const auto change = [&](std::size_t i) { return greatest(steps[i] - steps[i - 1]); };
     if (change(1) > allowed || change(4) > allowed) return false;
     for (const double periods : {2.0, 3.0}) {
         const Vec3 sum = 0.5 * periods * (steps[1] + steps[3]);  // of steps that change evenly
         const double bulge = periods == 2 ? 1.5 : 3.0;
-        if ((steps[2] - sum).norm() <= bulge * allowed && (steps[3] - steps[1]).norm() <= (periods + 1) * allowed)
+        if (greatest(steps[2] - sum) <= bulge * allowed && greatest(steps[3] - steps[1]) <= (periods + 1) * allowed)
             return true;
+    }
+    return false;
+}
+
+/// Of steps the middle one of which is split into so many, evenly but for what the others ask: how much their second differences
+/// are at least, as the root of the mean square, in the axis where it is greatest. 0 parts: the middle one is left out.
+double unevenness(const std::array<Vec3, 5>& steps, int parts) {
+    // Unknown are the parts e; each is m/n + a combination that adds up to 0, so the last one follows from the others.
+    const int free = std::max(0, parts - 1), rows = parts + 2;
+    Eigen::MatrixXd known(parts + 4, 3), by_free = Eigen::MatrixXd::Zero(parts + 4, free);
+    known.row(0) = steps[0], known.row(1) = steps[1];
+    for (int k = 0; k < parts; ++k) known.row(2 + k) = steps[2] / parts;
+    known.row(parts + 2) = steps[3], known.row(parts + 3) = steps[4];
+    for (int k = 0; k < free; ++k) by_free(2 + k, k) = 1, by_free(1 + parts, k) = -1;
+    const auto second_differences = [&](const Eigen::MatrixXd& of) {
+        return Eigen::MatrixXd(of.topRows(rows) - 2 * of.middleRows(1, rows) + of.bottomRows(rows));
+    };
+    Eigen::MatrixXd left = second_differences(known);
+    if (free > 0) {
+        const Eigen::MatrixXd a = second_differences(by_free);
+        left -= a * (a.transpose() * a).ldlt().solve(a.transpose() * left);
+    }
+    return std::sqrt(left.colwise().squaredNorm().maxCoeff() / rows);
+}
+
+/// Whether the middle one of five steps is what one to three lost records make of a motion that keeps its jerk, or a repeated one.
+bool hides_records(const std::array<Vec3, 5>& steps, double allowed, double resolution) {
+    if (steps[2].cwiseAbs().maxCoeff() <= resolution) return unevenness(steps, 0) <= allowed;
+    for (const int parts : {2, 3, 4}) {
+        if (unevenness(steps, parts) <= allowed) return true;
     }
     return false;
 }
@@ -81,12 +117,22 @@ StepClock judge_steps(const Log& log, const ClockRules& rules, PointIndex begin,
     const double allowed = 2 * rules.acceleration * square_of_period + 4 * rules.resolution;
     const double jump = std::max(impossible_acceleration, beyond_limit * rules.acceleration) * square_of_period;
     const auto step = [&](std::size_t i) { return Vec3(x[i] - x[i - 1], y[i] - y[i - 1], z[i] - z[i - 1]); };
+    const double kept_jerk = (1 + slack) * rules.jerk * square_of_period * log.period;
+    const double even = kept_jerk + 4 * rules.resolution, certain = certain_jerk * kept_jerk + 4 * rules.resolution;
+    for (std::size_t i = 3; rules.jerk > 0 && i + 2 < n; ++i) {
+        const auto third = [&](std::span<const double> p) {
+            return std::abs(p[i + 1] - 3 * p[i] + 3 * p[i - 1] - p[i - 2]);
+        };
+        if (std::max({third(x), third(y), third(z)}) <= certain) continue;
+        if (hides_records({step(i - 2), step(i - 1), step(i), step(i + 1), step(i + 2)}, even, rules.resolution))
+            steps.broken[i] = 1;
+    }
     for (std::size_t i = 2; i < n; ++i) {
         // Most records are clean, and this is the cheapest proof of it.
         const double second_x = x[i] - 2 * x[i - 1] + x[i - 2], second_y = y[i] - 2 * y[i - 1] + y[i - 2],
                      second_z = z[i] - 2 * z[i - 1] + z[i - 2];
         const double squared_difference = second_x * second_x + second_y * second_y + second_z * second_z;
-        if (!(squared_difference > kept * kept)) continue;
+        if (!(std::max({std::abs(second_x), std::abs(second_y), std::abs(second_z)}) > kept)) continue;
         if (i >= 3 && i + 2 < n &&
             fits_more_periods({step(i - 2), step(i - 1), step(i), step(i + 1), step(i + 2)}, kept))
             steps.broken[i] = 1;

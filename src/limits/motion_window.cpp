@@ -68,11 +68,18 @@ CommandedMotion::CommandedMotion(const Log& log, const Trajectory& path, std::sp
         if (letter >= 'x') rules_.resolution = std::max(rules_.resolution, axis.resolution);
         axes_.push_back(axis);
     }
+    std::size_t with_jerk = 0, linear = 0;
+    for (const CommandedAxis& axis : axes_) linear += axis.letter >= 'x' ? 1 : 0;
     for (const StatedLimit& limit : limits) {
+        if (limit.quantity == LimitedQuantity::jerk && limit.axis >= 'x' && find(limit.axis) != nullptr) {
+            ++with_jerk;
+            rules_.jerk = std::max(rules_.jerk, limit.value);
+        }
         limits_path_ = limits_path_ || limit.axis == 0;
         if (row_of(limit.quantity).order == 2 && (limit.axis == 0 || limit.axis >= 'x'))
             rules_.acceleration = std::max(rules_.acceleration, limit.value);
     }
+    if (with_jerk < linear) rules_.jerk = 0;
     if (const Channel* time = log.find("time")) rules_.time_resolution = resolution_of(time->values);
 }
 

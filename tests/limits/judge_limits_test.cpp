@@ -252,6 +252,49 @@ TEST(JudgeLimits, ALostRecordNearStandstillIsNoFinding) {
     }
 }
 
+/// From rest to rest: the jerk is 50,000 mm/s³ or nothing, so the acceleration changes by 50 mm/s² in a period.
+Positions driven_smoothly(const Vec3& along) {
+    std::vector<std::pair<double, int>> accelerations{{0, 20}};
+    for (int i = 1; i <= 20; ++i) accelerations.emplace_back(50.0 * i, 1);
+    for (int i = 19; i >= -20; --i) accelerations.emplace_back(50.0 * i, 1);
+    for (int i = -19; i <= 0; ++i) accelerations.emplace_back(50.0 * i, 1);
+    accelerations.emplace_back(0, 20);
+    return driven(accelerations, 0, along);
+}
+
+TEST(JudgeLimits, ALostRecordOfASmoothStartIsNoJerk) {
+    // Near standstill it changes the acceleration by less than the limit, but the jerk by ten times its limit and more.
+    const std::vector<StatedLimit> limits{acceleration_of_x,
+                                          {LimitedQuantity::acceleration, 'y', 2000},
+                                          {LimitedQuantity::jerk, 'x', 50000},
+                                          {LimitedQuantity::jerk, 'y', 50000},
+                                          {LimitedQuantity::jerk, 'z', 50000}};
+    const Positions whole = driven_smoothly(Vec3(0.8, 0.6, 0));
+    ASSERT_TRUE(judged(log_of(whole), limits).findings.empty());
+    for (std::ptrdiff_t at = 15; at < 115; ++at) {
+        if (at == 21 || at == 97) continue;  // hardly more than three times the limit: that may be a violation
+        Positions lost = whole, repeated = whole;
+        lost.erase(lost.begin() + at);
+        repeated.insert(repeated.begin() + at, whole[static_cast<std::size_t>(at)]);
+        EXPECT_TRUE(judged(log_of(lost), limits).findings.empty()) << at;
+        EXPECT_TRUE(judged(log_of(repeated), limits).findings.empty()) << at;
+    }
+}
+
+TEST(JudgeLimits, AStepOfTheAccelerationIsNoLostRecord) {
+    // Diagonal, so that both axes are at their limit from the first period on: 40 times the limit of the jerk.
+    const std::vector<StatedLimit> limits{acceleration_of_x,
+                                          {LimitedQuantity::jerk, 'x', 50000},
+                                          {LimitedQuantity::jerk, 'y', 50000},
+                                          {LimitedQuantity::jerk, 'z', 50000}};
+    const double both = 2000 * std::sqrt(2.0);
+    const LimitReport report = judged(
+        log_of(driven({{0, 50}, {both, 20}, {0, 50}, {-both, 20}, {0, 50}}, slow, Vec3(1, 1, 0).normalized())), limits);
+    EXPECT_EQ(report.broken_steps, 0);
+    ASSERT_EQ(report.findings.size(), 8u) << "four steps, two axes";
+    for (const LimitFinding& found : report.findings) EXPECT_NEAR(found.factor, 40, 0.1);
+}
+
 TEST(JudgeLimits, GapsOfTheClockAreNoFindings) {
     Positions positions = driven({{0, 100}, {1000, 100}, {-1000, 90}, {0, 100}});
     std::vector<double> times;

@@ -58,12 +58,12 @@ TEST(FiveAxisDip, ThePathsJerkHoldsWhereTheTipNearlyReverses) {
         solve_tool_axes(program, machine);
         make_tip_motions(program, machine.kinematics, Vec3::Zero(), Vec3::Zero());
         std::vector<double> speeds{0, 0};
-        const FiveAxisSummary summary = simulate_five_axis(
-            program, machine, Vec3::Zero(), Vec3::Zero(),
-            [&](std::span<const FiveAxisPoint> points) {
-                for (const FiveAxisPoint& point : points) speeds.push_back(point.speed);
-            },
-            {});
+        const FiveAxisSummary summary = simulate_five_axis(program, machine, Vec3::Zero(), Vec3::Zero(),
+                                                           [&](std::span<const FiveAxisPoint> points) {
+                                                               for (const FiveAxisPoint& point : points)
+                                                                   speeds.push_back(point.speed);
+                                                           },
+                                                           {});
         EXPECT_TRUE(summary.run.limits_ok) << seed;
         double jerk = 0;
         for (std::size_t i = 2; i < speeds.size(); ++i)
