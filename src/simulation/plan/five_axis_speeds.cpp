@@ -397,6 +397,8 @@ private:
             motion.cell = {h, at.speed, at.acceleration, (next.acceleration - at.acceleration) / h};
             motion.duration = motion.cell.duration();
             motion.limit = limiting(problem_.limiting(i), cells_[i].why);
+            if (motion.limit == LimitingFactor::corner_tolerance && bends_as_programmed(cells_[i].begin + 0.5 * h))
+                motion.limit = LimitingFactor::jerk;
             plan.push_back(motion);
             at = next;
             if (i < static_cast<std::size_t>(kept_share * static_cast<double>(n))) {
@@ -411,6 +413,16 @@ private:
         tail_.assign(plan.begin() + static_cast<std::ptrdiff_t>(kept), plan.end());
         const FiveAxisMotion& stop = last_piece_;
         tail_end_ = stop.begin - stop.jerk * stop.duration * stop.duration * stop.duration / 6;
+    }
+
+    /// Whether the joint nearest to u is one of the chords of a block: its rounding is no choice of a tolerance.
+    [[nodiscard]] bool bends_as_programmed(double u) const {
+        const std::size_t i = path_->chord_at(u), last = path_->chord_at(path_->length());
+        const FiveAxisChord& chord = path_->chord(i);
+        const double part = path_->part_at(i, u);
+        const bool to_the_end = chord.part_to - part < part - chord.part_from;
+        if (to_the_end ? i == last : i == 0) return false;
+        return path_->chord(to_the_end ? i + 1 : i - 1).block == chord.block;
     }
 
     static LimitingFactor limiting(Row row, LimitingFactor at_cap) {
