@@ -17,7 +17,7 @@ namespace {
 
 using SystemTime = std::chrono::sys_seconds;
 
-std::string text_of(SystemTime time) {
+std::string utc_text(SystemTime time) {
     const auto day = std::chrono::floor<std::chrono::days>(time);
     const std::chrono::year_month_day date(day);
     const std::chrono::hh_mm_ss clock(time - day);
@@ -42,12 +42,12 @@ bool read_zone(const std::string& text, std::chrono::seconds& ahead) {
 
 }  // namespace
 
-std::string utc_now() { return text_of(std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now())); }
+std::string utc_now() { return utc_text(std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now())); }
 
 std::string utc_with_milliseconds(std::chrono::system_clock::time_point time) {
     const auto second = std::chrono::floor<std::chrono::seconds>(time);
     const auto rest = std::chrono::floor<std::chrono::milliseconds>(time - second);
-    std::string text = text_of(second);
+    std::string text = utc_text(second);
     text.pop_back();
     return text + fmt::format(".{:03}Z", rest.count());
 }
@@ -56,7 +56,7 @@ std::string utc_of_file(const std::string& path) {
     struct stat status {};
     if (::stat(path.c_str(), &status) != 0)
         throw InputError(Place::of_file(path), std::string("cannot open: ") + std::strerror(errno));
-    return text_of(SystemTime(std::chrono::seconds(status.st_mtim.tv_sec)));
+    return utc_text(SystemTime(std::chrono::seconds(status.st_mtim.tv_sec)));
 }
 
 std::string parse_utc(const std::string& text, const std::string& option) {
@@ -80,8 +80,8 @@ std::string parse_utc(const std::string& text, const std::string& option) {
     if (!good)
         throw UsageError(
             fmt::format("{}: '{}' is not a time such as 2026-11-24 or 2026-11-24T07:30:00+01:00", option, text));
-    return text_of(std::chrono::sys_days(calendar) + std::chrono::hours(hour) + std::chrono::minutes(minute) +
-                   std::chrono::seconds(second) - ahead);
+    return utc_text(std::chrono::sys_days(calendar) + std::chrono::hours(hour) + std::chrono::minutes(minute) +
+                    std::chrono::seconds(second) - ahead);
 }
 
 }  // namespace clsurf::io

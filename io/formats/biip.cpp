@@ -18,6 +18,7 @@
 #include "core/error.h"
 #include "io/files/crc32c.h"
 #include "io/files/json_value.h"
+#include "io/formats/known_formats.h"
 #include "io/formats/owned_columns.h"
 
 namespace clsurf::io {
@@ -178,16 +179,12 @@ void read_metadata(Log& log, const Source& source) {
     }
 }
 
-}  // namespace
-
 int probe_biip(std::span<const std::byte> head, const LogOptions&) {
     if (head.size() < magic.size()) return 0;
     if (std::memcmp(head.data(), magic.data(), magic.size()) == 0) return 100;
     // Damaged by a copy in text mode: still BIIP, and said so when it is opened.
     return std::memcmp(head.data(), magic.data(), 5) == 0 ? 90 : 0;
 }
-
-namespace {
 
 void refuse_damaged_signature(const Source& source) {
     if (source.bytes.size() >= 8 && std::memcmp(source.bytes.data(), magic.data(), magic.size()) != 0) {
@@ -196,13 +193,13 @@ void refuse_damaged_signature(const Source& source) {
     }
 }
 
-}  // namespace
-
 RecordFrame frame_biip(const Source& beginning, const LogOptions&) {
     refuse_damaged_signature(beginning);
     return Header(beginning).frame();
 }
 
+/// Every rule of the format page; channels are views on the mapping. Throws InputError; adds
+/// `log.unclosed`, `log.minor-version`.
 Log open_biip(const Source& source, const LogOptions& options) {
     refuse_damaged_signature(source);
     const Header header(source);
@@ -251,8 +248,6 @@ Log open_biip(const Source& source, const LogOptions& options) {
     return log;
 }
 
-namespace {
-
 template <typename T>
 void put(std::string& bytes, std::size_t at, const T& value) {
     std::memcpy(bytes.data() + at, &value, sizeof value);
@@ -280,6 +275,9 @@ void store(const ChannelView& view, std::size_t offset, PointIndex begin, PointI
 }
 
 }  // namespace
+
+const LogFormat biip_format{
+    "biip", "BIIP v1: self-describing fixed records (docs/formats/biip.md)", probe_biip, open_biip, frame_biip, true};
 
 BiipWriter::BiipWriter(const std::string& path, const std::vector<StoredChannel>& channels, double period,
                        const std::string& metadata, Unfinished unfinished)

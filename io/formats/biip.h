@@ -1,22 +1,13 @@
 #pragma once
-// BIIP, version 1: the project's own log container (docs/formats/biip.md).
+// BIIP, version 1: the project's own log container (docs/formats/biip.md), as it is written; known_formats.h has its reader.
 
 #include <string>
 #include <vector>
 
 #include "io/files/atomic_file.h"
-#include "io/formats/log_format.h"
+#include "log/log.h"
 
 namespace clsurf::io {
-
-[[nodiscard]] int probe_biip(std::span<const std::byte> head, const LogOptions& options);
-
-/// Every rule of the format page; channels are views on the mapping. Throws InputError; adds
-/// `log.unclosed`, `log.minor-version`.
-[[nodiscard]] Log open_biip(const Source& source, const LogOptions& options);
-
-/// Throws InputError: the header is not whole, or wrong.
-[[nodiscard]] RecordFrame frame_biip(const Source& beginning, const LogOptions& options);
 
 /// How a channel is stored; value = raw · scale.
 struct StoredChannel {

@@ -1,7 +1,10 @@
+// Text logs (docs/formats/csv.md): CSV and TSV with a header of channel names, LinuxCNC's halsampler text; columns named,
+// scaled and converted by a mapping file where the log does not do so.
+//
 // Text with one record a line. Separator: tab, semicolon, comma or blanks, whichever the first data
 // lines have. With semicolons a decimal comma is understood. Comments: text_table.h.
 // halsampler writes "sample value value …" separated by blanks, and "overrun" where it lost samples.
-#include "io/formats/delimited.h"
+#include "io/formats/known_formats.h"
 
 #include <algorithm>
 
@@ -11,9 +14,11 @@
 #include "log/channel.h"
 
 namespace clsurf::io {
-
 namespace {
 
+/// Dense columns; a bad number becomes NaN with a diagnostic that names line and column
+/// (`log.bad-number`), a short or long row likewise (`log.ragged-row`). Throws InputError: no
+/// channels, no period. O(bytes), parallel by sections of the text.
 Log open_text(const Source& source, const LogOptions& options, const char* format) {
     const std::optional<Mapping> mapping = mapping_of(options);
     const Mapping* map = mapping ? &*mapping : nullptr;
@@ -24,8 +29,6 @@ Log open_text(const Source& source, const LogOptions& options, const char* forma
     add_event_lines(log, map, plan.day);
     return log;
 }
-
-}  // namespace
 
 int probe_delimited(std::span<const std::byte> head, const LogOptions& options) {
     if (head.empty() || !is_text(head)) return 0;
@@ -72,9 +75,17 @@ Log open_halsampler(const Source& source, const LogOptions& options) {
     return open_text(source, options, "halsampler");
 }
 
+/// Of both formats.
 RecordFrame frame_text(const Source& beginning, const LogOptions& options) {
     const std::optional<Mapping> mapping = mapping_of_growing(options);
     return {plan_text(beginning, mapping ? &*mapping : nullptr).data_begin, 0, mapping && mapping->halsampler, {}};
 }
+
+}  // namespace
+
+const LogFormat halsampler_format{"halsampler", "LinuxCNC halsampler text, columns named by --mapping FILE",
+                                  probe_halsampler, open_halsampler, frame_text};
+const LogFormat delimited_format{"delimited", "CSV or TSV with a header of channel names, or with --mapping FILE",
+                                 probe_delimited, open_delimited, frame_text};
 
 }  // namespace clsurf::io

@@ -1,3 +1,5 @@
+// SINUMERIK Edge (Capture4Analysis): high-frequency recordings as JSON (docs/formats/edge.md).
+//
 // A recording is one JSON object:
 //   Header.SignalListHFData[]   the columns: Name ("DES_POS|1"), Axis ("X1")
 //   Header.CycleTimeMs          the sampling period
@@ -199,8 +201,6 @@ void add_lines(Log& log, OwnedColumns& owned, std::vector<EdgeEvent>& events, co
     owned.add("program", "", std::move(program));
 }
 
-}  // namespace
-
 int probe_edge(std::span<const std::byte> head, const LogOptions&) {
     const std::string_view text = text_of(head);
     const std::size_t first = text.find_first_not_of(" \t\r\n");
@@ -211,6 +211,9 @@ int probe_edge(std::span<const std::byte> head, const LogOptions&) {
                : 0;
 }
 
+/// One record per row of HFData. `line` and `program` come from the block and call events: the line of
+/// the innermost program that runs. A recording that ends in the middle is read as far as it goes
+/// (`log.unclosed`). Throws InputError with the line of the file. Memory: proportional to the rows.
 Log open_edge(const Source& source, const LogOptions& options) {
     const std::optional<Mapping> mapping = mapping_of(options);
     const Mapping* map = mapping ? &*mapping : nullptr;
@@ -259,5 +262,9 @@ Log open_edge(const Source& source, const LogOptions& options) {
     log.metadata = with_programs(recording.about, log.programs);
     return log;
 }
+
+}  // namespace
+
+const LogFormat edge_format{"edge", "SINUMERIK Edge high-frequency recording (JSON)", probe_edge, open_edge};
 
 }  // namespace clsurf::io

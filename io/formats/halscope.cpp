@@ -1,8 +1,10 @@
+// LinuxCNC's halscope: what "Save log" writes (docs/formats/scopes.md).
+//
 // halscope's log files, of two kinds (scope_files.c of LinuxCNC):
 //   2.10:     "# Sampling period is 1000000 ns", then names and values separated by semicolons, with
 //             lines "# Position:" and "# Scale:" about the screen
 //   till 2.9: "Sampling period is 1000000 ns" (or nSec), then "NAME +1.5 NAME +2.5 " a record
-#include "io/formats/halscope.h"
+#include "io/formats/known_formats.h"
 
 #include <array>
 #include <charconv>
@@ -119,14 +121,13 @@ TextPlan plan_of(const Source& source, const Mapping* mapping) {
     return line.starts_with('#') ? plan_table(source, mapping) : plan_named_values(source, rest, mapping);
 }
 
-}  // namespace
-
 int probe_halscope(std::span<const std::byte> head, const LogOptions&) {
     if (head.empty() || !is_text(head)) return 0;
     const std::string_view text = text_of(head);
     return text.starts_with(opening) || (text.starts_with("# ") && text.substr(2).starts_with(opening)) ? 95 : 0;
 }
 
+/// Channels are named after their HAL pins, or by a mapping. Throws InputError with the line.
 Log open_halscope(const Source& source, const LogOptions& options) {
     const std::optional<Mapping> mapping = mapping_of(options);
     const Mapping* map = mapping ? &*mapping : nullptr;
@@ -143,5 +144,10 @@ RecordFrame frame_halscope(const Source& beginning, const LogOptions& options) {
     const std::optional<Mapping> mapping = mapping_of_growing(options);
     return {plan_of(beginning, mapping ? &*mapping : nullptr).data_begin, 0, false, {}};
 }
+
+}  // namespace
+
+const LogFormat halscope_format{"halscope", "LinuxCNC halscope's saved log", probe_halscope, open_halscope,
+                                frame_halscope};
 
 }  // namespace clsurf::io

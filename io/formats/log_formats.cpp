@@ -3,34 +3,14 @@
 
 #include "core/error.h"
 #include "io/files/compressed.h"
-#include "io/formats/biip.h"
-#include "io/formats/delimited.h"
-#include "io/formats/edge_json.h"
 #include "io/formats/foreign_content.h"
-#include "io/formats/halscope.h"
+#include "io/formats/known_formats.h"
 #include "io/formats/log_format.h"
-#include "io/formats/record_layout.h"
-#include "io/formats/sinumerik_xml.h"
-#include "io/formats/twincat_csv.h"
 #include "log/channel.h"
 #include "log/turns.h"
 
 namespace clsurf::io {
 namespace {
-
-/// One line a format. Later lines win only with a better score.
-constexpr auto known_formats = std::to_array<LogFormat>({
-    {"biip", "BIIP v1: self-describing fixed records (docs/formats/biip.md)", probe_biip, open_biip, frame_biip, true},
-    {"layout", "fixed binary records, described by --layout FILE", probe_layout, open_layout, frame_layout},
-    {"halsampler", "LinuxCNC halsampler text, columns named by --mapping FILE", probe_halsampler, open_halsampler,
-     frame_text},
-    {"halscope", "LinuxCNC halscope's saved log", probe_halscope, open_halscope, frame_halscope},
-    {"twincat", "TwinCAT Scope's text export", probe_twincat, open_twincat},
-    {"edge", "SINUMERIK Edge high-frequency recording (JSON)", probe_edge, open_edge},
-    {"sinumerik-xml", "SINUMERIK Operate trace session (XML)", probe_sinumerik_xml, open_sinumerik_xml},
-    {"delimited", "CSV or TSV with a header of channel names, or with --mapping FILE", probe_delimited, open_delimited,
-     frame_text},
-});
 
 /// A lathe has no Y; a typing error in a mapping looks the same.
 void note_still_axes(Log& log) {
@@ -52,7 +32,13 @@ constexpr std::size_t probed_bytes = 65536;
 
 }  // namespace
 
-std::span<const LogFormat> log_formats() { return known_formats; }
+std::span<const LogFormat> log_formats() {
+    // Later ones win only with a better score.
+    static const auto table =
+        std::to_array<LogFormat>({biip_format, layout_format, halsampler_format, halscope_format, twincat_format,
+                                  edge_format, sinumerik_xml_format, delimited_format});
+    return table;
+}
 
 const LogFormat* recognise_log(const Source& source, const LogOptions& options) {
     const std::span<const std::byte> head = source.bytes.first(std::min(probed_bytes, source.bytes.size()));

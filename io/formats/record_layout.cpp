@@ -1,4 +1,5 @@
-#include "io/formats/record_layout.h"
+// Foreign fixed-record logs, described by a layout file (docs/formats/layout.md).
+#include "io/formats/known_formats.h"
 
 #include <array>
 
@@ -43,10 +44,10 @@ Channel read_channel(const TomlFile& file, const toml::table& entry, std::int64_
     return channel;
 }
 
-}  // namespace
-
+/// Certain if the user names a layout: bare records do not say what they are.
 int probe_layout(std::span<const std::byte>, const LogOptions& options) { return options.layout.empty() ? 0 : 99; }
 
+/// Views on the records as the layout says. Throws InputError; adds `log.unclosed` for left-over bytes.
 Log open_layout(const Source& source, const LogOptions& options) {
     const TomlFile file(options.layout);
     file.allow(file.root(), {"log", "channel"});
@@ -105,5 +106,10 @@ RecordFrame frame_layout(const Source& beginning, const LogOptions& options) {
     frame.record_bytes = static_cast<std::size_t>(file.integer(head, "record_bytes", 1, most_bytes).value_or(1));
     return frame;
 }
+
+}  // namespace
+
+const LogFormat layout_format{"layout", "fixed binary records, described by --layout FILE", probe_layout, open_layout,
+                              frame_layout};
 
 }  // namespace clsurf::io

@@ -1,10 +1,12 @@
+// SINUMERIK Operate: trace sessions as XML (docs/formats/scopes.md).
+//
 // A trace session:
 //   <traceSession> … <traceData> <dataFrame>
 //     <frameHeader startTime="…" stopInc="…" dropOuts="0"/>
 //     <dataSignal id="f1" name="/Nck/!SD/nckServoDataActPos1stEnc64 [u1, 1]" interval="0.002" …/>
 //     <rec time="0.002" f1="12.5"/>        a signal that has not changed is left out
 // What is not measured stands as a whole number above that of an infinite double.
-#include "io/formats/sinumerik_xml.h"
+#include "io/formats/known_formats.h"
 
 #include <algorithm>
 #include <array>
@@ -256,8 +258,6 @@ void join_frames(std::vector<double>& time, double period) {
     }
 }
 
-}  // namespace
-
 int probe_sinumerik_xml(std::span<const std::byte> head, const LogOptions&) {
     const std::string_view text = text_of(head);
     const std::size_t first = text.find_first_not_of(" \t\r\n");
@@ -265,6 +265,8 @@ int probe_sinumerik_xml(std::span<const std::byte> head, const LogOptions&) {
     return text.find("<traceSession") != std::string_view::npos ? 95 : 0;
 }
 
+/// One record per `rec`; a value that is not repeated holds. A trace that ends in the middle is read
+/// as far as it goes (`log.unclosed`). Throws InputError with line and column.
 Log open_sinumerik_xml(const Source& source, const LogOptions& options) {
     const std::optional<Mapping> mapping = mapping_of(options);
     const Mapping* map = mapping ? &*mapping : nullptr;
@@ -315,5 +317,10 @@ Log open_sinumerik_xml(const Source& source, const LogOptions& options) {
     add_event_lines(log, map);
     return log;
 }
+
+}  // namespace
+
+const LogFormat sinumerik_xml_format{"sinumerik-xml", "SINUMERIK Operate trace session (XML)", probe_sinumerik_xml,
+                                     open_sinumerik_xml};
 
 }  // namespace clsurf::io

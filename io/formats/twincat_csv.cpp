@@ -1,3 +1,5 @@
+// TwinCAT Scope: text exports (docs/formats/scopes.md).
+//
 // TwinCAT Scope's text export: some lines about the file, an empty line, then a header of the
 // channels with one property a line, an empty line, records. In the header's lines a cell that
 // repeats the property's name stands over a column of times; the cells after it are the channels that
@@ -7,7 +9,7 @@
 //   <empty>
 //   0<tab>1,5<tab>2<tab>0<tab>17
 // Times are milliseconds from the start, or 100 ns since 1601 ("full timestamp"). A line EOF may close.
-#include "io/formats/twincat_csv.h"
+#include "io/formats/known_formats.h"
 
 #include <algorithm>
 #include <cmath>
@@ -207,8 +209,6 @@ TimeColumns read_times(const Source& source, const Header& header, const Log& re
     return times;
 }
 
-}  // namespace
-
 int probe_twincat(std::span<const std::byte> head, const LogOptions&) {
     const std::string_view text = text_of(head);
     if (!text.starts_with("Name") || text.size() < 5 || (text[4] != '\t' && text[4] != ';' && text[4] != ',')) return 0;
@@ -218,6 +218,8 @@ int probe_twincat(std::span<const std::byte> head, const LogOptions&) {
     return 0;
 }
 
+/// One record per sample of the channels with the shortest sampling time; slower channels keep their
+/// last value in between (note `log.held`). Throws InputError with the line.
 Log open_twincat(const Source& source, const LogOptions& options) {
     const std::optional<Mapping> mapping = mapping_of(options);
     const Mapping* map = mapping ? &*mapping : nullptr;
@@ -270,5 +272,9 @@ Log open_twincat(const Source& source, const LogOptions& options) {
     add_event_lines(log, map);
     return log;
 }
+
+}  // namespace
+
+const LogFormat twincat_format{"twincat", "TwinCAT Scope's text export", probe_twincat, open_twincat};
 
 }  // namespace clsurf::io

@@ -1,12 +1,12 @@
 // halscope logs, whatever their first bytes say.
 #include "fuzz/fuzz_input.h"
-#include "io/formats/halscope.h"
+#include "io/formats/known_formats.h"
 
 using namespace clsurf;
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     return fuzz::answer([&] {
-        Log log = io::open_halscope(fuzz::source_of(fuzz::text_of(data, size)), {});
+        Log log = io::halscope_format.open(fuzz::source_of(fuzz::text_of(data, size)), {});
         if (!(log.period > 0)) log.period = 0.001;
         fuzz::look_at(log);
     });

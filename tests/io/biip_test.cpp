@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "io/files/crc32c.h"
+#include "io/formats/log_format.h"
 #include "support/temporary_folder.h"
 
 namespace clsurf::io::biip_test {

@@ -1,4 +1,4 @@
-#include "io/formats/delimited.h"
+#include "io/formats/log_format.h"
 
 #include <cmath>
 

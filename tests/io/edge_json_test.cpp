@@ -1,4 +1,4 @@
-#include "io/formats/edge_json.h"
+#include "io/formats/log_format.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "io/formats/halscope.h"
+#include "io/formats/log_format.h"
 
 #include <gtest/gtest.h>
 

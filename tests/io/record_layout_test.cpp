@@ -1,4 +1,4 @@
-#include "io/formats/record_layout.h"
+#include "io/formats/log_format.h"
 
 #include <gtest/gtest.h>
 

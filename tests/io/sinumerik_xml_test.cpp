@@ -1,4 +1,4 @@
-#include "io/formats/sinumerik_xml.h"
+#include "io/formats/log_format.h"
 
 #include <cmath>
 

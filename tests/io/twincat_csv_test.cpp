@@ -1,4 +1,4 @@
-#include "io/formats/twincat_csv.h"
+#include "io/formats/log_format.h"
 
 #include <algorithm>
 #include <cmath>
