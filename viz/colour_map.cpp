@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/decimal_text.h"
 #include "core/error.h"
 #include "core/spelling.h"
 
@@ -226,16 +227,14 @@ std::vector<double> nice_ticks(double low, double high, int wanted) {
 }
 
 std::string tick_text(double value, double step) {
-    const double size = std::abs(value);
     std::string text;
-    if (std::max(size, step) >= 1e6 || step < 1e-5) {
-        text = fmt::format("{:.3g}", size);
+    if (std::max(std::abs(value), step) >= 1e6 || step < 1e-5) {
+        text = fmt::format("{:.3g}", value + 0.0);  // −0 + 0 is 0
     } else {
         const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 6);
-        text = fmt::format("{:.{}f}", size, decimals);
+        text = fixed_text(value, decimals);
     }
-    const bool is_zero = text.find_first_not_of("0.") == std::string::npos;  // no "−0"
-    return value < 0 && !is_zero ? "−" + text : text;
+    return text.starts_with('-') ? "−" + text.substr(1) : text;
 }
 
 }  // namespace clsurf::viz

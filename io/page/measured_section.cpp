@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/decimal_text.h"
 #include "core/file_name.h"
 #include "core/units.h"
 #include "io/page/defect_cards.h"
@@ -17,10 +18,6 @@ namespace {
 std::string roughness_html(const MeasuredComparison& c) {
     if (!c.reason.empty()) return fmt::format("<p>Not compared: {}.</p>\n", html(c.reason));
     std::string rows;
-    const auto signed_text = [](double value, int digits) {
-        const double least = 0.5 * std::pow(10.0, -digits);
-        return fmt::format("{:+.{}f}", std::abs(value) < least ? 0.0 : value, digits);
-    };
     const auto row = [&](std::string_view name, double measured, double predicted) {
         rows +=
             fmt::format("<tr><td>{}</td><td>{:.3f}</td><td>{:.3f}</td><td>{}</td><td>{}</td></tr>\n", name,

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/decimal_text.h"
 #include "core/file_name.h"
 #include "core/units.h"
 #include "core/version.h"
@@ -186,7 +187,7 @@ std::string roughness_change_html(const PageChange& change) {
     if (!change.roughness) return {};
     std::string rows;
     write_roughness_change(*change.roughness, [&](std::string_view name, double before, double after) {
-        const std::string by = before > 0 ? fmt::format("{:+.1f} %", 100 * (after / before - 1)) : "–";
+        const std::string by = before > 0 ? signed_text(100 * (after / before - 1), 1) + " %" : "–";
         rows += fmt::format("<tr><td>{}</td><td>{:.2f}</td><td>{:.2f}</td><td>{}</td></tr>\n", html(name), before,
                             after, by);
     });
@@ -237,11 +238,11 @@ std::string defect_list_section(const ReportPage& page) {
     for (std::size_t i = 0; i < std::min(defects_in_table, report.defects.size()); ++i) {
         const Defect& d = report.defects[i];
         rows += fmt::format(
-            "<tr data-defect=\"{}\"><td>{}</td><td><span class=\"severity s{}\">{}</span> {}</td><td>{}</td><td>{:.1f}</td><td>{}</td>{}<td>{:+.1f}</td><td>{:.1f}</td><td>{:.2f} {:.2f} {:.2f}</td><td>{}</td></tr>\n",
+            "<tr data-defect=\"{}\"><td>{}</td><td><span class=\"severity s{}\">{}</span> {}</td><td>{}</td><td>{:.1f}</td><td>{}</td>{}<td>{}</td><td>{:.1f}</td><td>{}</td><td>{}</td></tr>\n",
             i + 1, i + 1, d.severity, d.severity, name_of_severity(d.severity),
             html(sentence_of(d)) + accepted_note(page, i), d.score, depth_text(d, ""),
             as_machined ? fmt::format("<td>{}</td>", um_text(page.quality.as_machined->marks[i].depth)) : "",
-            100 * d.speed_mismatch, d.length, d.place.position().x(), d.place.position().y(), d.place.position().z(),
+            signed_text(100 * d.speed_mismatch, 1), d.length, coordinates_text(d.place.position()),
             html(defect_lines(d)));
     }
     std::string text =

@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "core/decimal_text.h"
 #include "core/units.h"
 #include "io/reports/measured_json.h"
+#include "io/reports/quality_words.h"
 
 namespace clsurf::io {
 
@@ -20,16 +22,15 @@ std::string alignment_text(const MeasuredData& data, const Alignment& alignment)
     text += "\n";
     for (const std::string& reason : alignment.reasons) text += fmt::format("  not determined: {}\n", reason);
     if (!alignment.determined()) return text;
-    const Vec3& shift = alignment.pose.shift;
     const Vec3 turns = turns_of(alignment.pose.turn) * deg_per_rad;
-    text += fmt::format("  its origin lies at X {:.4f} Y {:.4f} Z {:.4f} mm, turned A {:.4f} B {:.4f} C {:.4f}°\n",
-                        shift.x(), shift.y(), shift.z(), turns.x(), turns.y(), turns.z());
+    text += fmt::format("  its origin is at {} mm, turned by A {} B {} C {}°\n", axes_text(alignment.pose.shift, 4),
+                        fixed_text(turns.x(), 4), fixed_text(turns.y(), 4), fixed_text(turns.z(), 4));
     for (const PoseParameter& p : alignment.parameters) {
         const bool rotation = p.axis >= PoseAxis::a;
         const double factor = rotation ? deg_per_rad : 1;
         const std::string_view unit = rotation ? "°" : " mm";
         if (p.fitted)
-            text += fmt::format("  {} {:+.5f}{} ± {:.2g}{}\n", name_of(p.axis), p.value * factor, unit,
+            text += fmt::format("  {} {}{} ± {:.2g}{}\n", name_of(p.axis), signed_text(p.value * factor, 5), unit,
                                 p.standard_error * factor, unit);
         else
             text += fmt::format("  {} as stated\n", name_of(p.axis));

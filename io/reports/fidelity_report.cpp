@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/decimal_text.h"
 #include "core/units.h"
 
 namespace clsurf::io {
@@ -74,9 +75,8 @@ std::string fidelity_line(const std::optional<Fidelity>& f) {
                      : f->basis == FidelityBasis::cross_validation ? "runs, each left out of the fit"
                                                                    : "the fitted runs";
     std::string text = fmt::format(
-        "Fidelity of this machine file ({}: {}): time {:+.2f} %, speed within {} mm/min over 95 % of the path", of,
-        f->runs, std::abs(f->time_error) < 5e-5 ? 0.0 : f->time_error * 100,
-        two_digits(f->speed_error_p95 * seconds_per_minute));
+        "Fidelity of this machine file ({}: {}): time {} %, speed within {} mm/min over 95 % of the path", of, f->runs,
+        signed_text(f->time_error * 100, 2), two_digits(f->speed_error_p95 * seconds_per_minute));
     if (f->following_error_p95)
         text += fmt::format(", following error within {} µm", two_digits(*f->following_error_p95 * um));
     if (f->defects_recall) text += fmt::format(", {:.0f} % of the defects found", *f->defects_recall * 100);

@@ -8,6 +8,7 @@
 
 #include "core/counted.h"
 #include "core/file_name.h"
+#include "io/reports/quality_words.h"
 #include "predictor/severity.h"
 
 namespace clsurf::io {
@@ -61,9 +62,8 @@ std::string lines_of(const RecordedDefect& d) {
 }
 
 std::string defect_line(const RecordedDefect& d) {
-    return fmt::format("{:<13} {:<8} {:>6.1f} times the threshold  {:>6.1f} µm  X {:.2f} Y {:.2f} Z {:.2f}  lines {}",
-                       d.cause, name_of_severity(d.severity), d.score, d.depth_um, d.position.x(), d.position.y(),
-                       d.position.z(), lines_of(d));
+    return fmt::format("{:<13} {:<8} {:>6.1f} times the threshold  {:>6.1f} µm  {}  lines {}", d.cause,
+                       name_of_severity(d.severity), d.score, d.depth_um, axes_text(d.position), lines_of(d));
 }
 
 const TrendPoint* latest(const Trend& trend) {

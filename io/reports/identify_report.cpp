@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/decimal_text.h"
 #include "core/units.h"
 #include "io/files/json_value.h"
 #include "io/files/toml_table.h"
@@ -98,8 +99,8 @@ std::string runs_text(const char* title, std::span<const RunFidelity> runs) {
     const auto share = [](const std::optional<double>& value) { return value ? fmt::format("{:.2f}", *value) : "-"; };
     for (const RunFidelity& run : runs) {
         text += fmt::format(
-            "  {}: time {:.3f} s, simulated {:.3f} s ({:+.2f} %); speed |difference| 50 % {:.1f}, 95 % {:.1f} of {:.0f} mm/min",
-            run.log, run.duration, run.simulated_duration, run.time_error * 100,
+            "  {}: time {:.3f} s, simulated {:.3f} s ({} %); speed |difference| 50 % {:.1f}, 95 % {:.1f} of {:.0f} mm/min",
+            run.log, run.duration, run.simulated_duration, signed_text(run.time_error * 100, 2),
             run.speed_error_p50 * seconds_per_minute, run.speed_error_p95 * seconds_per_minute,
             run.usual_speed * seconds_per_minute);
         if (run.following_error_p95)

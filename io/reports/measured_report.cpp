@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/decimal_text.h"
 #include "core/units.h"
 #include "io/reports/alignment_report.h"
 
@@ -24,8 +25,8 @@ std::string marks_text(const ReportedMeasurement& measured, MarkState state, std
 }
 
 std::string against(double measured, double predicted) {
-    return predicted > 0 ? fmt::format("{:.3f} µm measured, {:.3f} µm predicted ({:+.1f} %)", to_um(measured),
-                                       to_um(predicted), 100 * (measured / predicted - 1))
+    return predicted > 0 ? fmt::format("{:.3f} µm measured, {:.3f} µm predicted ({} %)", to_um(measured),
+                                       to_um(predicted), signed_text(100 * (measured / predicted - 1), 1))
                          : fmt::format("{:.3f} µm measured, {:.3f} µm predicted", to_um(measured), to_um(predicted));
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/counted.h"
+#include "core/decimal_text.h"
 #include "core/units.h"
 #include "io/files/json_value.h"
 #include "io/reports/defect_json.h"
@@ -110,7 +111,7 @@ std::string optimize_text(const Optimized& r) {
     const auto row = [&](std::string_view name, double before, double after, int digits) {
         const double change = before > 0 ? 100 * (after / before - 1) : 0;
         text += fmt::format("{:<31} {:>11.{}f} {:>12.{}f} {:>8} %\n", name, before, digits, after, digits,
-                            fmt::format("{:+.1f}", std::abs(change) < 0.05 ? 0.0 : change));
+                            signed_text(change, 1));
     };
     if (r.measured) {
         text += fmt::format(

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/decimal_text.h"
 #include "core/units.h"
 #include "io/files/json_value.h"
 #include "io/reports/defect_fingerprint.h"
@@ -119,9 +120,9 @@ std::string roughness_text(const PartRoughness& f) {
     if (f.patches.empty()) return {};
     const RoughPatch& roughest = f.patches[f.roughest];
     std::string text = fmt::format(
-        "formed surface, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}, at {:.2f} {:.2f} {:.2f}), Sa {:.2f}, Sz {:.2f} µm, cut-off {:g} mm\n",
-        f.patches.size(), um(f.ra), um(f.rz), um(roughest.profile.rz), roughest.contact.x(), roughest.contact.y(),
-        roughest.contact.z(), um(f.sa), um(f.sz), f.cutoff);
+        "formed surface, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}, at {}), Sa {:.2f}, Sz {:.2f} µm, cut-off {:g} mm\n",
+        f.patches.size(), um(f.ra), um(f.rz), um(roughest.profile.rz), coordinates_text(roughest.contact), um(f.sa),
+        um(f.sz), f.cutoff);
     if (f.unknown >= worth_saying)
         text +=
             fmt::format("form not known on {:.0f} % of these patches (creases, fillets, borders): not measured there\n",
@@ -197,12 +198,11 @@ std::string defects_table(const ReportedQuality& q) {
                         as_machined ? "    [µm]" : "", one_row ? "  [mm]" : "");
     for (std::size_t i = 0; i < r.defects.size(); ++i) {
         const Defect& d = r.defects[i];
-        text += fmt::format("{:>4} {:<8} {:<13} {:>7.1f} {:>+7.1f} {:>14} {:>7.1f}{}", i + 1,
-                            name_of_severity(d.severity), name_of(d.cause), d.score, 100 * d.speed_mismatch + 0.0,
-                            depth_column(d), d.length, formed_column(q, i));
-        const Vec3& at = d.place.position();
+        text += fmt::format("{:>4} {:<8} {:<13} {:>7.1f} {:>7} {:>14} {:>7.1f}{}", i + 1, name_of_severity(d.severity),
+                            name_of(d.cause), d.score, signed_text(100 * d.speed_mismatch, 1), depth_column(d),
+                            d.length, formed_column(q, i));
         text += one_row
-                    ? fmt::format("  {:<22} {}\n", fmt::format("{:.2f} {:.2f} {:.2f}", at.x(), at.y(), at.z()),
+                    ? fmt::format("  {:<22} {}\n", coordinates_text(d.place.position()),
                                   line_ranges(d, ranges_in_column(d)))
                     : fmt::format("\n     {}, {}\n", place_text(d.place), named_line_ranges(d, ranges_in_column(d)));
     }

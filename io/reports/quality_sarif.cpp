@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "core/decimal_text.h"
 #include "core/file_name.h"
 #include "core/units.h"
 #include "io/files/json_value.h"
@@ -40,19 +41,18 @@ Json location(const Program& program, const DefectRun& run, const std::string& m
 }
 
 std::string message_of(const Defect& d) {
-    const Vec3& at = d.place.position();
-    return fmt::format("{} at the {} X {:.2f} Y {:.2f} Z {:.2f} mm. Severity {} ({}), {:.1f} times the threshold.",
-                       sentence_of(d), d.place.contact ? "contact point" : "tool tip", at.x(), at.y(), at.z(),
-                       d.severity, name_of_severity(d.severity), d.score);
+    return fmt::format("{} at the {} {} mm. Severity {} ({}), {:.1f} times the threshold.", sentence_of(d),
+                       d.place.contact ? "contact point" : "tool tip", axes_text(d.place.position()), d.severity,
+                       name_of_severity(d.severity), d.score);
 }
 
 std::string markdown_of(const Defect& d) {
-    const Vec3& at = d.place.position();
     return fmt::format(
         "**{}** (severity {}, {:.1f} × threshold): {}\n\n| depth | speed | length | place [mm] |\n|---|---|---|---|\n"
-        "| {} | {:+.1f} % ({:+.0f} mm/min) | {:.1f} mm | X {:.2f} Y {:.2f} Z {:.2f} |\n",
-        name_of_severity(d.severity), d.severity, d.score, sentence_of(d), depth_text(d), 100 * d.speed_mismatch,
-        d.speed_jump * seconds_per_minute, d.length, at.x(), at.y(), at.z());
+        "| {} | {} % ({} mm/min) | {:.1f} mm | {} |\n",
+        name_of_severity(d.severity), d.severity, d.score, sentence_of(d), depth_text(d),
+        signed_text(100 * d.speed_mismatch, 1), signed_text(d.speed_jump * seconds_per_minute, 0), d.length,
+        axes_text(d.place.position()));
 }
 
 /// Accepted by the user: SARIF counts such results as suppressed.

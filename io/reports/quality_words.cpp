@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/decimal_text.h"
 #include "core/units.h"
 
 namespace clsurf::io {
@@ -132,7 +133,8 @@ std::string kind_text(const Kind& kind) {
         kind.count == 1 ? fmt::format("1 {}", kind.one) : fmt::format("{} {}", kind.count, kind.many);
     if (d.quantity == Quantity::acceleration) return count;
     if (d.quantity == Quantity::speed)
-        return fmt::format("{} ({}{:+.0f} %)", count, kind.count > 1 ? "up to " : "", 100 * d.speed_mismatch);
+        return fmt::format("{} ({}{} %)", count, kind.count > 1 ? "up to " : "",
+                           signed_text(100 * d.speed_mismatch, 0));
     return fmt::format("{} ({}{})", count, kind.count > 1 ? "up to " : "", with_um(d.depth));
 }
 
@@ -153,9 +155,17 @@ std::vector<Kind> kinds_of(const QualityReport& report) {
 
 std::string_view place_word(const CutterPlace& place) { return place.contact ? "contact" : "tool tip"; }
 
+std::string axes_text(const Vec3& at, int decimals) {
+    return fmt::format("X {} Y {} Z {}", fixed_text(at.x(), decimals), fixed_text(at.y(), decimals),
+                       fixed_text(at.z(), decimals));
+}
+
+std::string coordinates_text(const Vec3& at) {
+    return fmt::format("{} {} {}", fixed_text(at.x(), 2), fixed_text(at.y(), 2), fixed_text(at.z(), 2));
+}
+
 std::string place_text(const CutterPlace& place) {
-    const Vec3& at = place.position();
-    return fmt::format("{} X {:.2f} Y {:.2f} Z {:.2f} mm", place_word(place), at.x(), at.y(), at.z());
+    return fmt::format("{} {} mm", place_word(place), axes_text(place.position()));
 }
 
 std::string_view shape_of(bool systematic, double depth, bool pit) {

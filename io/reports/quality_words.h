@@ -14,6 +14,10 @@ namespace clsurf::io {
 
 /// What the coordinates of a place are of: "contact", "tool tip".
 [[nodiscard]] std::string_view place_word(const CutterPlace& place);
+/// "X 1.00 Y 2.00 Z 3.00".
+[[nodiscard]] std::string axes_text(const Vec3& at, int decimals = 2);
+/// "1.00 2.00 3.00", for columns.
+[[nodiscard]] std::string coordinates_text(const Vec3& at);
 /// "tool tip X 1.00 Y 2.00 Z 3.00 mm".
 [[nodiscard]] std::string place_text(const CutterPlace& place);
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/decimal_text.h"
 #include "io/files/json_value.h"
 #include "io/reports/quality_words.h"
 #include "io/reports/roughness_json.h"
@@ -20,9 +21,6 @@ const RunQuantityInfo& info_of(RunQuantity q) { return run_quantity_table()[inde
 
 /// Digits behind the point that mean something, of a quantity as it is shown.
 int decimals_of(RunQuantity q) { return q == RunQuantity::lag || q == RunQuantity::height ? 3 : 1; }
-
-/// Two digits behind the point, of what is nothing without a sign.
-std::string two_digits(double value) { return fmt::format("{:.2f}", std::round(100 * value) / 100 + 0.0); }
 
 double percent(double part, double whole) { return whole > 0 ? 100 * part / whole : 0; }
 
@@ -110,7 +108,7 @@ std::string roughness_text(const ReportedRun& run) {
     if (!run.roughness) return {};
     std::string rows;
     write_roughness_change(*run.roughness, [&](std::string_view name, double reference, double other) {
-        const std::string change = reference > 0 ? fmt::format("{:+.1f} %", 100 * (other / reference - 1)) : "";
+        const std::string change = reference > 0 ? signed_text(100 * (other / reference - 1), 1) + " %" : "";
         rows += fmt::format("{:<31} {:>10.2f} {:>10.2f} {:>10}\n", name, reference, other, change);
     });
     if (rows.empty()) return {};
@@ -119,9 +117,9 @@ std::string roughness_text(const ReportedRun& run) {
 
 std::string run_text(const ReportedRun& run, const std::string& reference) {
     const RunReport& r = run.report;
-    std::string text = fmt::format("{} against {}: {:.1f} % of {:.1f} mm aligned, {:.3f} s and {:.3f} s ({:+.3f} s)\n",
+    std::string text = fmt::format("{} against {}: {:.1f} % of {:.1f} mm aligned, {:.3f} s and {:.3f} s ({} s)\n",
                                    run.name, reference, percent(r.aligned, r.arc_length), r.arc_length, r.time_of_b,
-                                   r.time, r.time_of_b - r.time);
+                                   r.time, signed_text(r.time_of_b - r.time, 3));
     text += fmt::format("{:<21} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>8} {:>7}\n", "difference", "mean", "95 %",
                         "lowest", "highest", "begin", "end", "over %", "places");
     for (const RunQuantitySummary& s : r.quantities) {
@@ -129,7 +127,7 @@ std::string run_text(const ReportedRun& run, const std::string& reference) {
         const double u = info.unit.per_inside;
         text += fmt::format("{:<21}", fmt::format("{} [{}]", info.name, info.unit.name));
         for (const double value : {s.mean, s.p95, s.lowest, s.highest, s.begin, s.end})
-            text += fmt::format(" {:>10}", two_digits(value * u));
+            text += fmt::format(" {:>10}", fixed_text(value * u, 2));
         text += fmt::format(" {:>8.1f} {:>7}\n", 100 * s.over, s.sections);
     }
     text += roughness_text(run);
@@ -148,14 +146,11 @@ std::string run_text(const ReportedRun& run, const std::string& reference) {
         const RunQuantityInfo& info = info_of(d.quantity);
         const double u = info.unit.per_inside;
         const bool relative = d.quantity == RunQuantity::speed;
-        text += fmt::format(
-            "{:>3} {:<13} {:>16} {:>10} {:>8.2f} {:>+8.3f} {:<28} {}\n", i + 1, info.name,
-            relative ? fmt::format("{:+.1f} %", 100 * d.relative_peak)
-                     : fmt::format("{:+.2f} {}", d.peak * u, info.unit.name),
-            relative ? fmt::format("{:+.1f} %", 100 * d.relative_mean) : fmt::format("{:+.2f}", d.mean * u), d.length,
-            d.time,
-            fmt::format("{:.2f} {:.2f} {:.2f}", d.place.position().x(), d.place.position().y(), d.place.position().z()),
-            lines_of(d));
+        text += fmt::format("{:>3} {:<13} {:>16} {:>10} {:>8.2f} {:>8} {:<28} {}\n", i + 1, info.name,
+                            relative ? signed_text(100 * d.relative_peak, 1) + " %"
+                                     : fmt::format("{} {}", signed_text(d.peak * u, 2), info.unit.name),
+                            relative ? signed_text(100 * d.relative_mean, 1) + " %" : signed_text(d.mean * u, 2),
+                            d.length, signed_text(d.time, 3), coordinates_text(d.place.position()), lines_of(d));
     }
     if (left_out > 0) text += fmt::format("and {} more: --json lists them\n", left_out);
     for (const BudgetLine& line : run.budget) {

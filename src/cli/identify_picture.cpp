@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/difference_map.h"
+#include "core/decimal_text.h"
 #include "core/error.h"
 #include "core/units.h"
 #include "identify/run_fidelity.h"
@@ -31,9 +32,9 @@ void draw_speed_residual(const Identification& result, std::span<const Part> par
     DrawnDifference shown = drawn_difference(differences, RunQuantity::speed);
     shown.run = "simulation";
     shown.reference = run.part().log.name;
-    shown.note = fmt::format("{}: time {:+.2f} %, speed within {:.3g} mm/min over 95 % of the path",
-                             tested ? "not used for the fit" : "used for the fit", 100 * worst->time_error,
-                             worst->speed_error_p95 * seconds_per_minute);
+    shown.note = fmt::format("{}: time {} %, speed within {:.3g} mm/min over 95 % of the path",
+                             tested ? "not used for the fit" : "used for the fit",
+                             signed_text(100 * worst->time_error, 2), worst->speed_error_p95 * seconds_per_minute);
     LookOptions look;
     look.look.view = viz::parse_view("top");
     look.look.keep_drawing = output.wants_drawing();

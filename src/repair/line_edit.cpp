@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/decimal_text.h"
 #include "core/units.h"
 #include "program/dialects/dialect_rules.h"
 #include "program/feed_mode_cursor.h"
@@ -258,7 +259,7 @@ std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const std
     std::array<std::string, axes> modal;
     const auto text_of = [&](std::size_t axis, const Vec3& position, const Vec3& turned) {
         const int k = static_cast<int>(axis % linear);
-        const auto number = rules_->straight_word.empty() ? nc_number : signed_nc_number;
+        const auto number = rules_->straight_word.empty() ? fixed_text : signed_text;
         return axis < linear ? number(position[k] / unit_, decimals_) : number(turned[k] * deg_per_rad, turn_decimals_);
     };
     const Vec3 begin = in_words(motions, first, motions.begin_of(first).vec());

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/decimal_text.h"
 #include "core/units.h"
 
 namespace clsurf {
@@ -38,8 +39,7 @@ double gain_of(const RunMeasures& before, const RunMeasures& after, double line_
 
 std::string too_little_gain(std::string_view what, double gain) {
     if (gain >= least_gain) return {};
-    const double percent = std::round(1000 * gain) / 10 + 0.0;  // − 0 + 0 is 0: no "-0.0"
-    return fmt::format("{} is {:.1f} %, less than {:.0f} %", what, percent, 100 * least_gain);
+    return fmt::format("{} is {} %, less than {:.0f} %", what, fixed_text(100 * gain, 1), 100 * least_gain);
 }
 
 std::string why_not_better(const RunMeasures& before, const RunMeasures& after, double more_time) {

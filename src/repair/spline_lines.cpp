@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/decimal_text.h"
 #include "program/text/nc_text.h"
 
 namespace clsurf {
@@ -16,7 +17,7 @@ constexpr int finer_decimals = 3;  ///< more than coordinates have: of direction
 std::string point(const Vec3& p, const SplineWords& w) {
     std::string text;
     for (std::size_t a = 0; a < 3; ++a)
-        text += fmt::format("{}{}{}", a > 0 ? " " : "", w.words[a], nc_number(p[static_cast<int>(a)], w.decimals));
+        text += fmt::format("{}{}{}", a > 0 ? " " : "", w.words[a], fixed_text(p[static_cast<int>(a)], w.decimals));
     return text;
 }
 
@@ -24,7 +25,7 @@ std::string point(const Vec3& p, const SplineWords& w) {
 std::vector<std::string> knotted_lines(const Nurbs& spline, const SplineWords& w) {
     std::vector<std::string> points, knots;
     for (const Vec3& p : spline.points) points.push_back(point(p, w));
-    for (const double knot : spline.knots) knots.push_back(nc_number(knot, knot_decimals));
+    for (const double knot : spline.knots) knots.push_back(fixed_text(knot, knot_decimals));
     return fanuc_nurbs_lines(points, knots);
 }
 
@@ -35,7 +36,7 @@ std::vector<std::string> basis_lines(const Nurbs& spline, const SplineWords& w) 
     for (std::size_t k = 1; k < spline.points.size(); ++k) {
         std::string line = (k == 1 ? "BSPLINE SD=3 " : "") + point(spline.points[k], w);
         if (k <= spans)
-            line += " PL=" + nc_number(spline.knots[degree + k] - spline.knots[degree + k - 1], knot_decimals);
+            line += " PL=" + fixed_text(spline.knots[degree + k] - spline.knots[degree + k - 1], knot_decimals);
         lines.push_back(std::move(line));
     }
     return lines;
@@ -56,20 +57,21 @@ std::vector<std::string> span_lines(const Nurbs& spline, SplineForm form, const 
         const Vec3 &first = span.curve.point(1), &second = span.curve.point(2);
         if (form == SplineForm::cubic_plane) {
             const Vec3 out = first - begin, in = second - end;
-            lines.push_back(fmt::format("G5 {}{} {}{} I{} J{} P{} Q{}", w.words[0], nc_number(end.x(), w.decimals),
-                                        w.words[1], nc_number(end.y(), w.decimals), nc_number(out.x(), finer),
-                                        nc_number(out.y(), finer), nc_number(in.x(), finer), nc_number(in.y(), finer)));
+            lines.push_back(fmt::format("G5 {}{} {}{} I{} J{} P{} Q{}", w.words[0], fixed_text(end.x(), w.decimals),
+                                        w.words[1], fixed_text(end.y(), w.decimals), fixed_text(out.x(), finer),
+                                        fixed_text(out.y(), finer), fixed_text(in.x(), finer),
+                                        fixed_text(in.y(), finer)));
             continue;
         }
         const std::array<Vec3, 3> factors{3 * (second - end), 3 * (first - 2 * second + end),
                                           begin - 3 * first + 3 * second - end};
         std::string line = "SPL";
         for (std::size_t a = 0; a < 3; ++a)
-            line += fmt::format(" {}{}", "XYZ"[a], signed_nc_number(end[static_cast<int>(a)], w.decimals));
+            line += fmt::format(" {}{}", "XYZ"[a], signed_text(end[static_cast<int>(a)], w.decimals));
         for (std::size_t a = 0; a < 3; ++a) {
             for (std::size_t power = 3; power > 0; --power)
                 line += fmt::format(" K{}{}{}", power, "XYZ"[a],
-                                    signed_nc_number(factors[power - 1][static_cast<int>(a)], finer));
+                                    signed_text(factors[power - 1][static_cast<int>(a)], finer));
         }
         lines.push_back(std::move(line));
     }

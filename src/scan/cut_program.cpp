@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/decimal_text.h"
 #include "program/text/nc_text.h"
 
 namespace clsurf {
@@ -14,7 +15,7 @@ namespace {
 constexpr double same_place = 1e-6;  ///< [mm] between spans that hang together
 
 std::string number(double value, bool plus) {
-    return without_end_zeros(plus ? signed_nc_number(value, cut_decimals) : nc_number(value, cut_decimals));
+    return without_end_zeros(plus ? signed_text(value, cut_decimals) : fixed_text(value, cut_decimals));
 }
 
 /// Letters, digits and a few marks: what no dialect takes for anything but a comment.

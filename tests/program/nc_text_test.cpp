@@ -1,4 +1,4 @@
-// Numbers of NC programs.
+// Texts of NC programs.
 
 #include <gtest/gtest.h>
 
@@ -6,21 +6,6 @@
 
 namespace clsurf::nc_text_test {
 namespace {
-
-TEST(NcText, WritesNumbers) {
-    EXPECT_EQ(nc_number(-12.5, 3), "-12.500");
-    EXPECT_EQ(nc_number(0.0004, 3), "0.000");
-    EXPECT_EQ(nc_number(-0.0004, 3), "0.000");
-    EXPECT_EQ(nc_number(-0.0, 0), "0");
-    EXPECT_EQ(nc_number(-0.4, 0), "0");
-    EXPECT_EQ(nc_number(7.6, 0), "8");
-}
-
-TEST(NcText, WritesSigns) {
-    EXPECT_EQ(signed_nc_number(12.5, 2), "+12.50");
-    EXPECT_EQ(signed_nc_number(-12.5, 2), "-12.50");
-    EXPECT_EQ(signed_nc_number(-0.001, 2), "+0.00");
-}
 
 TEST(NcText, LeavesOutZeros) {
     EXPECT_EQ(without_end_zeros("12.500"), "12.5");

@@ -3,20 +3,7 @@
 #include <cstddef>
 #include <utility>
 
-#include <fmt/format.h>
-
 namespace clsurf {
-
-std::string nc_number(double value, int decimals) {
-    std::string text = fmt::format("{:.{}f}", value, decimals);
-    if (text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
-    return text;
-}
-
-std::string signed_nc_number(double value, int decimals) {
-    const std::string text = nc_number(value, decimals);
-    return text.starts_with('-') ? text : "+" + text;
-}
 
 std::string without_end_zeros(std::string number) {
     if (number.find('.') == std::string::npos) return number;
