@@ -13,7 +13,7 @@ export interface Action {
     pressed?: () => boolean;
 }
 
-export interface Deeds {
+export interface Handlers {
     savePicture: () => void;
     showCommand: () => void;
     showHelp: () => void;
@@ -25,7 +25,7 @@ export interface Deeds {
 export function actionsOf(
     store: Store,
     view: ViewPane,
-    deeds: Deeds,
+    handlers: Handlers,
     logs: number,
     differs: boolean,
     maps: string[],
@@ -90,7 +90,7 @@ export function actionsOf(
             key: 'v',
             title: 'the previous defect',
             group: 'Defects',
-            run: () => deeds.stepDefect(-1),
+            run: () => handlers.stepDefect(-1),
         },
         {
             name: 'next-defect',
@@ -98,7 +98,7 @@ export function actionsOf(
             key: 'd',
             title: 'the next defect, the worst first',
             group: 'Defects',
-            run: () => deeds.stepDefect(1),
+            run: () => handlers.stepDefect(1),
         },
         { name: 'point-before', text: '', key: ',', title: 'the previous point', group: 'Cursor', run: point(-1) },
         { name: 'point-after', text: '', key: '.', title: 'the next point', group: 'Cursor', run: point(1) },
@@ -108,7 +108,7 @@ export function actionsOf(
             key: 'a',
             title: 'play and pause the motion of the tool',
             group: 'Cursor',
-            run: deeds.play,
+            run: handlers.play,
         },
         {
             name: 'over',
@@ -141,7 +141,7 @@ export function actionsOf(
             key: 'p',
             title: 'save the view as a picture',
             group: 'Out',
-            run: deeds.savePicture,
+            run: handlers.savePicture,
         },
         {
             name: 'command',
@@ -149,7 +149,7 @@ export function actionsOf(
             key: 'r',
             title: 'the clsurf render command for this view',
             group: 'Out',
-            run: deeds.showCommand,
+            run: handlers.showCommand,
         },
         {
             name: 'theme',
@@ -165,9 +165,9 @@ export function actionsOf(
             key: 'g',
             title: 'go to a point, a line or a time',
             group: 'Cursor',
-            run: deeds.locate,
+            run: handlers.locate,
         },
-        { name: 'help', text: '?', key: '?', title: 'all keys', group: 'Page', run: deeds.showHelp },
+        { name: 'help', text: '?', key: '?', title: 'all keys', group: 'Page', run: handlers.showHelp },
     ];
     if (logs > 1) {
         const left = { vertex: null, hover: null, pass: 0, defect: null }; // numbers of points are those of a log

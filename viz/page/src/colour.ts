@@ -1,6 +1,7 @@
 // Colour maps and scales, as viz/colour_map.cpp has them: the page and `render` show a value in the
 // same colour.
 
+import { fixedText } from './decimal_text';
 import type { ColourMapInfo } from './manifest';
 
 export type Rgb = [number, number, number];
@@ -93,8 +94,7 @@ export function tickText(value: number, step: number): string {
     const size = Math.max(Math.abs(value), step);
     if (size >= 1e6 || step < 1e-5) return value.toPrecision(3);
     const decimals = Math.min(6, Math.max(0, Math.ceil(-Math.log10(step) - 1e-9)));
-    const text = value.toFixed(decimals);
-    return Number(text) === 0 ? text.replace('-', '') : text;
+    return fixedText(value, decimals);
 }
 
 /** "#rrggbb" → three numbers. */

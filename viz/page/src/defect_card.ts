@@ -1,6 +1,7 @@
 // The card of a defect over the view: it stays while other places are looked at, until it is closed.
 
 import { withOpinion } from './accepted';
+import { fixedText, signedText } from './decimal_text';
 import { element } from './dom';
 import type { Defect, DefectRun, Manifest } from './manifest';
 import type { Store } from './store';
@@ -8,7 +9,7 @@ import type { Store } from './store';
 const mostRuns = 6; // of a list of lines
 const oneColumn = matchMedia('(max-width: 700px)'); // as style.css has it
 
-export interface CardDeeds {
+export interface CardHandlers {
     step: (by: number) => void;
     goToLine: (line: number) => void;
     goToDefect: (index: number) => void;
@@ -19,13 +20,13 @@ export interface CardDeeds {
 export function factsOf(defect: Defect): [string, string][] {
     const facts: [string, string][] = [];
     const { speed_percent: speed, depth_um: depth, formed_um: formed, length_mm: length } = defect;
-    if (speed !== null) facts.push(['Speed', `${speed > 0 ? '+' : ''}${speed.toFixed(1)} %`]);
+    if (speed !== null) facts.push(['Speed', `${signedText(speed, 1)} %`]);
     if (depth !== null)
         facts.push(['Depth', `${depth.toFixed(1)} µm${defect.shape === 'none' ? '' : ` ${defect.shape}`}`]);
     if (formed !== null && formed !== undefined) facts.push(['Formed', `${formed.toFixed(1)} µm`]);
     if (length !== null) facts.push(['Length', `${length.toFixed(1)} mm`]);
     facts.push(['Threshold', `× ${defect.score.toFixed(1)}`]);
-    facts.push([defect.contact_mm ? 'Contact' : 'Tool tip', defect.position_mm.map((c) => c.toFixed(2)).join(' ')]);
+    facts.push([defect.contact_mm ? 'Contact' : 'Tool tip', defect.position_mm.map((c) => fixedText(c, 2)).join(' ')]);
     return facts;
 }
 
@@ -35,7 +36,7 @@ export class DefectCard {
     constructor(
         private readonly manifest: Manifest,
         private readonly store: Store,
-        private readonly deeds: CardDeeds,
+        private readonly handlers: CardHandlers,
     ) {
         store.on((_, changed) => {
             if (changed.has('pinned')) this.draw();
@@ -65,7 +66,7 @@ export class DefectCard {
         for (const { lines } of known.slice(0, mostRuns)) {
             const text = lines[0] === lines[1] ? `${lines[0]}` : `${lines[0]}–${lines[1]}`;
             list.append(
-                this.button('card-line', text, `show line ${lines[0]}`, () => this.deeds.goToLine(lines[0])),
+                this.button('card-line', text, `show line ${lines[0]}`, () => this.handlers.goToLine(lines[0])),
                 ' ',
             );
         }
@@ -85,10 +86,10 @@ export class DefectCard {
             element('span', { class: `severity s${defect.severity}` }, String(defect.id)),
             element('h2', {}, `Defect ${defect.id}`),
             element('small', {}, defect.severity_name),
-            this.button('card-previous', '◀', 'the previous defect', () => this.deeds.step(-1)),
-            this.button('card-next', '▶', 'the next defect', () => this.deeds.step(1)),
-            this.button('card-show', 'Show', 'show the defect again', () => this.deeds.goToDefect(pinned)),
-            this.button('card-print', 'Print', 'print this defect with its lines', () => this.deeds.print(pinned)),
+            this.button('card-previous', '◀', 'the previous defect', () => this.handlers.step(-1)),
+            this.button('card-next', '▶', 'the next defect', () => this.handlers.step(1)),
+            this.button('card-show', 'Show', 'show the defect again', () => this.handlers.goToDefect(pinned)),
+            this.button('card-print', 'Print', 'print this defect with its lines', () => this.handlers.print(pinned)),
             this.button('card-close', '✕', 'close the card', () => this.store.set({ pinned: null, defect: null })),
         );
         const facts = element('dl', {});

@@ -1,6 +1,7 @@
 // The table of all defects below the view: sorted by a click on a head, filtered, saved as CSV. Without JavaScript the
 // rows of the file stay (io/page/page_sections.cpp): columns and their texts are the same there.
 
+import { fixedText, signedText } from './decimal_text';
 import { defectsCsv, type Column } from './defect_csv';
 import { opinionsText, readOpinions } from './accepted';
 import { baseName, element, saveFile } from './dom';
@@ -21,8 +22,9 @@ function allLines(defect: Defect): string {
     return defect.runs.slice(0, mostRuns).map(linesText).join(', ') + more;
 }
 
-const fixed = (value: number | null | undefined, digits: number) => value?.toFixed(digits) ?? '–';
-const signed = (value: number | null) => (value !== null && value >= 0 ? '+' : '') + fixed(value, 1);
+const fixed = (value: number | null | undefined, digits: number) =>
+    value === null || value === undefined ? '–' : fixedText(value, digits);
+const signed = (value: number | null) => (value === null ? '–' : signedText(value, 1));
 
 function columnsOf(manifest: Manifest): Column[] {
     const columns: Column[] = [
@@ -41,7 +43,7 @@ function columnsOf(manifest: Manifest): Column[] {
         {
             head: 'X Y Z [mm]',
             value: (d) => d.position_mm[0],
-            text: (d) => d.position_mm.map((c) => c.toFixed(2)).join(' '),
+            text: (d) => d.position_mm.map((c) => fixedText(c, 2)).join(' '),
         },
         { head: 'Lines', value: (d) => d.runs[0]?.lines[0] ?? null, text: allLines },
     ];

@@ -3,6 +3,7 @@
 
 import { views, type Camera } from './camera';
 import { colourAlong, cssColour, niceTicks, tickText, type ColourScale } from './colour';
+import { fixedText } from './decimal_text';
 import { styleValue } from './dom';
 import { label } from './canvas_text';
 import { drawClassLegend, drawHatched, drawPaler } from './class_legend';
@@ -248,11 +249,7 @@ export class Overlay {
             g.stroke();
             const d = places[1].map((c, k) => c - places[0][k]);
             // What is clicked is a point of the log: its positions have a few micrometres at best.
-            const mm = (value: number) =>
-                value
-                    .toFixed(3)
-                    .replace(/^-(?=0\.0+$)/, '')
-                    .replace('-', '−');
+            const mm = (value: number) => fixedText(value, 3).replace('-', '−');
             const text = `${mm(Math.hypot(...d))} mm   ΔX ${mm(d[0])}  ΔY ${mm(d[1])}  ΔZ ${mm(d[2])}`;
             g.font = `600 12px ${styleValue('--font')}`;
             const size = [g.measureText(text).width + 4, 17];

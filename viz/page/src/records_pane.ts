@@ -1,5 +1,6 @@
 // The records of the log as a list: one row for each point of the page, with its positions and values, round the cursor.
 
+import { fixedText } from './decimal_text';
 import { element } from './dom';
 import type { Manifest } from './manifest';
 import { RowWindow } from './row_window';
@@ -15,7 +16,7 @@ interface RecordColumn {
 }
 
 /** A place without the sign of a zero. */
-const placeText = (value: number) => value.toFixed(4).replace(/^-(0\.0+)$/, '$1');
+const placeText = (value: number) => fixedText(value, 4);
 
 /** Number, time, line and pass, the positions of each role, and all fields. */
 function columnsOf(manifest: Manifest, surface: Surface): RecordColumn[] {

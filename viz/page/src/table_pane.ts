@@ -1,5 +1,6 @@
 // The numbers of one point: that under the pointer, else that of the cursor.
 
+import { fixedText } from './decimal_text';
 import { element } from './dom';
 import type { Manifest } from './manifest';
 import type { ProgramText } from './program_text';
@@ -58,7 +59,7 @@ export class TablePane {
             );
         const positions = surface.roles[Math.min(role, surface.roles.length - 1)].xyz;
         const origin = this.manifest.surfaces[0].origin_mm;
-        const place = [0, 1, 2].map((k) => (positions[3 * at + k] + origin[k]).toFixed(4)).join('  ');
+        const place = [0, 1, 2].map((k) => fixedText(positions[3 * at + k] + origin[k], 4)).join('  ');
         const line = surface.line[at];
         const rows = [
             row('Point', String(surface.point[at]), hover === null ? 'cursor' : 'pointer'),

@@ -34,7 +34,7 @@ export class TreePane {
         private readonly manifest: Manifest,
         private readonly store: Store,
         private readonly surface: () => Surface,
-        private readonly deeds: { goToDefect: (index: number) => void; goToGone: (index: number) => void },
+        private readonly handlers: { goToDefect: (index: number) => void; goToGone: (index: number) => void },
         formed: boolean,
     ) {
         const { program, surfaces } = manifest;
@@ -153,7 +153,7 @@ export class TreePane {
                 element('span', {}, defect.cause.replace('_', ' ')),
                 element('small', {}, 'gone'),
             );
-            button.addEventListener('click', () => this.deeds.goToGone(k));
+            button.addEventListener('click', () => this.handlers.goToGone(k));
             list.append(button);
         });
         if (gone.length > mostDefects) list.append(moreHint(gone.length - mostDefects));
@@ -174,7 +174,7 @@ export class TreePane {
             element('small', {}, defect.change === 'new' ? `new ${size}` : size),
         );
         button.classList.toggle('accepted', this.store.state.accepted.get(defect.id)?.accepted === true);
-        button.addEventListener('click', () => this.deeds.goToDefect(index));
+        button.addEventListener('click', () => this.handlers.goToDefect(index));
         return button;
     }
 
