@@ -27,8 +27,8 @@ constexpr std::array<Rgb, 2> other_colours{{{200, 200, 200}, {176, 176, 176}}};
 
 }  // namespace
 
-std::map<float, PointIndex> count_values(const Column<float>& values, const Passes& passes) {
-    std::map<float, PointIndex> counts;
+ValueCounts count_values(const Column<float>& values, const Passes& passes) {
+    ValueCounts counts;
     for (const Pass& pass : passes) {
         if (pass.kind != PassKind::cut) continue;
         for (PointIndex i = pass.first; i <= pass.last;) {
@@ -44,8 +44,7 @@ std::map<float, PointIndex> count_values(const Column<float>& values, const Pass
     return counts;
 }
 
-FieldClasses::FieldClasses(const FieldInfo& info, const Column<float>& values, const Passes& passes) {
-    const std::map<float, PointIndex> counts = count_values(values, passes);
+FieldClasses::FieldClasses(const FieldInfo& info, const ValueCounts& counts) {
     double all = 0;
     for (const auto& [value, count] : counts) all += static_cast<double>(count);
     // Known classes keep their colours in all pictures; others are coloured in the order of their shares.
@@ -60,7 +59,7 @@ FieldClasses::FieldClasses(const FieldInfo& info, const Column<float>& values, c
         const Rgb rgb = good ? good_colour : palette[next++];
         colour_of[value] = colours_.size();
         colours_.push_back(rgb);
-        if (share > 0) shown_.push_back({name, rgb, share});
+        if (share > 0) shown_.push_back({name, value, rgb, share});
     };
     for (const FieldClass& known : info.classes) {
         if (known.good || next < most_named) take(known.value, known.name, known.good);
@@ -73,7 +72,7 @@ FieldClasses::FieldClasses(const FieldInfo& info, const Column<float>& values, c
                                     : fmt::format("{:.4g} {}", number, info.unit.name),
              false);
     }
-    ShownClass others{"", other_colours[0], 0};
+    ShownClass others{"", missing<float>, other_colours[0], 0};
     std::size_t rest = 0;
     const std::size_t first_grey = colours_.size();
     colours_.insert(colours_.end(), other_colours.begin(), other_colours.end());

@@ -15,12 +15,15 @@ namespace clsurf::viz {
 /// A class as a picture shows it.
 struct ShownClass {
     std::string name;
+    float value = 0;  ///< NaN: of all that have no colour of their own
     Rgb rgb{0, 0, 0};
     double share = 0;  ///< of the cutting points, 0 … 1
 };
 
-/// How many points of cut passes have each value. O(points + runs of equal values).
-[[nodiscard]] std::map<float, PointIndex> count_values(const Column<float>& values, const Passes& passes);
+/// How many points have each value.
+using ValueCounts = std::map<float, PointIndex>;
+/// Those of cut passes. O(points + runs of equal values).
+[[nodiscard]] ValueCounts count_values(const Column<float>& values, const Passes& passes);
 
 /// The classes of one or several fields, and which values they are of.
 class FieldClasses {
@@ -29,8 +32,11 @@ public:
     static constexpr std::size_t most_named = 9;
 
     FieldClasses() = default;
+    /// O(classes log classes).
+    FieldClasses(const FieldInfo& info, const ValueCounts& counts);
     /// Shares are those of `values` on cut passes. O(points + classes log classes).
-    FieldClasses(const FieldInfo& info, const Column<float>& values, const Passes& passes);
+    FieldClasses(const FieldInfo& info, const Column<float>& values, const Passes& passes)
+        : FieldClasses(info, count_values(values, passes)) {}
 
     [[nodiscard]] const std::vector<ShownClass>& shown() const { return shown_; }
     /// A value on scale(): the middle of its class's step; NaN: it has none.

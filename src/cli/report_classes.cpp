@@ -1,38 +1,30 @@
 #include "cli/report_classes.h"
 
 #include <algorithm>
-#include <map>
 
 #include "viz/field_classes.h"
 
 namespace clsurf::cli {
 namespace {
 
-using ValueCounts = std::map<float, PointIndex>;
-
 /// The classes of one log that have a colour of their own, without shares.
-std::vector<io::PageClass> named_classes(const Field& field, const Passes& passes, const ValueCounts& counts) {
-    const viz::FieldClasses classes(field.info, field.values, passes);
-    const double unit = field.info.unit.per_inside;
-    // The others, which have no colour of their own, stand last.
-    const std::vector<viz::ShownClass>& shown = classes.shown();
-    const auto end = shown.end() - (shown.size() > viz::FieldClasses::most_named ? 1 : 0);
+std::vector<io::PageClass> named_classes(const FieldInfo& info, const viz::ValueCounts& counts) {
+    const viz::FieldClasses classes(info, counts);
+    const double unit = info.unit.per_inside;
     std::vector<io::PageClass> named;
-    for (const FieldClass& known : field.info.classes)
+    for (const FieldClass& known : info.classes)
         named.push_back({known.name, known.value * unit, classes.rgb_of(known.value), 0});
-    for (const auto& [value, count] : counts) {
-        const viz::Rgb rgb = classes.rgb_of(value);
-        const auto taken = [&](const io::PageClass& c) { return c.rgb == rgb; };
-        if (std::any_of(named.begin(), named.end(), taken)) continue;
-        const auto found = std::find_if(shown.begin(), end, [&](const viz::ShownClass& c) { return c.rgb == rgb; });
-        if (found != end) named.push_back({found->name, value * unit, rgb, 0});
+    for (const viz::ShownClass& shown : classes.shown()) {
+        const bool of_one_value = shown.value == shown.value;
+        if (of_one_value && std::ranges::find(info.classes, shown.value, &FieldClass::value) == info.classes.end())
+            named.push_back({shown.name, shown.value * unit, shown.rgb, 0});
     }
     return named;
 }
 
 /// With their shares in one log, the largest first.
 std::vector<io::PageClass> with_shares(std::vector<io::PageClass> named, const FieldInfo& info,
-                                       const ValueCounts& counts) {
+                                       const viz::ValueCounts& counts) {
     double all = 0;
     for (const auto& [value, count] : counts) all += static_cast<double>(count);
     for (const auto& [value, count] : counts) {
@@ -58,8 +50,8 @@ void name_classes(std::vector<ReportLog>& logs) {
                 log.classes.emplace_back();
                 continue;
             }
-            const ValueCounts counts = viz::count_values(log.fields[k].values, log.surface.passes);
-            if (&log == &first) named = named_classes(first.fields[k], first.surface.passes, counts);
+            const viz::ValueCounts counts = viz::count_values(log.fields[k].values, log.surface.passes);
+            if (&log == &first) named = named_classes(info, counts);
             log.classes.push_back(with_shares(named, info, counts));
         }
     }
