@@ -8,7 +8,8 @@
 //     HFBlockEvent    HFProbeCounter: cycle from which the block runs; SeekOffset: its line
 //     HFCallEvent     CallStackLevel, Path: this program runs at that level, at line SeekOffset
 //     HFTimestamp, LFData         read over
-#include "io/formats/edge_json.h"
+#include "core/letter_case.h"
+#include "io/formats/known_formats.h"
 
 #include <algorithm>
 #include <array>
@@ -64,7 +65,7 @@ char axis_letter(std::string_view axis) {
     constexpr std::string_view letters = "XYZABCUVW";
     if (axis.empty() || letters.find(axis[0]) == std::string_view::npos) return '\0';
     const bool digits = std::all_of(axis.begin() + 1, axis.end(), [](char c) { return c >= '0' && c <= '9'; });
-    return digits ? static_cast<char>(std::tolower(static_cast<unsigned char>(axis[0]))) : '\0';
+    return digits ? lower_case(axis[0]) : '\0';
 }
 
 bool is_rotary(char letter) { return letter >= 'a' && letter <= 'c'; }

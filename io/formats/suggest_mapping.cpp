@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/letter_case.h"
 #include "io/formats/foreign_content.h"
 #include "io/formats/text_table.h"
 
@@ -57,7 +58,7 @@ Words words_of_title(std::string_view title) {
             const bool begins = words.empty() || !(was_letter || was_digit) || digit != was_digit ||
                                 (was_lower && std::isupper(byte) != 0);
             if (begins) words.emplace_back();
-            words.back() += static_cast<char>(std::tolower(byte));
+            words.back() += lower_case(c);
         }
         before = c;
     }

@@ -165,7 +165,7 @@ void read_chunk(const Source& source, const TextPlan& plan, Chunk& chunk) {
         bool wide = false;
         std::size_t column = read_row(source, plan, line, number, chunk, wide);
         if (column != columns) {
-            warn("log.ragged-row", fmt::format("{}, expected {}; {}", clsurf::counted(column, "field"), columns,
+            warn("log.ragged-row", fmt::format("{}, expected {}; {}", counted(column, "field"), columns,
                                                column > columns ? "the last ones are ignored"
                                                                 : "those that are not there count as missing"));
             if (wide && chunk.wide++ == 0) {

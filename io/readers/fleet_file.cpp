@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/file_name.h"
+#include "core/letter_case.h"
 #include "io/files/mapped_file.h"
 #include "io/files/toml_table.h"
 #include "io/formats/log_format.h"
@@ -55,8 +56,7 @@ bool is_named_like_a_log(const std::string& name) {
 }
 
 bool is_named_like_a_program(const std::string& name) {
-    std::string ending = fs::path(name).extension().string();
-    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string ending = lower_case(fs::path(name).extension().string());
     return std::ranges::any_of(
         std::initializer_list<std::string_view>{".nc", ".ngc", ".mpf", ".h", ".i", ".tap", ".cnc", ".iso", ".gcode"},
         [&](std::string_view known) { return ending == known; });

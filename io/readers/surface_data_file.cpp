@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -14,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/letter_case.h"
 #include "core/not_finite.h"
 #include "io/formats/text_table.h"
 
@@ -120,12 +120,6 @@ double number_in(const TextLines& lines, std::string_view field, std::string_vie
     const double value = parse_number(field, true, bad);
     if (bad || !std::isfinite(value)) lines.fail(fmt::format("{} '{}' is not a number", what, field.substr(0, 40)));
     return value;
-}
-
-std::string lower_case(std::string_view text) {
-    std::string lower(text);
-    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return lower;
 }
 
 /// What stands before a comment.

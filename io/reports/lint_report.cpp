@@ -46,18 +46,14 @@ std::string finding_text(const std::string& program, const LintFinding& f) {
     return text + fmt::format(", {}\n", place_text(f.place));
 }
 
-std::string counted(std::int64_t count, std::string_view one, std::string_view many) {
-    return fmt::format("{} {}", count, count == 1 ? one : many);
-}
-
 std::int64_t notes_of(const LintReport& r) { return std::ssize(r.findings) - static_cast<std::int64_t>(r.warnings()); }
 
 /// "12 warnings and 1 note", or "nothing found".
 std::string counts_text(const LintReport& r) {
     const std::int64_t notes = notes_of(r), warnings = std::ssize(r.findings) - notes;
     if (r.findings.empty()) return "nothing found";
-    std::string text = warnings > 0 ? counted(warnings, "warning", "warnings") : "";
-    if (notes > 0) text += (text.empty() ? "" : " and ") + counted(notes, "note", "notes");
+    std::string text = warnings > 0 ? counted(warnings, "warning") : "";
+    if (notes > 0) text += (text.empty() ? "" : " and ") + counted(notes, "note");
     return text;
 }
 
@@ -98,7 +94,7 @@ std::string table_text(std::span<const ReportedLint> programs) {
     std::ranges::stable_sort(order, std::greater{}, warnings_of);
     const auto bad = std::ranges::count_if(order, [&](const ReportedLint* l) { return warnings_of(l) > 0; });
     std::string text = fmt::format("{}: {} with warnings\n\n warnings  notes  passes  program\n",
-                                   counted(std::ssize(programs), "program", "programs"), bad);
+                                   counted(std::ssize(programs), "program"), bad);
     for (const ReportedLint* l : order) {
         const LintReport& r = l->report;
         const std::string_view remark = r.not_finishing > 0.5 ? "  (no finishing passes to judge)"

@@ -146,8 +146,8 @@ std::string optimize_text(const Optimized& r) {
     const std::string splines =
         r.evaluation.splines > 0 ? fmt::format(" ({} as splines)", r.evaluation.splines) : std::string();
     text += fmt::format("{}{}, {} changed; off the programmed path by at most {:.4f} mm\n",
-                        clsurf::counted(r.evaluation.intervals, "section"), splines,
-                        clsurf::counted(r.evaluation.changed_lines, "line"), r.evaluation.deviation.greatest);
+                        counted(r.evaluation.intervals, "section"), splines,
+                        counted(r.evaluation.changed_lines, "line"), r.evaluation.deviation.greatest);
     if (r.five_axes)
         text += fmt::format("tool axis deviates from the programmed one by at most {:.4f} deg\n",
                             r.evaluation.deviation.turned * deg_per_rad);

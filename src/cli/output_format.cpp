@@ -12,6 +12,7 @@
 #include "cli/text.h"
 #include "core/error.h"
 #include "core/file_name.h"
+#include "core/letter_case.h"
 
 namespace clsurf::cli {
 namespace {
@@ -54,11 +55,6 @@ std::vector<std::string_view> endings_of(const OutputFormat& format) {
         rest.remove_prefix(std::min(blank + 1, rest.size()));
     }
     return endings;
-}
-
-std::string lower_case(std::string text) {
-    for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return text;
 }
 
 /// The format with the longest ending that the name has; nullptr: none has it.

@@ -13,5 +13,10 @@ template <typename Number>
 [[nodiscard]] std::string counted(Number count, std::string_view noun) {
     return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
+/// "1 pass", "2 passes".
+template <typename Number>
+[[nodiscard]] std::string counted(Number count, std::string_view noun, std::string_view plural) {
+    return fmt::format("{} {}", count, count == 1 ? noun : plural);
+}
 
 }  // namespace clsurf

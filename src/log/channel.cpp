@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/letter_case.h"
 #include "core/units.h"
 
 namespace clsurf {
@@ -124,12 +125,6 @@ void settle_unit(Log& log, Channel& channel) {
     channel.unit = std::string(wanted);
 }
 
-std::string lower_case(std::string_view name) {
-    std::string low(name);
-    for (char& c : low) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return low;
-}
-
 constexpr std::array<std::string_view, 6> axis_names{"x", "y", "z", "a", "b", "c"};
 
 /// Clocks that do not begin with the first record: a time of day, a time since 1970.
@@ -154,7 +149,9 @@ bool is_known_name(std::string_view name) {
     return info_of(low) != nullptr || std::find(axis_names.begin(), axis_names.end(), low) != axis_names.end();
 }
 
-std::string settled_name(std::string_view name) { return is_known_name(name) ? lower_case(name) : std::string(name); }
+std::string normalised_name(std::string_view name) {
+    return is_known_name(name) ? lower_case(name) : std::string(name);
+}
 
 bool is_position(std::string_view name) {
     // Of the channels only positions are lengths.

@@ -1,7 +1,6 @@
 #include "machined/tool.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <vector>
@@ -9,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/letter_case.h"
 
 namespace clsurf {
 namespace {
@@ -54,9 +54,8 @@ std::optional<CuttingTool> tool_of_remark(std::string_view remark, double diamet
     std::optional<CuttingTool> by_word;
     while (!remark.empty()) {
         const std::size_t end = std::min(remark.find_first_of(" \t\r()"), remark.size());
-        std::string word(remark.substr(0, end));
+        const std::string word = lower_case(remark.substr(0, end));
         remark.remove_prefix(std::min(end + 1, remark.size()));
-        for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
         const auto is_any = [&](std::initializer_list<std::string_view> words) {
             return std::find(words.begin(), words.end(), word) != words.end();
         };

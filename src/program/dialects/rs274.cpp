@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -41,20 +40,12 @@ constexpr std::array<OWord, 16> o_words{{
     {"PROGRAM", ControlKind::label},
 }};
 
-std::string lower(std::string_view text) {
-    std::string folded;
-    for (const char c : text) {
-        if (!is_blank(c)) folded += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    }
-    return folded;
-}
-
 /// O100, O<name>; an indirect label (O[#1], O#1) keeps its text and is resolved by the interpreter.
 std::string o_label(Cursor& c) {
     if (c.take('<')) {
         const std::size_t end = c.text.find('>', c.at);
         if (end == std::string_view::npos) throw ReadError{"'o<' is not closed by '>'", c.column(), {}};
-        std::string name = lower(c.text.substr(c.at, end - c.at));
+        std::string name = folded_name(c.text.substr(c.at, end - c.at));
         c.at = end + 1;
         return name;
     }

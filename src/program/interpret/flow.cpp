@@ -1,7 +1,6 @@
 // Which line comes next: control statements, calls and returns.
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>

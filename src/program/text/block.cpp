@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -201,10 +200,7 @@ private:
         if (c_.take('<')) {
             const std::size_t end = c_.text.find('>', c_.at);
             if (end == std::string_view::npos) throw ReadError{"'#<' is not closed by '>'", column, {}};
-            std::string name;
-            for (const char ch : c_.text.substr(c_.at, end - c_.at)) {
-                if (!is_blank(ch)) name += static_cast<char>(std::tolower(static_cast<unsigned char>(ch)));
-            }
+            const std::string name = folded_name(c_.text.substr(c_.at, end - c_.at));
             c_.at = end + 1;
             expect_equals();
             named_.push_back({name, right_side()});

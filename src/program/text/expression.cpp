@@ -1,7 +1,6 @@
 #include "program/text/expression.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -141,14 +140,6 @@ private:
     static int variable_number(double v, std::size_t column) {
         if (!(v >= 0 && v < 1e6)) throw ReadError{"no such variable number", column, {}};
         return static_cast<int>(std::lround(v));
-    }
-
-    static std::string folded_name(std::string_view text) {
-        std::string key;
-        for (const char c : text) {
-            if (!is_blank(c)) key += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-        }
-        return key;
     }
 
     /// RS274 and Fanuc write ATAN[a]/[b] (Fanuc also ATAN[a,b]), Siemens ATAN2(a, b), Klartext ATAN Q1.

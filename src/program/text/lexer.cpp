@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/letter_case.h"
+
 namespace clsurf {
 namespace {
 
@@ -47,6 +49,14 @@ std::size_t read_decimal(std::string_view text, std::size_t at, double& value) {
     const std::size_t first = at + static_cast<std::size_t>(digits - begin);
     const std::size_t next = read_long_decimal(digits, end, negative, value, first);
     return next == first ? at : next;
+}
+
+std::string folded_name(std::string_view text) {
+    std::string folded;
+    for (const char c : text) {
+        if (!is_blank(c)) folded += lower_case(c);
+    }
+    return folded;
 }
 
 bool add_g(Words& words, double value, std::size_t column) {

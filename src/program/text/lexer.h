@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace clsurf {
@@ -71,6 +72,9 @@ enum class PlainResult : std::uint8_t {
 }
 [[nodiscard]] constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 [[nodiscard]] constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+/// A name of RS274/NGC, where blanks and letter case do not matter: "My Name" is "myname".
+[[nodiscard]] std::string folded_name(std::string_view text);
 
 /// Appends a G word (value as written, 54.1) to the lists; false: too many, or no such code.
 [[nodiscard]] bool add_g(Words& words, double value, std::size_t column);
