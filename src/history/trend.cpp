@@ -12,7 +12,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double least_p = 0.05;
+constexpr double significance = 0.05;  ///< the usual level
 
 /// From 1; equal values share their mean rank.
 std::vector<double> ranks_of(std::span<const double> values) {
@@ -79,7 +79,7 @@ std::optional<TrendChange> find_change(std::span<const double> values) {
     }
     TrendChange change;
     change.p = std::min(1.0, 2 * std::exp(-6 * most * most / (n * n * n + n * n)));
-    if (!(change.p < least_p)) return std::nullopt;
+    if (!(change.p < significance)) return std::nullopt;
     change.first = first;
     const auto split = values.begin() + static_cast<std::ptrdiff_t>(first);
     change.before = midpoint_median(std::vector(values.begin(), split));

@@ -12,7 +12,8 @@
 
 namespace clsurf {
 
-constexpr std::size_t least_runs_for_change = 6;
+/// With fewer, not even runs that all rose at once reach p < 0.05: K ≤ ¼ n², p = 2 exp(−6 K²/(n³ + n²)).
+constexpr std::size_t least_runs_for_change = 11;
 
 struct TrendPoint {
     std::int64_t run = 0;  ///< its id

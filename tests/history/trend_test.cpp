@@ -114,6 +114,14 @@ TEST(Trend, OfAPassCountsItsDefectsOnly) {
     EXPECT_THROW(static_cast<void>(make_trend(runs, find_history_quantity("ra_um"), filter, "")), UsageError);
 }
 
+TEST(Change, NeedsElevenRuns) {
+    // K = 5 · 5 of ten runs: p = 2 exp(−6 · 25²/1100) = 0.066. K = 5 · 6 of eleven: 2 exp(−6 · 30²/1452) = 0.0485.
+    EXPECT_FALSE(find_change(std::vector<double>{0, 0, 0, 0, 0, 9, 9, 9, 9, 9}));
+    const std::optional<TrendChange> change = find_change(std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
+    ASSERT_TRUE(change);
+    EXPECT_NEAR(change->p, 0.0485, 5e-5);
+}
+
 TEST(Outliers, HaveTheScoresOfTheBook) {
     // Iglewicz and Hoaglin: median 3.42, MAD 0.42 of the sample 2.1, 2.6, 2.4, 2.5, 2.3, 2.1, 2.3, 2.6, 8.2, 8.3 have
     // medians 2.45 and deviations' median 0.15: (8.2 − 2.45) · 0.6745 / 0.15 = 25.856, (8.3 − 2.45) · … = 26.305.
