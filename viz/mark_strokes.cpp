@@ -22,14 +22,14 @@ void append_between(Band& band, const Band& from, std::size_t k, double share) {
     band.right.emplace_back(from.right[k] + share * (from.right[k + 1] - from.right[k]));
 }
 
-Vec2 turned_left(const Vec2& way) { return {-way.y(), way.x()}; }
+Vec2 turned_left(const Vec2& direction) { return {-direction.y(), direction.x()}; }
 
 /// The way of a band at a point, of length 1. `lonely`: that of a band of one place.
 Vec2 direction_at(const Band& band, std::size_t k, const Vec2& lonely) {
     const std::size_t before = k > 0 ? k - 1 : k;
     const std::size_t behind = std::min(k + 1, band.size() - 1);
-    const Vec2 way = band.centre(behind) - band.centre(before);
-    return way.norm() > 0 ? Vec2(way.normalized()) : lonely;
+    const Vec2 direction = band.centre(behind) - band.centre(before);
+    return direction.norm() > 0 ? Vec2(direction.normalized()) : lonely;
 }
 
 /// Where the strip is seen from the side it is a line, and could not be seen.
@@ -86,12 +86,12 @@ public:
         return strokes;
     }
 
-    /// The way of the pass at a point, of length 1.
+    /// The direction of the pass at a point, of length 1.
     [[nodiscard]] Vec2 direction(PointIndex i) const {
         const PointIndex last = surface_.positions.size() - 1;
-        const Vec2 way = at(surface_.positions.absolute(std::min(i + 1, last))) -
-                         at(surface_.positions.absolute(std::max<PointIndex>(i - 1, 0)));
-        return way.norm() > 0 ? Vec2(way.normalized()) : Vec2(1, 0);
+        const Vec2 step = at(surface_.positions.absolute(std::min(i + 1, last))) -
+                          at(surface_.positions.absolute(std::max<PointIndex>(i - 1, 0)));
+        return step.norm() > 0 ? Vec2(step.normalized()) : Vec2(1, 0);
     }
 
 private:

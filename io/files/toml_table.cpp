@@ -88,7 +88,7 @@ const toml::array* TomlFile::tables(const toml::table& table, std::string_view k
     return node->as_array();
 }
 
-double settled_number(double value) {
+double twelve_digits(double value) {
     const std::string digits = fmt::format("{:.11e}", value);
     std::from_chars(digits.data(), digits.data() + digits.size(), value);
     return value + 0.0;

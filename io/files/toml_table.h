@@ -50,6 +50,6 @@ private:
 
 /// A number of twelve digits, so that what is scaled when it is read and when it is written stays the same; no −0, which
 /// TOML does not have for whole numbers.
-[[nodiscard]] double settled_number(double value);
+[[nodiscard]] double twelve_digits(double value);
 
 }  // namespace clsurf::io

@@ -25,7 +25,7 @@ Log open_text(const Source& source, const LogOptions& options, const char* forma
     TextPlan plan = plan_text(source, map);
     plan.overruns = mapping && mapping->halsampler;
     Log log = read_table(source, plan, format);
-    settle_period(log, options, map);
+    set_period(log, options, map);
     add_event_lines(log, map, plan.day);
     return log;
 }
@@ -41,7 +41,7 @@ int probe_delimited(std::span<const std::byte> head, const LogOptions& options) 
     std::size_t axes = 0;
     bool clock = false;
     for (const ColumnPlan& column : read_head(text_of(head)).columns) {
-        const std::string name = settled_name(column.name);
+        const std::string name = normalised_name(column.name);
         if (is_position(name)) return 80;
         axes += name == "x" || name == "y" || name == "z" ? 1 : 0;
         clock = clock || name == "time";

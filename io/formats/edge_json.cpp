@@ -249,7 +249,7 @@ Log open_edge(const Source& source, const LogOptions& options) {
         owned.add(plans[i].name, plans[i].unit, std::move(recording.columns[i]));
     }
     log.period = recording.cycle_ms * seconds_per_millisecond;
-    settle_period(log, options, map);
+    set_period(log, options, map);
     if (log.find("time") == nullptr && log.period > 0) {
         const auto first = std::ranges::find_if(cycles, [](double cycle) { return std::isfinite(cycle); });
         if (first != cycles.end()) {

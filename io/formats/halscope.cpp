@@ -135,7 +135,7 @@ Log open_halscope(const Source& source, const LogOptions& options) {
     const double period = period_of(first_line(rest), source);
     Log log = read_table(source, plan_of(source, map), "halscope");
     log.period = period;
-    settle_period(log, options, map);
+    set_period(log, options, map);
     add_event_lines(log, map);
     return log;
 }

@@ -83,8 +83,8 @@ Log open_log(const Source& source, const LogOptions& options) {
 
 Log open_log_as(const LogFormat& format, const Source& source, const LogOptions& options) {
     Log log = format.open(source, options);
-    settle_names(log);
-    settle_units(log);
+    normalise_names(log);
+    normalise_units(log);
     count_turns_on(log);
     note_still_axes(log);
     if (!(log.period > 0)) log.period = log.measured_period();

@@ -281,7 +281,7 @@ Log open_sinumerik_xml(const Source& source, const LogOptions& options) {
     log.records = static_cast<PointIndex>(reader.time.size());
     log.diagnostics = std::move(reader.diagnostics);
     log.period = reader.interval;
-    settle_period(log, options, map);
+    set_period(log, options, map);
     if (reader.frames > 1) {
         log.diagnostics.add(
             {Severity::note,

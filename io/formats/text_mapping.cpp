@@ -209,7 +209,7 @@ std::optional<Mapping> mapping_of_growing(const LogOptions& options) {
     return mapping;
 }
 
-void settle_period(Log& log, const LogOptions& options, const Mapping* mapping) {
+void set_period(Log& log, const LogOptions& options, const Mapping* mapping) {
     if (options.period)
         log.period = *options.period;
     else if (mapping != nullptr && mapping->period)

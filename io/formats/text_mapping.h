@@ -66,7 +66,7 @@ struct SourceColumn {
 [[nodiscard]] std::optional<Mapping> mapping_of_growing(const LogOptions& options);
 
 /// Sets the period: that of the options, else the mapping's, else leaves it.
-void settle_period(Log& log, const LogOptions& options, const Mapping* mapping);
+void set_period(Log& log, const LogOptions& options, const Mapping* mapping);
 
 /// Adds the channel `line` from the events that the mapping names, where it names any. `day`: from whose
 /// midnight the log's clock counts; else that of the first event. Events outside the log are a note `log.events-outside`.

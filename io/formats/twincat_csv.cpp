@@ -268,7 +268,7 @@ Log open_twincat(const Source& source, const LogOptions& options) {
     }
     if (log.find("time") == nullptr) owned.add("time", "ms", base);
     if (header.sample_time > 0) log.period = header.sample_time * seconds_per_millisecond;
-    settle_period(log, options, map);
+    set_period(log, options, map);
     add_event_lines(log, map);
     return log;
 }

@@ -32,7 +32,7 @@ std::size_t read_word(const TomlFile& file, const toml::table& entry, const std:
 
 /// What a channel read some times a second must not be taken for.
 bool is_reserved(const std::string& name) {
-    const std::string known = settled_name(name);
+    const std::string known = normalised_name(name);
     return known == "time" || known == "line" || known == "program" || is_position(known) ||
            (is_known_name(name) && name.size() == 1);  // a bare axis
 }

@@ -60,7 +60,7 @@ std::string fidelity_text(const Fidelity& f) {
     const auto rounded = [](double value, double unit) { return std::round(value / unit) * unit; };
     std::string text = fmt::format("\n[fidelity]\nbasis = \"{}\"\nruns = {}\n", name_of(f.basis), f.runs);
     const auto add = [&](const char* key, double value, double unit) {
-        text += fmt::format("{} = {}\n", key, settled_number(rounded(value, unit)));
+        text += fmt::format("{} = {}\n", key, twelve_digits(rounded(value, unit)));
     };
     add("time_error_percent", f.time_error / per_hundred, 0.001);
     add("speed_error_p50_mm_min", f.speed_error_p50 * seconds_per_minute, 0.01);

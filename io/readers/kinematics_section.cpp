@@ -193,7 +193,7 @@ std::string kinematics_text(const Kinematics& kinematics) {
     text += fmt::format("tool_centre_point = \"{}\"  # program: as its words say\n",
                         kinematics.always_tool_centre_point ? "always" : "program");
     text += fmt::format("interpolation = \"{}\"       # of the tool axis\n", name_of(kinematics.interpolation));
-    text += fmt::format("axis_tolerance = {}\n", settled_number(kinematics.axis_tolerance * deg_per_rad));
+    text += fmt::format("axis_tolerance = {}\n", twelve_digits(kinematics.axis_tolerance * deg_per_rad));
     text += fmt::format("\n[kinematics.directions]\n{} = {}\n{} = {}\n", t.letter, vector(t.direction), r.letter,
                         vector(r.direction));
     text += "\n[kinematics.offsets]\n";

@@ -253,7 +253,7 @@ void read_axis(const TomlFile& file, const toml::table& table, std::vector<std::
 }
 
 std::string axis_text(std::string_view name, const MachineAxis& a, double factor, bool with_jerk) {
-    const auto whole = [&](double value) { return settled_number(value / factor); };
+    const auto whole = [&](double value) { return twelve_digits(value / factor); };
     std::string text =
         fmt::format("\n[[axis]]\nname = \"{}\"\ntravel = [{}, {}]\n", name, whole(a.travel_low), whole(a.travel_high));
     text += fmt::format("max_speed = {}\nmax_acceleration = {}\n", whole(a.max_speed * seconds_per_minute),
@@ -295,7 +295,7 @@ std::string controller_text(const ControllerSettings& c) {
                             t.ramp_frequency);
         text += fmt::format("kink_ratio = {}            # of the acceleration, for steps of direction\n", t.kink_ratio);
         text += fmt::format("max_feed_override = {}     # %, that corners are planned for\n",
-                            settled_number(t.max_feed_override * 100));
+                            twelve_digits(t.max_feed_override * 100));
         text += fmt::format("blocks_per_period = {}       # that reach the planner\n", t.blocks_per_period);
         return text + fmt::format("cubic_interpolation = {} # set points on a cubic B-spline\n", t.cubic_interpolation);
     }
@@ -306,7 +306,7 @@ std::string controller_text(const ControllerSettings& c) {
         text += fmt::format("junction_deviation = {}      # of the arc whose speed a corner has; 0: no rule\n",
                             c.junction.deviation);
         text += fmt::format("junction_speed_step = {}     # of an axis in a corner; 0: no rule\n",
-                            settled_number(c.junction.speed_step * seconds_per_minute));
+                            twelve_digits(c.junction.speed_step * seconds_per_minute));
     } else {
         text += fmt::format("curve = \"{}\"                   # through short lines: akima, least-squares or none\n",
                             name_of(c.curve));
@@ -434,8 +434,8 @@ std::string machine_text(const Machine& machine) {
     text += fmt::format("name = {}\n\n[controller]\n", quoted(machine.name));
     text += controller_text(c);
     text += fmt::format("feed_override = {}           # %, of programmed feeds\n\n[path]\n",
-                        settled_number(c.feed_override * 100));
-    text += fmt::format("max_speed = {}\n", settled_number(p.max_speed * seconds_per_minute));
+                        twelve_digits(c.feed_override * 100));
+    text += fmt::format("max_speed = {}\n", twelve_digits(p.max_speed * seconds_per_minute));
     text += fmt::format("max_acceleration = {}        # tangential\n", p.max_acceleration);
     text += fmt::format("max_normal_acceleration = {}\n", p.max_normal_acceleration);
     if (jerk) text += fmt::format("max_jerk = {}               # tangential\n", p.max_jerk);

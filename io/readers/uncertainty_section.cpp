@@ -57,7 +57,7 @@ std::string uncertainty_text(const std::vector<ParameterUncertainty>& rows) {
     for (const ParameterUncertainty& row : rows) {
         text += fmt::format("\n[[uncertainty]]\nkey = \"{}\"\nof = \"{}\"\n", row.key, row.of);
         if (row.relative_error > 0) text += fmt::format("relative_error = {:.2g}\n", row.relative_error);
-        if (row.lower_bound > 0) text += fmt::format("lower_bound = {}\n", settled_number(row.lower_bound));
+        if (row.lower_bound > 0) text += fmt::format("lower_bound = {}\n", twelve_digits(row.lower_bound));
         if (!row.alternatives.empty()) text += fmt::format("values = [{}]\n", fmt::join(row.alternatives, ", "));
     }
     return text;

@@ -12,11 +12,11 @@ namespace clsurf {
 namespace {
 
 // Lengths in mm.
-constexpr float off_distance = 0.1F;               ///< the walk may be on the wrong way from here on
+constexpr float off_distance = 0.1F;               ///< the walk may be on the wrong path from here on
 constexpr float lost_distance = 0.5F;              ///< it is
 constexpr float lost_length = 1.0F;                ///< arc length gone off before the walk counts as lost
 constexpr float near_distance = 0.1F;              ///< a walk must begin this near, and stay so …
-constexpr float proof_arc_length = 5.0F;           ///< … for this way
+constexpr float trial_arc_length = 5.0F;           ///< … over this arc length
 constexpr float same_fit = 0.002F;                 ///< mean distances that differ less are equal
 constexpr double cell = 0.25;                      ///< of the grid in which beginnings are looked for
 constexpr float search_arc_length = 0.1F;          ///< between two searches at first; doubles with each that fails …
@@ -182,7 +182,7 @@ private:
         std::size_t alive = trials.size();
         PointIndex k = i + 1;
         for (; k < a_.size() && alive > 0; ++k) {
-            if (arc_length >= proof_arc_length && (alive == 1 || trial_steps_ <= 0)) break;
+            if (arc_length >= trial_arc_length && (alive == 1 || trial_steps_ <= 0)) break;
             const Eigen::Vector3f p = a_[k];
             if (!p.allFinite()) continue;
             const float chord = (p - before).norm();
@@ -208,7 +208,7 @@ private:
         const Trial* best = nullptr;
         for (const Trial& trial : trials) {
             const bool proven =
-                trial.arc_length >= proof_arc_length || (to_the_end && trial.alive && trial.arc_length > 0);
+                trial.arc_length >= trial_arc_length || (to_the_end && trial.alive && trial.arc_length > 0);
             if (!proven || (alive > 0 && !trial.alive)) continue;
             if (best == nullptr || trial.cost + same_fit * arc_length < best->cost) best = &trial;
         }

@@ -6,10 +6,10 @@
 namespace clsurf {
 namespace {
 
-constexpr double rise_seconds = 0.005;
-constexpr float least_rise = 0.02F;
-constexpr double longest_fall = 0.05;  ///< [s]
-constexpr float least_gain = 0.1F;
+constexpr double rise_seconds = 0.005;  ///< over which a ramp …
+constexpr float least_rise = 0.02F;     ///< … becomes faster by this share at least
+constexpr double longest_fall = 0.05;   ///< [s] for which a pass may brake before its ramp
+constexpr float least_gain = 0.1F;      ///< by which the end of a ramp is faster than its slowest point
 
 /// Points of the ramp that begins at `end` and runs inwards.
 PointIndex ramp_length(const Column<float>& speed, PointIndex end, int direction, PointIndex count, double period) {

@@ -60,12 +60,13 @@ double step_of_rounding(const Log& log, Role role) {
 
 /// No value in corners, such as controllers round between a pass and the next: they would hide the curvature of the surface.
 void leave_out_corners(const std::vector<Vec3>& points, std::vector<double>& curvature) {
-    std::vector<double> way(points.size(), 0);
-    for (std::size_t i = 1; i < points.size(); ++i) way[i] = way[i - 1] + (points[i] - points[i - 1]).norm();
+    std::vector<double> arc_length(points.size(), 0);
+    for (std::size_t i = 1; i < points.size(); ++i)
+        arc_length[i] = arc_length[i - 1] + (points[i] - points[i - 1]).norm();
     std::size_t before = 0, after = 0, left_out = 0;
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-        while (before + 1 < i && way[i] - way[before + 1] >= corner_reach) ++before;
-        while (after + 1 < points.size() && (after <= i || way[after] - way[i] < corner_reach)) ++after;
+        while (before + 1 < i && arc_length[i] - arc_length[before + 1] >= corner_reach) ++before;
+        while (after + 1 < points.size() && (after <= i || arc_length[after] - arc_length[i] < corner_reach)) ++after;
         if (angle_between(points[i] - points[before], points[after] - points[i]) <= corner_angle) continue;
         std::size_t k = std::max(before, left_out);
         for (; k <= after; ++k) curvature[k] = missing<double>;

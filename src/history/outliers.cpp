@@ -11,7 +11,7 @@ namespace clsurf {
 namespace {
 
 constexpr double mad_of_sigma = 0.6745;  ///< as in the published score; 1 / deviation_of_mad has another fifth digit
-constexpr double sigma_of_mean_deviation = 1.253314;
+constexpr double sigma_of_mean_deviation = 1.253314;  ///< √(π/2), of a normal distribution
 
 /// The runs of each program, by its content.
 std::map<std::string, std::vector<std::size_t>> by_program(std::span<const RunRecord> runs) {

@@ -57,10 +57,10 @@ double AdjacentBoundaries::offset_from(const PathLocation& at, const Eigen::Vect
     const auto after = std::lower_bound(boundaries_.begin(), boundaries_.end(), at.nearest());
     double nearest = reach_, offset = std::numeric_limits<double>::quiet_NaN();
     const auto consider = [&](PointIndex boundary) {
-        const Eigen::Vector3f way = p[boundary] - here;
-        if (way.norm() > nearest) return;
-        nearest = way.norm();
-        offset = way.dot(feed.normalized());
+        const Eigen::Vector3f to_boundary = p[boundary] - here;
+        if (to_boundary.norm() > nearest) return;
+        nearest = to_boundary.norm();
+        offset = to_boundary.dot(feed.normalized());
     };
     if (after != boundaries_.end()) consider(*after);
     if (after != boundaries_.begin()) consider(*(after - 1));

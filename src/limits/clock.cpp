@@ -128,7 +128,7 @@ StepClock judge_steps(const Log& log, const ClockRules& rules, PointIndex begin,
             steps.broken[i] = 1;
     }
     for (std::size_t i = 2; i < n; ++i) {
-        // Most records are clean, and this is the cheapest proof of it.
+        // Most records are clean, and this shows it at the least cost.
         const double second_x = x[i] - 2 * x[i - 1] + x[i - 2], second_y = y[i] - 2 * y[i - 1] + y[i - 2],
                      second_z = z[i] - 2 * z[i - 1] + z[i - 2];
         const double squared_difference = second_x * second_x + second_y * second_y + second_z * second_z;

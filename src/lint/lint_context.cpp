@@ -83,7 +83,7 @@ void LintContext::measure_chords() {
 }
 
 bool LintContext::is_corner(const ProgrammedPass& pass, std::size_t k) const {
-    constexpr double bending_cosine = 0.866;
+    constexpr double bending_cosine = 0.866;  // cos 30°
     const Vec3 in = at(pass.ends[k]) - at(pass.ends[k - 1]), out = at(pass.ends[k + 1]) - at(pass.ends[k]);
     return in.dot(out) < bending_cosine * in.norm() * out.norm();
 }

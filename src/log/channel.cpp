@@ -30,9 +30,9 @@ constexpr auto table = std::to_array<ChannelInfo>({
     {"torque.", "N·m", "", "drive torque of an axis"},
 });
 
-/// 1 `unit` is `factor` `settled`.
+/// 1 `unit` is `factor` `normal`.
 struct Conversion {
-    std::string_view unit, settled;
+    std::string_view unit, normal;
     double factor;
 };
 
@@ -93,13 +93,13 @@ std::string_view unit_of(std::string_view name) {
     return rotary ? info->rotary_unit : info->unit;
 }
 
-void settle_unit(Log& log, Channel& channel) {
+void normalise_unit(Log& log, Channel& channel) {
     const std::string_view wanted = unit_of(channel.name);
     if (channel.unit.empty()) {
         channel.unit = std::string(wanted);
         return;
     }
-    const auto leads_to = [&](const Conversion& c) { return c.settled == wanted; };
+    const auto leads_to = [&](const Conversion& c) { return c.normal == wanted; };
     // A current in mA, a load in per mille: nobody computes with them, they are shown as they are.
     if (channel.unit == wanted || std::none_of(conversions.begin(), conversions.end(), leads_to)) return;
     const auto found = std::find_if(conversions.begin(), conversions.end(),
@@ -128,7 +128,7 @@ void settle_unit(Log& log, Channel& channel) {
 constexpr std::array<std::string_view, 6> axis_names{"x", "y", "z", "a", "b", "c"};
 
 /// Clocks that do not begin with the first record: a time of day, a time since 1970.
-void settle_time_origin(Log& log, Channel& time) {
+void normalise_time_origin(Log& log, Channel& time) {
     if (log.records == 0) return;
     const double origin = time.values.at(0);
     if (!std::isfinite(origin) || origin == 0) return;
@@ -159,9 +159,9 @@ bool is_position(std::string_view name) {
     return info != nullptr && info->unit == "mm";
 }
 
-void settle_names(Log& log) {
+void normalise_names(Log& log) {
     for (Channel& channel : log.channels) {
-        const std::string name = settled_name(channel.name);
+        const std::string name = normalised_name(channel.name);
         if (log.find(name) == nullptr) channel.name = name;
     }
     if (std::any_of(log.channels.begin(), log.channels.end(), [](const Channel& c) { return is_position(c.name); }))
@@ -181,10 +181,10 @@ void settle_names(Log& log) {
          "`--mapping` names them: cmd.x, fb.x, act.x"});
 }
 
-void settle_units(Log& log) {
+void normalise_units(Log& log) {
     for (Channel& channel : log.channels) {
-        settle_unit(log, channel);
-        if (channel.name == "time") settle_time_origin(log, channel);
+        normalise_unit(log, channel);
+        if (channel.name == "time") normalise_time_origin(log, channel);
     }
 }
 

@@ -24,18 +24,18 @@ struct ChannelInfo {
 [[nodiscard]] bool is_known_name(std::string_view name);
 
 /// A name as it is known, whatever its case; bare axes likewise. Others as they are.
-[[nodiscard]] std::string settled_name(std::string_view name);
+[[nodiscard]] std::string normalised_name(std::string_view name);
 
 /// "cmd.x", "fb.c", "act.y", …
 [[nodiscard]] bool is_position(std::string_view name);
 
-/// Gives channels their settled names. Where no position says whose it is, channels x, y, z,
+/// Gives channels the names as they are known. Where no position says whose it is, channels x, y, z,
 /// a, b, c are the commanded ones, with a note `log.roles`.
-void settle_names(Log& log);
+void normalise_names(Log& log);
 
 /// Brings positions to mm and deg, speeds to mm/min and time to seconds since the first record, as
 /// the rest of the project reads them. Scale, bias and unit change, the raw values stay. Each change
 /// is a note `log.unit` or `log.time-origin`; a unit that is not understood is a warning.
-void settle_units(Log& log);
+void normalise_units(Log& log);
 
 }  // namespace clsurf

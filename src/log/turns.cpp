@@ -21,7 +21,7 @@ namespace {
 constexpr double end_rounding = 1e-3;  // [deg] of positions at both ends of a turn
 constexpr double longest_rest = 90;    // [deg] more in a period is no motion that a wrap can be told from
 constexpr double still = 0.05;         // [deg] noise of an axis that stands where it wraps
-constexpr double most_stretched = 2;   // a wrap may be so many times as long as the steps before and after it
+constexpr double longest_wrap = 2;     // a wrap may be so many times as long as the steps before and after it
 
 /// The same step on the shorter way round [deg].
 double shorter_way(double step) { return std::remainder(step, deg_per_turn); }
@@ -44,7 +44,7 @@ bool is_wrap(double last_step, double step, double next_step) {
     const double rest = std::abs(shorter_way(step));
     if (!(std::abs(step) > deg_per_turn / 2) || !(rest < longest_rest)) return false;
     const double beside = std::max(std::abs(shorter_way(last_step)), std::abs(shorter_way(next_step)));
-    return rest <= std::max(still, most_stretched * beside);
+    return rest <= std::max(still, longest_wrap * beside);
 }
 
 TurnSummary summarise(const ChannelView& channel, PointIndex first, PointIndex end) {

@@ -57,12 +57,12 @@ PathLocation on_adjacent_pass(const ClSurface& surface, const PathLocation& from
     if (!found.exists()) return found;
     const Positions& p = surface.positions;
     const PointIndex own = found.nearest();
-    const Eigen::Vector3f here = position_at(p, from), there = position_at(p, found), way = there - here;
+    const Eigen::Vector3f here = position_at(p, from), there = position_at(p, found), across = there - here;
     for (const Side side : {Side::left, Side::right}) {
         if (!surface.neighbours.has(side, own)) continue;
-        if ((p[surface.neighbours.neighbour(side, own)] - there).dot(way) >= 0) continue;
+        if ((p[surface.neighbours.neighbour(side, own)] - there).dot(across) >= 0) continue;
         const PathLocation back = beside(surface, found, feed, side);
-        const float share = back.exists() ? (position_at(p, back) - here).dot(way) / way.squaredNorm() : 0;
+        const float share = back.exists() ? (position_at(p, back) - here).dot(across) / across.squaredNorm() : 0;
         return share > least_between && share < 1 - least_between ? back : found;
     }
     return found;

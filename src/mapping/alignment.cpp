@@ -21,7 +21,7 @@ constexpr double sure_distance = 0.02;      ///< a finishing tolerance: full con
 constexpr double off_distance = 0.1;        ///< the walk may be on the wrong way from here on
 constexpr double lost_length = 1.0;         ///< arc length gone off before the walk counts as lost
 constexpr double near_distance = 0.1;       ///< a new start must be this near
-constexpr PointIndex proof_points = 400;    ///< moving points over which a new start must stay near
+constexpr PointIndex trial_points = 400;    ///< moving points over which a new start must stay near
 constexpr double least_jump = 10;           ///< to a placeholder
 constexpr double placeholder_reach = 1e-6;  ///< its position, moved to the workpiece
 constexpr double first_retry = 1.0;         ///< arc length until a failed search is repeated; doubles
@@ -173,7 +173,7 @@ private:
     bool stays_near(WalkState state, PointIndex point) {
         Vec3 before = log_.at(point);
         PointIndex moving = 0;
-        for (PointIndex i = point + 1; i < log_.count && moving < proof_points; ++i) {
+        for (PointIndex i = point + 1; i < log_.count && moving < trial_points; ++i) {
             const Vec3 p = log_.at(i);
             const double chord = (p - before).norm();
             if (!(chord > 0) || (chord > least_jump && is_placeholder(p))) continue;

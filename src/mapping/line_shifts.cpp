@@ -198,7 +198,7 @@ private:
         return mean(all, most_cost, line, [](const Arrivals& a, std::int64_t l) { return a.cost(l); });
     }
 
-    /// The cheapest shifts of the first `count` lines, line by line (Viterbi): what they cost. best_ leads back.
+    /// The shifts of the first `count` lines that cost least, line by line (Viterbi): what they cost. best_ leads back.
     double walk(std::int64_t lead, std::size_t count) {
         best_.assign(count, {});
         std::vector<State> states{State{}};

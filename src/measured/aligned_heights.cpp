@@ -28,18 +28,18 @@ AlignedHeights::AlignedHeights(const MeasuredData& measured, const Pose& pose) :
     std::vector<double> steps;
     for (const Vec3& point : measured.points) {
         const Vec3 p = pose(point);
-        const double way = along_.dot(p.head<2>() - from_);
-        if (!way_.empty() && way <= way_.back()) continue;
-        if (!way_.empty()) steps.push_back(way - way_.back());
-        way_.push_back(way);
+        const double distance = along_.dot(p.head<2>() - from_);
+        if (!distance_.empty() && distance <= distance_.back()) continue;
+        if (!distance_.empty()) steps.push_back(distance - distance_.back());
+        distance_.push_back(distance);
         height_.push_back(p.z());
     }
     if (!steps.empty()) spacing_ = median(steps);
 }
 
 ProfileRow AlignedHeights::own_row(double least_step) const {
-    if (way_.size() < 2) return {};
-    const double length = way_.back();
+    if (distance_.size() < 2) return {};
+    const double length = distance_.back();
     const double step = std::max({spacing_, least_step, length / most_values});
     return {from_, along_, step, static_cast<std::int64_t>(std::floor(length / step + 1e-9)) + 1};
 }
@@ -54,14 +54,15 @@ double AlignedHeights::at(const Vec2& place) const {
 }
 
 double AlignedHeights::along_profile(const Vec2& place) const {
-    const double way = along_.dot(place - from_);
-    if (way_.size() < 2 || !(way >= way_.front() && way <= way_.back())) return missing<double>;
-    const auto above = std::upper_bound(way_.begin(), way_.end(), way);
+    const double distance = along_.dot(place - from_);
+    if (distance_.size() < 2 || !(distance >= distance_.front() && distance <= distance_.back()))
+        return missing<double>;
+    const auto above = std::upper_bound(distance_.begin(), distance_.end(), distance);
     const auto k = static_cast<std::size_t>(
-        std::clamp<std::ptrdiff_t>(above - way_.begin(), 1, static_cast<std::ptrdiff_t>(way_.size()) - 1));
-    const double step = way_[k] - way_[k - 1];
+        std::clamp<std::ptrdiff_t>(above - distance_.begin(), 1, static_cast<std::ptrdiff_t>(distance_.size()) - 1));
+    const double step = distance_[k] - distance_[k - 1];
     if (step > most_gap * spacing_) return missing<double>;
-    return height_[k - 1] + (way - way_[k - 1]) / step * (height_[k] - height_[k - 1]);
+    return height_[k - 1] + (distance - distance_[k - 1]) / step * (height_[k] - height_[k - 1]);
 }
 
 double AlignedHeights::map_height(double column, double row) const {

@@ -35,7 +35,7 @@ private:
     Vec2 middle_ = Vec2::Zero();
     double spacing_ = 0;
     Vec2 from_ = Vec2::Zero(), along_ = Vec2::UnitX();  ///< of a profile
-    std::vector<double> way_, height_;                  ///< of its points, way rising
+    std::vector<double> distance_, height_;             ///< of its points; distances rise
 };
 
 }  // namespace clsurf

@@ -173,6 +173,7 @@ void sum_up(MeasuredComparison& result) {
 }  // namespace
 
 double short_cutoff_for(double cutoff) {
+    // λs for a cut-off λc of 0.8, 2.5 and 8 mm: ISO 3274, table 1.
     constexpr double usual = 0.8;
     constexpr double wide = 2.5;
     return cutoff > wide ? 0.025 : cutoff > usual ? 0.008 : 0.0025;

@@ -11,10 +11,10 @@ namespace clsurf {
 namespace {
 
 double distance_to_line(const Vec2& p, const Vec2& a, const Vec2& b) {
-    const Vec2 way = b - a;
-    const double square = way.squaredNorm();
-    const double t = square > 0 ? std::clamp((p - a).dot(way) / square, 0.0, 1.0) : 0;
-    return (p - a - t * way).norm();
+    const Vec2 chord = b - a;
+    const double square = chord.squaredNorm();
+    const double t = square > 0 ? std::clamp((p - a).dot(chord) / square, 0.0, 1.0) : 0;
+    return (p - a - t * chord).norm();
 }
 
 /// How far `places` are from a line of chords at most; both in rising x.

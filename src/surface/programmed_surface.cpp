@@ -10,8 +10,8 @@
 namespace clsurf {
 namespace {
 
-constexpr double most_laid_points = 20e6;
-constexpr double spacing_of_step_over = 0.5;  ///< how far points lie apart at most, in step-overs
+constexpr double most_programmed_points = 20e6;  ///< a longer program has them farther apart
+constexpr double spacing_of_step_over = 0.5;     ///< how far points lie apart at most, in step-overs
 constexpr int most_closer_looks = 4;
 
 struct Sampled {
@@ -49,7 +49,7 @@ Sampled sample(const Toolpath& path, double spacing) {
         if (is_cut(kind)) {
             // A line that hardly passes the spacing is not worth a point in its middle.
             const auto pieces =
-                static_cast<int>(std::clamp(std::floor(path.length(i) / spacing + 0.5), 1.0, most_laid_points));
+                static_cast<int>(std::clamp(std::floor(path.length(i) / spacing + 0.5), 1.0, most_programmed_points));
             for (int k = 1; k < pieces; ++k)
                 sampled.add(path.at(i, static_cast<double>(k) / pieces), static_cast<std::size_t>(i), false);
         }
@@ -87,7 +87,7 @@ LineMap lines_of(const ProgrammedSurface& programmed, const Program& program) {
 
 ProgrammedSurface build_programmed_surface(const Program& program) {
     const Toolpath path = toolpath_of(program);
-    const double coarsest = std::max(cutting_length(path) / most_laid_points, 1e-4);
+    const double coarsest = std::max(cutting_length(path) / most_programmed_points, 1e-4);
     double spacing = std::max(coarsest, usual_length(path));
     ProgrammedSurface programmed = stitch_sampled(sample(path, spacing), program);
     // Passes and neighbours need points closer than passes lie. Points of long motions lie so far apart that the

@@ -10,9 +10,9 @@
 namespace clsurf {
 namespace {
 
-constexpr double jog_reach = 4.0;  ///< step-overs of arc length round a seam in which the link of a loop is looked for
-constexpr float jog_half = 0.25F;  ///< step-overs of arc length from a point to the ends of its own chord
-constexpr float run_near = 0.6F;   ///< … and of the chords before and after it
+constexpr double link_reach = 4.0;  ///< step-overs of arc length round a seam in which the link of a loop is looked for
+constexpr float direction_half = 0.25F;  ///< step-overs of arc length from a point to the ends of its own chord
+constexpr float run_near = 0.6F;         ///< … and of the chords before and after it
 constexpr float run_far = 2.0F;
 constexpr float step_over_move_cosine =
     0.7F;  ///< a step-over move turns off by more than 45° and comes back into the old direction
@@ -24,9 +24,9 @@ public:
         : p_(positions), arc_length_(arc_length), step_over_(static_cast<float>(step_over)) {}
 
     /// The step-over move nearest round a seam inside a pass; empty: a spiral has none.
-    [[nodiscard]] PointRange jog_at(PointIndex seam, const PointRange& pass) const {
-        const PointIndex first = back(seam, static_cast<float>(jog_reach), pass.first);
-        const PointIndex last = ahead(seam, static_cast<float>(jog_reach), pass.last);
+    [[nodiscard]] PointRange step_over_move_at(PointIndex seam, const PointRange& pass) const {
+        const PointIndex first = back(seam, static_cast<float>(link_reach), pass.first);
+        const PointIndex last = ahead(seam, static_cast<float>(link_reach), pass.last);
         PointRange step_over_move;
         for (PointIndex i = first; i <= last; ++i) {
             if (!step_over_moves(i, pass)) continue;
@@ -49,7 +49,8 @@ private:
     }
     [[nodiscard]] bool step_over_moves(PointIndex i, const PointRange& pass) const {
         const auto direction = [&](PointIndex from, PointIndex to) { return (p_[to] - p_[from]).normalized(); };
-        const Eigen::Vector3f here = direction(back(i, jog_half, pass.first), ahead(i, jog_half, pass.last));
+        const Eigen::Vector3f here =
+            direction(back(i, direction_half, pass.first), ahead(i, direction_half, pass.last));
         const PointIndex near_back = back(i, run_near, pass.first);
         const PointIndex near_ahead = ahead(i, run_near, pass.last);
         const Eigen::Vector3f before = direction(back(near_back, run_far - run_near, pass.first), near_back);
@@ -84,7 +85,7 @@ Passes cut_at_returns(const Passes& passes, const Adjacency& neighbours, const S
                 return false;
             }();
             if (!returned) continue;
-            const PointRange step_over_move = finder.jog_at(i, {first, pass.last});
+            const PointRange step_over_move = finder.step_over_move_at(i, {first, pass.last});
             if (step_over_move.size() > 0) step_over_moves.push_back(step_over_move);
             turns.push_back({first, i - 1, PassKind::cut});
             first = i;

@@ -22,7 +22,7 @@ constexpr double reversal_sigmas = 12;   ///< an axis has turned when it has com
 /// motor turns round again sooner, it is a quarter of the way until there, and below the least nothing is measured.
 constexpr double beyond_backlash = 0.1, least_beyond = 0.02;
 constexpr double sure_backlash = 5;       ///< standard errors
-constexpr double transit_backlash = 1.5;  ///< the motor's way after a reversal on which the table may still stand …
+constexpr double transit_backlash = 1.5;  ///< what the motor moves after a reversal while the table may still stand …
 constexpr double transit_sigmas = 3;      ///< … with so many standard deviations of a difference
 constexpr PointIndex margin = 1;          ///< records around it
 constexpr PointIndex longest_range = 1 << 18;  ///< records that are smoothed at once: 200 bytes each
@@ -75,20 +75,20 @@ bool agree(const Differences& both, const std::vector<PointRange>& samples) {
     return of_difference < most_difference * most_difference * of_scale;
 }
 
-/// The number of whole records at which the ways of both over a window agree best.
+/// The number of whole records at which the displacements of both over a window agree best.
 double whole_lead(const Differences& both, const std::vector<PointRange>& samples) {
     std::array<double, 2 * most_lead + 1> squares{};
-    const auto way = [](const Values& x, PointIndex i) {
+    const auto displacement = [](const Values& x, PointIndex i) {
         return x[static_cast<std::size_t>(i + half_window)] - x[static_cast<std::size_t>(i - half_window)];
     };
     constexpr PointIndex reach = half_window + most_lead;
     for (const PointRange& sample : samples) {
         for (PointIndex i = sample.first + reach; i + reach <= sample.last; ++i) {
-            const double at = way(both.scale, i);
+            const double at = displacement(both.scale, i);
             std::array<double, 2 * most_lead + 1> off{};
             double sum = 0;
             for (PointIndex lead = -most_lead; lead <= most_lead; ++lead)
-                sum += off[static_cast<std::size_t>(lead + most_lead)] = way(both.encoder, i - lead) - at;
+                sum += off[static_cast<std::size_t>(lead + most_lead)] = displacement(both.encoder, i - lead) - at;
             if (std::isnan(sum)) continue;
             for (std::size_t k = 0; k < off.size(); ++k) squares[k] += off[k] * off[k];
         }
@@ -104,7 +104,7 @@ struct Alignment {
     double yield = 0;                                     ///< [mm] rms, over a window
 };
 
-/// The remaining difference between both ways over a window is the remaining lead times the change of speed, and the compliance of
+/// The remaining difference between both displacements over a window is the remaining lead times the change of speed, and the compliance of
 /// the drive times that of the acceleration: least squares of both. Windows lie inside `ranges`; in them the motor does not
 /// turn round.
 Alignment alignment_step(const Differences& both, const std::vector<PointRange>& ranges) {
@@ -166,25 +166,25 @@ Alignment align(const AxisRecords& records, double start, const std::vector<Poin
 
 struct Backlash {
     double size = 0;     ///< [mm]; 0: none
-    double transit = 0;  ///< [mm] the motor's way after a reversal on which the table may stand
+    double transit = 0;  ///< [mm] what the motor moves after a reversal while the table may stand
 };
 
-/// Mean difference on the motor's way from `least` to twice of it before or after a reversal; NaN: not so far.
+/// Mean difference while the motor moves from `least` to twice of it before or after a reversal; NaN: not so far.
 double mean_beside(const Differences& both, PointIndex from, int step, PointRange within, double least) {
     const double origin = both.encoder[static_cast<std::size_t>(from)];
     double sum = 0, count = 0;
     for (PointIndex i = from; i >= within.first && i <= within.last; i += step) {
-        const double way = std::abs(both.encoder[static_cast<std::size_t>(i)] - origin);
-        if (way > 2 * least) break;
+        const double distance = std::abs(both.encoder[static_cast<std::size_t>(i)] - origin);
+        if (distance > 2 * least) break;
         const double d = both.at(i);
-        if (way < least || std::isnan(d)) continue;
+        if (distance < least || std::isnan(d)) continue;
         sum += d;
         ++count;
     }
     return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
 }
 
-double way_between(const Differences& both, PointIndex from, PointIndex to) {
+double distance_between(const Differences& both, PointIndex from, PointIndex to) {
     return std::abs(both.encoder[static_cast<std::size_t>(to)] - both.encoder[static_cast<std::size_t>(from)]);
 }
 
@@ -197,8 +197,9 @@ Backlash measure_backlash(const Differences& both, const std::vector<std::vector
         for (std::size_t k = 0; k < all.size(); ++k) {
             const PointIndex first = k == 0 ? pieces[p].first : all[k - 1].at;
             const PointIndex last = k + 1 == all.size() ? pieces[p].last : all[k + 1].at;
-            const double way = std::min(way_between(both, first, all[k].at), way_between(both, all[k].at, last));
-            const double beyond = std::min(beyond_backlash, 0.25 * way);
+            const double shorter =
+                std::min(distance_between(both, first, all[k].at), distance_between(both, all[k].at, last));
+            const double beyond = std::min(beyond_backlash, 0.25 * shorter);
             if (!(beyond >= least_beyond)) continue;
             const double before = mean_beside(both, all[k].at, -1, {first, last}, beyond);
             const double after = mean_beside(both, all[k].at, 1, {first, last}, beyond);
@@ -227,7 +228,7 @@ std::vector<PointRange> smooth_ranges(const Differences& both, const std::vector
     for (std::size_t p = 0; p < pieces.size(); ++p) {
         const auto beyond_transit = [&](PointIndex from) {
             PointIndex i = from;
-            while (i <= pieces[p].last && !(way_between(both, from, i) > transit)) ++i;
+            while (i <= pieces[p].last && !(distance_between(both, from, i) > transit)) ++i;
             return i + margin;
         };
         // Where a log begins, nobody knows on which side of the backlash the table is.

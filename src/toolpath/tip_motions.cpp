@@ -158,8 +158,8 @@ private:
             put(motion, arc != nullptr ? MotionKind::spline : kind, tip_of(k == chords ? end : position, angles),
                 Xyz(turned_from + part * (turned_to - turned_from)));
         }
-        const Vec3 way = begin.array().isNaN().select(0.0, end - begin);
-        const double length = arc != nullptr ? path_.length(motion) : way.norm();
+        const Vec3 displacement = begin.array().isNaN().select(0.0, end - begin);
+        const double length = arc != nullptr ? path_.length(motion) : displacement.norm();
         if (kind != MotionKind::rapid && (!(length > least_length) || feed_mode_.inverse_time(motion)))
             take_time(first, tip_from, length > least_length ? length : (turned_to - turned_from).norm() / rad_per_deg);
     }

@@ -17,7 +17,7 @@ struct Made {
             {name,
              unit,
              {reinterpret_cast<const std::byte*>(values.data()), 8, log.records, ScalarType::f64, false, 1, bias}});
-        settle_units(log);
+        normalise_units(log);
     }
     [[nodiscard]] double at(PointIndex i) const { return log.channels[0].values.at(i); }
     [[nodiscard]] const std::string& unit() const { return log.channels[0].unit; }

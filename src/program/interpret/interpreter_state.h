@@ -226,7 +226,7 @@ public:
     void settle_work_frame();
     void count_in(double unit);    ///< what lengths are counted in [mm], and feeds, if F does not keep its unit
     void take_feed(double value);  ///< F
-    [[nodiscard]] float feed_for(double way, double unit);
+    [[nodiscard]] float feed_for(double length, double unit);
     [[nodiscard]] float feed_for(double length) { return feed_for(length, state_.feed_unit_mm); }
     [[nodiscard]] double turn_to(const Vec3& rotary) const;
     void cycle(const Block& block);

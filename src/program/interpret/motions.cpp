@@ -216,11 +216,11 @@ void Interpreter::select_feed_mode(FeedMode mode) {
 }
 
 /// `unit`: what F counts in, mm of a length, or 1 of a turn in degrees, where inches do not count.
-float Interpreter::feed_for(double way, double unit) {
+float Interpreter::feed_for(double length, double unit) {
     switch (state_.feed_mode) {
         case FeedMode::inverse_time:
             // What moves nothing takes no time: any feed will do, but none.
-            if (way > 0) return static_cast<float>(way * state_.feed / seconds_per_minute);
+            if (length > 0) return static_cast<float>(length * state_.feed / seconds_per_minute);
             [[fallthrough]];
         case FeedMode::per_minute: return static_cast<float>(state_.feed * unit / seconds_per_minute);
         case FeedMode::per_revolution:

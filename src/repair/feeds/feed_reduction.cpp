@@ -58,7 +58,7 @@ public:
     FeedReducer(const JudgedRun& run, const FeedReductionRules& rules)
         : run_(run), rules_(rules), equaliser_(run), equalised_(run.report.defects.size(), 1) {}
 
-    /// For the cheapest defects, each by what it costs alone: as many of them as the budget pays for together.
+    /// For the least expensive defects, each by what it costs alone: as many of them as the budget pays for together.
     ReducedSpeeds speeds() {
         const std::vector<std::int32_t> order = by_cost();
         std::size_t paid = 0, too_many = order.size() + 1;
@@ -73,7 +73,7 @@ public:
     }
 
 private:
-    /// Those that can be repaired, the cheapest first.
+    /// Those that can be repaired, the least expensive first.
     [[nodiscard]] std::vector<std::int32_t> by_cost() {
         std::vector<std::int32_t> order;
         for (std::size_t k = 0; k < run_.report.defects.size(); ++k) {

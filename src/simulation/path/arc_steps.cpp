@@ -33,8 +33,8 @@ double ArcSteps::speed(const PathElement& arc, const Vec3& before, const Vec3& a
     const double turned = std::min(arc.length, speed(at_begin.cwiseAbs().cwiseMax(at_end.cwiseAbs())) * time_);
     std::array<Vec3, 2> low{before, after}, high{before, after};
     for (int k = 0; k <= places; ++k) {
-        const double way = turned * k / places;
-        const std::array<Vec3, 2> bend{arc.second_derivative(way), arc.second_derivative(arc.length - way)};
+        const double at = turned * k / places;
+        const std::array<Vec3, 2> bend{arc.second_derivative(at), arc.second_derivative(arc.length - at)};
         for (std::size_t end = 0; end < 2; ++end) {
             low[end] = low[end].cwiseMin(bend[end]);
             high[end] = high[end].cwiseMax(bend[end]);

@@ -28,7 +28,7 @@ public:
     /// For both ends of an arc, and what it turns within the time [mm/s]. `before`, `after`: curvature beside it [1/mm].
     [[nodiscard]] double speed(const PathElement& arc, const Vec3& before, const Vec3& after) const;
     /// To each side of a step, where differences of set points show it at a speed [mm].
-    [[nodiscard]] double way(double speed) const { return speed * (period_ + 0.5 * time_); }
+    [[nodiscard]] double reach(double speed) const { return speed * (period_ + 0.5 * time_); }
 
 private:
     double time_ = 0;  ///< [s]

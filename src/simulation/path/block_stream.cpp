@@ -2,18 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 
 #include "core/error.h"
 #include "core/not_finite.h"
+#include "core/units.h"
 #include "simulation/path/junction.h"
 
 namespace clsurf {
 namespace {
 
-constexpr double reversal_angle = 179.0 * std::numbers::pi / 180;
+constexpr double reversal_angle = 179.0 * rad_per_deg;
 constexpr double cusp_length = 0.001;  ///< [mm] a curve that turns by more than 90° within it has a corner there
 
 }  // namespace

@@ -25,13 +25,13 @@ void CornerArcs::add_piece(double from, double to, const Side* beside) {
 /// What the arcs at both ends of the held block leave of it.
 void CornerArcs::add_block(double end, const Side& at_end) {
     const double left = std::max(end - used_, 0.0);
-    const double reached = begun_.way + at_end.way;
+    const double reached = begun_.reach + at_end.reach;
     const double scale = reached > left ? left / reached : 1;
-    const double first = used_ + scale * begun_.way;
-    const double last = reached > left ? first : end - at_end.way;
-    if (begun_.way > 0) add_piece(used_, first, &begun_);
+    const double first = used_ + scale * begun_.reach;
+    const double last = reached > left ? first : end - at_end.reach;
+    if (begun_.reach > 0) add_piece(used_, first, &begun_);
     add_piece(first, last, nullptr);
-    if (at_end.way > 0) add_piece(last, end, &at_end);
+    if (at_end.reach > 0) add_piece(last, end, &at_end);
     passed_ += left;
 }
 
@@ -40,13 +40,13 @@ void CornerArcs::add_block(double end, const Side& at_end) {
 CornerArcs::Side CornerArcs::side_of(const TransitionArc& arc, const PathElement& whole, const PathElement& after) {
     const double end = held_.length - arc.arc_length_before;
     Side side;
-    // Beside the arc no speed is above that in it, so that the way is as long as the time asks.
+    // Beside the arc no speed is above that in it, so that the reach is as long as the time asks.
     side.speed =
         std::min({steps_.speed(whole, held_.second_derivative(end), after.second_derivative(arc.arc_length_after)),
                   arc_speed(arc.radius, machine_->path.max_normal_acceleration),
                   std::max(held_.feed, after.feed) * machine_->controller.feed_override, machine_->path.max_speed});
-    side.way = steps_.way(side.speed);
-    const double at = passed_ + end - used_, reach = std::max(begun_.way, side.way);
+    side.reach = steps_.reach(side.speed);
+    const double at = passed_ + end - used_, reach = std::max(begun_.reach, side.reach);
     while (!recent_.empty() && recent_.front().at < at - reach) recent_.pop_front();
     if (recent_.empty()) return side;
     if (end - used_ > no_arc_length) recent_.push_back({at, Vec3::Zero()});
@@ -97,7 +97,7 @@ void CornerArcs::add_corner(const PathElement& after) {
     begun_ = side;
     if (!steps_.count()) return;
     recent_.push_back({passed_, whole.second_derivative(0)});
-    const double last = std::min(whole.length, side.way);
+    const double last = std::min(whole.length, side.reach);
     for (int k = 0; k <= reached_places; ++k) {
         const double from_end = last * (reached_places - k) / reached_places;
         recent_.push_back({passed_ + whole.length - from_end, whole.second_derivative(whole.length - from_end)});

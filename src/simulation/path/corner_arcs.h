@@ -21,7 +21,7 @@ private:
     /// What the step at the end of an arc means for the block beside it.
     struct Side {
         double speed = 0;  ///< that it allows [mm/s]; 0: there is none
-        double way = 0;    ///< of the block that it reaches [mm]
+        double reach = 0;  ///< of the block that it reaches [mm]
     };
 
     void add_corner(const PathElement& after);
@@ -40,7 +40,7 @@ private:
     ArcSteps steps_;
     bool holds_ = false;
     PathElement held_;         ///< the last block
-    double used_ = 0;          ///< of its way by the arc at its begin [mm]
+    double used_ = 0;          ///< of its length by the arc at its begin [mm]
     Side begun_;               ///< by this arc
     double passed_ = 0;        ///< arc length up to what is left of the last block [mm]
     std::deque<Bend> recent_;  ///< that a step here adds to

@@ -88,12 +88,12 @@ FiveAxisPath::FiveAxisPath(const Kinematics& kinematics, const Vec3& zero, const
     : kinematics_(&kinematics), zero_(zero) {
     FiveAxes at = begin;
     for (const FiveAxisChord& chord : chords) {
-        const FiveAxes way = chord.end - at;
-        const double length = std::hypot(way.head<3>().norm(), length_of_angle * way.tail<2>().norm());
+        const FiveAxes step = chord.end - at;
+        const double length = std::hypot(step.head<3>().norm(), length_of_angle * step.tail<2>().norm());
         if (!(length > least_length)) continue;
         chords_.push_back(chord);
         begins_.push_back(at);
-        slopes_.push_back(way / length);
+        slopes_.push_back(step / length);
         ends_.push_back(this->length() + length);
         at = chord.end;
     }
@@ -221,13 +221,13 @@ AxisSample<5> FiveAxisPath::derivatives(double u, PathDerivatives& tip) const {
 std::vector<double> FiveAxisPath::places() const {
     std::vector<double> places{0, length()};
     for (std::size_t i = 0; i < chords_.size(); ++i) {
-        const double begin = begin_of(i), way = ends_[i] - begin;
-        for (int k = 0; k < 8; ++k) places.push_back(begin + way * k / 8);
+        const double begin = begin_of(i), length_of_chord = ends_[i] - begin;
+        for (int k = 0; k < 8; ++k) places.push_back(begin + length_of_chord * k / 8);
         if (i == joints_.size()) continue;
         for (const double w : {joints_[i].tip_width, joints_[i].angle_width}) {
             if (!(w > 0)) continue;
             // In a chord shorter than the rounding its own places are close enough.
-            const bool before = w <= way, after = w <= ends_[i + 1] - ends_[i];
+            const bool before = w <= length_of_chord, after = w <= ends_[i + 1] - ends_[i];
             for (const double x : {0.2, 0.58, 1.0}) {
                 if (before) places.push_back(ends_[i] - x * w);
                 if (after) places.push_back(ends_[i] + x * w);

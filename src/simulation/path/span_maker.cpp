@@ -20,9 +20,10 @@ constexpr double most_bend_ratio = 1.5;   ///< … nor one whose greatest curvat
 constexpr int most_spline_halvings = 10;  ///< of a span of a spline
 constexpr int checked_points = 5;         ///< of a span whose bounds are not at its ends
 constexpr double most_turn_of_step = 0.75;  ///< [rad] of the path between checked points, where it nearly reverses
-constexpr double reversal_share = 1e-12;  ///< of the way to a place where a path nearly reverses: how well it is known
-// Cuts to both sides of it: of the way in which the path turns by 1 rad there, then each of the last one.
-constexpr double first_way = 2, way_growth = 4;
+constexpr double reversal_share =
+    1e-12;  ///< of the distance to a place where a path nearly reverses: how well it is known
+// Cuts to both sides of it: of the distance over which the path turns by 1 rad there, then each of the last one.
+constexpr double first_distance = 2, distance_growth = 4;
 constexpr double least_pace = 0.1;   ///< of the shortest p′ seen, where no bound is known
 constexpr double nearly = 1 - 1e-9;  ///< of a limit, for rounding
 
@@ -139,7 +140,7 @@ void bound_curve(Span& span) {
     }
     span.fourth = 24 * span.rounding[4].norm() + (span.base.arc ? span.base.radius * std::pow(span.base.rate, 4) : 0.0);
     if (span.base.cubic || span.base.spline) {
-        // By the way a cubic is no polynomial: its differences stand for the derivatives, with as much again.
+        // By arc length a cubic is no polynomial: its differences stand for the derivatives, with as much again.
         Vec3 margin = Vec3::Zero();
         for (std::size_t k = 1; k < thirds.size(); ++k) {
             span.fourth = std::max(span.fourth, 2 * (thirds[k] - thirds[k - 1]).norm() / step);
@@ -171,9 +172,9 @@ void bound_curve(Span& span) {
     span.pace_curve += 0.25 * curve_play;
 }
 
-/// Cuts around the places where a rounded curve nearly reverses. There |p′| falls and rises by |p″| times the way, as by a
-/// kink: |p′|″ is |p″|²/|p′| at the place, and falls with the third power of the way from it. Checked points that are
-/// farther apart than this way do not see it.
+/// Cuts around the places where a rounded curve nearly reverses. There |p′| falls and rises by |p″| times the distance, as by a
+/// kink: |p′|″ is |p″|²/|p′| at the place, and falls with the third power of the distance from it. Checked points that are
+/// farther apart than this do not see it.
 void cut_at_reversals(const Span& span, std::vector<double>& cuts) {
     const auto fall = [&](double tau) {
         const PathDerivatives d = span.derivatives(tau);
@@ -188,9 +189,10 @@ void cut_at_reversals(const Span& span, std::vector<double>& cuts) {
             const PathDerivatives d = span.derivatives(at);
             const double pace = d.first.norm(), bend = d.second.norm();
             if (bend * step > most_turn_of_step * pace) {
-                for (double way = std::max(first_way * pace / bend, least_span); way < step; way *= way_growth) {
-                    if (way < at) cuts.push_back(span.from + at - way);
-                    if (way < span.length - at) cuts.push_back(span.from + at + way);
+                for (double distance = std::max(first_distance * pace / bend, least_span); distance < step;
+                     distance *= distance_growth) {
+                    if (distance < at) cuts.push_back(span.from + at - distance);
+                    if (distance < span.length - at) cuts.push_back(span.from + at + distance);
                 }
             }
         }

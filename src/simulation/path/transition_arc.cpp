@@ -4,14 +4,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/units.h"
 #include "numeric/root_between.h"
 #include "simulation/path/junction.h"
 
 namespace clsurf {
 namespace {
 
-constexpr double collinear = 0.01 * std::numbers::pi / 180;
-constexpr double reversal = 179.0 * std::numbers::pi / 180;
+constexpr double collinear = 0.01 * rad_per_deg;
+constexpr double reversal = 179.0 * rad_per_deg;
 constexpr double least_arc_length = 1e-7;  ///< [mm] a shorter tangent is rounding
 constexpr double plane_tolerance = 1e-9;   ///< of the chord: how far it may leave the plane of its tangents
 constexpr double most_of_turn = 0.9;       ///< of what a block may turn until the arc would be a half circle

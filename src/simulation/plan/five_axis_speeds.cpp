@@ -53,8 +53,8 @@ public:
 
 private:
     /// v² of a rest `way` away, at constant jerk.
-    [[nodiscard]] static double square_at(double way, double jerk) {
-        const double time = std::cbrt(6 * way / jerk);
+    [[nodiscard]] static double square_at(double distance, double jerk) {
+        const double time = std::cbrt(6 * distance / jerk);
         return 0.25 * jerk * jerk * time * time * time * time;
     }
 
@@ -462,9 +462,9 @@ private:
 double FiveAxisMotion::at(double time, double& speed) const {
     if (jerk == 0) return begin + cell.arc_length_at(time, speed);
     const double from_rest = jerk > 0 ? time : duration - time;
-    const double size = std::abs(jerk), way = size * from_rest * from_rest * from_rest / 6;
+    const double size = std::abs(jerk), distance = size * from_rest * from_rest * from_rest / 6;
     speed = 0.5 * size * from_rest * from_rest;
-    return jerk > 0 ? begin + way : begin + size * duration * duration * duration / 6 - way;
+    return jerk > 0 ? begin + distance : begin + size * duration * duration * duration / 6 - distance;
 }
 
 std::vector<FiveAxisMotion> plan_speeds(const FiveAxisPath& path, const Machine& machine,

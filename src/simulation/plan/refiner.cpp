@@ -48,15 +48,15 @@ double turn_rate(const PathDerivatives& d) {
     return square > 0 ? d.first.cross(d.second).norm() / square : 0;
 }
 
-/// The way from a place of a span over which the direction turns by an angle, about [mm]. Where the path nearly reverses, the
+/// The length from a place of a span over which the direction turns by an angle, about [mm]. Where the path nearly reverses, the
 /// pace falls towards the place at which it turns fastest: no step goes past it.
-double way_of_turn(const Span& span, double from, double turn) {
+double length_of_turn(const Span& span, double from, double turn) {
     const PathDerivatives here = span.derivatives(from);
     const Pace pace = pace_of(here);
     double rate = std::max(turn_rate(here), 1e-9);
     rate = std::max(rate, turn_rate(span.derivatives(std::min(from + turn / rate, span.length))));
-    const double way = turn / rate;
-    return pace.slope < 0 ? std::min(way, approach * pace.value / -pace.slope) : way;
+    const double length = turn / rate;
+    return pace.slope < 0 ? std::min(length, approach * pace.value / -pace.slope) : length;
 }
 
 KnotState state_at(const SCurve& profile, double time) {
@@ -174,7 +174,7 @@ void Refiner::add_cells(const Section& section) {
             double step = std::clamp(std::sqrt(2 * most_change * speed / machine_->path.max_jerk),
                                      machine_->controller.period, knot_time_);
             if (!span.straight())
-                step = std::min(step, way_of_turn(span, arc_length - begin, most_turn_of_cell) / speed);
+                step = std::min(step, length_of_turn(span, arc_length - begin, most_turn_of_cell) / speed);
             if (run.from_rest) step = std::min(step, growth * time);
             if (run.to_rest) step = std::min(step, growth * (profile.duration() - time));
             const bool ends = last_time - time < 1.5 * step;

@@ -13,7 +13,7 @@ constexpr double rest_part = 0.25;     ///< of the jerk phase next to a rest: th
 constexpr double rest_jerk = 0.95;     ///< of what the axes allow at the rest
 constexpr double rest_held = 0.9;      ///< of that jerk: less makes the piece shorter
 constexpr double settled_share = 0.7;  ///< of the speed in a bend behind it that the piece may lead to
-constexpr std::array<double, 2> settling_jerks{1, 0.5};  ///< of the jerk from the rest, tried for the way there
+constexpr std::array<double, 2> settling_jerks{1, 0.5};  ///< of the jerk from the rest, tried to get there
 constexpr std::size_t settling_samples = 12, piece_samples = 4;
 constexpr double least_rest_piece = 0.01;  ///< of its time without joints
 
@@ -47,15 +47,17 @@ RestPiece RestPieces::at(double rest, int side, double length) const {
 bool RestPieces::settles(double rest, int side, const RestPiece& piece, double share) const {
     const double first = piece.jerk * piece.time, jerk = -share * piece.jerk, time = piece.time / share;
     const double from = 0.5 * first * piece.time;
-    const auto way = [&](double t) { return piece.length() + t * (from + t * (0.5 * first + t * jerk / 6)); };
+    const auto distance_after = [&](double t) {
+        return piece.length() + t * (from + t * (0.5 * first + t * jerk / 6));
+    };
     for (std::size_t k = 1; k <= settling_samples; ++k) {
         const double t = time * static_cast<double>(k) / settling_samples;
         const double speed = from + t * (first + 0.5 * t * jerk);
-        if (!limits_->hold(rest + side * way(t), side, speed, first + t * jerk, jerk)) return false;
+        if (!limits_->hold(rest + side * distance_after(t), side, speed, first + t * jerk, jerk)) return false;
     }
     const double speed = from + 0.5 * first * time;
-    return speed <= settled_share * limits_->at(rest + side * way(time)).cap &&
-           slows_for_bends(rest, side, way(time), speed, settling_jerks.back() * piece.jerk);
+    return speed <= settled_share * limits_->at(rest + side * distance_after(time)).cap &&
+           slows_for_bends(rest, side, distance_after(time), speed, settling_jerks.back() * piece.jerk);
 }
 
 /// Whether a motion away from a rest can brake for what bends behind `from`, at a jerk and without acceleration at first.

@@ -19,7 +19,7 @@ public:
     /// Both must outlive it.
     RestPieces(const FiveAxisLimits& limits, std::span<const LimitPlace> places) : limits_(&limits), places_(places) {}
 
-    /// `side`: 1 for the piece behind a rest, -1 for that before one; `length`: of the way to the next rest. Where joints
+    /// `side`: 1 for the piece behind a rest, -1 for that before one; `length`: to the next rest. Where joints
     /// near the rest want less jerk, the piece ends before them.
     [[nodiscard]] RestPiece at(double rest, int side, double length) const;
 

@@ -5,10 +5,10 @@
 
 namespace clsurf {
 
-RestRamp steepest_from_rest(double way, const Span& span, const Machine& machine) {
-    if (way > span.length) return {};
-    const auto most = [way](double limit, double first, double second, double third) {
-        return limit / (first + 9 * second * way + 4.5 * third * way * way);
+RestRamp steepest_from_rest(double distance, const Span& span, const Machine& machine) {
+    if (distance > span.length) return {};
+    const auto most = [distance](double limit, double first, double second, double third) {
+        return limit / (first + 9 * second * distance + 4.5 * third * distance * distance);
     };
     double jerk = span.jerk;
     if (!span.straight()) {
@@ -18,7 +18,7 @@ RestRamp steepest_from_rest(double way, const Span& span, const Machine& machine
             if (limit > 0) jerk = std::min(jerk, most(limit, span.first[i], span.second[i], span.third[i]));
         }
     }
-    const double time = std::cbrt(6 * way / jerk);
+    const double time = std::cbrt(6 * distance / jerk);
     const RestRamp ramp{jerk, time, 0.5 * jerk * time * time, jerk * time};
     const double square = ramp.speed * ramp.speed;
     bool held = ramp.speed <= (span.straight() ? span.free_cap : std::min(span.free_cap, span.cap)) &&

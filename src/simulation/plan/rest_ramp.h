@@ -1,5 +1,5 @@
 #pragma once
-// RestRamp: the way from or to a rest at one jerk, where v² over arc length is no quadratic.
+// RestRamp: the motion from or to a rest at one jerk, where v² over arc length is no quadratic.
 
 #include "machine/machine.h"
 #include "simulation/path/path_stream.h"
@@ -12,8 +12,8 @@ struct RestRamp {
     double speed = 0, acceleration = 0;  ///< at its end
 };
 
-/// From rest at the greatest jerk, if that ends below every limit. With constant jerk j over a way s, v a = 3 j s and
+/// From rest at the greatest jerk, if that ends below every limit. With constant jerk j over a distance s, v a = 3 j s and
 /// v³ = 4.5 j s²: the jerk of an axis, x′ j + 3 x″ v a + x‴ v³, grows with j alone.
-[[nodiscard]] RestRamp steepest_from_rest(double way, const Span& span, const Machine& machine);
+[[nodiscard]] RestRamp steepest_from_rest(double distance, const Span& span, const Machine& machine);
 
 }  // namespace clsurf

@@ -10,8 +10,8 @@
 namespace clsurf {
 namespace {
 
-// A way is long enough for a ramp when it misses less than this: speeds that come from reach()
-// carry rounding relative to the way.
+// A distance is long enough for a ramp when it misses less than this: speeds that come from reach()
+// carry rounding relative to the distance.
 constexpr double relative_tolerance = 1e-9;
 constexpr double absolute_tolerance = 1e-12;  ///< [mm]
 constexpr double speed_tolerance = 4 * std::numeric_limits<double>::epsilon();
@@ -143,7 +143,7 @@ PlannedProfile plan_scurve(double arc_length, double start_speed, double end_spe
     double ve = end_speed;
     const double towards = ve > vs ? limits.acceleration : limits.deceleration;
     plan.needed_arc_length = ramp_distance(vs, ve, towards, limits.jerk);
-    // A difference of speeds carries their rounding: on a way so short that it is no more than that, the ramp fits.
+    // A difference of speeds carries their rounding: over a distance so short that it is no more than that, the ramp fits.
     const double rounding = speed_tolerance * std::max(vs, ve);
     const double least_arc_length =
         0.5 * (vs + ve) * ramp_time(std::max(0.0, std::abs(ve - vs) - rounding), towards, limits.jerk);
