@@ -96,7 +96,7 @@ void GrowingLog::check_head() const {
         std::memset(now.data() + *frame_.count_at, 0, sizeof(std::uint64_t));
         std::memset(then.data() + *frame_.count_at, 0, sizeof(std::uint64_t));
     }
-    if (now != then) throw InputError(Place::of_file(file_.name()), "was written anew while it was followed");
+    if (now != then) throw InputError(Place::of_file(file_.name()), "was rewritten while it was followed");
 }
 
 void GrowingLog::take_records() {

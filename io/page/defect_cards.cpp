@@ -83,7 +83,7 @@ std::string defect_card_html(const ReportPage& page, std::size_t defect) {
     const Defect& d = page.quality.report->defects[defect];
     std::string text = "<article class=\"defect-card\">\n" + picture_html(*page.defects[defect].picture);
     text += fmt::format("<p>Lines {}", html(list_of_lines(d.runs)));
-    if (!d.neighbours.empty()) text += fmt::format("; beside: {}", html(list_of_lines(d.neighbours)));
+    if (!d.neighbours.empty()) text += fmt::format("; adjacent: {}", html(list_of_lines(d.neighbours)));
     text += ".</p>\n";
     if (!page.defects[defect].slow.empty()) text += "<p>Slow: " + html(page.defects[defect].slow) + ".</p>\n";
     if (!d.runs.empty()) text += code_html(*page.quality.program, d.runs.front());

@@ -21,8 +21,8 @@ std::string intervals_text(const ProgramIntervals& all) {
     text += fmt::format("\n{} intervals on {} passes\n", all.intervals.size(), all.passes);
     if (all.passes == 0)
         text +=
-            "no finishing pass has two cutting motions in a row: there is nothing to divide; a finishing pass has others beside "
-            "it, one step-over away\n";
+            "no finishing pass has two cutting motions in a row: there is nothing to divide; a finishing pass has others next "
+            "to it, one step-over away\n";
     return text;
 }
 

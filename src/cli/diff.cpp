@@ -121,10 +121,10 @@ Subcommand diff_subcommand() {
         .summary = "compares runs of a part by path: speed, acceleration, lag and height",
         .description =
             "Aligns runs with the first one by path, not by time. Feed override, pauses, other sampling\n"
-            "periods and logs that begin in the middle therefore do no harm. Lists where speed, acceleration,\n"
-            "lag along the feed, height and jerk (its root mean square over 50 ms: how rough the motion is)\n"
-            "differ: B minus A, and with a known tool how rough a surface each leaves. Each argument is a log,\n"
-            "or a program, which is simulated. With a budget, exit code 1 means that a limit is exceeded. With\n"
+            "periods and logs that begin in the middle therefore do not disturb. Lists where speed,\n"
+            "acceleration, lag along the feed, height and jerk (its root mean square over 50 ms: how rough the\n"
+            "motion is) differ: B minus A. If the tool is known, it also gives the roughness that each run\n"
+            "leaves. Each argument is a log, or a program, which is simulated. With a budget, exit code 1 means that a limit is exceeded. With\n"
             "three or more runs, the one that deviates from the others is named. The map shows the first B.\n\n"
             "  clsurf diff monday.biip friday.biip --program part.nc\n"
             "  clsurf diff monday.biip friday.biip --budget runs.toml -o difference.png --color height\n"

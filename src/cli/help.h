@@ -44,7 +44,8 @@ struct ExitCodeRow {
 /// Names beside what they mean, with units, a row each.
 [[nodiscard]] std::string listing_text(std::span<const io::ListingRow> rows);
 
-inline constexpr std::string_view motto = "sees the mark before the cut";
+inline constexpr std::string_view motto =
+    "finds the NC program lines and controller behaviour that leave marks on finished surfaces";
 
 /// `clsurf --help`
 [[nodiscard]] std::string overview_text();

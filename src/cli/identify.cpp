@@ -109,7 +109,7 @@ Subcommand identify_subcommand() {
             "with them. The limits of speed, acceleration and jerk come from the commanded positions: a limit is reached where the motion\n"
             "stays at it in several places. Accelerations and jerks that the motion hides come from simulations: the value that explains the\n"
             "speeds best is taken if a lower and a higher one explain them less well. Any other limit is a lower bound; the file then keeps the\n"
-            "limit of --machine, or the default, if that is greater. What the runs do not determine is listed with the reason.\n"
+            "limit of --machine, or the default, if that is greater. Values that the runs do not determine are listed with the reason.\n"
             "The rules of the planner are selected by simulation: each value is scored by the speed along the path. The fidelity of the result\n"
             "is measured on the runs of --test, else by leaving out one run after the other, else on the fitted run, and is kept in the file.\n"
             "Exit code 3 says that nothing could be identified, or that the picture cannot be drawn; the machine file is written even then.\n\n"
@@ -123,7 +123,7 @@ Subcommand identify_subcommand() {
                     ("picture", po::value<std::string>()->value_name("FILE"), "map of the speed of the simulation minus that of the log, of the run where they differ most: of --test, else of the fit (.png, .jpg, .tif, .webp, .svg or .pdf)")
                     ("test", po::value<std::vector<std::string>>()->multitoken()->value_name("PROGRAM LOG"), "a run that is not used for the fit but compared with its simulation; repeatable");
                 // clang-format on
-                declare_part(options);
+                declare_part(options, MachineUse::known);
                 declare_json(options);
             },
         .positional = {"PROGRAM", "LOG…"},

@@ -98,7 +98,7 @@ Subcommand lint_subcommand() {
             "run differently from their neighbours: points closer or farther apart than on both adjacent\n"
             "passes, chord errors against the controller's tolerance (a good tolerance is 110 to 200 % of the\n"
             "chord error), short lines that run backward, different feeds, pass ends that are out of line.\n"
-            "Of several programs the report begins with a table. Exit code 1 means that one has warnings.\n\n"
+            "For several programs, the report begins with a table. Exit code 1 means that one has warnings.\n\n"
             "  clsurf lint part.nc\n"
             "  clsurf lint *.nc -o lint.sarif\n"
             "  clsurf lint part.nc --tolerance 0.01 --format sarif -o part.sarif",
@@ -106,9 +106,11 @@ Subcommand lint_subcommand() {
             [](po::options_description& options) {
                 // clang-format off
                 options.add_options()
-                    ("tolerance", po::value<double>()->value_name("MM"), "path tolerance of the controller (default: from G64 P or CYCLE832 in the program)");
+                    ("tolerance", po::value<double>()->value_name("MM"), "path tolerance of the controller (default: what the program sets by G64 P, CYCLE832 or cycle 32)");
                 // clang-format on
-                declare_tool(options);
+                declare_tool(
+                    options,
+                    "the tool, diameter and corner radius in mm; places are then contact points on the part, otherwise tool tips (default: from --tools)");
                 declare_report_output(options, lint_formats);
                 declare_program_options(options);
             },

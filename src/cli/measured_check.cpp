@@ -15,7 +15,7 @@ void declare_measured_check(po::options_description& options) {
     declare_measured_file(options);
     // clang-format off
     options.add_options()
-        ("picture", po::value<std::string>()->value_name("FILE"), "of --measured: the measured profile over the predicted one, and their difference (.png, .jpg, .tif, .webp, .svg or .pdf)");
+        ("picture", po::value<std::string>()->value_name("FILE"), "with --measured: the measured profile over the predicted one, and their difference (.png, .jpg, .tif, .webp, .svg or .pdf)");
     // clang-format on
     declare_measured(options);
 }

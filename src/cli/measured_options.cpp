@@ -12,16 +12,16 @@ namespace clsurf::cli {
 void declare_measured_file(po::options_description& options) {
     options.add_options()(
         "measured", po::value<std::string>()->value_name("FILE"),
-        "what was measured on the part: a profile or points (delimited text), or an areal map (.sdf); needs the tool");
+        "the measurement of the part: a profile or points (delimited text), or an areal map (.sdf); needs the tool");
 }
 
 void declare_measured(po::options_description& options) {
     // clang-format off
     options.add_options()
-        ("measured-at", po::value<std::string>()->value_name("X,Y[,ANGLE]"), "where the origin of the measurement lies on the part [mm], and the angle from the part's X axis to its own [deg]; a profile and an areal map need it (default for points: 0,0,0)")
+        ("measured-at", po::value<std::string>()->value_name("X,Y[,ANGLE]"), "where the origin of the measurement is on the part [mm], and the angle from the part's X axis to its own [deg]; a profile and an areal map need it (default for points: 0,0,0)")
         ("measured-columns", po::value<std::string>()->value_name("NAMES"), "columns of x and z, or of x, y and z, by name or number from 0 (default: by their names)")
         ("measured-free", po::value<std::string>()->value_name("NAMES"), "what is fitted of the pose: x, y and z (shifts), a, b and c (rotations about them), in the axes of the measurement; the others stay as stated (default: all; of a profile x,z,b)")
-        ("measured-search", po::value<double>()->value_name("MM"), "how far about the start other poses are tried (default: 1 mm, or three step-overs where they are more)");
+        ("measured-search", po::value<double>()->value_name("MM"), "how far around the start other poses are tried (default: 1 mm, or three step-overs if that is more)");
     // clang-format on
 }
 

@@ -84,13 +84,20 @@ void declare_force(po::options_description& options) {
     options.add_options()("force", "continue although the log does not belong to the program; nothing is judged");
 }
 
-void declare_kinematics(po::options_description& options, bool simulates) {
-    options.add_options()("machine", po::value<std::string>()->value_name("FILE"),
-                          simulates ? "machine file; its kinematics convert five-axis positions into tool tips in the "
-                                      "workpiece, and a program without a log is simulated on it (default: that of "
-                                      "clsurf machine --defaults)"
-                                    : "machine file; its kinematics convert five-axis positions into tool tips in the "
-                                      "workpiece");
+void declare_kinematics(po::options_description& options, MachineUse use) {
+    std::string meaning = "machine file; its kinematics convert five-axis positions into tool tips in the workpiece";
+    switch (use) {
+        case MachineUse::kinematics: break;
+        case MachineUse::simulation:
+            meaning += ", and a program without a log is simulated on it (default: that of clsurf machine --defaults)";
+            break;
+        case MachineUse::limits: meaning += ", and the commanded motion is compared with its limits"; break;
+        case MachineUse::known:
+            meaning +=
+                ", and what the runs do not determine is taken from it (default: that of clsurf machine --defaults)";
+            break;
+    }
+    options.add_options()("machine", po::value<std::string>()->value_name("FILE"), meaning.c_str());
 }
 
 std::shared_ptr<const Kinematics> load_kinematics(const std::string& path) {

@@ -39,8 +39,15 @@ void declare_log_options(po::options_description& options);
 /// --force, of what takes a log that must belong to its program
 void declare_force(po::options_description& options);
 
+/// What a subcommand takes from a machine file, besides its kinematics.
+enum class MachineUse : std::uint8_t {
+    kinematics,  ///< nothing else
+    simulation,  ///< a program without a log is simulated on it
+    limits,      ///< the commanded motion is compared with its limits
+    known,       ///< what the runs do not determine
+};
 /// --machine, for its kinematics
-void declare_kinematics(po::options_description& options, bool simulates = false);
+void declare_kinematics(po::options_description& options, MachineUse use = MachineUse::kinematics);
 /// The kinematics of a machine file; nullptr: no file, or three axes.
 [[nodiscard]] std::shared_ptr<const Kinematics> load_kinematics(const std::string& path);
 

@@ -21,11 +21,12 @@ Role parse_role(const std::string& text) {
     throw UsageError("'" + text + "' is not commanded, feedback or actual", did_you_mean(text, names));
 }
 
-void declare_part(po::options_description& options, bool of_render) {
+void declare_part(po::options_description& options, MachineUse use) {
+    const bool of_render = use == MachineUse::simulation;
     declare_program_options(options);
     declare_log_options(options);
     declare_work_offset(options);
-    declare_kinematics(options, of_render);
+    declare_kinematics(options, use);
     // clang-format off
     options.add_options()
         ("surface", po::value<std::string>()->value_name(of_render ? "commanded|feedback|actual|formed" : "commanded|feedback|actual"),

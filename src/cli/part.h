@@ -28,8 +28,8 @@ struct PartOptions {
 };
 
 /// --dialect, --block-delete, --tools, --layout, --mapping, --period, --surface, --work-offset, --machine, --ignore-lines.
-/// `of_render`: --surface may be `formed` too, and the program may come alone.
-void declare_part(po::options_description& options, bool of_render = false);
+/// Where a program without a log is simulated (`render`), --surface may be `formed`, too.
+void declare_part(po::options_description& options, MachineUse use = MachineUse::kinematics);
 /// --derivative, of what derives speeds.
 void declare_derivative(po::options_description& options);
 [[nodiscard]] DerivativeMethod read_derivative(const po::variables_map& values);

@@ -57,15 +57,15 @@ Subcommand record_subcommand() {
     return {
         .name = "record",
         .arguments = "-o run.biip",
-        .summary = "records registers of a Modbus device beside a run",
+        .summary = "records registers of a Modbus device during a run",
         .description =
             "Reads load, power, temperature, override and other slow signals over Modbus TCP or RTU. It reads\n"
             "registers (functions 3 and 4) and never writes one. The map says which register is which channel.\n"
-            "What was not answered in time is a gap, and the answer counts the gaps. Ctrl-C, SIGTERM and --for\n"
-            "end the recording. Until then it is FILE.part, which can be read too: nothing but the last second is\n"
-            "lost if the program is killed. If no answer comes for the time of --patience, the recording ends with\n"
-            "exit code 4, and the log is kept. `clsurf convert --join` adds the channels to the log of the run.\n"
-            "Records over Modbus are too rare for positions; the log of the control has these.\n\n"
+            "A record without an answer in time becomes a gap, and the summary counts the gaps. Ctrl-C, SIGTERM\n"
+            "and --for end the recording. Until then it is in FILE.part, which can be read, too: if the program is\n"
+            "killed, only the last second is lost. If no answer comes for the time of --patience, the recording\n"
+            "ends with exit code 4, and the log is kept. `clsurf convert --join` adds the channels to the log of\n"
+            "the run. Modbus is too slow for positions; they come from the log of the control.\n\n"
             "  clsurf record --modbus tcp:192.168.0.10:502 --map registers.toml -o slow.biip\n"
             "  clsurf record --modbus rtu:/dev/ttyUSB0,19200,8N1 --map registers.toml --rate 5 --for 600 -o slow.biip\n"
             "  clsurf convert run.csv --join slow.biip --join-offset 12.5 -o joined.biip",

@@ -81,7 +81,7 @@ void refuse_selection(const RenderOptions& options) {
 }  // namespace
 
 void declare_render(po::options_description& options) {
-    declare_part(options, true);
+    declare_part(options, MachineUse::simulation);
     declare_derivative(options);
     declare_tool(options);
     // clang-format off

@@ -90,7 +90,7 @@ std::vector<NamedPiece> read_pieces(const std::vector<std::string>& paths, const
     for (int number = 1; number <= count; ++number) {
         const auto found = std::ranges::count(pieces, number, number_of);
         if (found == 0) throw UsageError(fmt::format("piece {}/{} is missing", number, count));
-        if (found > 1) throw UsageError(fmt::format("piece {}/{} is there twice", number, count));
+        if (found > 1) throw UsageError(fmt::format("duplicate piece {}/{}", number, count));
     }
     return pieces;
 }

@@ -45,8 +45,8 @@ Subcommand survey_subcommand() {
             "them in a file. With it `clsurf check --shard` and `clsurf export --shard` work on a part of the log without\n"
             "reading the rest, on one machine or on many (docs/howto/shards.md). The log is a BIIP file of a machine with\n"
             "three axes. Give the same options for program and log to every step.\n"
-            "The file takes 8 bytes a point and is for the version of clsurf that made it. Where memory is too small for\n"
-            "24 to 32 bytes a point, --scratch keeps them in files without a name, which are gone when the survey ends.\n\n"
+            "The file takes 8 bytes a point, and only the version of clsurf that made it can read it. If memory is too\n"
+            "small for 24 to 32 bytes a point, --scratch keeps them in temporary files.\n\n"
             "  clsurf survey part.nc run.biip -o run.survey\n"
             "  clsurf check part.nc run.biip --survey run.survey --shard 1/8 -o shard1.json\n"
             "  clsurf check part.nc run.biip --survey run.survey --merge shard*.json -o whole.json",

@@ -256,7 +256,7 @@ void search_rule(const Rule& rule, std::size_t present, double least_gain, RuleS
         for (const std::size_t k : equal) names.push_back(rule.values[k].name);
         result.unidentified.push_back(
             {rule.name, rule.axis,
-             fmt::format("the runs do not tell apart {}; kept {}", fmt::join(names, "; "), rule.values[chosen].name)});
+             fmt::format("the runs do not distinguish {}; kept {}", fmt::join(names, "; "), rule.values[chosen].name)});
     }
     if (equal.size() == 1 && equal.front() == chosen) refine(rule, chosen, scores, result.machine, candidates);
     std::move(candidates.begin(), candidates.end(), std::back_inserter(result.rules));

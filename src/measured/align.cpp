@@ -154,7 +154,7 @@ public:
         result_.pose = start_;
         if (points_.size() <= unknowns_) {
             result_.reasons.push_back(
-                fmt::format("{} points cannot tell {} degrees of freedom", points_.size(), unknowns_));
+                fmt::format("{} points cannot determine {} degrees of freedom", points_.size(), unknowns_));
             return result_;
         }
         // The best of many starts then fits the scatter of the points, and its errors are far greater than they look.
@@ -363,7 +363,7 @@ Alignment align(const MeasuredData& measured, const AsMachinedSurface& as_machin
         const FreeAxes can = usual_free_axes(measured.kind);
         for (std::size_t k = 0; k < pose_axes; ++k) {
             if ((*rules.free)[k] && !can[k])
-                throw UsageError(fmt::format("a profile does not tell {}: only x, z and b can be fitted",
+                throw UsageError(fmt::format("a profile does not determine {}: only x, z and b can be fitted",
                                              name_of(static_cast<PoseAxis>(k))));
         }
     }

@@ -97,8 +97,9 @@ private:
         if (!std::isfinite(mark.predicted))
             mark.reason = "its predicted depth there is not known";
         else if (mark.predicted < least)
-            mark.reason = fmt::format("{:.2f} µm {} there, and less than {:.2f} µm cannot be told from the scatter",
-                                      mark.predicted * um_per_mm, deep_or_high(mark.pit), least * um_per_mm);
+            mark.reason =
+                fmt::format("{:.2f} µm {} there, and less than {:.2f} µm cannot be distinguished from the scatter",
+                            mark.predicted * um_per_mm, deep_or_high(mark.pit), least * um_per_mm);
         else if (!std::isfinite(mark.measured))
             mark.reason = "too few places next to it were measured";
         else

@@ -63,4 +63,4 @@ clsurf_cli_test(NAME config_flag SETUP "${project}; printf 'quiet = true\n' > pa
 clsurf_cli_test(NAME config_is_an_input SETUP "${project}; printf 'quiet = true\n' > parts/.clsurf.toml; ln parts/.clsurf.toml parts/c.csv" ARGS moves parts/deep/part.nc -o parts/c.csv EXIT 2 STDERR "the output 'parts/c.csv' is the input")
 
 clsurf_cli_test(NAME words_csv_is_of_export ARGS convert ${run} -o run.csv EXIT 2 STDERR "'run.csv' must end in .biip" "clsurf export. writes CSV")
-clsurf_cli_test(NAME words_intervals_of_one_line SETUP "printf 'G0 X0 Y0 Z0\\nG1 X10 F600\\nM2\\n' > a.nc" ARGS intervals a.nc STDOUT "0 intervals on 0 passes" "no finishing pass has two cutting motions in a row: .* has others beside it")
+clsurf_cli_test(NAME words_intervals_of_one_line SETUP "printf 'G0 X0 Y0 Z0\\nG1 X10 F600\\nM2\\n' > a.nc" ARGS intervals a.nc STDOUT "0 intervals on 0 passes" "no finishing pass has two cutting motions in a row: .* has others next to it")

@@ -76,16 +76,16 @@ TEST(Curves, KnotsAndWeightsOfFanuc) {
 }
 
 TEST(Curves, KnottedSplinesRefuseWhatTheControlRefuses) {
-    expect_refused("G0 X0 Y0 Z0\nG6.2 P3 K0 X1 Y0 F60\n", "fanuc", "2:", "begins where the tool stands");
+    expect_refused("G0 X0 Y0 Z0\nG6.2 P3 K0 X1 Y0 F60\n", "fanuc", "2:", "begins where the tool is");
     const std::string begin = "G0 X0 Y0 Z0\nG6.2 P3 K0 X0 Y0 F60\nK0 X1 Y1\nK0 X2 Y0\n";
     expect_refused(begin + "K1\nK1\nG1 X5\n", "fanuc", "7:", "ends with 3 blocks of K alone, here are 2");
     expect_refused(begin + "K1\nK1\n", "fanuc", "", "ends with 3 blocks of K alone, here are 2");
     expect_refused(begin + "X3 Y3\n", "fanuc", "5:", "needs its knot (K)");
     // In the block of the knot that falls, whether or not it has a point.
-    expect_refused(begin + "K-1\nK1\nK1\n", "fanuc", "5:1:", "may not fall: -1 behind 0");
-    expect_refused(begin + "K2\nN1 K1\nK2\n", "linuxcnc", "6:4:", "may not fall: 1 behind 2");
-    expect_refused(begin + "X3 Y0 K-1\nK1\nK1\nK1\n", "fanuc", "5:7:", "may not fall: -1 behind 0");
-    expect_refused("G0 X0 Y0 Z0\nG6.2 P3 X0 Y0 F60\nK1 X1 Y1\nK0 X2 Y0\n", "fanuc", "4:1:", "may not fall: 0 behind 1");
+    expect_refused(begin + "K-1\nK1\nK1\n", "fanuc", "5:1:", "may not fall: -1 after 0");
+    expect_refused(begin + "K2\nN1 K1\nK2\n", "linuxcnc", "6:4:", "may not fall: 1 after 2");
+    expect_refused(begin + "X3 Y0 K-1\nK1\nK1\nK1\n", "fanuc", "5:7:", "may not fall: -1 after 0");
+    expect_refused("G0 X0 Y0 Z0\nG6.2 P3 X0 Y0 F60\nK1 X1 Y1\nK0 X2 Y0\n", "fanuc", "4:1:", "may not fall: 0 after 1");
     expect_refused(begin + "K1\nK1\nK2\n", "fanuc", "7:", "the last 3");
     expect_refused(begin + "K1\nK1 A5\nK1\n", "fanuc", "6:", "rotary axes");
     expect_refused("G0 X0 Y0 Z0\nG6.2 P1 K0 X0 Y0 F60\n", "fanuc", "2:", "order of a spline (P)");
@@ -305,7 +305,7 @@ TEST(Curves, SplOfKlartextRunsFromOneToZero) {
         24.875 + (-4.688e-2 / 8 + 2.459e-2 / 4 + 3.486 / 2) - (24.875 - 4.688e-2 + 2.459e-2 + 3.486 - 28.338) / 8;
     EXPECT_NEAR(at(p, 0, 0.5).x(), x, 1e-12);
     expect_refused("0 BEGIN PGM A MM\n1 L X+28 Y+19.385 Z-0.5 FMAX\n" + block, "klartext",
-                   "3:", "the tool stands at 28.0000");
+                   "3:", "the tool is at 28.0000");
     expect_refused(head + "2 SPL X24.875 K3X1 K2X1\n", "klartext", "3:", "K1X");
     expect_refused(head + "2 SPL X24 K3X1 K2X1 K1X1 A5 K3A1 K2A1 K1A1\n", "klartext", "3:", "only X, Y and Z");
 }

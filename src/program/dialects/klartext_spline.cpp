@@ -117,9 +117,8 @@ void spline(Line& line) {
         const std::array<double, 4> b{unit * (*k[0] + *k[1] + *k[2]) + end, unit * (2 * *k[0] + *k[1]) / 3 + end,
                                       unit * *k[0] / 3 + end, end};
         if (!(std::abs(b[0] - begin[i]) <= most_start_play))
-            in.fail(
-                fmt::format("SPL begins at {}{:.4f}, the tool stands at {:.4f}", name, b[0] / unit, begin[i] / unit),
-                line.start + 1);
+            in.fail(fmt::format("SPL begins at {}{:.4f}, the tool is at {:.4f}", name, b[0] / unit, begin[i] / unit),
+                    line.start + 1);
         for (std::size_t j = 1; j < 4; ++j) points[j][i] = b[j];
         placed |= 1U << axis;
     }

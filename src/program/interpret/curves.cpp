@@ -191,7 +191,7 @@ void Interpreter::knotted_point(const Block& block) {
         for (int axis = 0; axis < 3; ++axis) {
             if (!w.given("XYZ"[axis])) continue;
             if (!(std::abs(off[axis]) <= start_play_steps * state_.least_increment() * state_.unit_mm))
-                fail("a spline (G6.2) begins where the tool stands: its first point is another one",
+                fail("a spline (G6.2) begins where the tool is, but its first point is another one",
                      w.column[static_cast<std::size_t>("XYZ"[axis] - 'A')]);
         }
         begin_spline(SplineKind::knotted);
@@ -213,10 +213,10 @@ void Interpreter::knotted_point(const Block& block) {
     if (std::isnan(open.points.front().knot)) open.points.front().knot = w.of('K');
     const double before = open.last_knots.empty() ? open.points.back().knot : open.last_knots.back();
     if (!(w.of('K') >= before)) {
-        fail(fmt::format("knots of a spline (K) may not fall: {} behind {}", w.of('K'), before), w.column['K' - 'A']);
+        fail(fmt::format("knots of a spline (K) may not fall: {} after {}", w.of('K'), before), w.column['K' - 'A']);
     }
     if (is_point) {
-        if (!open.last_knots.empty()) fail("a point behind the last knots of a spline (G6.2)");
+        if (!open.last_knots.empty()) fail("a point after the last knots of a spline (G6.2)");
         add_spline_point(target(block, false), weight, w.of('K'));
         return;
     }
@@ -235,7 +235,7 @@ void Interpreter::finish_knotted() {
     const double tolerance = same_knot * std::abs(knots.back() - knots.front());
     for (std::size_t i = order; i < open.points.size(); ++i) {
         if (knots[i] - knots[i - order + 1] <= tolerance)
-            fail(fmt::format("a knot of a spline (K{}) may stand {} times at most", knots[i], order - 1));
+            fail(fmt::format("a knot of a spline (K{}) may occur {} times at most", knots[i], order - 1));
     }
     if (knots[order - 1] - knots[0] > tolerance || knots.back() - knots[knots.size() - order] > tolerance)
         fail(fmt::format("the first {} knots of a spline (K) must be the same, and the last {}", order, order));
@@ -293,7 +293,7 @@ void Interpreter::spline_point(const Block& block) {
     const Vec3 to = target(block, false);
     if (from.array().isNaN().any() && (to - from).array().isNaN().any() &&
         !(to.array().isNaN() == from.array().isNaN()).all())
-        fail("a spline begins where the tool stands, which is not known yet");
+        fail("a spline begins where the tool is, which is not known yet");
     if (curves_.open.kind != kind || curves_.open.left) begin_spline(kind);
     curves_.open.degree = basis ? curves_.degree : 3;
     add_spline_point(to, weight, interval);
@@ -432,7 +432,7 @@ void Interpreter::polynomial(const Block& block) {
         std::vector<double> a;
         if (const PolynomialWord* word = polynomial_of(block, "XYZ"[axis])) {
             if (std::isnan(begin[axis]))
-                fail("a polynomial begins where the tool stands, which is not known yet", word->column);
+                fail("a polynomial begins where the tool is, which is not known yet", word->column);
             const double unit = state_.unit_mm * (axis == 0 && state_.diameter ? 0.5 : 1.0);
             end[axis] = word->values[0] * unit + (state_.incremental ? begin[axis] : 0.0);
             placed |= 1U << static_cast<unsigned>(axis);

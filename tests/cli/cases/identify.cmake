@@ -89,7 +89,7 @@ clsurf_cli_test(NAME identify_a_short_recording SETUP "${gear_cutting}" ARGS ide
 # The planner's rules: a kernel's log, and what the machine is worth on a run that the fit has not seen.
 set(bottle_and_test identify ${bottle} -o m.toml --test ${dome} --picture residual.png)
 clsurf_cli_test(NAME identify_selects_the_rules_of_a_kernel ARGS ${bottle_and_test} FILE m.toml
-  STDOUT "planner +trapezoidal, arc blends .*chosen" "fitted runs" "the runs do not tell apart .*lookahead_blocks")
+  STDOUT "planner +trapezoidal, arc blends .*chosen" "fitted runs" "the runs do not distinguish .*lookahead_blocks")
 clsurf_cli_test(NAME identify_writes_a_machine_file AFTER identify_selects_the_rules_of_a_kernel
   SETUP "grep -q 'position_gain = 80.* # ± ' @AFTER@/m.toml" ARGS machine @AFTER@/m.toml STDOUT "can be used")
 clsurf_cli_test(NAME identify_tests_another_run ARGS ${bottle_and_test}

@@ -18,7 +18,7 @@ clsurf_cli_test(NAME measured_profile_without_the_mark
 foreach(mark "" "--without-mark")
   clsurf_cli_test(NAME measured_map${mark}
     SETUP "${dexel} make . --measure areal ${mark}; $CLSURF check part.nc run.csv --tool ball:6 --measured map.sdf --measured-at 7.1,4.3,90 --json > ../r.json; ${dexel} check . ${mark} --report ../r.json"
-    ARGS align map.sdf part.nc run.csv --tool ball:6 --measured-at 7.1,4.3,90 STDOUT "areal map of 3383 places, 1 more without a height" "its origin lies at X 7[.](09|10)[0-9]+ Y 4[.](299|300)")
+    ARGS align map.sdf part.nc run.csv --tool ball:6 --measured-at 7.1,4.3,90 STDOUT "areal map of 3383 places, 1 more without a height" "its origin is at X 7[.](09|10)[0-9]+ Y 4[.](299|300)")
 endforeach()
 clsurf_cli_test(NAME align_touched_points
   SETUP "${dexel} make . --measure touch; $CLSURF align cmm.csv part.nc run.csv --tool ball:6 --json > ../r.json; ${dexel} check . --report ../r.json"
@@ -40,7 +40,7 @@ clsurf_cli_test(NAME measured_as_sarif SETUP "${three}" ARGS check ${bottle} --t
 clsurf_cli_test(NAME measured_of_two_logs SETUP "${three}" ARGS check ${bottle} @LOGS@/bottle_zigzag.biip --tool ball:6 --measured m.csv EXIT 2 STDERR "--measured belongs to one log")
 clsurf_cli_test(NAME measured_options_alone ARGS check ${bottle} --picture p.png EXIT 2 NO_FILE p.png STDERR "--picture needs --measured")
 clsurf_cli_test(NAME measured_place_alone ARGS check ${bottle} --measured-at 1,2 EXIT 2 STDERR "--measured-at needs --measured")
-clsurf_cli_test(NAME measured_free_of_a_profile SETUP "${three}" ARGS align m.csv ${bottle} --tool ball:6 --measured-at 0,0 --measured-free y EXIT 2 STDERR "a profile does not tell y")
+clsurf_cli_test(NAME measured_free_of_a_profile SETUP "${three}" ARGS align m.csv ${bottle} --tool ball:6 --measured-at 0,0 --measured-free y EXIT 2 STDERR "a profile does not determine y")
 clsurf_cli_test(NAME measured_free_unknown SETUP "${three}" ARGS align m.csv ${bottle} --tool ball:6 --measured-free q EXIT 2 STDERR "'q' is none of x, y, z, a, b and c")
 clsurf_cli_test(NAME measured_bad_number SETUP "printf 'x,z\\n0,1\\n1,oops\\n' > m.csv" ARGS align m.csv ${bottle} --tool ball:6 EXIT 3 STDERR "m.csv:3: error: 'oops' in column 'z' is not a number")
 clsurf_cli_test(NAME measured_program_instead ARGS align ${bottle} ${bottle} --tool ball:6 EXIT 2 STDERR "argument|too many")
