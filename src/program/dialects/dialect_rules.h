@@ -127,6 +127,8 @@ struct DialectRules {
     // Where a dialect needs more than a table. nullptr: nothing.
     /// Before the first line: where the machine stands, what is known.
     void (*begin)(Interpreter&) = nullptr;
+    /// `%` and the title after it (TextRules::named_titles).
+    void (*title)(Interpreter&, const std::string& title) = nullptr;
     /// A line without its comments. True: it is carried out.
     bool (*statement)(Interpreter&, const Statement&) = nullptr;
     /// A block before its codes. True: it is carried out.

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/not_finite.h"
+#include "program/dialects/fanuc_words.h"
 #include "program/dialects/known_dialects.h"
 #include "program/interpret/interpreter_state.h"
 
@@ -170,7 +171,7 @@ bool set_data(Interpreter& in, const CodeWord& w) {
     if (words.given('L') && words.of('L') >= 50) in.data_entry_ = true;
     const int level = words.given('L') ? static_cast<int>(std::clamp(words.of('L'), -1e6, 1e6)) : 0;
     in.this_block_.motion_suppressed = true;
-    if (!in.set_fanuc_offsets(level, w.block)) in.set_offsets(w.block);
+    if (!set_offsets(in, level, w.block)) in.set_offsets(w.block);
     return true;
 }
 bool end_data(Interpreter& in, const CodeWord&) {
@@ -189,12 +190,12 @@ bool start_polar(Interpreter& in, const CodeWord&) {
     return true;
 }
 bool mirror(Interpreter& in, const CodeWord& w) {
-    in.mirror_frame(w.code, w.block);
+    mirror_frame(in, w.code, w.block);
     return true;
 }
 bool end_scaling(Interpreter& in, const CodeWord& w) {
     in.frames_.fanuc.scaling = {};
-    in.settle_fanuc_frame();
+    in.state_.frame = in.frames_.fanuc.all();
     in.event("scaling", "G50" + words_text(w.block, "S"));
     return true;
 }
@@ -203,11 +204,11 @@ bool turn_polygon(Interpreter& in, const CodeWord& w) {
     return true;
 }
 bool scale(Interpreter& in, const CodeWord& w) {
-    in.scale_frame(w.block);
+    scale_frame(in, w.block);
     return true;
 }
 bool set_local_zero(Interpreter& in, const CodeWord& w) {
-    in.local_zero(w.block);
+    count_from_local_zero(in, w.block);
     return true;
 }
 bool set_extended_system(Interpreter& in, const CodeWord& w) {
@@ -218,9 +219,9 @@ bool set_extended_system(Interpreter& in, const CodeWord& w) {
 bool start_modal_macro(Interpreter& in, const CodeWord& w) {
     const Words& words = w.block.words;
     in.modal_call_ = {.active = true,
-                      .name = fmt::format("{}", in.macro_program(w.block, w.code, w.column)),
+                      .name = fmt::format("{}", macro_program(in, w.block, w.code, w.column)),
                       .repeats = words.given('L') ? static_cast<int>(std::clamp(words.of('L'), 1.0, 99999.0)) : 1,
-                      .arguments = in.macro_arguments(w.block),
+                      .arguments = macro_arguments(w.block),
                       .level = in.calls_.frames.size(),
                       .column = w.column};
     if (w.code == 66.1_g)
@@ -234,7 +235,7 @@ bool end_modal_macro(Interpreter& in, const CodeWord&) {
     return true;
 }
 bool rotate(Interpreter& in, const CodeWord& w) {
-    in.rotate_frame(w.block, w.column);
+    rotate_frame(in, w.block, w.column);
     return true;
 }
 bool tilt(Interpreter& in, const CodeWord& w) {
@@ -259,7 +260,7 @@ bool tilt_otherwise(Interpreter& in, const CodeWord& w) {
 bool end_rotation(Interpreter& in, const CodeWord& w) {
     in.frames_.fanuc.rotation = {};
     in.frames_.fanuc.angle = 0;
-    in.settle_fanuc_frame();
+    in.state_.frame = in.frames_.fanuc.all();
     in.event("rotation", code_text(w.code));
     in.end_tilted_plane(code_text(w.code));
     return true;
@@ -359,9 +360,9 @@ constexpr auto refused_at_arcs = std::to_array<RefusedLetter>(
 
 /// G11 ends data; between G10 L50 and G11 nothing else is carried out. G65 takes its whole block.
 bool begin_block(Interpreter& in, Block& block) {
-    if (in.data_entry_ && !in.is_data_end(block)) return true;
+    if (in.data_entry_ && !is_data_end(in, block)) return true;
     if (!block.words.has_g(65_g)) return false;
-    in.macro_call(block);
+    macro_call(in, block);
     return true;
 }
 
@@ -439,9 +440,9 @@ const DialectRules fanuc_rules{
     .signs = {.codes = fanuc::code_signs, .marks = fanuc::mark_signs},
     .begin_block = fanuc::begin_block,
     .modal_call = fanuc::call_modal_macro,
-    .parameter = [](Interpreter& in, int number) { return in.fanuc_parameter(number); },
+    .parameter = [](Interpreter& in, int number) { return fanuc::parameter(in, number); },
     .write_parameter = [](Interpreter& in, int number,
-                          double value) { return in.write_fanuc_parameter(number, value); },
+                          double value) { return fanuc::write_parameter(in, number, value); },
     .about_pole = fanuc::move_about_pole,
 };
 

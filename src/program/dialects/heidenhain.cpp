@@ -33,78 +33,76 @@ bool tool_centre_point(Interpreter& in, int code, const Block&) {
     return true;
 }
 
-/// G54, G28, G73, G72: each replaces its own earlier one; the one that was first stays outermost.
-void Interpreter::set_heidenhain_frame(std::size_t kind, const ProgramFrame& frame) {
-    HeidenhainFrames& f = frames_.heidenhain;
-    f.frame[kind] = frame;
-    std::erase(f.order, kind);
-    if (frame.active()) f.order.push_back(kind);
+void set_frame_part(Interpreter& in, HeidenhainFrames::Part part, const ProgramFrame& frame) {
+    HeidenhainFrames& f = in.frames_.heidenhain;
+    f.frame[part] = frame;
+    std::erase(f.order, part);
+    if (frame.active()) f.order.push_back(part);
     ProgramFrame all;
     for (const std::size_t k : f.order) all = all.around(f.frame[k]);
-    state_.frame = all;
-    this_block_.motion_suppressed = true;
+    in.state_.frame = all;
+    in.this_block_.motion_suppressed = true;
 }
 
-/// `%NAME G71` begins a program with its unit of measure, and ends it; `%NAME` alone calls one.
-void Interpreter::heidenhain_title(const std::string& title) {
-    std::istringstream words(title);
-    std::string name;
-    std::string unit;
-    words >> name >> unit;
-    const std::string_view before = program_.files[place_.file].text().substr(
-        0, static_cast<std::size_t>(place_.text.data() - program_.files[place_.file].text().data()));
-    const bool begins = before.find_first_not_of(" \t\r\n\xef\xbb\xbf") == std::string_view::npos;
-    if (begins) {
-        count_in_inches(unit == "G70");
-        event("program", title);
-    } else if (unit == "G70" || unit == "G71") {
-        leave(false);
-    } else {
-        call(name, 1, false, {});
-    }
+void set_inches(Interpreter& in, bool inches) {
+    in.state_.unit_mm = inches ? mm_per_inch : 1;
+    in.state_.feed_unit_mm = inches ? in.rules_->text.inch_feed * mm_per_inch : 1;
 }
 
-/// Inch programs give the feed in tenths of an inch.
-void Interpreter::count_in_inches(bool inches) {
-    state_.unit_mm = inches ? mm_per_inch : 1;
-    state_.feed_unit_mm = inches ? rules_->text.inch_feed * mm_per_inch : 1;
-}
-
-/// An axis letter that stands without a number, as in G28 X Y.
-bool Interpreter::take_mention(char letter, Block& block) {
-    return std::erase_if(block.unknown, [&](const UnknownWord& word) {
-               return word.text.size() == 1 && upper(word.text[0]) == letter;
-           }) > 0;
-}
-
-/// I J K give the pole, which stays: in the block of the arc, or before it.
-void Interpreter::take_pole(const Block& block) {
-    if ((block.words.has & ijk) == 0) return;
-    const Vec3 here = state_.programmed();
-    for (int k = 0; k < 3; ++k) {
-        if (!block.words.given("IJK"[k])) continue;
-        const double value = block.words.of("IJK"[k]) * state_.unit_mm;
-        frames_.polar.pole[k] = state_.incremental ? (std::isnan(here[k]) ? 0.0 : here[k]) + value : value;
-    }
-    const bool alone =
-        (block.words.has & (Words::xyz | Words::bit('H') | Words::bit('R'))) == 0 && block.words.g_count == 0;
-    if (alone) this_block_.motion_suppressed = true;
-}
-
-bool Interpreter::arc_of_heidenhain(const Block& block, ArcWords& words) {
-    if (arcs_.kind == ArcKind::tangential) {
-        arc_along_tangent(words);
+bool arc_about_pole(Interpreter& in, const Block& block, ArcWords& words) {
+    if (in.arcs_.kind == ArcKind::tangential) {
+        in.arc_along_tangent(words);
         return true;
     }
-    arcs_.last_clockwise = words.clockwise;
-    if (block.words.given('R') && !arcs_.polar_line) return false;
-    words.centre = frames_.polar.pole;
+    in.arcs_.last_clockwise = words.clockwise;
+    if (block.words.given('R') && !in.arcs_.polar_line) return false;
+    words.centre = in.frames_.polar.pole;
     words.centre[words.axis] = words.begin[words.axis];
     return true;
 }
 
 namespace heidenhain {
 namespace {
+
+/// `%NAME G71` begins a program with its unit of measure, and ends it; `%NAME` alone calls one.
+void begin_or_call(Interpreter& in, const std::string& title) {
+    std::istringstream words(title);
+    std::string name;
+    std::string unit;
+    words >> name >> unit;
+    const std::string_view before = in.program_.files[in.place_.file].text().substr(
+        0, static_cast<std::size_t>(in.place_.text.data() - in.program_.files[in.place_.file].text().data()));
+    const bool begins = before.find_first_not_of(" \t\r\n\xef\xbb\xbf") == std::string_view::npos;
+    if (begins) {
+        set_inches(in, unit == "G70");
+        in.event("program", title);
+    } else if (unit == "G70" || unit == "G71") {
+        in.leave(false);
+    } else {
+        in.call(name, 1, false, {});
+    }
+}
+
+/// An axis letter that stands without a number, as in G28 X Y.
+bool take_mention(char letter, Block& block) {
+    return std::erase_if(block.unknown, [&](const UnknownWord& word) {
+               return word.text.size() == 1 && upper(word.text[0]) == letter;
+           }) > 0;
+}
+
+/// I J K give the pole, which stays: in the block of the arc, or before it.
+void take_pole(Interpreter& in, const Block& block) {
+    if ((block.words.has & ijk) == 0) return;
+    const Vec3 here = in.state_.programmed();
+    for (int k = 0; k < 3; ++k) {
+        if (!block.words.given("IJK"[k])) continue;
+        const double value = block.words.of("IJK"[k]) * in.state_.unit_mm;
+        in.frames_.polar.pole[k] = in.state_.incremental ? (std::isnan(here[k]) ? 0.0 : here[k]) + value : value;
+    }
+    const bool alone =
+        (block.words.has & (Words::xyz | Words::bit('H') | Words::bit('R'))) == 0 && block.words.g_count == 0;
+    if (alone) in.this_block_.motion_suppressed = true;
+}
 
 /// Of formulas.
 constexpr std::array<FunctionRow, 5> functions{{
@@ -142,7 +140,7 @@ bool not_carried_out(Interpreter& in, const CodeWord& w, const char* what) {
     return true;
 }
 bool count_in_unit(Interpreter& in, const CodeWord& w) {
-    in.count_in_inches(w.code == 70_g);
+    set_inches(in, w.code == 70_g);
     return true;
 }
 bool dwell(Interpreter& in, const CodeWord& w) {
@@ -199,9 +197,9 @@ bool paraxial(Interpreter& in, const CodeWord& w) { return not_carried_out(in, w
 bool mirror_axes(Interpreter& in, const CodeWord& w) {
     Vec3 factors = Vec3::Ones();
     for (int k = 0; k < 3; ++k) {
-        if (w.block.words.given("XYZ"[k]) || Interpreter::take_mention("XYZ"[k], w.block)) factors[k] = -1;
+        if (w.block.words.given("XYZ"[k]) || take_mention("XYZ"[k], w.block)) factors[k] = -1;
     }
-    in.set_heidenhain_frame(HeidenhainFrames::mirror, ProgramFrame::scaled(factors, Vec3::Zero()));
+    set_frame_part(in, HeidenhainFrames::mirror, ProgramFrame::scaled(factors, Vec3::Zero()));
     in.event("mirror", "G28");
     return true;
 }
@@ -211,15 +209,14 @@ bool shift_datum(Interpreter& in, const CodeWord& w) {
         const double value = w.block.words.of("XYZ"[k]) * in.state_.unit_mm;
         in.frames_.datum[k] = in.state_.incremental ? in.frames_.datum[k] + value : value;
     }
-    in.set_heidenhain_frame(HeidenhainFrames::datum, ProgramFrame::moved(in.frames_.datum));
+    set_frame_part(in, HeidenhainFrames::datum, ProgramFrame::moved(in.frames_.datum));
     in.event("datum-shift", "G54" + words_text(w.block, "XYZ"));
     return true;
 }
 bool scale_all(Interpreter& in, const CodeWord& w) {
     const Words& words = w.block.words;
     if (!words.given('F') || words.of('F') == 0) in.fail("G72 needs its factor (F)", w.column);
-    in.set_heidenhain_frame(HeidenhainFrames::scaling,
-                            ProgramFrame::scaled(Vec3::Constant(words.of('F')), Vec3::Zero()));
+    set_frame_part(in, HeidenhainFrames::scaling, ProgramFrame::scaled(Vec3::Constant(words.of('F')), Vec3::Zero()));
     in.event("scaling", "G72" + words_text(w.block, "F"));
     return true;
 }
@@ -227,8 +224,8 @@ bool rotate(Interpreter& in, const CodeWord& w) {
     const Words& words = w.block.words;
     if (!words.given('H')) in.fail("G73 needs its angle (H)", w.column);
     in.frames_.turned_by = in.state_.incremental ? in.frames_.turned_by + words.of('H') : words.of('H');
-    in.set_heidenhain_frame(HeidenhainFrames::rotation,
-                            ProgramFrame::turned(Vec3::Unit(in.state_.plane_axis), in.frames_.turned_by, Vec3::Zero()));
+    set_frame_part(in, HeidenhainFrames::rotation,
+                   ProgramFrame::turned(Vec3::Unit(in.state_.plane_axis), in.frames_.turned_by, Vec3::Zero()));
     in.event("rotation", "G73" + words_text(w.block, "H"));
     return true;
 }
@@ -391,13 +388,14 @@ const DialectRules heidenhain_iso_rules{
     .arc_tolerance = heidenhain_arc_tolerance,
     .signs = {.codes = heidenhain::code_signs, .endings = heidenhain::ending_signs, .marks = heidenhain::mark_signs},
     .begin = heidenhain::begin,
+    .title = heidenhain::begin_or_call,
     .statement =
         [](Interpreter& in, const Statement& s) {
-            return in.q_function(s.text) || in.call_label(s.text) || heidenhain::set_tolerance(in, s.text);
+            return run_q_function(in, s.text) || run_label_line(in, s.text) || heidenhain::set_tolerance(in, s.text);
         },
-    .after_codes = [](Interpreter& in, const Block& block) { in.take_pole(block); },
+    .after_codes = heidenhain::take_pole,
     .after_block = heidenhain::call_label,
-    .arc = [](Interpreter& in, const Block& block, ArcWords& words) { return in.arc_of_heidenhain(block, words); },
+    .arc = arc_about_pole,
     .about_pole =
         [](Interpreter& in, const Block& block, Vec3& end) {
             const auto word = [&](char letter) {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "program/interpret/interpreter_state.h"
+#include "program/dialects/heidenhain_codes.h"
 
 namespace clsurf {
 namespace {
@@ -56,23 +56,22 @@ std::optional<QFunction> read_q_function(std::string_view text, const Variables&
 
 }  // namespace
 
-/// D00 … D12: `D01 Q5 P01 +Q2 P02 3` sets Q5, D09 … D12 jump to the label of the third. True: it was one.
-bool Interpreter::q_function(std::string_view text) {
-    const std::optional<QFunction> function = read_q_function(text, variables_, rules_->text);
+bool run_q_function(Interpreter& in, std::string_view text) {
+    const std::optional<QFunction> function = read_q_function(text, in.variables_, in.rules_->text);
     if (!function) return false;
     const auto& p = function->p;
     const auto set = [&](double value) {
         if (function->target < 0) throw ReadError{"expected Q and its number", function->column, {}};
         if (!std::isfinite(value)) throw ReadError{"the value is not defined", function->column, {}};
-        variables_.set(function->target, value);
+        in.variables_.set(function->target, value);
     };
     const auto jump = [&](bool taken) {
         if (!taken) return;
-        count_jump();
+        in.count_jump();
         const std::string label = fmt::format("{}", std::lround(p[2]));
-        const int at = index(place_.file).find(ControlKind::sub, label);
-        if (at < 0) fail(fmt::format("there is no label to go to: '{}'", label));
-        go_to(place_.file, index(place_.file).all()[static_cast<std::size_t>(at)].line);
+        const int at = in.index(in.place_.file).find(ControlKind::sub, label);
+        if (at < 0) in.fail(fmt::format("there is no label to go to: '{}'", label));
+        in.go_to(in.place_.file, in.index(in.place_.file).all()[static_cast<std::size_t>(at)].line);
     };
     switch (function->code) {
         case 0: set(p[0]); return true;
@@ -93,14 +92,13 @@ bool Interpreter::q_function(std::string_view text) {
         case 12: jump(p[0] < p[1]); return true;
         case 13: set(std::atan2(p[0], p[1]) * deg_per_rad); return true;
         default:
-            note(Severity::warning, "program.unknown-word", fmt::format("D{:02} is not carried out", function->code),
-                 1);
+            in.note(Severity::warning, "program.unknown-word", fmt::format("D{:02} is not carried out", function->code),
+                    1);
             return true;
     }
 }
 
-/// `L5,3`: back to label 5 three times; `L5,0` and `L5` call it. True: it was one.
-bool Interpreter::call_label(std::string_view text) {
+bool run_label_line(Interpreter& in, std::string_view text) {
     Cursor c{text, 0};
     if (upper(c.peek()) != 'L') return false;
     ++c.at;
@@ -117,12 +115,12 @@ bool Interpreter::call_label(std::string_view text) {
     if (c.peek() != '\0') return false;
     const std::string name = fmt::format("{}", std::lround(std::clamp(label, 0.0, 1e6)));
     if (times < 1) {
-        call(name, 1, false, {});
+        in.call(name, 1, false, {});
         return true;
     }
-    const int at = index(place_.file).find(ControlKind::sub, name);
-    if (at < 0) fail(fmt::format("there is no label to repeat: '{}'", name));
-    repeat_from(index(place_.file).all()[static_cast<std::size_t>(at)].line + 1, times);
+    const int at = in.index(in.place_.file).find(ControlKind::sub, name);
+    if (at < 0) in.fail(fmt::format("there is no label to repeat: '{}'", name));
+    in.repeat_from(in.index(in.place_.file).all()[static_cast<std::size_t>(at)].line + 1, times);
     return true;
 }
 

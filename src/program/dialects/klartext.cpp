@@ -29,7 +29,7 @@ void note_rest(Line& line, const char* event) { line.in.event(event, std::string
 void begin_program(Line& line) {
     const std::string_view rest = line.c.text.substr(line.c.at);
     if (!line.c.take_word("PGM")) throw ReadError{"expected PGM after BEGIN", line.c.column(), {}};
-    line.in.count_in_inches(rest.ends_with(" INCH"));
+    set_inches(line.in, rest.ends_with(" INCH"));
     line.c.skip_blanks();
     line.in.event("program", std::string(line.c.text.substr(line.c.at)));
 }
@@ -367,7 +367,7 @@ const DialectRules klartext_rules{
     .signs = {.words = klartext::word_signs, .endings = klartext::ending_signs, .marks = klartext::mark_signs},
     .plain = read_plain_klartext,
     .statement = klartext::carry_out,
-    .arc = [](Interpreter& in, const Block& block, ArcWords& words) { return in.arc_of_heidenhain(block, words); },
+    .arc = arc_about_pole,
     .about_pole =
         [](Interpreter& in, const Block& block, Vec3& end) {
             in.put_about_pole(block.polar_radius, block.polar_angle, block.polar_radius_incremental,

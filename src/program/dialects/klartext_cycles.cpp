@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "program/dialects/heidenhain_codes.h"
 #include "program/dialects/klartext.h"
 
 namespace clsurf::klartext {
@@ -53,7 +54,7 @@ void shift_datum(Line& line) {
         any = true;
     }
     if (!any) return;
-    in.set_heidenhain_frame(Part::datum, ProgramFrame::moved(in.frames_.datum));
+    set_frame_part(in, Part::datum, ProgramFrame::moved(in.frames_.datum));
     in.event("datum-shift", fmt::format("CYCL DEF 7 X{:g} Y{:g} Z{:g}", in.frames_.datum.x(), in.frames_.datum.y(),
                                         in.frames_.datum.z()));
 }
@@ -66,7 +67,7 @@ void mirror(Line& line) {
         if (k < 0) throw ReadError{"expected the axes to mirror", line.c.column(), {}};
         factors[k] = -1;
     }
-    line.in.set_heidenhain_frame(Part::mirror, ProgramFrame::scaled(factors, Vec3::Zero()));
+    set_frame_part(line.in, Part::mirror, ProgramFrame::scaled(factors, Vec3::Zero()));
     line.in.event("mirror", "CYCL DEF 8");
 }
 
@@ -81,8 +82,8 @@ void rotate(Line& line) {
     const double angle = line.value();
     expect_end(line);
     in.frames_.turned_by = adds ? in.frames_.turned_by + angle : angle;
-    in.set_heidenhain_frame(Part::rotation,
-                            ProgramFrame::turned(Vec3::Unit(in.state_.plane_axis), in.frames_.turned_by, Vec3::Zero()));
+    set_frame_part(in, Part::rotation,
+                   ProgramFrame::turned(Vec3::Unit(in.state_.plane_axis), in.frames_.turned_by, Vec3::Zero()));
     in.event("rotation", fmt::format("CYCL DEF 10 ROT{:+g}", in.frames_.turned_by));
 }
 
@@ -93,7 +94,7 @@ void scale(Line& line) {
     const double factor = line.value();
     expect_end(line);
     if (factor == 0) throw ReadError{"a factor of 0", column, {}};
-    line.in.set_heidenhain_frame(Part::scaling, ProgramFrame::scaled(Vec3::Constant(factor), Vec3::Zero()));
+    set_frame_part(line.in, Part::scaling, ProgramFrame::scaled(Vec3::Constant(factor), Vec3::Zero()));
     line.in.event("scaling", fmt::format("CYCL DEF 11 SCL{:g}", factor));
 }
 
@@ -112,7 +113,7 @@ void scale_by_axis(Line& line) {
         if (!of_centre && value == 0) throw ReadError{"a factor of 0", column, {}};
         (of_centre ? centre : factors)[k] = of_centre ? value * line.in.state_.unit_mm : value;
     }
-    line.in.set_heidenhain_frame(Part::scaling, ProgramFrame::scaled(factors, centre));
+    set_frame_part(line.in, Part::scaling, ProgramFrame::scaled(factors, centre));
     line.in.event("scaling", fmt::format("CYCL DEF 26 X{:g} Y{:g} Z{:g}", factors.x(), factors.y(), factors.z()));
 }
 
@@ -197,7 +198,7 @@ ProgramFrame plane_of_vectors(Line& line) {
 }
 
 void reset_plane(Line& line) {
-    line.in.set_heidenhain_frame(Part::tilt, {});
+    set_frame_part(line.in, Part::tilt, {});
     line.in.end_tilted_plane("PLANE RESET");
 }
 
@@ -260,7 +261,7 @@ void tilt_plane(Line& line) {
         in.fail("PLANE " + form + " is not supported", line.start + 1, "SPATIAL, VECTOR, EULER and RESET are");
     }
     const std::string text(line.c.text.substr(line.start));
-    in.set_heidenhain_frame(Part::tilt, frame);
+    set_frame_part(in, Part::tilt, frame);
     in.event("rotation", text);
     in.begin_tilted_plane(text);
     const bool moves = text.find(" MOVE") != std::string::npos;
@@ -284,7 +285,7 @@ void shift_datum_by_axis(Line& line) {
         return;
     }
     in.frames_.datum = Vec3::Zero();
-    in.set_heidenhain_frame(Part::datum, {});
+    set_frame_part(in, Part::datum, {});
     in.event("datum-shift", "TRANS DATUM RESET");
 }
 

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "program/dialects/known_dialects.h"
+#include "program/dialects/siemens_words.h"
 #include "program/interpret/interpreter_state.h"
 
 namespace clsurf {
@@ -146,7 +147,7 @@ bool go_to_fixed_point(Interpreter& in, const CodeWord& w) {
     return true;
 }
 bool set_pole(Interpreter& in, const CodeWord& w) {
-    in.set_pole(w.code, w.block);
+    move_pole(in, w.code, w.block);
     return true;
 }
 /// Soft approach and retract: the way there is not carried out.
@@ -283,7 +284,7 @@ void begin(Interpreter& in) {
 bool statement(Interpreter& in, const Statement& statement) {
     Cursor c{statement.text, 0};
     if (!c.take_word("DEF")) return false;
-    in.siemens_definition(statement.text.substr(c.at));
+    define_variables(in, statement.text.substr(c.at));
     return true;
 }
 
@@ -297,8 +298,8 @@ bool names_motion(const Block& block) {
 
 bool begin_block(Interpreter& in, Block& block) {
     if (names_motion(block)) in.arcs_.kind = ArcKind::usual;  // what ends CIP and CT
-    for (const Keyword& keyword : block.keywords) in.apply_keyword(keyword, block);
-    if (!in.ended_) in.contour_tolerance(block);
+    for (const Keyword& keyword : block.keywords) apply_keyword(in, keyword, block);
+    if (!in.ended_) set_contour_tolerance(in, block);
     return false;
 }
 
@@ -390,8 +391,8 @@ const DialectRules siemens_rules{
     .statement = siemens::statement,
     .begin_block = siemens::begin_block,
     .after_block = siemens::call_subprogram,
-    .arc = [](Interpreter& in, const Block& block, ArcWords& words) { return in.arc_of_siemens(block, words); },
-    .modal_call = [](Interpreter& in) { return in.run_modal_call(); },
+    .arc = siemens::arc_of_words,
+    .modal_call = siemens::repeat_modal_call,
     .named_parameter = siemens::named_parameter,
     .about_pole =
         [](Interpreter& in, const Block& block, Vec3& end) {

@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "program/interpret/interpreter_state.h"
+#include "program/dialects/siemens_words.h"
 
-namespace clsurf {
+namespace clsurf::siemens {
 namespace {
 
 constexpr double chip_break_mm = 1;  ///< back between pecks
@@ -90,51 +90,77 @@ std::vector<double> strokes(double whole, double first, double damp) {
     return depths;
 }
 
-}  // namespace
-
-/// True: the word was a cycle, carried out or reported.
-bool Interpreter::siemens_cycle(const Keyword& keyword) {
-    const std::string& name = keyword.name;
-    if (!is_cycle(name) || name == "CYCLE800" || name == "CYCLE832") return false;
-    const std::vector<std::optional<double>> given = arguments_of(keyword);
-    std::vector<double> values;
-    for (const std::optional<double>& value : given)
-        values.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
-    if (drills(name)) {
-        drill_siemens(name, values);
-        return true;
+/// Deep holes: chips broken by going back a little, or taken out to the reference plane.
+void peck(Interpreter& in, double reference, double r, const std::vector<double>& depths, bool breaks_chips,
+          double dwell_above, const Vec3& rotary) {
+    const double whole = depths.empty() ? 0 : depths.back();
+    const double lead = whole <= shallow_mm ? shallow_lead_mm : std::min(whole / lead_share, most_lead_mm);
+    for (std::size_t k = 0; k < depths.size(); ++k) {
+        in.go_to_level(MotionKind::feed, reference - depths[k], rotary);
+        if (in.cycle_.p > 0) in.dwell(in.cycle_.p);
+        if (k + 1 == depths.size()) return;
+        if (breaks_chips) {
+            in.go_to_level(MotionKind::feed, reference - depths[k] + chip_break_mm, rotary);
+            continue;
+        }
+        in.go_to_level(MotionKind::rapid, r, rotary);
+        if (dwell_above > 0) in.dwell(dwell_above);
+        in.go_to_level(MotionKind::rapid, reference - depths[k] + lead, rotary);
     }
-    if (name == "HOLES1" || name == "HOLES2" || name == "CYCLE801") {
-        hole_pattern(name, values, keyword.column);
-        return true;
-    }
-    note(Severity::warning, "program.cycle", name + " is not carried out", keyword.column);
-    return true;
 }
 
-void Interpreter::drill_siemens(const std::string& name, const std::vector<double>& values) {
+/// Down to the bottom and back to `r`, by a pitch with each turn; without a pitch or a speed with the feed in force.
+void tap(Interpreter& in, bool rigid, const std::vector<double>& values, double bottom, double r, const Vec3& rotary) {
+    const TappingPlaces& places = rigid ? rigid_tapping : floating_tapping;
+    const auto value = [&](std::optional<std::size_t> k) {
+        return k && *k < values.size() && !std::isnan(values[*k]) ? std::abs(values[*k]) : 0.0;
+    };
+    const double given = value(places.pit);
+    const double pitch = given > 0 ? pitch_in_mm(given, static_cast<int>(value(places.ptab)), in.state_.unit_mm)
+                                   : coarse_pitch(value(places.mpit));
+    const auto or_else = [](double speed, double otherwise) { return speed > 0 ? speed : otherwise; };
+    const double speed_in = or_else(value(places.sst), in.state_.spindle);
+    const double speed_out = or_else(value(places.sst1), speed_in);
+    const FeedMode mode = in.state_.feed_mode;
+    const double feed = in.state_.feed;
+    const auto go = [&](double height, double speed) {
+        if (pitch > 0 && speed > 0) {
+            in.state_.feed_mode = FeedMode::per_minute;
+            in.state_.feed = pitch * speed / in.state_.feed_unit_mm;
+        }
+        in.go_to_level(MotionKind::feed, height, rotary);
+    };
+    go(bottom, speed_in);
+    if (in.cycle_.p > 0) in.dwell(in.cycle_.p);
+    go(r, speed_out);
+    in.state_.feed_mode = mode;
+    in.state_.feed = feed;
+}
+
+/// CYCLE81 … CYCLE89, CYCLE840: to the reference plane, down to the bottom, out and to the return plane.
+void drill(Interpreter& in, const std::string& name, const std::vector<double>& values) {
     const auto value = [&](std::size_t k, double otherwise) {
         return k < values.size() && !std::isnan(values[k]) ? values[k] : otherwise;
     };
-    const double unit = state_.unit_mm;
-    const double reference = value(rfp, 0) * unit;
-    const double clear = value(rtp, 0) * unit;
+    const double unit = in.state_.unit_mm;
+    const double reference = value(rfp, 0) * unit, clear = value(rtp, 0) * unit;
     const double r = reference + value(sdis, 0) * unit;
     const double relative = value(dpr, 0) * unit;
     if (relative == 0 && std::isnan(value(dp, std::numeric_limits<double>::quiet_NaN())))
-        fail(name + " needs its depth (DP or DPR)");
+        in.fail(name + " needs its depth (DP or DPR)");
     const double bottom = relative != 0 ? reference - std::abs(relative) : value(dp, 0) * unit;
-    if (r < bottom) fail(fmt::format("{}: the reference plane ({:g}) is below the bottom ({:g})", name, r, bottom));
-    const Vec3 rotary = state_.rotary;
+    if (r < bottom) in.fail(fmt::format("{}: the reference plane ({:g}) is below the bottom ({:g})", name, r, bottom));
+    const Vec3 rotary = in.state_.rotary;
     const auto seconds = [&](double dwell) {
-        return dwell >= 0 || state_.spindle <= 0 ? std::abs(dwell) : -dwell * seconds_per_minute / state_.spindle;
+        return dwell >= 0 || in.state_.spindle <= 0 ? std::abs(dwell) : -dwell * seconds_per_minute / in.state_.spindle;
     };
-    cycle_.p = name == "CYCLE81" || name == "CYCLE87" ? 0 : seconds(value(name == "CYCLE83" ? std::size_t{8} : dtb, 0));
-    const double feed = state_.feed;
-    go_to_level(MotionKind::rapid, r, rotary);
+    in.cycle_.p =
+        name == "CYCLE81" || name == "CYCLE87" ? 0 : seconds(value(name == "CYCLE83" ? std::size_t{8} : dtb, 0));
+    const double feed = in.state_.feed;
+    in.go_to_level(MotionKind::rapid, r, rotary);
     if (name == "CYCLE84" || name == "CYCLE840") {
-        tap_siemens(name == "CYCLE84", values, bottom, r, rotary);
-        go_to_level(MotionKind::rapid, clear, rotary);
+        tap(in, name == "CYCLE84", values, bottom, r, rotary);
+        in.go_to_level(MotionKind::rapid, clear, rotary);
         return;
     }
     if (name == "CYCLE83") {
@@ -143,88 +169,40 @@ void Interpreter::drill_siemens(const std::string& name, const std::vector<doubl
         const double first = value(6, 0) != 0             ? std::abs(value(6, 0)) * unit
                              : std::isnan(first_absolute) ? whole
                                                           : reference - first_absolute * unit;
-        if (!(first > 0)) fail("CYCLE83: the first depth (FDEP, FDPR) lies above the reference plane");
+        if (!(first > 0)) in.fail("CYCLE83: the first depth (FDEP, FDPR) lies above the reference plane");
         const double damp = value(7, 0) < 0 ? value(7, 0) : value(7, 0) * unit;
         const std::vector<double> depths = strokes(whole, first, damp);
         if (depths.size() == most_drill_pecks && whole - depths.back() > whole_depth)
-            fail("CYCLE83: too many pecks: FDEP, FDPR or DAM is too small");
-        peck_siemens(reference, r, depths, value(11, 0) == 0, seconds(value(9, 0)), rotary);
-        go_to_level(MotionKind::rapid, clear, rotary);
+            in.fail("CYCLE83: too many pecks: FDEP, FDPR or DAM is too small");
+        peck(in, reference, r, depths, value(11, 0) == 0, seconds(value(9, 0)), rotary);
+        in.go_to_level(MotionKind::rapid, clear, rotary);
         return;
     }
     const bool feeds_out = name == "CYCLE85" || name == "CYCLE89";
-    if (name == "CYCLE85" && value(6, 0) > 0) state_.feed = value(6, 0);
-    go_to_level(MotionKind::feed, bottom, rotary);
-    if (cycle_.p > 0) dwell(cycle_.p);
-    if (name == "CYCLE85" && value(7, 0) > 0) state_.feed = value(7, 0);
+    if (name == "CYCLE85" && value(6, 0) > 0) in.state_.feed = value(6, 0);
+    in.go_to_level(MotionKind::feed, bottom, rotary);
+    if (in.cycle_.p > 0) in.dwell(in.cycle_.p);
+    if (name == "CYCLE85" && value(7, 0) > 0) in.state_.feed = value(7, 0);
     if (name == "CYCLE86") {
         Vec3 aside = Vec3::Zero();
-        const int c = state_.plane_axis;
+        const int c = in.state_.plane_axis;
         aside[(c + 1) % 3] = value(7, 0) * unit;
         aside[(c + 2) % 3] = value(8, 0) * unit;
-        if (!aside.isZero()) step_aside(aside, rotary);
-        go_to_level(MotionKind::rapid, r, rotary);
-        go_to_level(MotionKind::rapid, clear, rotary);
-        if (!aside.isZero()) step_aside(-aside, rotary);
+        if (!aside.isZero()) in.step_aside(aside, rotary);
+        in.go_to_level(MotionKind::rapid, r, rotary);
+        in.go_to_level(MotionKind::rapid, clear, rotary);
+        if (!aside.isZero()) in.step_aside(-aside, rotary);
         return;
     }
-    if (feeds_out) go_to_level(MotionKind::feed, r, rotary);
-    state_.feed = feed;
-    go_to_level(MotionKind::rapid, clear, rotary);
-}
-
-/// Down to the bottom and back to `r`, by a pitch with each turn; without a pitch or a speed with the feed in force.
-void Interpreter::tap_siemens(bool rigid, const std::vector<double>& values, double bottom, double r,
-                              const Vec3& rotary) {
-    const TappingPlaces& places = rigid ? rigid_tapping : floating_tapping;
-    const auto value = [&](std::optional<std::size_t> k) {
-        return k && *k < values.size() && !std::isnan(values[*k]) ? std::abs(values[*k]) : 0.0;
-    };
-    const double given = value(places.pit);
-    const double pitch = given > 0 ? pitch_in_mm(given, static_cast<int>(value(places.ptab)), state_.unit_mm)
-                                   : coarse_pitch(value(places.mpit));
-    const auto or_else = [](double speed, double otherwise) { return speed > 0 ? speed : otherwise; };
-    const double speed_in = or_else(value(places.sst), state_.spindle);
-    const double speed_out = or_else(value(places.sst1), speed_in);
-    const FeedMode mode = state_.feed_mode;
-    const double feed = state_.feed;
-    const auto go = [&](double height, double speed) {
-        if (pitch > 0 && speed > 0) {
-            state_.feed_mode = FeedMode::per_minute;
-            state_.feed = pitch * speed / state_.feed_unit_mm;
-        }
-        go_to_level(MotionKind::feed, height, rotary);
-    };
-    go(bottom, speed_in);
-    if (cycle_.p > 0) dwell(cycle_.p);
-    go(r, speed_out);
-    state_.feed_mode = mode;
-    state_.feed = feed;
-}
-
-/// Deep holes: chips broken by going back a little, or taken out to the reference plane.
-void Interpreter::peck_siemens(double reference, double r, const std::vector<double>& depths, bool breaks_chips,
-                               double dwell_above, const Vec3& rotary) {
-    const double whole = depths.empty() ? 0 : depths.back();
-    const double lead = whole <= shallow_mm ? shallow_lead_mm : std::min(whole / lead_share, most_lead_mm);
-    for (std::size_t k = 0; k < depths.size(); ++k) {
-        go_to_level(MotionKind::feed, reference - depths[k], rotary);
-        if (cycle_.p > 0) dwell(cycle_.p);
-        if (k + 1 == depths.size()) return;
-        if (breaks_chips) {
-            go_to_level(MotionKind::feed, reference - depths[k] + chip_break_mm, rotary);
-            continue;
-        }
-        go_to_level(MotionKind::rapid, r, rotary);
-        if (dwell_above > 0) dwell(dwell_above);
-        go_to_level(MotionKind::rapid, reference - depths[k] + lead, rotary);
-    }
+    if (feeds_out) in.go_to_level(MotionKind::feed, r, rotary);
+    in.state_.feed = feed;
+    in.go_to_level(MotionKind::rapid, clear, rotary);
 }
 
 /// HOLES1 (row), HOLES2 (circle), CYCLE801 (grid): the modal cycle at every place.
-void Interpreter::hole_pattern(const std::string& name, const std::vector<double>& values, std::size_t column) {
+void hole_pattern(Interpreter& in, const std::string& name, const std::vector<double>& values, std::size_t column) {
     const auto value = [&](std::size_t k) { return k < values.size() && !std::isnan(values[k]) ? values[k] : 0.0; };
-    const double unit = state_.unit_mm;
+    const double unit = in.state_.unit_mm;
     const Vec2 origin = Vec2(value(0), value(1)) * unit;
     const auto turned = [](double angle) { return Vec2(std::cos(angle * rad_per_deg), std::sin(angle * rad_per_deg)); };
     const auto count = [&](std::size_t k) {
@@ -242,46 +220,69 @@ void Interpreter::hole_pattern(const std::string& name, const std::vector<double
         const Vec2 along = turned(value(2));
         const Vec2 across(-along.y(), along.x());
         if (static_cast<double>(count(5)) * count(6) > most_holes)
-            fail(fmt::format("{}: more than {} holes", name, most_holes), column);
+            in.fail(fmt::format("{}: more than {} holes", name, most_holes), column);
         for (int j = 0; j < count(6); ++j) {  // back and forth
             for (int i = 0; i < count(5); ++i)
                 holes.push_back(origin + (j % 2 == 0 ? i : count(5) - 1 - i) * value(3) * unit * along +
                                 j * value(4) * unit * across);
         }
     }
-    if (holes.empty()) note(Severity::warning, "program.cycle", name + " has no holes", column);
-    if (modal_call_.active && !drills(modal_call_.name)) {
-        note(Severity::warning, "program.cycle", name + ": " + modal_call_.name + " is not called at its places",
-             column);
+    if (holes.empty()) in.note(Severity::warning, "program.cycle", name + " has no holes", column);
+    if (in.modal_call_.active && !drills(in.modal_call_.name)) {
+        in.note(Severity::warning, "program.cycle", name + ": " + in.modal_call_.name + " is not called at its places",
+                column);
     }
-    const int c = state_.plane_axis;
-    const Vec3 here = state_.programmed();
+    const int c = in.state_.plane_axis;
+    const Vec3 here = in.state_.programmed();
     for (const Vec2& hole : holes) {
-        Vec3 end = state_.programmed();
+        Vec3 end = in.state_.programmed();
         end = end.array().isNaN().select(0.0, end);
         end[(c + 1) % 3] = hole.x();
         end[(c + 2) % 3] = hole.y();
-        if (std::isnan(here[c]) && !modal_call_.active) end[c] = here[c];
-        straight(MotionKind::rapid, state_.frame.to_work(end), state_.rotary);
-        if (modal_call_.active && drills(modal_call_.name)) drill_siemens(modal_call_.name, modal_call_.arguments);
+        if (std::isnan(here[c]) && !in.modal_call_.active) end[c] = here[c];
+        in.straight(MotionKind::rapid, in.state_.frame.to_work(end), in.state_.rotary);
+        if (in.modal_call_.active && drills(in.modal_call_.name))
+            drill(in, in.modal_call_.name, in.modal_call_.arguments);
     }
 }
 
+}  // namespace
+
+/// True: the word was a cycle, carried out or reported.
+bool cycle_keyword(Interpreter& in, const Keyword& keyword) {
+    const std::string& name = keyword.name;
+    if (!is_cycle(name) || name == "CYCLE800" || name == "CYCLE832") return false;
+    const std::vector<std::optional<double>> given = in.arguments_of(keyword);
+    std::vector<double> values;
+    for (const std::optional<double>& value : given)
+        values.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+    if (drills(name)) {
+        drill(in, name, values);
+        return true;
+    }
+    if (name == "HOLES1" || name == "HOLES2" || name == "CYCLE801") {
+        hole_pattern(in, name, values, keyword.column);
+        return true;
+    }
+    in.note(Severity::warning, "program.cycle", name + " is not carried out", keyword.column);
+    return true;
+}
+
 /// The modal cycle or subprogram after a block that moved.
-bool Interpreter::run_modal_call() {
-    const ModalCall called = modal_call_;
+bool repeat_modal_call(Interpreter& in) {
+    const ModalCall called = in.modal_call_;
     if (drills(called.name)) {
-        drill_siemens(called.name, called.arguments);
+        drill(in, called.name, called.arguments);
         return true;
     }
     if (is_cycle(called.name)) {
-        note(Severity::warning, "program.cycle", "MCALL " + called.name + ": the cycle is not carried out");
+        in.note(Severity::warning, "program.cycle", "MCALL " + called.name + ": the cycle is not carried out");
         return true;
     }
-    if (!call_siemens(called.name, Keyword{called.name, {}, false, called.column}, 1)) {
-        fail(fmt::format("subprogram '{}' is neither in the program nor in its folder", called.name));
+    if (!call_by_name(in, called.name, Keyword{called.name, {}, false, called.column}, 1)) {
+        in.fail(fmt::format("subprogram '{}' is neither in the program nor in its folder", called.name));
     }
     return true;
 }
 
-}  // namespace clsurf
+}  // namespace clsurf::siemens

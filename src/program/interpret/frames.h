@@ -25,6 +25,9 @@ struct PolarState {
 struct FanucFrame {
     ProgramFrame local, rotation, scaling, mirror;
     double angle = 0;  ///< of the rotation [deg]
+
+    /// All of them, as they are nested.
+    [[nodiscard]] ProgramFrame all() const { return local.around(rotation.around(scaling.around(mirror))); }
 };
 
 /// Heidenhain's parts of the frame, and in which order they came.

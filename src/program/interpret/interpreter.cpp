@@ -184,8 +184,8 @@ void Interpreter::run_block(std::string_view line) {
     try {
         const Statement statement = clean_line(line, rules_->text);
         if (statement.open_comment) note(Severity::warning, "program.open-comment", "'(' is not closed");
-        if (statement.tape_mark && !statement.title.empty()) {
-            heidenhain_title(statement.title);
+        if (statement.tape_mark && !statement.title.empty() && rules_->title != nullptr) {
+            rules_->title(*this, statement.title);
             return;
         }
         if (statement.tape_mark) {

@@ -1,7 +1,6 @@
 #pragma once
-// What the parts of the interpreter share (interpreter.cpp: lines and calls; codes.cpp: what words
-// mean; fanuc.cpp, siemens.cpp, heidenhain.cpp: what they mean there; cycles.cpp: canned cycles;
-// flow.cpp: control statements). Not for other rooms.
+// What the parts of the interpreter share (interpreter.cpp: lines and calls; codes.cpp: what words mean; cycles.cpp:
+// canned cycles; flow.cpp: control statements). What only one dialect has is in its files. Not for other rooms.
 
 #include <array>
 #include <map>
@@ -105,56 +104,11 @@ public:
     void set_path_mode(const std::string& name, const std::string& value, const PathMode& mode, bool once = false);
     bool path_mode_word(const CodeWord& word, const PathMode& mode, bool once = false);  ///< a G code; always true
     bool rounded_corners(const CodeWord& word);                                          ///< G64 P Q
-    void high_speed_settings(const Keyword& keyword);                                    ///< CYCLE832
-    void contour_tolerance(const Block& block);                                          ///< CTOL=
 
-    // fanuc.cpp
-    [[nodiscard]] Vec3 frame_centre(const Block& block, const Vec3& now) const;
-    void settle_fanuc_frame();
-    void rotate_frame(const Block& block, std::size_t column);  ///< G68
-    void scale_frame(const Block& block);                       ///< G51
-    void mirror_frame(int code, const Block& block);            ///< G50.1, G51.1
-    void local_zero(const Block& block);                        ///< G52
-    [[nodiscard]] long macro_program(const Block& block, int code, std::size_t column) const;
-    [[nodiscard]] std::vector<double> macro_arguments(const Block& block) const;
-    void macro_call(const Block& block);                    ///< G65
-    bool set_fanuc_offsets(int level, const Block& block);  ///< G10; true: a work offset
-    [[nodiscard]] WorkOffset* offset_of_variable(int number, int& axis);
-    bool write_fanuc_parameter(int number, double value);
-    [[nodiscard]] double fanuc_parameter(int number);
-
-    [[nodiscard]] bool is_data_end(const Block& block);  ///< G11
-
-    // siemens.cpp, siemens_cycles.cpp
-    void apply_keyword(const Keyword& keyword, Block& block);
-    bool modal_keyword(const Keyword& keyword, const Block& block);
-    bool mode_keyword(const Keyword& keyword);
-    bool spline_keyword(const Keyword& keyword, const Block& block);
-    void call_by_path(const Keyword& keyword);
-    bool arc_of_siemens(const Block& block, ArcWords& words);
-    void set_pole(int code, const Block& block);                 ///< G110 … G112
-    bool siemens_frame(const Keyword& keyword, Block& block);    ///< true: the keyword was one
+    // siemens_words.cpp: words that motions of any dialect may have
     [[nodiscard]] bool ends_by_angle(const Block& block) const;  ///< ANG=
     void end_by_angle(const Block& block, Vec3& end) const;
     [[nodiscard]] std::vector<std::optional<double>> arguments_of(const Keyword& keyword) const;
-    bool call_siemens(const std::string& name, const Keyword& keyword, int repeats);
-    void start_modal_call(const Keyword& called);
-    bool siemens_cycle(const Keyword& keyword);
-    void drill_siemens(const std::string& name, const std::vector<double>& values);
-    void tap_siemens(bool rigid, const std::vector<double>& values, double bottom, double r, const Vec3& rotary);
-    void peck_siemens(double reference, double r, const std::vector<double>& depths, bool breaks_chips,
-                      double dwell_above, const Vec3& rotary);
-    void hole_pattern(const std::string& name, const std::vector<double>& values, std::size_t column);
-
-    // heidenhain.cpp
-    void set_heidenhain_frame(std::size_t kind, const ProgramFrame& frame);
-    static bool take_mention(char letter, Block& block);
-    void heidenhain_title(const std::string& title);  ///< %NAME G71
-    void count_in_inches(bool inches);                ///< G70, G71
-    void take_pole(const Block& block);
-    bool arc_of_heidenhain(const Block& block, ArcWords& words);
-    bool q_function(std::string_view text);  ///< D00 … D13
-    bool call_label(std::string_view text);  ///< L5,3
 
     // tangential_arc.cpp
     void arc_along_tangent(ArcWords& words) const;
@@ -301,8 +255,6 @@ public:
     void repeat(const Control& control, const Statement& statement);
     void choose_branch(const Control& control, const Statement& statement);
     [[nodiscard]] bool branch_taken(const Control& branch) const;
-    void siemens_definition(const std::string& definition);
-    void set_elements(const std::string& name, Cursor sizes, Cursor& c);       ///< DEF
     void call_by_number(const Block& block, int least_repeats, bool counted);  ///< M98 P L
     void return_to_block(const Block& block);                                  ///< M99 P
     void call(const std::string& name, int repeats, bool locals, const std::vector<double>& arguments);
@@ -314,7 +266,6 @@ public:
     void repeat_lines(const Control& repeat, const std::string& text);
     void next_of_section();
     void watch_section();
-    bool run_modal_call();
     void leave(bool from_end_of_text);
     void count_jump();
     [[nodiscard]] std::uint32_t call_from_here();

@@ -129,7 +129,7 @@ void Interpreter::tilt_plane(const Block& block, std::size_t column) {
     }
     frames_.fanuc.rotation = ProgramFrame::moved(state_.unit_mm * words("XYZ")).around(turn);
     frames_.fanuc.angle = 0;
-    settle_fanuc_frame();
+    state_.frame = frames_.fanuc.all();
     const std::string text = "G68.2" + words_text(block, "PQXYZIJK");
     event("rotation", text);
     begin_tilted_plane(text);

@@ -1,0 +1,25 @@
+#pragma once
+// What words of Fanuc and HNC do: frames, macro calls, offsets, system variables. Handlers in fanuc.cpp call them.
+
+#include "program/interpret/interpreter_state.h"
+
+namespace clsurf::fanuc {
+
+/// G68. Throws as Interpreter::fail() does; so do the next ones.
+void rotate_frame(Interpreter& in, const Block& block, std::size_t column);
+void scale_frame(Interpreter& in, const Block& block);             ///< G51
+void mirror_frame(Interpreter& in, int code, const Block& block);  ///< G50.1, G51.1
+void count_from_local_zero(Interpreter& in, const Block& block);   ///< G52
+
+/// The number of the program that a block calls (P). Throws as Interpreter::fail() does.
+[[nodiscard]] long macro_program(const Interpreter& in, const Block& block, int code, std::size_t column);
+/// #1 … #33 of a macro call; NaN: not given.
+[[nodiscard]] std::vector<double> macro_arguments(const Block& block);
+void macro_call(Interpreter& in, const Block& block);  ///< G65
+
+bool set_offsets(Interpreter& in, int level, const Block& block);     ///< G10; true: a work offset
+[[nodiscard]] bool is_data_end(Interpreter& in, const Block& block);  ///< G11
+bool write_parameter(Interpreter& in, int number, double value);      ///< true: a variable of the control
+[[nodiscard]] double parameter(Interpreter& in, int number);          ///< NaN: an ordinary variable
+
+}  // namespace clsurf::fanuc

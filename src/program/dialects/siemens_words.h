@@ -1,0 +1,23 @@
+#pragma once
+// What words of SINUMERIK do: frames, poles, words of several letters, calls, definitions, cycles. Handlers in siemens.cpp
+// call them. All throw as Interpreter::fail() does.
+
+#include "program/interpret/interpreter_state.h"
+
+namespace clsurf::siemens {
+
+/// G110 from the present position, G111 from the zero, G112 from the last pole.
+void move_pole(Interpreter& in, int code, const Block& block);
+void apply_keyword(Interpreter& in, const Keyword& keyword, Block& block);
+void set_contour_tolerance(Interpreter& in, const Block& block);          ///< CTOL=
+void define_variables(Interpreter& in, const std::string& definition);    ///< DEF
+bool arc_of_words(Interpreter& in, const Block& block, ArcWords& words);  ///< true: CR=, AR=, CIP, CT …
+
+/// Calls a subprogram by its name. True: there is one.
+bool call_by_name(Interpreter& in, const std::string& name, const Keyword& keyword, int repeats);
+/// True: the word was a cycle, carried out or reported.
+bool cycle_keyword(Interpreter& in, const Keyword& keyword);
+/// What MCALL has named, at the position that a block has reached. True: it was a cycle.
+bool repeat_modal_call(Interpreter& in);
+
+}  // namespace clsurf::siemens
