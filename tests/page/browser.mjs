@@ -54,8 +54,8 @@ export async function startBrowser() {
             '--disable-quic',
             '--disable-background-networking',
             '--disable-component-update',
-            '--use-angle=swiftshader',
-            '--enable-unsafe-swiftshader',
+            '--use-angle=gl-egl', // Mesa's software, which keeps compiled shaders from page to page
+            '--ignore-gpu-blocklist',
             '--disable-gpu-compositing', // software draws the view; what is around it goes no way through the same
             '--font-render-hinting=none',
         ],
