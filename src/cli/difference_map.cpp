@@ -1,7 +1,5 @@
 #include "cli/difference_map.h"
 
-#include <algorithm>
-#include <cmath>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -10,40 +8,21 @@
 
 #include "core/error.h"
 #include "core/file_name.h"
+#include "core/listed.h"
 #include "core/spelling.h"
 #include "field/range.h"
 #include "viz/map_texts.h"
 
 namespace clsurf::cli {
-namespace {
-
-/// Ends of the colours: nearly all of what differs, however short the section is.
-constexpr double shown_percentile = 99.9;
-
-/// Even about 0, and never narrower than what counts as a difference: equal runs are not to look different.
-ShownRange range_of(const DrawnDifference& shown, const ClSurface& surface, const LookOptions& options) {
-    RangeRule rule = options.range;
-    const bool automatic = rule.kind == RangeRule::Kind::automatic;
-    if (automatic) rule = {RangeRule::Kind::percentiles, 100 - shown_percentile, shown_percentile};
-    ShownRange range = find_range(shown.field, surface, rule);
-    if (!automatic) return range;
-    const double most =
-        std::max({std::abs(range.low), std::abs(range.high), shown.threshold * shown.field.info.unit.per_inside});
-    range.high = most > 0 ? round_up(most) : most;
-    range.low = -range.high;
-    range.note += ", even about 0, with round ends";
-    return range;
-}
-
-}  // namespace
 
 RunQuantity parse_quantity(const std::string& text) {
-    std::vector<std::string_view> names;
+    std::vector<std::string> names;
     for (const RunQuantityInfo& info : run_quantity_table()) {
         if (info.name == text) return info.quantity;
-        names.push_back(info.name);
+        names.emplace_back(info.name);
     }
-    throw UsageError("--color: '" + text + "' is not speed, acceleration, lag or height", did_you_mean(text, names));
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    throw UsageError(fmt::format("--color: '{}' is not {}", text, listed(names, "or")), did_you_mean(text, known));
 }
 
 DrawnDifference drawn_difference(RunDifferences& differences, RunQuantity quantity) {
@@ -51,9 +30,10 @@ DrawnDifference drawn_difference(RunDifferences& differences, RunQuantity quanti
     if (!differences.has(quantity))
         throw UsageError(fmt::format("--color {}: the runs do not have measured positions in common", info.name));
     DrawnDifference shown;
-    shown.threshold = differences.threshold[index_of(quantity)];
     shown.field.info = {
         std::string(info.name), fmt::format("{}, difference", info.label), info.unit, FieldScale::diverging, {}};
+    shown.field.info.threshold = differences.threshold[index_of(quantity)];
+    shown.field.info.least_span = 2 * shown.field.info.threshold;  // equal runs are not to look different
     shown.field.values = std::move(differences.of[index_of(quantity)]);
     return shown;
 }
@@ -61,7 +41,7 @@ DrawnDifference drawn_difference(RunDifferences& differences, RunQuantity quanti
 void draw_difference(const DrawnDifference& shown, const Trajectory& path, const ClSurface& surface,
                      const LookOptions& look, PictureOutput& output) {
     const viz::MapPanel panel{&surface, &shown.field, "", {}, {}, {}};
-    const ShownRange range = range_of(shown, surface, look);
+    const ShownRange range = find_range(shown.field, surface, look.range);
     viz::MapTexts texts;
     texts.title =
         fmt::format("{}: {} minus {}", shown.field.info.label, file_name(shown.run), file_name(shown.reference));

@@ -18,8 +18,7 @@ namespace clsurf::cli {
 struct DrawnDifference {
     Field field;
     std::string reference, run;
-    double threshold = 0;  ///< inside units; more is a difference
-    std::string note{};    ///< below the map
+    std::string note{};  ///< below the map
 };
 
 /// Takes the values of a quantity out of `differences`. Throws UsageError: the runs do not have it.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/listed.h"
 #include "core/statistics.h"
 
 namespace clsurf {
@@ -80,7 +81,7 @@ void widen_to_least_span(ShownRange& range, const FieldInfo& info, double median
             range.high += 0.5 * more;
             break;
     }
-    range.note += "; at least that wide, since less does not matter";
+    range.note += "; no narrower, since smaller differences do not matter";
 }
 
 /// Ends at round numbers, so that a legend has few digits; of bins all edges.
@@ -143,12 +144,13 @@ float widened(const Source& source, float end, bool above) {
     return end_with_defects(source, end, above);
 }
 
-/// ", and all patches of 20 points and reported defects"
+/// ", widened for patches of 20 points, 3 points in a row beyond the threshold, and all defects"
 std::string words_of_widening(const Source& source) {
-    std::string words = fmt::format(", and all patches of {} points", least_patch);
-    if (source.field.info.threshold > 0) words += fmt::format(", or {} beyond the threshold", least_section);
-    if (!source.defects.empty()) words += ", and all defects";
-    return words;
+    std::vector<std::string> reasons{fmt::format("patches of {} points", least_patch)};
+    if (source.field.info.threshold > 0)
+        reasons.push_back(fmt::format("{} points together beyond the threshold", least_section));
+    if (!source.defects.empty()) reasons.emplace_back("all defects");
+    return ", widened for " + listed(reasons);
 }
 
 /// What all rules but the fixed ones do.
@@ -177,7 +179,7 @@ ShownRange range_of_values(const Source& source, const RangeRule& rule, Values& 
         const double most = std::max(std::abs(range.low), std::abs(range.high));
         range.low = -most;
         range.high = most;
-        range.note += ", even about 0";
+        range.note += ", symmetric about 0";
     }
     widen_to_least_span(range, field.info, nearest_quantile(values.sampled, 0.5) * unit);
     round_outwards(range, rule.bins, field.info.scale == FieldScale::diverging);
@@ -224,8 +226,9 @@ double round_up(double value) {
 }
 
 ShownRange wider(const ShownRange& a, const ShownRange& b) {
+    const bool equal = a.low == b.low && a.high == b.high;
     return {std::min(a.low, b.low), std::max(a.high, b.high), std::min(a.lowest, b.lowest),
-            std::max(a.highest, b.highest), a.note + ", the wider of both logs"};
+            std::max(a.highest, b.highest), a.note + (equal ? "" : ", the wider of both logs")};
 }
 
 std::vector<double> percentiles_of_size(const Field& field, const Passes& passes, std::span<const double> percentiles) {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
+#include "core/listed.h"
 #include "core/statistics.h"
 #include "core/units.h"
 #include "mapping/allowed_motions.h"
@@ -398,7 +399,8 @@ namespace {
 bool note_systems(const Trajectory& path, const Program& program, const LineMap& map, Diagnostics& diagnostics) {
     const std::vector<int> systems = unknown_systems(program.motions);
     if (systems.size() < 2) return false;
-    std::string options, names;
+    std::string options;
+    std::vector<std::string> names;
     for (const int system : systems) {
         const auto found = find_with(path, program, &map, {}, system);
         if (found.size() != 1) return false;
@@ -408,14 +410,14 @@ bool note_systems(const Trajectory& path, const Program& program, const LineMap&
         const bool leads = system == systems.front();
         Eigen::Isometry3d pose = path.pose() * found.front().inverse();
         if (!leads && first != motions.frame.end()) pose = pose * motions.frames[*first].placed;
-        const std::string name = name_of_work_system(system, program.dialect);
-        names += (leads ? "" : system == systems.back() ? " and " : ", ") + name;
+        const std::string& name = names.emplace_back(name_of_work_system(system, program.dialect));
         options += leads ? "--work-offset " + pose_numbers(pose)
                          : fmt::format(" --work-offset {}:{}", name, pose_numbers(pose));
     }
     diagnostics.add(
         {Severity::warning, "map.work-offset", Place::of_file(path.name),
-         fmt::format("the positions are parallel to the programmed path; those of {} have different offsets", names),
+         fmt::format("the positions are parallel to the programmed path; those of {} have different offsets",
+                     listed(names)),
          options + " aligns them"});
     return true;
 }

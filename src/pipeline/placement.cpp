@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/listed.h"
 #include "mapping/work_offset.h"
 #include "pipeline/roles.h"
 #include "toolpath/tip_motions.h"
@@ -60,17 +61,16 @@ Eigen::Isometry3d place_program(Program& program, const Log& log, FramePoses giv
     given.starts_anywhere = true;
     const std::vector<int> unknown = unknown_systems(program.motions);
     if (unknown.size() > 1) {
-        std::string names;
+        std::vector<std::string> names;
         bool missing = false;
         for (const int system : unknown) {
-            const std::string name = name_of_work_system(system, program.dialect);
-            names += (names.empty() ? "" : system == unknown.back() ? " and " : ", ") + name;
+            names.push_back(name_of_work_system(system, program.dialect));
             missing = missing || (system != unknown.front() && !given.systems.contains(system));
         }
         if (missing) {
             diagnostics.add({Severity::note, "program.work-offset", Place::of_file(program.main().name()),
-                             fmt::format("cuts in {}, and sets none of them: they are assumed to be equal to {}", names,
-                                         name_of_work_system(unknown.front(), program.dialect)),
+                             fmt::format("cuts in {}, and sets none of them: they are assumed to be equal to {}",
+                                         listed(names), name_of_work_system(unknown.front(), program.dialect)),
                              "give one of them with --work-offset G55:X,Y,Z"});
         }
     }

@@ -82,7 +82,7 @@ test('the difference of both: what the earlier log lacks has no value', async ()
     await settled(page);
     assert.deepEqual(await layers(), ['visible', 'hidden']);
     const ends = [await page.getByLabel('lower end').inputValue(), await page.getByLabel('upper end').inputValue()];
-    assert.equal(Number(ends[0]), -Number(ends[1])); // even about 0
+    assert.equal(Number(ends[0]), -Number(ends[1])); // symmetric about 0
     assert.equal(await page.getByLabel('colour map').inputValue(), 'coolwarm');
     await comparePicture(page, 'difference');
     await press(page, '2');
