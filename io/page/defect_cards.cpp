@@ -81,12 +81,13 @@ std::string lines_text(const DefectRun& run) {
 
 std::string defect_card_html(const ReportPage& page, std::size_t defect) {
     const Defect& d = page.quality.report->defects[defect];
+    const std::vector<DefectRun> runs = strongest_first(d);
     std::string text = "<article class=\"defect-card\">\n" + picture_html(*page.defects[defect].picture);
-    text += fmt::format("<p>Lines {}", html(list_of_lines(d.runs)));
+    text += fmt::format("<p>Lines {}", html(list_of_lines(runs)));
     if (!d.neighbours.empty()) text += fmt::format("; adjacent: {}", html(list_of_lines(d.neighbours)));
     text += ".</p>\n";
     if (!page.defects[defect].slow.empty()) text += "<p>Slow: " + html(page.defects[defect].slow) + ".</p>\n";
-    if (!d.runs.empty()) text += code_html(*page.quality.program, d.runs.front());
+    if (!runs.empty()) text += code_html(*page.quality.program, runs.front());
     return text + "</article>\n";
 }
 

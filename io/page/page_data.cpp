@@ -314,7 +314,7 @@ Json defects_json(const ReportPage& page) {
                        {"length_mm", number(d.length)},
                        {"shape", shape_of(d)},
                        {"point", d.point},
-                       {"runs", runs_json(d.runs)},
+                       {"runs", runs_json(strongest_first(d))},
                        {"neighbours", runs_json(d.neighbours)},
                        {"outlines", lines_json(page.defects[i].outlines)}});
         add_place(all.back(), d.place);

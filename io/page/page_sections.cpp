@@ -64,9 +64,9 @@ std::string metadata_text(const Log& log, const char* name) {
 std::string defect_lines(const Defect& d) {
     std::string text;
     constexpr std::size_t shown = 4;
-    for (std::size_t k = 0; k < std::min(shown, d.runs.size()); ++k)
-        text += (k > 0 ? ", " : "") + lines_text(d.runs[k]);
-    if (d.runs.size() > shown) text += fmt::format(" and {} more", d.runs.size() - shown);
+    const std::vector<DefectRun> runs = strongest_first(d);
+    for (std::size_t k = 0; k < std::min(shown, runs.size()); ++k) text += (k > 0 ? ", " : "") + lines_text(runs[k]);
+    if (runs.size() > shown) text += fmt::format(" and {} more", runs.size() - shown);
     return text;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -72,15 +73,16 @@ Json rule_json(const RuleText& rule) {
             {"help", {{"text", rule.help}, {"markdown", rule.help}}}};
 }
 
-Json related_locations(const Program& program, const Defect& d) {
+/// `runs`: strongest_first(d).
+Json related_locations(const Program& program, const Defect& d, std::span<const DefectRun> runs) {
     Json related = Json::array();
-    if (!d.runs.empty() && !d.runs.front().file.empty()) {
-        const DefectRun& run = d.runs.front();
+    if (!runs.empty() && !runs.front().file.empty()) {
+        const DefectRun& run = runs.front();
         related.push_back(sarif_location(sarif_uri(program.main().name()), run.first_line, run.last_line,
                                          fmt::format("Calls {}.", run.file)));
     }
-    for (std::size_t k = 1; k < std::min(d.runs.size(), most_related); ++k)
-        related.push_back(location(program, d.runs[k], fmt::format("The same defect on pass {}.", d.runs[k].pass)));
+    for (std::size_t k = 1; k < std::min(runs.size(), most_related); ++k)
+        related.push_back(location(program, runs[k], fmt::format("The same defect on pass {}.", runs[k].pass)));
     for (std::size_t k = 0; k < std::min(d.neighbours.size(), most_related); ++k)
         related.push_back(
             location(program, d.neighbours[k], fmt::format("Neighbouring pass {}.", d.neighbours[k].pass)));
@@ -120,13 +122,14 @@ std::string quality_sarif(const ReportedQuality& q) {
     Json results = Json::array();
     for (std::size_t i = 0; i < defects.size(); ++i) {
         const Defect& d = defects[i];
+        const std::vector<DefectRun> runs = strongest_first(d);
         const std::string_view rule = rule_of(d).id;
         Json result{
             {"ruleId", rule},
             {"ruleIndex", index_of_rule.at(rule)},
             {"level", level_of(d.severity)},
             {"message", {{"text", message_of(d)}, {"markdown", markdown_of(d)}}},
-            {"locations", Json::array({location(*q.program, d.runs.empty() ? DefectRun{} : d.runs.front(), "")})},
+            {"locations", Json::array({location(*q.program, runs.empty() ? DefectRun{} : runs.front(), "")})},
             {"rank", number(100.0 * static_cast<double>(defects.size() - i) / static_cast<double>(defects.size()), 1)},
             {"partialFingerprints", {{"clsurfDefect/v1", fingerprints[i]}}},
             {"properties",
@@ -143,7 +146,7 @@ std::string quality_sarif(const ReportedQuality& q) {
         result["properties"].update(
             {{"cause", name_of(d.cause)}, {"systematic", d.systematic}, {"lines", std::move(lines)}});
         if (q.baseline != nullptr) result["baselineState"] = baseline_state(q.baseline->states[i]);
-        Json related = related_locations(*q.program, d);
+        Json related = related_locations(*q.program, d, runs);
         if (!related.empty()) result["relatedLocations"] = std::move(related);
         if (q.acceptance != nullptr && q.acceptance->accepts(i))
             result["suppressions"] = suppressions_of(*q.acceptance, i);

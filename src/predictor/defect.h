@@ -72,6 +72,8 @@ struct Defect {
 /// The section of a defect that is strongest. Of many sections only the longest are kept: the first one where that is none
 /// of them. nullptr: there is no section.
 [[nodiscard]] const DefectRun* strongest_run(const Defect& defect);
+/// All sections as a reader wants them: the strongest first, the others in the order of their points.
+[[nodiscard]] std::vector<DefectRun> strongest_first(const Defect& defect);
 
 /// How a mark differs from the adjacent passes: a pit is deep, a bulge is high.
 [[nodiscard]] constexpr std::string_view deep_or_high(bool pit) { return pit ? "deep" : "high"; }

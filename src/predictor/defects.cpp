@@ -409,6 +409,15 @@ const DefectRun* strongest_run(const Defect& defect) {
     return defect.runs.empty() ? nullptr : &defect.runs.front();
 }
 
+std::vector<DefectRun> strongest_first(const Defect& defect) {
+    std::vector<DefectRun> runs = defect.runs;
+    const DefectRun* strongest = strongest_run(defect);
+    if (strongest == nullptr) return runs;
+    const auto at = runs.begin() + (strongest - defect.runs.data());
+    std::rotate(runs.begin(), at, at + 1);
+    return runs;
+}
+
 std::vector<PointRange> QualityReport::sections() const {
     std::vector<PointRange> found;
     for (const Defect& defect : defects) {
