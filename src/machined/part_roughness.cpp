@@ -9,6 +9,7 @@
 #include "core/not_finite.h"
 #include "machined/as_machined_profile.h"
 #include "machined/form.h"
+#include "machined/pass_ends.h"
 
 namespace clsurf {
 namespace {
@@ -49,8 +50,10 @@ public:
         return {at(-static_cast<double>(columns) * cell, -static_cast<double>(rows) * cell),
                 Vec2(across_.y(), -across_.x()), cell, 2 * columns + 1, 2 * rows + 1};
     }
-    /// Of the cells of such a frame: 0 where they do not lie among contacts.
-    [[nodiscard]] std::vector<float> weights(const MapFrame& frame, const Form& form) const {
+    /// [mm] from contact to contact of adjacent passes, seen from above.
+    [[nodiscard]] double apart() const { return apart_; }
+    /// Of the cells of such a frame: 0 where passes end before they have cut them.
+    [[nodiscard]] std::vector<float> weights(const MapFrame& frame, const BeforePassEnds& before_ends) const {
         std::vector<float> result;
         for (std::int64_t row = 0; row < frame.rows; ++row) {
             const double aside =
@@ -58,7 +61,7 @@ public:
             const auto weight = static_cast<float>(std::clamp((half_across_ - aside) / apart_ + 0.5, 0.0, 1.0));
             for (std::int64_t column = 0; column < frame.columns; ++column) {
                 const Vec2 place = frame.at(static_cast<double>(column), static_cast<double>(row));
-                result.push_back(form.is_well_among_contacts(place) ? weight : 0);
+                result.push_back(weight > 0 && before_ends.has(place) ? weight : 0);
             }
         }
         return result;
@@ -81,7 +84,8 @@ private:
 
 /// From the lowest place to the highest [mm] on lines across the feed through a window: cells of a map meet the tip of a
 /// cusp within a tenth of its height only, and these within a hundredth.
-double height_across(const AsMachinedSurface& as_machined, const Form& form, const PatchWindow& window, double step) {
+double height_across(const AsMachinedSurface& as_machined, const Form& form, const BeforePassEnds& before_ends,
+                     const PatchWindow& window, double step) {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
     for (int line = 0; line < lines_across; ++line) {
@@ -90,7 +94,7 @@ double height_across(const AsMachinedSurface& as_machined, const Form& form, con
                              static_cast<std::int64_t>(window.width() / step) + 1, 1};
         map_deviation(as_machined, form, frame, [&](std::int64_t, std::span<float> z) {
             for (std::size_t k = 0; k < z.size(); ++k) {
-                if (!std::isfinite(z[k]) || !form.is_well_among_contacts(frame.at(static_cast<double>(k), 0))) continue;
+                if (!std::isfinite(z[k]) || !before_ends.has(frame.at(static_cast<double>(k), 0))) continue;
                 low = std::min(low, static_cast<double>(z[k]));
                 high = std::max(high, static_cast<double>(z[k]));
             }
@@ -100,8 +104,9 @@ double height_across(const AsMachinedSurface& as_machined, const Form& form, con
 }
 
 /// Of a window, from its heights.
-AreaHeights window_heights(const AsMachinedSurface& as_machined, const Form& form, const PatchWindow& window,
-                           double step, std::span<const float> weights, std::vector<float> cells, double& unknown) {
+AreaHeights window_heights(const AsMachinedSurface& as_machined, const Form& form, const BeforePassEnds& before_ends,
+                           const PatchWindow& window, double step, std::span<const float> weights,
+                           std::vector<float> cells, double& unknown) {
     const MapFrame frame = window.frame();
     const auto unknown_cells = static_cast<double>(form.subtract(frame, 0, as_machined.level(), cells));
     const double cut =
@@ -109,7 +114,8 @@ AreaHeights window_heights(const AsMachinedSurface& as_machined, const Form& for
         unknown_cells;
     unknown = cut > 0 ? unknown_cells / cut : 1;
     AreaHeights heights = area_heights(cells, weights);
-    if (heights.cells > 0) heights.sz = std::max(heights.sz, height_across(as_machined, form, window, step));
+    if (heights.cells > 0)
+        heights.sz = std::max(heights.sz, height_across(as_machined, form, before_ends, window, step));
     return heights;
 }
 
@@ -215,10 +221,11 @@ RoughPatch measure_patch(const RoughnessSurfaces& surfaces, const RoughnessPlace
     const Form form(surfaces.form_of, window.bounds());
     const AsMachinedSurface& measured = surfaces.measured;
     const MapFrame frame = window.frame();
-    const std::vector<float> weights = window.weights(frame, form);
     std::vector<float> heights = heights_of(measured, frame);
+    const BeforePassEnds before_ends(form, measured.tool(), window.apart(), frame, heights);
+    const std::vector<float> weights = window.weights(frame, before_ends);
     const double step = across.step_over / steps_per_pass;
-    patch.area = window_heights(measured, form, window, step, weights, heights, patch.unknown);
+    patch.area = window_heights(measured, form, before_ends, window, step, weights, heights, patch.unknown);
     if (surfaces.commanded == nullptr) return patch;
     patch.machine = area_heights(take_off(*surfaces.commanded, measured.level(), std::move(heights), frame), weights);
     return patch;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "machined/pass_ends.h"
 #include "support/made_surface.h"
 
 namespace clsurf::part_roughness_test {
@@ -154,6 +155,49 @@ TEST(PartRoughness, BesideTheEndsOfPassesNothingIsHigherThanACusp) {
         const PartRoughness found = measure_roughness({surface, surface}, std::span(&place, 1));
         ASSERT_EQ(found.patches.size(), 1U);
         EXPECT_NEAR(found.sz, scallop_of(step_over).sz, 0.015 * scallop_of(step_over).sz) << from_end;
+    }
+}
+
+TEST(PartRoughness, TheDistanceToTheCutOfACuspIsThatOfTheQuadraticForm) {
+    const CuttingTool ball{ToolKind::ball, 3, 3}, bull{ToolKind::bull, 5, 2};
+    EXPECT_EQ(cusp_before_contact(ball, Vec2(0, 0), 0.4), 0);
+    EXPECT_EQ(cusp_before_contact(ball, Vec2(0, 1), 0.4), 0) << "along a contour line";
+    EXPECT_EQ(cusp_before_contact(bull, Vec2(0.3, 0), 0.4), 0) << "along the fall line";
+    // A slope of 45°, half way between fall line and contour line: w² = 2, so that K = ((3, 1), (1, 3)) / 2 and 1/3 of 0.2 mm.
+    EXPECT_NEAR(cusp_before_contact(ball, Vec2(std::sqrt(0.5), std::sqrt(0.5)), 0.4), 0.2 / 3, 1e-12);
+    // A slope with sin θ = 0.6, w² = 1/0.64: r / (R − r + r sin θ) · sin θ = 1.2 / 4.2.
+    const double fall = 1 / 0.64, contour = 1.2 / 4.2;
+    EXPECT_NEAR(cusp_before_contact(bull, 0.75 * Vec2(0.6, 0.8), 0.4),
+                0.2 * (fall - contour) * 0.48 / (0.36 * fall + 0.64 * contour), 1e-12);
+    // On a level place the tool is flat along the contour lines: no farther than √(R · apart).
+    EXPECT_NEAR(cusp_before_contact(bull, Vec2(0.0001, 0.001), 0.4), std::sqrt(2), 1e-12);
+}
+
+TEST(PartRoughness, CuspsOfABullNoseToolAreNoHigherBesideTheEndsOfPassesThatClimbAskew) {
+    // Up a slope of 3°, 57° from the fall line: the cusps are cut 0.27 mm before the contacts, 0.7 step-overs. On a plane, the tool
+    // leaves the cusps of the quadratic form h = ½ (K_vv − K_uv² / K_uu) (apart / 2)², normal to the plane.
+    constexpr double step_over = 0.4, length = 10, slope = 0.0524078, turned = 33 * 0.017453292519943295;
+    const CuttingTool tool{ToolKind::bull, 5, 2};
+    const Vec2 fall(std::sin(turned), std::cos(turned));  // along the feed and across it
+    const Cut cut(test::flat_zigzag(passes, length, step_over, 25, {}, [&](const Vec3& flat) {
+        return Vec3(flat.x(), flat.y(), slope * fall.dot(flat.head<2>()));
+    }));
+    const AsMachinedSurface surface(cut.made.surface, cut.signals, Role::commanded, cut.made.path, cut.pieces, tool);
+    const double steep = 1 + slope * slope;
+    const double sine = slope / std::sqrt(steep);
+    const double fall_bend = steep / 2, contour_bend = sine / (3 + 2 * sine);
+    const double uu = fall_bend * fall.x() * fall.x() + contour_bend * fall.y() * fall.y();
+    const double uv = (fall_bend - contour_bend) * fall.x() * fall.y();
+    const double vv = fall_bend * fall.y() * fall.y() + contour_bend * fall.x() * fall.x();
+    const double cusp = 0.5 * (vv - uv * uv / uu) * 0.25 * step_over * step_over;
+    // Contacts lie R − r + r sin θ up the fall line from the tips.
+    const Vec2 contacts_end = Vec2(length, 0.5 * passes * step_over) + (3 + 2 * sine) * fall;
+    for (const double from_end : {0.34, 0.6, 0.9}) {
+        const Vec2 at = contacts_end - from_end * Vec2::UnitX();
+        const RoughnessPlace place{0, Vec3(at.x(), at.y(), 0), {at, Vec2::UnitY(), step_over, true}};
+        const PartRoughness found = measure_roughness({surface, surface}, std::span(&place, 1));
+        ASSERT_EQ(found.patches.size(), 1U) << from_end;
+        EXPECT_NEAR(found.sz, cusp, 0.015 * cusp) << from_end;
     }
 }
 
