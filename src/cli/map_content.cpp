@@ -79,10 +79,11 @@ viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, c
         texts.notes.push_back(shown.defects.outlines.empty()
                                   ? "no defects"
                                   : fmt::format("{} defects, 1 the worst", shown.defects.outlines.size()));
-    if (options.defects && !shown.relief) note_tool_tip(shown.part, texts.notes);
     if (options.defects) note_judgement(shown.defects.report, "", texts.notes);
     if (options.defects && before) note_judgement(before->defects.report, "before: ", texts.notes);
     texts.notes.insert(texts.notes.end(), range_notes.begin(), range_notes.end());
+    const bool logged_tips = !shown.relief && shown.origin == PointOrigin::log;
+    if (logged_tips && options.shown.look.scales) note_tool_tip(shown.part, texts.notes);
     return texts;
 }
 
