@@ -2,6 +2,7 @@
 // Words that maps have in common.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "field/range.h"
@@ -13,6 +14,10 @@ namespace clsurf::viz {
 [[nodiscard]] std::string counts_of(const ClSurface& surface);
 /// The same of a surface of which a part was selected (surface/selection.h): "61 of 18531 points, 1 pass, …".
 [[nodiscard]] std::string counts_of_selection(const ClSurface& surface);
+/// A footnote: the ramps at the ends of passes are drawn paler, because all passes have them.
+inline constexpr std::string_view ramps_note = "paler: ramps at the ends of passes";
+/// A footnote where the tool is known, since places on the part are then contact points.
+inline constexpr std::string_view tool_tip_note = "axes show the tool tip: `clsurf query --at tip:X,Y`";
 /// What the footnote says of a range.
 [[nodiscard]] std::vector<std::string> notes_of(const ShownRange& range);
 

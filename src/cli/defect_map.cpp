@@ -8,6 +8,7 @@
 
 #include "io/reports/defect_names.h"
 #include "program/frame_placement.h"
+#include "viz/map_texts.h"
 
 namespace clsurf::cli {
 namespace {
@@ -78,7 +79,7 @@ viz::MapTexts defect_map_texts(const QualityReport& report, const Part& part, st
         texts.notes = {"defects are drawn in colour", "darker means farther above the threshold",
                        "defect 1 has the highest score"};
     }
-    note_tool_tip(part, texts.notes);
+    if (part.tool) texts.notes.emplace_back(viz::tool_tip_note);
     note_judgement(report, "", texts.notes);
     return texts;
 }
@@ -86,10 +87,6 @@ viz::MapTexts defect_map_texts(const QualityReport& report, const Part& part, st
 void note_judgement(const QualityReport& report, std::string_view which, std::vector<std::string>& notes) {
     if (!report.judgement.judged())
         notes.insert(notes.begin(), fmt::format("{}not judged: clsurf check says why", which));
-}
-
-void note_tool_tip(const Part& part, std::vector<std::string>& notes) {
-    if (part.tool) notes.emplace_back("axes show the tool tip: `clsurf query --at tip:X,Y`");
 }
 
 }  // namespace clsurf::cli

@@ -20,7 +20,5 @@ namespace clsurf::cli {
 
 /// A picture without defects of a run that was not judged would look like one of a good part. `which` says which of two.
 void note_judgement(const QualityReport& report, std::string_view which, std::vector<std::string>& notes);
-/// Reports name contact points where the tool is known; a map has tool tips.
-void note_tool_tip(const Part& part, std::vector<std::string>& notes);
 
 }  // namespace clsurf::cli

@@ -73,7 +73,7 @@ viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, c
                          : fmt::format("{} · {} · {}", program, run_name(shown, options), counts);
     if (!options.selection.is_all()) texts.notes.push_back("only " + options.selection.words);
     if (!shown.field.info.note.empty()) texts.notes.push_back(shown.field.info.note);
-    if (!shown.relief && is_speed(shown.field.info)) texts.notes.emplace_back(ramps_note);
+    if (!shown.relief && is_speed(shown.field.info)) texts.notes.emplace_back(viz::ramps_note);
     if (options.programmed) texts.notes.emplace_back("thin lines: the programmed path");
     if (options.defects)
         texts.notes.push_back(shown.defects.outlines.empty()
@@ -83,7 +83,7 @@ viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, c
     if (options.defects && before) note_judgement(before->defects.report, "before: ", texts.notes);
     texts.notes.insert(texts.notes.end(), range_notes.begin(), range_notes.end());
     const bool logged_tips = !shown.relief && shown.origin == PointOrigin::log;
-    if (logged_tips && options.shown.look.scales) note_tool_tip(shown.part, texts.notes);
+    if (logged_tips && shown.part.tool && options.shown.look.scales) texts.notes.emplace_back(viz::tool_tip_note);
     return texts;
 }
 

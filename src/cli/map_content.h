@@ -16,8 +16,6 @@ namespace clsurf::cli {
 [[nodiscard]] std::string run_name(const Shown& shown, const RenderOptions& options);
 /// The ramps at the ends of passes are drawn paler, because all passes have them.
 [[nodiscard]] bool is_speed(const FieldInfo& field);
-/// What a map says of them.
-inline constexpr std::string_view ramps_note = "paler: ramps at the ends of passes";
 /// One part with its marks. Refers to `shown`. Throws UsageError: a mark that the log does not have.
 [[nodiscard]] viz::MapPanel panel_of(const Shown& shown, const RenderOptions& options, std::string caption);
 

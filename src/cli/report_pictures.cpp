@@ -111,7 +111,7 @@ viz::MapTexts texts_of(const PicturedPart& shown, const FieldInfo& info, const S
     texts.title = fmt::format("{}, {} surface", info.label, name_of(shown.part->path.role));
     texts.subtitle = names_of(shown);
     texts.frame = common_work_system(shown.part->program.motions);
-    if (is_speed(info)) texts.notes.emplace_back(ramps_note);
+    if (is_speed(info)) texts.notes.emplace_back(viz::ramps_note);
     if (!range.note.empty()) texts.notes.push_back(range.note);
     return texts;
 }
@@ -135,7 +135,8 @@ io::PagePicture picture_of_part(const PicturedPart& shown, const std::string& na
     viz::MapPanel panel{shown.surface, &shown.fields[k], "", {}, {}, shown.outlines};
     panel.pale = shown.ramps[k];
     const FieldInfo& info = shown.fields[k].info;
-    const viz::MapTexts texts = texts_of(shown, info, shown.ranges[k]);
+    viz::MapTexts texts = texts_of(shown, info, shown.ranges[k]);
+    if (shown.part->tool) texts.notes.emplace_back(viz::tool_tip_note);
     return {info.label, shown.outlines.empty() ? "" : "Defects are outlined; 1 stands out most.",
             shown.shards > 0 ? draw_in_shards(panel, shown.shards, shown.ranges[k], texts, look)
                              : draw(panel, shown.ranges[k], texts, look)};

@@ -75,10 +75,11 @@ std::string draw_picture(const LoadedPart& loaded, const PictureRequest& request
     } else {
         if (field.info.preference == FieldPreference::higher) {
             panel.pale = pass_ramps(field, panel.surface->passes, part.log.period);
-            texts.notes.emplace_back("paler: ramps at the ends of passes");
+            texts.notes.emplace_back(viz::ramps_note);
         }
         scale = scale_of_picture(field, *panel.surface, request, texts);
     }
+    if (part.tool && look.scales) texts.notes.emplace_back(viz::tool_tip_note);
     const std::scoped_lock lock(drawing);
     const viz::Image image = viz::draw_map({panel}, viz::placed_map({panel}, look), scale, texts, look);
     return viz::encode_image(image, "clsurf map of " + texts.subtitle + ": " + field.info.name, "png");
