@@ -16,6 +16,8 @@ namespace clsurf::viz {
 [[nodiscard]] std::string counts_of_selection(const ClSurface& surface);
 /// A footnote: the ramps at the ends of passes are drawn paler, because all passes have them.
 inline constexpr std::string_view ramps_note = "paler: ramps at the ends of passes";
+/// A footnote: what the numbers beside the names of values are.
+inline constexpr std::string_view shares_note = "shares of the cutting points";
 /// A footnote where the tool is known, since places on the part are then contact points.
 inline constexpr std::string_view tool_tip_note = "axes show the tool tip: `clsurf query --at tip:X,Y`";
 /// What the footnote says of a range.

@@ -35,13 +35,9 @@ struct MapScale {
 
 MapScale scale_of_map(const Shown& after, const std::optional<Shown>& before, const RenderOptions& options,
                       const viz::Camera& camera) {
-    if (has_classes(after.field.info)) return {after.classes.scale(), {"shares of the cutting points"}, "", 0};
+    if (has_classes(after.field.info)) return {after.classes.scale(), {std::string(viz::shares_note)}, "", 0};
     ShownRange range = range_in_picture(after, options, camera);
-    if (before) {
-        const std::string note = range.note;
-        range = wider(range, range_in_picture(*before, options, camera));
-        if (options.shown.range.kind == RangeRule::Kind::fixed) range.note = note;
-    }
+    if (before) range = wider(range, range_in_picture(*before, options, camera));
     return {scale_of(after.field.info, range, options.shown), viz::notes_of(range),
             fmt::format(" {:g} to {:g} {}", range.low, range.high, after.field.info.unit.name), range.high - range.low};
 }

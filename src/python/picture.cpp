@@ -72,6 +72,7 @@ std::string draw_picture(const LoadedPart& loaded, const PictureRequest& request
         panel.classes = &classes;
         look.names = true;
         scale = classes.scale();
+        texts.notes.emplace_back(viz::shares_note);
     } else {
         if (field.info.preference == FieldPreference::higher) {
             panel.pale = pass_ramps(field, panel.surface->passes, part.log.period);

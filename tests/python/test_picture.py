@@ -9,11 +9,12 @@ import clsurf
 from conftest import PROGRAM, files
 
 
-def test_the_picture_is_that_of_render(uneven, uneven_files, tmp_path):
+@pytest.mark.parametrize("field", ["speed", "speed_mismatch", "cause"])
+def test_the_picture_is_that_of_render(uneven, uneven_files, tmp_path, field):
     ours, theirs = tmp_path / "ours.png", tmp_path / "theirs.png"
-    uneven.picture("speed", "top", size=(800, 600)).save(ours)
+    uneven.picture(field, "top", size=(800, 600)).save(ours)
     subprocess.run(
-        [PROGRAM, "render", *uneven_files, "-o", theirs, "--color", "speed", "--view", "top", "--size", "800x600", "--gl", "egl", "-q"],
+        [PROGRAM, "render", *uneven_files, "-o", theirs, "--color", field, "--view", "top", "--size", "800x600", "--gl", "egl", "-q"],
         check=True,
     )
     compared = subprocess.run([PROGRAM, "compare", ours, theirs], capture_output=True, text=True)
