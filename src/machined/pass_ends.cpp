@@ -8,7 +8,7 @@
 namespace clsurf {
 namespace {
 
-constexpr std::int64_t fitted = 3;       ///< every third cell, of rows and of columns
+constexpr std::int64_t fitted = 3;     ///< every third cell, of rows and of columns
 constexpr double rounded_by = 0.0003;  ///< [mm] scatter of positions that are rounded to a micrometre
 
 }  // namespace
