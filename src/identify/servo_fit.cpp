@@ -112,7 +112,10 @@ ServoFit fit_servo(std::span<const AxisRecord> records, double period) {
     if (!fit.moves || problem.count() < least_records) return fit;
     const std::vector<ServoStart> starts = servo_starts(problem, 0);
     const ServoParameters usual = parameters_of(ServoModel{}, period);
-    problem.set_settling(settling_of(starts.empty() ? usual : starts.front().parameters, period));
+    // With backlash or a dead time the regression may take any gain for a very low one, whose settling would leave no records.
+    const PointIndex longest_settling = problem.count() / 10;
+    problem.set_settling(
+        std::min(settling_of(starts.empty() ? usual : starts.front().parameters, period), longest_settling));
     // At constant speed the regression knows no gain, and may take it for a very low one.
     if (problem.count() < least_records) problem.set_settling(settling_of(usual, period));
     fit.records = problem.count();
@@ -128,19 +131,18 @@ ServoFit fit_servo(std::span<const AxisRecord> records, double period) {
     const ServoSolution& solution = selected.solution;
     fit.evidence = std::move(selected.evidence);
     fit.parameters = solution.parameters;
-    fit.standard_error = standard_errors(solution);
+    fit.standard_error = selected.standard_error;
     fit.residual = std::sqrt(solution.sums.mean_square());
     fit.noise = std::sqrt(std::max(solution.sums.variance_of_changes() - fit.quantum * fit.quantum / 12, 0.0));
     fit.explained = std::sqrt(solution.unexplainable());
     const ServoModel model = model_of(fit.parameters, period);
     fit.lag = (1 - model.velocity_feedforward) / model.position_gain + model.dead_time;
     // The lag's own error: of the derivative by feed-forward and gain together.
-    const ServoMatrix covariance = covariance_of(solution);
     ServoVector slope = ServoVector::Zero();
     slope[index_of(ServoTerm::log_gain)] = -(1 - model.velocity_feedforward) / model.position_gain;
     slope[index_of(ServoTerm::feedforward)] = -1 / model.position_gain;
     slope[index_of(ServoTerm::dead_time)] = fit.parameters.has(ServoTerm::dead_time) ? period : 0;
-    fit.lag_error = std::sqrt(std::max(slope.dot(covariance * slope), 0.0));
+    fit.lag_error = std::sqrt(variance_of(solution, slope));
     return fit;
 }
 

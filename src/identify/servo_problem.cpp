@@ -13,19 +13,24 @@ constexpr PointIndex most_fit_records = 1'000'000;
 /// Groups whose sums of scores give the covariance: residuals of a model that is not exact are alike over a while.
 constexpr PointIndex group_size = 512;
 
-/// The change of a parameter that its derivative is taken over. An axis sticks and comes loose at a period's end, so with
+/// The size of a parameter's change that its derivative is taken over. An axis sticks and comes loose at a period's end, so with
 /// friction the changes are large enough to move some of these instants; the same for backlash.
-double difference_step(const ServoParameters& p, ServoTerm term, double width) {
+double size_of_step(const ServoParameters& p, ServoTerm term, double width) {
     const double smooth = p[ServoTerm::friction] > 0 ? std::max(3e-3 * width, 1e-5) : 1e-5;
     constexpr double least = 1e-5;
     const double share = std::max(1e-2 * width, 1e-4);
     switch (term) {
-        case ServoTerm::velocity_step: return p[term] + smooth > 1 ? -smooth : smooth;
         case ServoTerm::friction:
         case ServoTerm::backlash: return std::max(share * p[term], least);
-        case ServoTerm::dead_time: return 1e-3;
+        case ServoTerm::dead_time: return std::max(1e-3 * width, 1e-5);
         default: return smooth;
     }
+}
+
+/// The same with the sign of `width`, unless the velocity loop would be faster than ideal.
+double difference_step(const ServoParameters& p, ServoTerm term, double width) {
+    const double step = std::copysign(size_of_step(p, term, std::abs(width)), width);
+    return term == ServoTerm::velocity_step && p[term] + step > 1 ? -step : step;
 }
 
 /// Loops that run side by side: the one of the parameters, and one a parameter with a small change, unless `width` is 0.

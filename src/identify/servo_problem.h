@@ -75,7 +75,7 @@ public:
     void set_settling(PointIndex settling);
 
     /// Sums with derivatives. `width` of the differences that these are taken over: with friction, 1 moves some of the instants at
-    /// which the axis sticks, less moves few. O(records · active terms).
+    /// which the axis sticks, less moves few; below 0: backward. O(records · active terms).
     [[nodiscard]] ServoSums linearise(const ServoParameters& parameters, double width) const;
     /// The same without derivatives. O(records).
     [[nodiscard]] ServoSums evaluate(const ServoParameters& parameters) const;

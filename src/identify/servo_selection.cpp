@@ -17,6 +17,7 @@ constexpr PointIndex search_records = 12'000;
 constexpr PointIndex search_piece = 3000;
 constexpr ServoEffort rough{.most_steps = 30, .enough = 1e-4, .fine = false};
 constexpr ServoEffort thorough{};
+constexpr ServoEffort physical{.free_feedforward = false};
 
 unsigned bit_of(std::size_t k) { return 1U << k; }
 
@@ -44,7 +45,7 @@ bool is_certain(const ServoSolution& solution, ServoTerm term) {
 class RoughSearch {
 public:
     RoughSearch(const ServoProblem& problem, std::span<const ServoStart> regressions, double rounding)
-        : problem_(problem), regressions_(regressions), rounding_(rounding) {
+        : problem_(problem), regressions_(regressions), rounding_(rounding), lags_(lags_of(problem)) {
         for (const int count : {0, 1, 2, 3}) {
             for (unsigned set = 0; set <= all_terms; ++set) {
                 if (std::popcount(set) != count) continue;
@@ -80,13 +81,46 @@ private:
             if (settles(start, problem_.period())) sorted.emplace_back(problem_.evaluate(start).squares, start);
         }
         std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-        constexpr std::size_t most = 3;
+        constexpr std::size_t most = 5;
         std::optional<ServoSolution> best;
-        for (std::size_t k = 0; k < std::min(most, sorted.size()); ++k) {
-            ServoSolution solution = minimise(problem_, sorted[k].second, rough);
+        std::vector<ServoParameters> tried;
+        for (const auto& [squares, start] : sorted) {
+            if (tried.size() == most) break;
+            if (std::any_of(tried.begin(), tried.end(), [&, &s = start](const auto& t) { return are_near(s, t); }))
+                continue;
+            tried.push_back(start);
+            ServoSolution solution = minimise(problem_, start, rough);
             if (!best || solution.sums.squares < best->sums.squares) best = std::move(solution);
         }
         return best;
+    }
+
+    /// Starts from which a search would end alike.
+    [[nodiscard]] static bool are_near(const ServoParameters& one, const ServoParameters& other) {
+        constexpr double of_gain = 0.3, of_dead_time = 0.8;
+        return std::abs(one[ServoTerm::log_gain] - other[ServoTerm::log_gain]) < of_gain &&
+               std::abs(one[ServoTerm::dead_time] - other[ServoTerm::dead_time]) < of_dead_time;
+    }
+
+    /// Loops of usual gains that have the lags of the records.
+    void add_with_lags(unsigned set, std::vector<ServoParameters>& all) const {
+        constexpr double gain_ratio = 1.4, least_gain = 5;
+        const bool sticks = (set & bit_of(0)) != 0, plays = (set & bit_of(1)) != 0, delays = (set & bit_of(2)) != 0;
+        for (double gain = least_gain; gain * problem_.period() < 0.9; gain *= gain_ratio) {
+            for (double dead = 0; dead <= (delays ? 8.0 : 0.0); dead += 0.5) {
+                // Of what hinders a reversal the play may have any share.
+                for (const double share : {0.2, 0.8}) {
+                    if (!(sticks && plays) && share > 0.5) continue;
+                    ServoParameters p = with_terms(lags_, set);
+                    p[ServoTerm::log_gain] = std::log(gain);
+                    if (delays) p[ServoTerm::dead_time] = dead;
+                    if (plays) p[ServoTerm::backlash] = 2 * (sticks ? share : 1.0) * lags_[ServoTerm::friction];
+                    if (sticks) p[ServoTerm::friction] = lags_[ServoTerm::friction];
+                    p = loop_of_lags(p, problem_.period());
+                    if (p[ServoTerm::feedforward] > -0.1 && p[ServoTerm::feedforward] < 1.5) all.push_back(p);
+                }
+            }
+        }
     }
 
     /// From the regression, from a usual loop, and from the combinations with one term less.
@@ -103,6 +137,7 @@ private:
             if (delays && !late) p[ServoTerm::dead_time] = 0.3;
             add_with_backlash(p, all);
         }
+        add_with_lags(set, all);
         const ServoParameters usual = parameters_of(ServoModel{}, problem_.period());
         if (set == 0) all.push_back(with_terms(usual, set));
         for (std::size_t k = 0; k < optional_terms.size(); ++k) {
@@ -139,6 +174,7 @@ private:
     const ServoProblem& problem_;
     std::span<const ServoStart> regressions_;
     double rounding_;
+    ServoParameters lags_;
     std::array<std::optional<ServoSolution>, all_terms + 1> found_;
 };
 
@@ -161,7 +197,11 @@ public:
             if (next == now) break;
             now = next;
         }
-        SelectedLoop selected{solution_of(now), {}};
+        std::vector<ServoSolution> delayed = delayed_otherwise(solution_of(now));
+        for (ServoSolution& other : delayed)
+            if (other.sums.squares < found_[now]->sums.squares) std::swap(*found_[now], other);
+        SelectedLoop selected{solution_of(now), {}, standard_errors(solution_of(now))};
+        for (const ServoSolution& other : delayed) widen(solution_of(now), other, selected.standard_error);
         for (std::size_t k = 0; k < optional_terms.size(); ++k) {
             const unsigned other = now ^ bit_of(k);
             const bool kept = (now & bit_of(k)) != 0;
@@ -169,11 +209,26 @@ public:
             selected.evidence.push_back({optional_terms[k], with.parameters[optional_terms[k]],
                                          without.criterion() - with.criterion(),
                                          kept && is_certain(with, optional_terms[k])});
+            widen(solution_of(now), solution_of(other), selected.standard_error);
         }
         return selected;
     }
 
 private:
+    /// Errors cover the values of another loop by the odds that the criterion gives it, since which of the two the axis has is not
+    /// known (unconditional variance; Burnham and Anderson, Model Selection and Multimodel Inference, 2nd ed., ch. 4.3).
+    static void widen(const ServoSolution& now, const ServoSolution& other,
+                      std::array<double, servo_terms>& standard_error) {
+        const double ratio = std::exp(std::min(0.0, now.criterion() - other.criterion()) / 2),
+                     weight = ratio / (1 + ratio);
+        const std::array<double, servo_terms> own = standard_errors(other);
+        for (std::size_t k = 0; k < servo_terms; ++k) {
+            if (!now.parameters.active[k] || !other.parameters.active[k] || !std::isfinite(own[k])) continue;
+            const double apart = std::hypot(own[k], other.parameters.value[k] - now.parameters.value[k]);
+            standard_error[k] = std::max(standard_error[k], std::sqrt(weight) * apart);
+        }
+    }
+
     /// A combination with a term more or less that is better; `now`: none is.
     unsigned better_than(unsigned now) {
         for (std::size_t k = 0; k < optional_terms.size(); ++k) {
@@ -210,12 +265,52 @@ private:
             }
             if (settles(p, problem_.period())) starts.push_back(p);
         }
-        const auto best = std::min_element(starts.begin(), starts.end(), [&](const auto& a, const auto& b) {
-            return problem_.evaluate(a).squares < problem_.evaluate(b).squares;
-        });
-        found_[set] = minimise(problem_, *best, thorough);
-        found_[set]->rounding = rounding_;
+        std::vector<std::pair<double, ServoParameters>> sorted;
+        for (const ServoParameters& start : starts) sorted.emplace_back(problem_.evaluate(start).squares, start);
+        std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+        for (const auto& [squares, start] : sorted) {
+            // What fewer terms explain more explain, too: a search that ends above that has not found the minimum.
+            if (found_[set] && found_[set]->sums.squares <= (1 + thorough.enough) * least_of_fewer(set)) break;
+            ServoSolution solution = solved(start);
+            if (!found_[set] || solution.sums.squares < found_[set]->sums.squares) found_[set] = std::move(solution);
+        }
         return *found_[set];
+    }
+
+    /// The nearest minimum without a feed-forward below 0.
+    [[nodiscard]] ServoSolution solved(const ServoParameters& start) const {
+        ServoSolution solution = minimise(problem_, start, thorough);
+        if (solution.parameters[ServoTerm::feedforward] < 0) {
+            ServoParameters without = solution.parameters;
+            without[ServoTerm::feedforward] = 0;
+            if (settles(without, problem_.period())) solution = minimise(problem_, without, physical);
+        }
+        solution.rounding = rounding_;
+        return solution;
+    }
+
+    /// Minima at dead times beside that of `now`. Within a period the dead time smooths the command as well, so there is one for
+    /// nearly every period, where feed-forward and gain stand for the rest of the delay.
+    [[nodiscard]] std::vector<ServoSolution> delayed_otherwise(const ServoSolution& now) const {
+        std::vector<ServoSolution> found;
+        if (!now.parameters.has(ServoTerm::dead_time)) return found;
+        for (const double more : {-1.0, -0.5, -0.2, 0.2, 0.5, 1.0}) {
+            ServoParameters lags = lags_of_loop(now.parameters, problem_.period());
+            lags[ServoTerm::dead_time] = std::max(0.0, lags[ServoTerm::dead_time] + more);
+            const ServoParameters start = loop_of_lags(lags, problem_.period());
+            if (start[ServoTerm::friction] >= 0 && settles(start, problem_.period())) found.push_back(solved(start));
+        }
+        return found;
+    }
+
+    /// The least squares of the combinations with one term less that have been solved.
+    [[nodiscard]] double least_of_fewer(unsigned set) const {
+        double least = INFINITY;
+        for (std::size_t k = 0; k < optional_terms.size(); ++k) {
+            const std::optional<ServoSolution>& fewer = found_[set & ~bit_of(k)];
+            if ((set & bit_of(k)) != 0 && fewer) least = std::min(least, fewer->sums.squares);
+        }
+        return least;
     }
 
     const ServoProblem& problem_;

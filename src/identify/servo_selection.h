@@ -1,6 +1,7 @@
 #pragma once
 // Which of friction, backlash and dead time an axis has.
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct TermEvidence {
 struct SelectedLoop {
     ServoSolution solution;
     std::vector<TermEvidence> evidence;  ///< of each term
+    /// See standard_errors(); with what other loops that explain the records would change.
+    std::array<double, servo_terms> standard_error{};
 };
 
 /// The loop with the terms that the records show. Terms hide each other, so every combination of them is searched, from several

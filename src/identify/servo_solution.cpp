@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <Eigen/Dense>
 
@@ -15,7 +16,7 @@ struct Bounds {
 Bounds bounds_of(ServoTerm term, double period) {
     switch (term) {
         case ServoTerm::log_gain: return {std::log(0.1), std::log(0.95 / period)};
-        case ServoTerm::feedforward: return {-0.5, 2};  // below 0 by its error only: a bound would hinder the search
+        case ServoTerm::feedforward: return {-0.5, 2};  // below 0 on the way only: a bound would hinder the search
         case ServoTerm::velocity_step: return {0.002, 1};
         case ServoTerm::dead_time: return {0, 99};
         case ServoTerm::offset: return {-INFINITY, INFINITY};
@@ -32,13 +33,10 @@ Bounds bounds_of(ServoTerm term, double period) {
 class ServoLags {
 public:
     ServoLags(const ServoParameters& p, double period)
-        : lags_(p), period_(period), slope_(ServoMatrix::Identity()), with_friction_(p.has(ServoTerm::friction)) {
+        : lags_(lags_of_loop(p, period)), period_(period), slope_(ServoMatrix::Identity()) {
         const double gain = std::exp(p[ServoTerm::log_gain]), dead = p[ServoTerm::dead_time] * period;
         const double alpha = (1 - p[ServoTerm::feedforward]) / gain, step = p[ServoTerm::velocity_step];
         const double beta = (period * (1 / step - 1) - alpha) / gain;
-        lags_[ServoTerm::feedforward] = alpha + dead;
-        lags_[ServoTerm::velocity_step] = beta - alpha * dead - dead * dead / 2;
-        if (with_friction_) lags_[ServoTerm::friction] = p[ServoTerm::friction] / gain + p[ServoTerm::backlash] / 2;
         const auto set = [&](ServoTerm of, ServoTerm by, double value) {
             slope_(static_cast<Eigen::Index>(index_of(of)), static_cast<Eigen::Index>(index_of(by))) = value;
         };
@@ -51,7 +49,7 @@ public:
         set(ServoTerm::velocity_step, ServoTerm::feedforward, by_lag * (gain * dead + 1));
         set(ServoTerm::velocity_step, ServoTerm::velocity_step, by_lag * gain);
         set(ServoTerm::velocity_step, ServoTerm::dead_time, by_lag * (gain * alpha - 1) * period);
-        if (!with_friction_) return;
+        if (!p.has(ServoTerm::friction)) return;
         set(ServoTerm::friction, ServoTerm::log_gain, p[ServoTerm::friction]);
         set(ServoTerm::friction, ServoTerm::friction, gain);
         set(ServoTerm::friction, ServoTerm::backlash, -gain / 2);
@@ -72,13 +70,7 @@ public:
             p[term] = std::clamp(p[term], bounds.low, bounds.high);
         };
         for (const ServoTerm term : {ServoTerm::log_gain, ServoTerm::dead_time, ServoTerm::backlash}) clamp(term);
-        const double gain = std::exp(p[ServoTerm::log_gain]), dead = p[ServoTerm::dead_time] * period_;
-        const double alpha = p[ServoTerm::feedforward] - dead;
-        const double beta = p[ServoTerm::velocity_step] + alpha * dead + dead * dead / 2;
-        const double inverse = 1 + (beta * gain + alpha) / period_;
-        p[ServoTerm::feedforward] = 1 - alpha * gain;
-        p[ServoTerm::velocity_step] = inverse > 1 ? 1 / inverse : 1;
-        if (with_friction_) p[ServoTerm::friction] = gain * (p[ServoTerm::friction] - p[ServoTerm::backlash] / 2);
+        p = loop_of_lags(p, period_);
         for (const ServoTerm term : {ServoTerm::feedforward, ServoTerm::velocity_step, ServoTerm::friction})
             clamp(term);
         return p;
@@ -88,7 +80,6 @@ private:
     ServoParameters lags_;  ///< A, B and C in the places of c, s and f
     double period_;
     ServoMatrix slope_;
-    bool with_friction_;
 };
 
 /// The matrix that a step or a covariance is solved with: scaled to a diagonal of 1, inactive terms decoupled.
@@ -111,11 +102,12 @@ struct ScaledNormal {
     }
 };
 
-constexpr std::array bounded_below{ServoTerm::friction, ServoTerm::backlash, ServoTerm::dead_time};
+constexpr std::array bounded_below{ServoTerm::feedforward, ServoTerm::friction, ServoTerm::backlash,
+                                   ServoTerm::dead_time};
 
 /// The parameters after a step. A term at its bound that the step would take beyond it stays there; one that would cross its
 /// bound stops the whole step at it.
-ServoParameters stepped(const ServoSolution& at, double damping, double period) {
+ServoParameters stepped(const ServoSolution& at, std::span<const ServoTerm> bounded, double damping, double period) {
     const ServoLags lags(at.parameters, period);
     std::array<bool, servo_terms> active = at.parameters.active;
     for (int round = 0;; ++round) {
@@ -132,7 +124,7 @@ ServoParameters stepped(const ServoSolution& at, double damping, double period) 
         const ServoVector change = slope * step;
         bool again = false;
         double share = 1;
-        for (const ServoTerm term : bounded_below) {
+        for (const ServoTerm term : bounded) {
             const auto k = static_cast<Eigen::Index>(index_of(term));
             const double value = at.parameters[term];
             if (!active[index_of(term)] || !(value + change[k] < 0)) continue;
@@ -143,9 +135,9 @@ ServoParameters stepped(const ServoSolution& at, double damping, double period) 
                 share = std::min(share, value / -change[k]);
             }
         }
-        if (again && round < static_cast<int>(bounded_below.size())) continue;
+        if (again && round < static_cast<int>(bounded.size())) continue;
         ServoParameters next = lags.stepped(share * step);
-        for (const ServoTerm term : bounded_below) {
+        for (const ServoTerm term : bounded) {
             if (!active[index_of(term)]) next[term] = at.parameters[term];
         }
         return next;
@@ -154,6 +146,23 @@ ServoParameters stepped(const ServoSolution& at, double damping, double period) 
 
 /// The recorded commands are rounded, too, in step with the motion: no error is stated smaller than this share.
 constexpr double least_error = 1e-5;
+
+/// The covariance of parameters whose residuals are correlated within groups of records, by the derivatives of `sums`.
+ServoMatrix covariance_of(const ServoSolution& at, const ServoSums& sums) {
+    const ScaledNormal scaled(sums.normal, at.parameters.active);
+    constexpr double ridge = 1e-13;  // what is not seen at all gets a variance that says so
+    ServoMatrix inverse = (scaled.matrix + ridge * ServoMatrix::Identity()).inverse();
+    inverse = scaled.scale.asDiagonal() * inverse * scaled.scale.asDiagonal();
+    const ServoMatrix correlated = inverse * sums.scatter * inverse;
+    // Rounding may hide in residuals of nothing, as at constant speed.
+    const ServoMatrix independent = inverse * std::max(sums.mean_square(), at.rounding);
+    // Few groups give too small a variance: never less than that of independent residuals.
+    ServoMatrix covariance = correlated;
+    for (Eigen::Index k = 0; k < covariance.rows(); ++k) {
+        if (correlated(k, k) < independent(k, k)) covariance(k, k) = independent(k, k);
+    }
+    return covariance;
+}
 
 }  // namespace
 
@@ -164,24 +173,47 @@ double ServoSolution::criterion() const {
 
 double ServoSolution::unexplainable() const { return std::max(rounding, sums.variance_of_changes()); }
 
+ServoParameters lags_of_loop(ServoParameters p, double period) {
+    const double gain = std::exp(p[ServoTerm::log_gain]), dead = p[ServoTerm::dead_time] * period;
+    const double alpha = (1 - p[ServoTerm::feedforward]) / gain;
+    const double beta = (period * (1 / p[ServoTerm::velocity_step] - 1) - alpha) / gain;
+    p[ServoTerm::feedforward] = alpha + dead;
+    p[ServoTerm::velocity_step] = beta - alpha * dead - dead * dead / 2;
+    if (p.has(ServoTerm::friction)) p[ServoTerm::friction] = p[ServoTerm::friction] / gain + p[ServoTerm::backlash] / 2;
+    return p;
+}
+
+ServoParameters loop_of_lags(ServoParameters p, double period) {
+    const double gain = std::exp(p[ServoTerm::log_gain]), dead = p[ServoTerm::dead_time] * period;
+    const double alpha = p[ServoTerm::feedforward] - dead;
+    const double beta = p[ServoTerm::velocity_step] + alpha * dead + dead * dead / 2;
+    const double inverse = 1 + (beta * gain + alpha) / period;
+    p[ServoTerm::feedforward] = 1 - alpha * gain;
+    p[ServoTerm::velocity_step] = inverse > 1 ? 1 / inverse : 1;
+    if (p.has(ServoTerm::friction))
+        p[ServoTerm::friction] = gain * (p[ServoTerm::friction] - p[ServoTerm::backlash] / 2);
+    return p;
+}
+
 bool settles(const ServoParameters& parameters, double period) {
     const ServoModel model = model_of(parameters, period);
     return model.position_gain * model.velocity_time_constant < 1;
 }
 
 ServoSolution minimise(const ServoProblem& problem, const ServoParameters& start, const ServoEffort& effort) {
-    constexpr double finer = 0.1, finest = 2e-3;
+    constexpr double finer = 0.1, finest = 2e-3, least_width = 1e-6;
     double width = 1;  // of the differences
-    ServoSolution at{start, problem.linearise(start, width), 0};
+    ServoSolution at{start, problem.linearise(start, width), {}, 0};
+    const auto bounded = std::span(bounded_below).subspan(effort.free_feedforward ? 1 : 0);
     double damping = 1e-4;
     for (int step = 0; step < effort.most_steps; ++step) {
-        const ServoParameters next = stepped(at, damping, problem.period());
+        const ServoParameters next = stepped(at, bounded, damping, problem.period());
         const bool possible = settles(next, problem.period());
         const double squares = possible ? problem.evaluate(next).squares : INFINITY;
         bool arrived = damping > 1e6;
         if (squares < at.sums.squares) {
             arrived = squares > (1 - effort.enough) * at.sums.squares;
-            at = {next, problem.linearise(next, width), 0};
+            at = {next, problem.linearise(next, width), {}, 0};
             damping = std::max(damping / 10, 1e-9);
         } else {
             damping *= 20;
@@ -193,34 +225,32 @@ ServoSolution minimise(const ServoProblem& problem, const ServoParameters& start
         damping = 1e-4;
         at.sums = problem.linearise(at.parameters, width);
     }
-    if (width < 1) at.sums = problem.linearise(at.parameters, 1);
+    if (width < 1) {
+        at.fine = {problem.linearise(at.parameters, least_width), problem.linearise(at.parameters, -least_width)};
+        at.sums = problem.linearise(at.parameters, 1);
+    } else {
+        at.fine.fill(at.sums);
+    }
     return at;
 }
 
-ServoMatrix covariance_of(const ServoSolution& at) {
-    const ScaledNormal scaled(at.sums.normal, at.parameters.active);
-    constexpr double ridge = 1e-13;  // what is not seen at all gets a variance that says so
-    ServoMatrix inverse = (scaled.matrix + ridge * ServoMatrix::Identity()).inverse();
-    inverse = scaled.scale.asDiagonal() * inverse * scaled.scale.asDiagonal();
-    const ServoMatrix correlated = inverse * at.sums.scatter * inverse;
-    // Rounding may hide in residuals of nothing, as at constant speed.
-    const ServoMatrix independent = inverse * std::max(at.sums.mean_square(), at.rounding);
-    // Few groups give too small a variance: never less than that of independent residuals.
-    ServoMatrix covariance = correlated;
-    for (Eigen::Index k = 0; k < covariance.rows(); ++k) {
-        if (correlated(k, k) < independent(k, k)) covariance(k, k) = independent(k, k);
+double variance_of(const ServoSolution& at, const ServoVector& weights) {
+    double greatest = 0;
+    for (const ServoSums* sums : {&at.sums, &at.fine[0], &at.fine[1]}) {
+        const ServoMatrix covariance = covariance_of(at, *sums);
+        greatest = std::max(greatest, weights.dot(covariance * weights));
     }
-    return covariance;
+    return greatest;
 }
 
 std::array<double, servo_terms> standard_errors(const ServoSolution& at) {
-    const ServoMatrix covariance = covariance_of(at);
     std::array<double, servo_terms> errors{};
     for (std::size_t k = 0; k < servo_terms; ++k) {
         const auto i = static_cast<Eigen::Index>(k);
         const bool seen = at.parameters.active[k] && at.sums.normal(i, i) > 0;
-        // Less than 0: the terms are so much alike that the inverse is rounding.
-        errors[k] = seen && covariance(i, i) >= 0 ? std::sqrt(covariance(i, i)) : INFINITY;
+        const double variance = variance_of(at, ServoVector::Unit(i));
+        // Not above 0: the terms are so much alike that the inverse is rounding.
+        errors[k] = seen && variance > 0 ? std::sqrt(variance) : INFINITY;
         if (static_cast<ServoTerm>(k) <= ServoTerm::velocity_step) errors[k] = std::max(errors[k], least_error);
     }
     return errors;

@@ -10,6 +10,9 @@ namespace clsurf {
 struct ServoSolution {
     ServoParameters parameters;
     ServoSums sums;
+    /// With derivatives over changes so small that they hardly move an instant at which the axis sticks or comes loose:
+    /// forward and backward, since a change in one direction may still move one.
+    std::array<ServoSums, 2> fine{};
     double rounding = 0;  ///< variance of the fed-back positions' rounding [unit²]
 
     /// Bayesian information criterion of Gaussian residuals. Rounding of doubles explains residuals below 10⁻¹⁰.
@@ -18,14 +21,21 @@ struct ServoSolution {
     [[nodiscard]] double unexplainable() const;
 };
 
+/// The parameters with the lags A, B and C (see servo_solution.cpp) in the places of feed-forward, step and friction.
+[[nodiscard]] ServoParameters loop_of_lags(ServoParameters lags, double period);
+
+/// The reverse of loop_of_lags().
+[[nodiscard]] ServoParameters lags_of_loop(ServoParameters parameters, double period);
+
 /// A loop that a machine file may describe (io/readers/machine_file.cpp).
 [[nodiscard]] bool settles(const ServoParameters& parameters, double period);
 
 /// How far a search goes.
 struct ServoEffort {
     int most_steps = 60;
-    double enough = 1e-7;  ///< relative fall of the squares by which a search ends
-    bool fine = true;      ///< with ever smaller differences for derivatives
+    double enough = 1e-7;          ///< relative fall of the squares by which a search ends
+    bool fine = true;              ///< with ever smaller differences for derivatives
+    bool free_feedforward = true;  ///< it may fall below 0, which no machine file has: a bound hinders the search
 };
 
 /// Gauss–Newton with the damping of Levenberg and Marquardt. The steps are taken in the lags that the records determine
@@ -33,8 +43,10 @@ struct ServoEffort {
 [[nodiscard]] ServoSolution minimise(const ServoProblem& problem, const ServoParameters& start,
                                      const ServoEffort& effort);
 
-/// The covariance of parameters whose residuals are correlated within groups of records.
-[[nodiscard]] ServoMatrix covariance_of(const ServoSolution& at);
+/// The variance of the sum of the parameters times `weights`, whose residuals are correlated within groups of records. The
+/// greater one of two: derivatives that move instants at which the axis sticks take each of these for a measurement that
+/// it is only to a period.
+[[nodiscard]] double variance_of(const ServoSolution& at, const ServoVector& weights);
 
 /// Infinite: not identifiable.
 [[nodiscard]] std::array<double, servo_terms> standard_errors(const ServoSolution& at);

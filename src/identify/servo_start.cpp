@@ -68,6 +68,33 @@ std::optional<ServoStart> solve(const Regression& sums, double period, std::size
 
 }  // namespace
 
+ServoParameters lags_of(const ServoProblem& problem) {
+    using Lags = Eigen::Vector4d;
+    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+    Lags right = Lags::Zero();
+    const double time = static_cast<double>(width) * problem.period();
+    problem.for_each_piece([&](std::span<const double> commanded, std::span<const double> feedback) {
+        for (std::size_t i = static_cast<std::size_t>(problem.settling()) + width; i + width < commanded.size(); ++i) {
+            const double before = (commanded[i] - commanded[i - width]) / time;
+            const double after = (commanded[i + width] - commanded[i]) / time;
+            const double speed = (before + after) / 2;
+            if (speed == 0) continue;
+            const Lags row(speed, (after - before) / time, std::copysign(1.0, speed), 1);
+            normal += row * row.transpose();
+            right += row * (commanded[i] - feedback[i]);
+        }
+    });
+    const Lags scale = normal.diagonal().cwiseMax(1e-30).cwiseSqrt().cwiseInverse();
+    Eigen::Matrix4d scaled = scale.asDiagonal() * normal * scale.asDiagonal();
+    scaled.diagonal().array() += 1e-9;
+    const Lags lags = scale.asDiagonal() * Lags(scaled.ldlt().solve(scale.asDiagonal() * right));
+    ServoParameters p;
+    p[ServoTerm::feedforward] = lags[0];
+    p[ServoTerm::velocity_step] = lags[1];
+    p[ServoTerm::friction] = std::max(lags[2], 0.0);
+    return p;
+}
+
 std::vector<ServoStart> servo_starts(const ServoProblem& problem, int most_dead_periods) {
     std::vector<Regression> sums(static_cast<std::size_t>(most_dead_periods) + 1);
     problem.for_each_piece([&](std::span<const double> commanded, std::span<const double> feedback) {

@@ -16,6 +16,10 @@ struct ServoStart {
 
 /// One start a dead time of 0, 1, … `most_dead_periods` periods, the best first. Those that are no loop are left out.
 /// O(records · most_dead_periods).
+/// The lags A, B and C of loop_of_lags() that the records show, in the places of feed-forward, step and friction: a linear
+/// regression of the following error by speed, acceleration and direction. They are right whatever the loop is.
+[[nodiscard]] ServoParameters lags_of(const ServoProblem& problem);
+
 [[nodiscard]] std::vector<ServoStart> servo_starts(const ServoProblem& problem, int most_dead_periods);
 
 }  // namespace clsurf
