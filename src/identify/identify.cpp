@@ -48,6 +48,12 @@ void add_fidelity(const RecordedRun& run, const Machine& machine, std::vector<Ru
     }
 }
 
+void miss_rules(const std::string& reason, Identification& result) {
+    for (const char* key :
+         {"planner", "lookahead_blocks", "corner", "curve", "tolerance", "block_time", "feed", "whole_periods"})
+        result.unidentified.push_back({key, "controller", reason});
+}
+
 }  // namespace
 
 Identification identify(std::span<const IdentifyRun> runs, const Machine& known) {
@@ -79,14 +85,12 @@ Identification identify_parts(std::span<const Part> parts, const Machine& known)
         runs.push_back({&part.log, part.lines.get(), part.path.kinematics != nullptr ? &part.path : nullptr});
     Identification result = identify(runs, known);
     if (const std::string reason = why_not_simulated(parts, known); !reason.empty()) {
-        for (const char* key :
-             {"planner", "lookahead_blocks", "corner", "curve", "tolerance", "block_time", "feed", "whole_periods"})
-            result.unidentified.push_back({key, "controller", reason});
+        miss_rules(reason, result);
         return result;
     }
     std::vector<RecordedRun> recorded;
     for (const Part& part : parts) recorded.emplace_back(part);
-    identify_rules(recorded, result);
+    if (!identify_rules(recorded, result)) miss_rules("no run follows its program", result);
     for (const RecordedRun& run : recorded) add_fidelity(run, result.machine, result.fit, result);
     result.machine.fidelity = summary_of(result.fit, FidelityBasis::fit);
     result.machine.uncertainty = uncertainty_of(result);

@@ -165,11 +165,16 @@ void restate_accelerations(Identification& result) {
 
 }  // namespace
 
-void identify_rules(std::span<const RecordedRun> runs, Identification& result) {
+bool identify_rules(std::span<const RecordedRun> runs, Identification& result) {
     RuleScores scores(runs);
-    const Machine known = result.machine;
-    const std::vector<UnidentifiedParameter> known_missing = result.unidentified;
+    const Identification before_search = result;
+    const Machine& known = before_search.machine;
+    const std::vector<UnidentifiedParameter>& known_missing = before_search.unidentified;
     const std::vector<RuleCandidate> other_families = choose_family(scores, result);
+    if (!scores.has_compared()) {
+        result = before_search;
+        return false;
+    }
     search_limits(0, scores, result);
     // One rule may hide another: a short look-ahead slows short lines down, as a block time does.
     for (int pass = 1; pass < most_passes; ++pass) {
@@ -194,6 +199,7 @@ void identify_rules(std::span<const RecordedRun> runs, Identification& result) {
     const std::vector<SimulatedLimit> limits = limit_intervals(scores, result);
     if (is_trapezoidal(result.machine)) restate_accelerations(result);
     state_limits(limits, result);
+    return true;
 }
 
 }  // namespace clsurf

@@ -214,6 +214,12 @@ double RuleScores::mean_error(const Machine& machine) {
     return compare({residuals(machine)}, *this).front().speed_error;
 }
 
+bool RuleScores::has_compared() const {
+    return std::any_of(scored_.begin(), scored_.end(), [](const Scored& scored) {
+        return std::any_of(scored.residuals.begin(), scored.residuals.end(), [](float r) { return !std::isnan(r); });
+    });
+}
+
 bool RuleScores::explains(double mean_error) const {
     constexpr double share = 0.002;  // of the speed
     return mean_error <= share * usual_speed();

@@ -51,6 +51,8 @@ public:
     [[nodiscard]] double usual_speed() const { return static_cast<double>(usual_speed_); }
     /// No smaller mean difference [mm/s] tells planners apart.
     [[nodiscard]] double resolution() const;
+    /// Whether any simulation so far goes where a run goes: otherwise no rule explains less than another.
+    [[nodiscard]] bool has_compared() const;
     /// Whether a mean difference [mm/s] is what the right planner with the right values may leave.
     [[nodiscard]] bool explains(double mean_error) const;
 

@@ -31,7 +31,7 @@ Identification identified(const Part& part, const Machine& known) {
     Identification result;
     result.machine = known;
     const RecordedRun run(part);
-    identify_rules({&run, 1}, result);
+    EXPECT_TRUE(identify_rules({&run, 1}, result));
     return result;
 }
 
