@@ -90,6 +90,9 @@ public:
                                           {},
                                           "of the position at constant speed, per speed"});
         const double angle = axis_.rotary() ? rad_per_deg : 1;
+        // Together the values of the fit give the lag and the residual, of each alone too little is known.
+        if (gain && !fit.knows(ServoTerm::feedforward))
+            target.velocity_feedforward = rounded_to(std::max(0.0, model_.velocity_feedforward), 1e-6);
         put_term(ServoTerm::friction, "friction", seconds_per_minute, axis_.unit("/min"), target.friction,
                  angle / seconds_per_minute);
         put_term(ServoTerm::backlash, "backlash", 1, axis_.unit(), target.backlash, angle);
@@ -122,6 +125,7 @@ private:
         if (fit.parameters.has(term) && !fit.knows(term) && fit.knows(ServoTerm::log_gain)) {
             result_.unidentified.push_back(
                 {name, axis_.name(), "the motion shows that there is some, but not how much"});
+            target = rounded_to(fit.parameters[term] * factor, 1e-5 * fit.parameters[term] * factor) * to_machine;
             return;
         }
         if (fit.parameters.has(term)) {
