@@ -31,6 +31,9 @@ void score(const std::vector<std::vector<float>>& residuals, const RuleScores& s
     }
 }
 
+/// Share of the mean error by which a value must be better than the present one where the criterion tells neither apart.
+constexpr double gain_of_equal = 0.1;
+
 /// The candidates that the runs explain about as well as the best one.
 std::vector<std::size_t> equal_to_best(std::span<const RuleCandidate> candidates) {
     double best = std::numeric_limits<double>::infinity();
@@ -247,12 +250,11 @@ void search_rule(const Rule& rule, std::size_t present, double least_gain, RuleS
     score(residuals, scores, candidates);
     const std::vector<std::size_t> equal = equal_to_best(candidates);
     const bool keeps = std::find(equal.begin(), equal.end(), present) != equal.end();
-    std::size_t chosen =
-        keeps ? present : *std::min_element(equal.begin(), equal.end(), [&](std::size_t a, std::size_t b) {
-            return candidates[a].score < candidates[b].score;
-        });
-    if (present < candidates.size() &&
-        candidates[chosen].speed_error > (1 - least_gain) * candidates[present].speed_error)
+    std::size_t chosen = *std::min_element(equal.begin(), equal.end(), [&](std::size_t a, std::size_t b) {
+        return candidates[a].speed_error < candidates[b].speed_error;
+    });
+    const double needed = keeps ? std::max(least_gain, gain_of_equal) : least_gain;
+    if (present < candidates.size() && candidates[chosen].speed_error >= (1 - needed) * candidates[present].speed_error)
         chosen = present;
     candidates[chosen].chosen = true;
     for (const std::size_t k : equal) candidates[k].equal = true;

@@ -97,9 +97,10 @@ inline constexpr double decisive = 10;
 [[nodiscard]] std::vector<Explanation> compare(const std::vector<std::vector<float>>& residuals,
                                                const RuleScores& scores);
 
-/// Searches one rule and keeps the value that explains the runs best; where the runs do not tell it from the present one,
-/// that. Another value must lower the mean error of the speed by the share `least_gain`. `present`: the index of the value that the machine has, size() where it has none of them. Between the values of a
-/// continuous rule the best number is sought by Brent's method, to three digits, where the runs tell the values apart.
+/// Searches one rule and keeps the value that explains the runs best. Another value than the present one must lower the mean
+/// error of the speed by more than the share `least_gain`, and by more than a tenth where the runs do not distinguish them.
+/// `present`: the index of the value that the machine has, size() where it has none of them. Between the values of a continuous
+/// rule the best number is sought by Brent's method, to three digits, where the runs tell the values apart.
 void search_rule(const Rule& rule, std::size_t present, double least_gain, RuleScores& scores, Identification& result);
 
 }  // namespace clsurf
