@@ -8,7 +8,7 @@ clsurf_cli_test(NAME identify_a_kernel ARGS identify ${bottle} ${dome} -o m.toml
   "velocity_time_constant +z +0[.](004|00400[0-9]*|003999[0-9]*) s"
   "friction +x +0 mm/min +no evidence"
   # The kernel has 200: the criterion takes both as equal, the mean difference of speed does not.
-  "not distinguish 150; 200; kept 200 .max_feed_override.")
+  "not distinguish 150. 200. kept 200 .max_feed_override.")
 # What the keys are does not depend on the runs: a part of the dome, tested on another part of it.
 set(two_parts_of_the_dome "(head -n 200 @DATA@/programs/dome_loops.nc; echo M2) > fit.nc; (head -n 9 @DATA@/programs/dome_loops.nc; sed -n 600,800p @DATA@/programs/dome_loops.nc; echo M2) > test.nc; for name in fit test; do $CLSURF simulate $name.nc --machine @DATA@/machines/linuxcnc_kernel.toml -o $name.biip -q; done")
 set(json_of_parts identify fit.nc fit.biip -o m.toml --test test.nc test.biip --json)
