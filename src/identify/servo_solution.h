@@ -44,8 +44,8 @@ struct ServoEffort {
                                      const ServoEffort& effort);
 
 /// The variance of the sum of the parameters times `weights`, whose residuals are correlated within groups of records. The
-/// greater one of two: derivatives that move instants at which the axis sticks take each of these for a measurement that
-/// it is only to a period.
+/// greatest of those by `sums` and by both of `fine`: derivatives that move an instant at which the axis sticks take it for an
+/// exact measurement, although it is known to a period only.
 [[nodiscard]] double variance_of(const ServoSolution& at, const ServoVector& weights);
 
 /// Infinite: not identifiable.
