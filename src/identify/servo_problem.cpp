@@ -27,10 +27,17 @@ double size_of_step(const ServoParameters& p, ServoTerm term, double width) {
     }
 }
 
-/// The same with the sign of `width`, unless the velocity loop would be faster than ideal.
+/// The same with the sign of `width`, unless no loop has such a value: one faster than ideal, or with a friction, backlash or
+/// dead time below 0.
 double difference_step(const ServoParameters& p, ServoTerm term, double width) {
     const double step = std::copysign(size_of_step(p, term, std::abs(width)), width);
-    return term == ServoTerm::velocity_step && p[term] + step > 1 ? -step : step;
+    switch (term) {
+        case ServoTerm::velocity_step: return p[term] + step > 1 ? -step : step;
+        case ServoTerm::friction:
+        case ServoTerm::backlash:
+        case ServoTerm::dead_time: return p[term] + step < 0 ? -step : step;
+        default: return step;
+    }
 }
 
 /// Loops that run side by side: the one of the parameters, and one a parameter with a small change, unless `width` is 0.
