@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
+#include "core/decimal_text.h"
 #include "core/listed.h"
 #include "core/statistics.h"
 #include "core/units.h"
@@ -304,10 +305,10 @@ std::vector<Vec3> guesses_from_boxes(const Box3& program, const Box3& log) {
 
 /// To a micrometre, or a ten-thousandth of a degree, as offsets are entered: "12.5", "-3".
 std::string decimals(double value, int digits) {
-    std::string text = fmt::format("{:.{}f}", value, digits);
+    std::string text = fixed_text(value, digits);
     text.resize(text.find_last_not_of('0') + 1);
     if (text.back() == '.') text.pop_back();
-    return text == "-0" ? "0" : text;
+    return text;
 }
 
 /// The poses that fit; several where they fit alike. The nearest first.
