@@ -294,8 +294,9 @@ private:
     [[nodiscard]] std::vector<ServoSolution> delayed_otherwise(const ServoSolution& now) const {
         std::vector<ServoSolution> found;
         if (!now.parameters.has(ServoTerm::dead_time)) return found;
+        const ServoParameters known = lags_of_loop(now.parameters, problem_.period());
         for (const double more : {-1.0, -0.5, -0.2, 0.2, 0.5, 1.0}) {
-            ServoParameters lags = lags_of_loop(now.parameters, problem_.period());
+            ServoParameters lags = known;
             lags[ServoTerm::dead_time] = std::max(0.0, lags[ServoTerm::dead_time] + more);
             const ServoParameters start = loop_of_lags(lags, problem_.period());
             if (start[ServoTerm::friction] >= 0 && settles(start, problem_.period())) found.push_back(solved(start));

@@ -24,6 +24,17 @@ Bounds bounds_of(ServoTerm term, double period) {
     }
 }
 
+/// α and β of ServoLags.
+struct LoopLags {
+    double alpha, beta;
+};
+
+LoopLags lags_without_dead_time(const ServoParameters& p, double period) {
+    const double gain = std::exp(p[ServoTerm::log_gain]);
+    const double alpha = (1 - p[ServoTerm::feedforward]) / gain;
+    return {alpha, (period * (1 / p[ServoTerm::velocity_step] - 1) - alpha) / gain};
+}
+
 /// Coordinates in which a search goes straight: what the records determine at low frequencies. The position lags by A v + B a
 /// + C sign(v) at the speed v and the acceleration a. With the gain K, the feed-forward c, the step s of the velocity loop, the
 /// dead time d periods of T, the friction f and the backlash b,
@@ -35,8 +46,8 @@ public:
     ServoLags(const ServoParameters& p, double period)
         : lags_(lags_of_loop(p, period)), period_(period), slope_(ServoMatrix::Identity()) {
         const double gain = std::exp(p[ServoTerm::log_gain]), dead = p[ServoTerm::dead_time] * period;
-        const double alpha = (1 - p[ServoTerm::feedforward]) / gain, step = p[ServoTerm::velocity_step];
-        const double beta = (period * (1 / step - 1) - alpha) / gain;
+        const double step = p[ServoTerm::velocity_step];
+        const auto [alpha, beta] = lags_without_dead_time(p, period);
         const auto set = [&](ServoTerm of, ServoTerm by, double value) {
             slope_(static_cast<Eigen::Index>(index_of(of)), static_cast<Eigen::Index>(index_of(by))) = value;
         };
@@ -175,8 +186,7 @@ double ServoSolution::unexplainable() const { return std::max(rounding, sums.var
 
 ServoParameters lags_of_loop(ServoParameters p, double period) {
     const double gain = std::exp(p[ServoTerm::log_gain]), dead = p[ServoTerm::dead_time] * period;
-    const double alpha = (1 - p[ServoTerm::feedforward]) / gain;
-    const double beta = (period * (1 / p[ServoTerm::velocity_step] - 1) - alpha) / gain;
+    const auto [alpha, beta] = lags_without_dead_time(p, period);
     p[ServoTerm::feedforward] = alpha + dead;
     p[ServoTerm::velocity_step] = beta - alpha * dead - dead * dead / 2;
     if (p.has(ServoTerm::friction)) p[ServoTerm::friction] = p[ServoTerm::friction] / gain + p[ServoTerm::backlash] / 2;
