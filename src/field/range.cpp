@@ -144,7 +144,7 @@ float widened(const Source& source, float end, bool above) {
     return end_with_defects(source, end, above);
 }
 
-/// ", widened for patches of 20 points, 3 points in a row beyond the threshold, and all defects"
+/// ", widened for patches of 20 points, 3 points together beyond the threshold and all defects"
 std::string words_of_widening(const Source& source) {
     std::vector<std::string> reasons{fmt::format("patches of {} points", least_patch)};
     if (source.field.info.threshold > 0)

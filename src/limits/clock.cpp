@@ -61,9 +61,8 @@ bool is_multiple(const Vec3& before, const Vec3& step, double allowed) {
 /// A step that is what two or three steps make which a limit allows, between steps that keep it: `steps` are five in a
 /// row, the middle one is looked at. Near standstill nothing else tells a lost record from a short violation.
 bool fits_more_periods(const std::array<Vec3, 5>& steps, double allowed) {
-    const auto greatest = [](const Vec3& of_axes) {
-        return of_axes.cwiseAbs().maxCoeff();
-    };  // limits are those of axes
+    // Each axis has its own limit.
+    const auto greatest = [](const Vec3& of_axes) { return of_axes.cwiseAbs().maxCoeff(); };
     const auto change = [&](std::size_t i) { return greatest(steps[i] - steps[i - 1]); };
     if (change(1) > allowed || change(4) > allowed) return false;
     for (const double periods : {2.0, 3.0}) {
@@ -75,10 +74,10 @@ bool fits_more_periods(const std::array<Vec3, 5>& steps, double allowed) {
     return false;
 }
 
-/// Of steps the middle one of which is split into so many, evenly but for what the others ask: how much their second differences
-/// are at least, as the root of the mean square, in the axis where it is greatest. 0 parts: the middle one is left out.
+/// The middle one of the steps is divided into so many parts that the second differences of all are least: their root mean square,
+/// in the axis where it is greatest. 0 parts: the middle step is left out.
 double unevenness(const std::array<Vec3, 5>& steps, int parts) {
-    // Unknown are the parts e; each is m/n + a combination that adds up to 0, so the last one follows from the others.
+    // Unknown is by how much each part differs from an equal share. These differences add up to 0, so the last one follows.
     const int free = std::max(0, parts - 1), rows = parts + 2;
     Eigen::MatrixXd known(parts + 4, 3), by_free = Eigen::MatrixXd::Zero(parts + 4, free);
     known.row(0) = steps[0], known.row(1) = steps[1];

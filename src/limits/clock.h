@@ -26,7 +26,7 @@ struct StepClock {
 /// Records [begin, begin + x.size()) with these positions [mm]. A step is broken where the clock says so; and, as many
 /// clocks are counters of records, where the tool moves twice as far in one period as in those beside it or farther, less
 /// than half as far, or is accelerated by more than 10 g and 20 times the limit; and where the jerk is more than three times
-/// its limit and would not be above it if one to three records were lost there, or one had come twice. O(records).
+/// its limit and would keep it if one to three records were lost there, or one were recorded twice. O(records).
 [[nodiscard]] StepClock judge_steps(const Log& log, const ClockRules& rules, PointIndex begin,
                                     std::span<const double> x, std::span<const double> y, std::span<const double> z);
 

@@ -8,7 +8,7 @@
 namespace clsurf {
 namespace {
 
-constexpr std::int64_t fitted = 3;     ///< every third cell, of rows and of columns
+constexpr std::int64_t stride = 3;     ///< of rows and of columns, between cells that the quadratic is fitted to
 constexpr double rounded_by = 0.0003;  ///< [mm] scatter of positions that are rounded to a micrometre
 
 }  // namespace
@@ -29,17 +29,17 @@ double cusp_before_contact(const CuttingTool& tool, const Vec2& slope, double ap
 BeforePassEnds::BeforePassEnds(const Form& form, const CuttingTool& tool, double apart, const MapFrame& frame,
                                std::span<const float> heights)
     : form_(&form) {
-    // Contacts of a sharp edge jump about the ends of passes. What is left out there would be no whole steps, and no step was
-    // seen to rise there.
+    // The contact of a sharp edge jumps near the end of a pass. A wider margin would cut through steps of the surface, and the
+    // measured ones do not rise there.
     if (tool.corner <= 0) return;
     const Vec2 middle =
         frame.at(0.5 * static_cast<double>(frame.columns - 1), 0.5 * static_cast<double>(frame.rows - 1));
     LocalQuadratic quadratic;
-    for (std::int64_t row = 0; row < frame.rows; row += fitted) {
-        for (std::int64_t column = 0; column < frame.columns; column += fitted) {
+    for (std::int64_t row = 0; row < frame.rows; row += stride) {
+        for (std::int64_t column = 0; column < frame.columns; column += stride) {
             const float z = heights[static_cast<std::size_t>(row * frame.columns + column)];
             const Vec2 place = frame.at(static_cast<double>(column), static_cast<double>(row));
-            // Beyond the outermost contacts stands the tool's flank.
+            // Beyond the outermost contacts, the heights are those of the tool's flank.
             if (!std::isfinite(z) || !form.is_among_contacts(place)) continue;
             const Vec2 off = (place - middle) / apart;
             quadratic.add(off.dot(frame.along), off.dot(frame.across()), z, 1);
@@ -48,7 +48,8 @@ BeforePassEnds::BeforePassEnds(const Form& form, const CuttingTool& tool, double
     if (quadratic.size() < 6) return;
     const LocalQuadratic::Terms terms = quadratic.fit(rounded_by);
     if (!terms.allFinite()) return;
-    // The greatest of the window: were it another at each place, parts of scallops would be left out, and Sa would be wrong.
+    // The greatest distance in the window holds for all of it. A distance that varied would leave out parts of scallops, and
+    // Sa would be wrong.
     double before = 0;
     for (const double column : {0.0, 0.5, 1.0}) {
         for (const double row : {0.0, 0.5, 1.0}) {

@@ -1,6 +1,6 @@
 #pragma once
-// Where passes end, cusps rise before their ends: what would cut them comes after. The cusp between two contacts of adjacent passes
-// is cut before or behind them. To second order, the tool stands over its contact by half of
+// Near the ends of passes the cusps are too high: the cusp between two contacts of adjacent passes is cut before or behind these
+// contacts, and the part of the pass that would cut it is missing. To second order, the tool stands over its contact by half of
 //     w² f² / r + sin θ c² / (R − r + r sin θ)
 // (seen from above: f along the fall line of the surface, c along its contour line; θ its slope, w = 1 / cos θ; tool radius R,
 // corner r). Along the feed u, half a step-over aside along v, this is least at a distance of uᵀKv / uᵀKu half step-overs,
