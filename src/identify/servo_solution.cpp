@@ -184,25 +184,26 @@ double ServoSolution::criterion() const {
 
 double ServoSolution::unexplainable() const { return std::max(rounding, sums.variance_of_changes()); }
 
-ServoParameters lags_of_loop(ServoParameters p, double period) {
-    const double gain = std::exp(p[ServoTerm::log_gain]), dead = p[ServoTerm::dead_time] * period;
-    const auto [alpha, beta] = lags_without_dead_time(p, period);
-    p[ServoTerm::feedforward] = alpha + dead;
-    p[ServoTerm::velocity_step] = beta - alpha * dead - dead * dead / 2;
-    if (p.has(ServoTerm::friction)) p[ServoTerm::friction] = p[ServoTerm::friction] / gain + p[ServoTerm::backlash] / 2;
-    return p;
+ServoParameters lags_of_loop(ServoParameters parameters, double period) {
+    const double gain = std::exp(parameters[ServoTerm::log_gain]), dead = parameters[ServoTerm::dead_time] * period;
+    const auto [alpha, beta] = lags_without_dead_time(parameters, period);
+    parameters[ServoTerm::feedforward] = alpha + dead;
+    parameters[ServoTerm::velocity_step] = beta - alpha * dead - dead * dead / 2;
+    if (parameters.has(ServoTerm::friction))
+        parameters[ServoTerm::friction] = parameters[ServoTerm::friction] / gain + parameters[ServoTerm::backlash] / 2;
+    return parameters;
 }
 
-ServoParameters loop_of_lags(ServoParameters p, double period) {
-    const double gain = std::exp(p[ServoTerm::log_gain]), dead = p[ServoTerm::dead_time] * period;
-    const double alpha = p[ServoTerm::feedforward] - dead;
-    const double beta = p[ServoTerm::velocity_step] + alpha * dead + dead * dead / 2;
+ServoParameters loop_of_lags(ServoParameters lags, double period) {
+    const double gain = std::exp(lags[ServoTerm::log_gain]), dead = lags[ServoTerm::dead_time] * period;
+    const double alpha = lags[ServoTerm::feedforward] - dead;
+    const double beta = lags[ServoTerm::velocity_step] + alpha * dead + dead * dead / 2;
     const double inverse = 1 + (beta * gain + alpha) / period;
-    p[ServoTerm::feedforward] = 1 - alpha * gain;
-    p[ServoTerm::velocity_step] = inverse > 1 ? 1 / inverse : 1;
-    if (p.has(ServoTerm::friction))
-        p[ServoTerm::friction] = gain * (p[ServoTerm::friction] - p[ServoTerm::backlash] / 2);
-    return p;
+    lags[ServoTerm::feedforward] = 1 - alpha * gain;
+    lags[ServoTerm::velocity_step] = inverse > 1 ? 1 / inverse : 1;
+    if (lags.has(ServoTerm::friction))
+        lags[ServoTerm::friction] = gain * (lags[ServoTerm::friction] - lags[ServoTerm::backlash] / 2);
+    return lags;
 }
 
 bool settles(const ServoParameters& parameters, double period) {
