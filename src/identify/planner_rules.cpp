@@ -11,6 +11,7 @@
 #include "identify/rule_list.h"
 #include "identify/rule_search.h"
 #include "identify/simulated_limits.h"
+#include "machine/planning_value.h"
 
 namespace clsurf {
 namespace {
@@ -63,7 +64,8 @@ void search_merging(const Rule& rule, const Machine& known, RuleScores& scores, 
 /// motion shows.
 void search_rules(const Machine& known, double least_gain, RuleScores& scores, Identification& result) {
     if (is_trapezoidal(result.machine)) {
-        const Rule accelerations = axis_accelerations_rule(result);
+        const bool some_overlap = !scores.explains(scores.mean_error(result.machine));
+        const Rule accelerations = axis_accelerations_rule(some_overlap, result);
         if (accelerations.values.size() > 1)
             search_rule(accelerations, present_value(accelerations, result.machine), least_gain, scores, result);
     }
@@ -143,9 +145,12 @@ std::vector<RuleCandidate> choose_family(RuleScores& scores, Identification& res
     return compared.rules;
 }
 
-/// Parameters of limits that the rules have changed.
-void restate_accelerations(Identification& result) {
+/// Parameters of limits that the searches have changed.
+void restate_limits(Identification& result) {
     for (IdentifiedParameter& p : result.parameters) {
+        if (p.name == "max_speed" && p.reached == false)
+            p.note = fmt::format("hardly exceeded; the file has {:.6g}",
+                                 planning_value(result.machine, p.name, p.axis).value_or(0));
         if (p.name != "max_acceleration") continue;
         if (p.axis == "path" && result.machine.path.max_acceleration == no_path_limit) {
             p.note = "the axes alone limit it";
@@ -197,7 +202,7 @@ bool identify_rules(std::span<const RecordedRun> runs, Identification& result) {
     for (const auto& [name, reason] : omitted_rules(result.machine))
         result.unidentified.push_back({name, "controller", reason});
     const std::vector<SimulatedLimit> limits = limit_intervals(scores, result);
-    if (is_trapezoidal(result.machine)) restate_accelerations(result);
+    if (is_trapezoidal(result.machine)) restate_limits(result);
     state_limits(limits, result);
     return true;
 }

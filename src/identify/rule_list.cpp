@@ -130,20 +130,20 @@ Rule path_acceleration_rule(const PathLimits& identified) {
 
 /// Values that the acceleration of an axis may have, the present one first. A limit that the runs never reached may be the
 /// greatest acceleration that they show. Where blocks overlap, each has half of the acceleration, and the runs may show
-/// half of a limit as if it were one.
-std::vector<double> possible_accelerations(std::size_t axis, const Identification& found) {
+/// half of a limit as if it were one: all blocks of a planner without arc blends do, and with `some_overlap` those that no arc joins.
+std::vector<double> possible_accelerations(std::size_t axis, bool some_overlap, const Identification& found) {
     const double now = found.machine.axes[axis].max_acceleration;
     std::vector<double> values{now};
     const IdentifiedParameter* known = found.find("max_acceleration", axis_names[axis]);
     if (known == nullptr || !known->reached) return values;
-    const bool overlap = !found.machine.controller.trapezoid.arc_blends;
+    const bool all_overlap = !found.machine.controller.trapezoid.arc_blends;
     const double shown = *known->reached ? known->value : known->shown;
     const auto add = [&](double value) {
         const auto alike = [&](double other) { return std::abs(value - other) <= 0.01 * other; };
         if (std::none_of(values.begin(), values.end(), alike)) values.push_back(value);
     };
-    if (!*known->reached) add(shown);
-    if (overlap) add(2 * shown);
+    add(shown);
+    if (all_overlap || (some_overlap && *known->reached)) add(2 * shown);
     return values;
 }
 
@@ -251,11 +251,11 @@ std::vector<PlannerFamily> planner_families(const Machine& machine) {
     return families;
 }
 
-Rule axis_accelerations_rule(const Identification& found) {
+Rule axis_accelerations_rule(bool some_overlap, const Identification& found) {
     Rule rule{"max_acceleration", "x, y, z", {}, {}};
-    for (const double x : possible_accelerations(0, found)) {
-        for (const double y : possible_accelerations(1, found)) {
-            for (const double z : possible_accelerations(2, found)) {
+    for (const double x : possible_accelerations(0, some_overlap, found)) {
+        for (const double y : possible_accelerations(1, some_overlap, found)) {
+            for (const double z : possible_accelerations(2, some_overlap, found)) {
                 rule.values.push_back({fmt::format("x {:.6g}, y {:.6g}, z {:.6g}", x, y, z), [=](Machine& m) {
                                            m.axes[0].max_acceleration = x;
                                            m.axes[1].max_acceleration = y;

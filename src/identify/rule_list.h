@@ -39,7 +39,8 @@ struct PlannerFamily {
                                                                         const PathLimits& identified);
 
 /// The accelerations of the axes for the trapezoidal planner: every combination, because the slowest axis hides the others.
-[[nodiscard]] Rule axis_accelerations_rule(const Identification& found);
+/// `some_overlap`: blocks may have shown half of a limit also on a planner that joins most blocks by arcs.
+[[nodiscard]] Rule axis_accelerations_rule(bool some_overlap, const Identification& found);
 
 /// A rule that is not searched, and why.
 struct OmittedRule {

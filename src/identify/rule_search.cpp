@@ -223,6 +223,13 @@ bool RuleScores::has_compared() const {
     });
 }
 
+bool RuleScores::has_arcs() const {
+    return std::any_of(runs_.begin(), runs_.end(), [](const RecordedRun* run) {
+        const Motions& motions = run->part().program.motions;
+        return std::any_of(motions.kind.begin(), motions.kind.end(), is_arc);
+    });
+}
+
 bool RuleScores::explains(double mean_error) const {
     constexpr double share = 0.002;  // of the speed
     return mean_error <= share * usual_speed();

@@ -53,6 +53,8 @@ public:
     [[nodiscard]] double resolution() const;
     /// Whether any simulation so far goes where a run goes: otherwise no rule explains less than another.
     [[nodiscard]] bool has_compared() const;
+    /// Whether a run has arcs.
+    [[nodiscard]] bool has_arcs() const;
     /// Whether a mean difference [mm/s] is what the right planner with the right values may leave.
     [[nodiscard]] bool explains(double mean_error) const;
 

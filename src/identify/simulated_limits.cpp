@@ -5,24 +5,29 @@
 #include <cstdint>
 #include <iterator>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
+#include "core/units.h"
 #include "identify/rule_list.h"
 #include "machine/planning_value.h"
 
 namespace clsurf {
 namespace {
 
+constexpr std::string_view speed_key = "max_speed";
 constexpr int most_rounds = 3;              ///< over all limits: the lowest one hides the others
 constexpr double beside = 0.02;             ///< a share, of values beside another one
 constexpr double range = 4;                 ///< of the machine's value, up to which others are tried
 constexpr std::size_t grid = 6;             ///< values of it, in equal ratios
 constexpr int bits = 10;                    ///< of the logarithm of the best value …
 constexpr std::uintmax_t most_steps = 12;   ///< … or so many steps
+constexpr double about_best = 0.05;         ///< a share, in which round values are tried …
+constexpr double round_steps = 20;          ///< … a twentieth of the first digit apart
 constexpr double first_share = 0.0025;      ///< of it, by which a search for the ends of its interval begins
 constexpr double share_of_interval = 0.25;  ///< to which they are known …
 constexpr double finest = 1e-4;             ///< … or to this share of the value
@@ -51,6 +56,7 @@ public:
         for (const double end : {lowest, greatest}) {
             if (mean_error(end) < mean_error(best)) best = end;
         }
+        best = of_round_values(best);
         const double is = mean_error(best);
         // Where the model is not the machine's, a limit may stand for what else is wrong.
         return !as_good(now, best) && (is <= (1 - least_gain) * was || scores_.explains(is)) ? best : now;
@@ -139,6 +145,24 @@ private:
         return now * std::exp(share);
     }
 
+    /// A round value near `best` that explains the runs better, or else `best`. What a trapezoidal planner does changes by whole
+    /// periods, so that the mean error has many minima about that of the true value, which people have chosen.
+    [[nodiscard]] double of_round_values(double best) const {
+        if (!is_trapezoidal(machine_) || mean_error(best) <= scores_.resolution()) return best;
+        std::vector<double> values;
+        const auto add_multiples_of = [&](double step) {
+            for (double k = std::ceil(best / (1 + about_best) / step); k * step <= best * (1 + about_best); ++k)
+                values.push_back(k * step);
+        };
+        add_multiples_of(std::pow(10, std::floor(std::log10(best))) / round_steps);
+        if (key_ == speed_key) add_multiples_of(seconds_per_minute);
+        prepare(values);
+        for (const double value : values) {
+            if (mean_error(value) < mean_error(best)) best = value;
+        }
+        return best;
+    }
+
     /// By how much a value is beyond those that may be the true one beside the best. What the best one leaves unexplained has
     /// another reason, and that may as well have moved the best value: a value is beyond where it adds as much.
     [[nodiscard]] double beyond_doubt(double value, double best) const {
@@ -175,14 +199,16 @@ private:
     std::string key_, of_;
 };
 
-/// Lower bounds of limits that the machine has.
-std::vector<const IdentifiedParameter*> searched_limits(const Identification& result) {
+/// Lower bounds of limits that the machine has, as far as the speeds of the runs may depend on them: those of speed hold in rapids,
+/// and on the arcs of a trapezoidal planner, whose acceleration along an arc is what the highest speed of the axes leaves.
+std::vector<const IdentifiedParameter*> searched_limits(const RuleScores& scores, const Identification& result) {
     std::vector<const IdentifiedParameter*> limits;
     if (result.machine.kinematics.has_rotary()) return limits;
+    const bool has_arcs = is_trapezoidal(result.machine) && scores.has_arcs();
     for (const IdentifiedParameter& p : result.parameters) {
         const std::optional<double> now = planning_value(result.machine, p.name, p.axis);
         const bool unlimited = p.axis == "path" && now >= no_path_limit;
-        const bool held_in_rapids_alone = p.name == "max_speed";
+        const bool held_in_rapids_alone = p.name == speed_key && (!has_arcs || p.axis == "path");
         if (p.reached == false && p.value > 0 && now > 0.0 && !unlimited && !held_in_rapids_alone) limits.push_back(&p);
     }
     return limits;
@@ -207,11 +233,63 @@ Machine with_limits(const Machine& machine, std::span<const IdentifiedParameter*
     return changed;
 }
 
+/// The value of a limit that explains the runs best, all others being as `machine` has them.
+double best_value(const IdentifiedParameter& limit, const Machine& machine, double least_gain, RuleScores& scores) {
+    const double now = *planning_value(machine, limit.name, limit.axis);
+    return LimitSlice(scores, machine, limit.name, limit.axis).best(std::min(limit.value, now), now, least_gain);
+}
+
+/// Searches the highest speeds of the axes, each with the others as they are: the slower axis of its plane limits an arc. Where the
+/// runs do not tell which one that is, all that it may be get their values.
+void search_speeds_of_arcs(std::span<const IdentifiedParameter* const> limits, double least_gain, RuleScores& scores,
+                           Machine& machine) {
+    std::vector<const IdentifiedParameter*> found;
+    std::vector<double> values;
+    std::vector<std::vector<float>> residuals;
+    for (const IdentifiedParameter* p : limits) {
+        if (p->name != speed_key) continue;
+        const double value = best_value(*p, machine, least_gain, scores);
+        if (value == *planning_value(machine, p->name, p->axis)) continue;
+        Machine changed = machine;
+        set_planning_value(changed, p->name, p->axis, value);
+        found.push_back(p);
+        values.push_back(value);
+        residuals.push_back(scores.residuals(changed));
+    }
+    if (found.empty()) return;
+    const std::vector<Explanation> explained = compare(residuals, scores);
+    const double best = std::min_element(explained.begin(), explained.end(), [](const auto& a, const auto& b) {
+                            return a.score < b.score;
+                        })->score;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        if (explained[k].score <= best + decisive)
+            set_planning_value(machine, found[k]->name, found[k]->axis, values[k]);
+    }
+}
+
+/// Either may make up for the other on an arc, so that the limits that are searched first may end at wrong values.
+enum class SearchedFirst : std::uint8_t { speeds, accelerations };
+
+void search_limits_in_order(SearchedFirst first, double least_gain, RuleScores& scores, Identification& result) {
+    for (int round = 0; round < most_rounds; ++round) {
+        const Machine before = result.machine;
+        const std::vector<const IdentifiedParameter*> limits = searched_limits(scores, result);
+        if (first == SearchedFirst::speeds) search_speeds_of_arcs(limits, least_gain, scores, result.machine);
+        for (const IdentifiedParameter* p : limits) {
+            if (p->name == speed_key) continue;
+            const double value = best_value(*p, result.machine, least_gain, scores);
+            set_planning_value(result.machine, p->name, p->axis, value);
+        }
+        if (first == SearchedFirst::accelerations) search_speeds_of_arcs(limits, least_gain, scores, result.machine);
+        if (plan_alike(before, result.machine)) return;
+    }
+}
+
 }  // namespace
 
 void free_limits(RuleScores& scores, Identification& result) {
     if (is_trapezoidal(result.machine)) return;
-    const std::vector<const IdentifiedParameter*> limits = searched_limits(result);
+    const std::vector<const IdentifiedParameter*> limits = searched_limits(scores, result);
     std::vector<const IdentifiedParameter*> of_path;
     std::copy_if(limits.begin(), limits.end(), std::back_inserter(of_path),
                  [](const auto* p) { return p->axis == "path"; });
@@ -238,22 +316,20 @@ void free_limits(RuleScores& scores, Identification& result) {
 }
 
 void search_limits(double least_gain, RuleScores& scores, Identification& result) {
-    for (int round = 0; round < most_rounds; ++round) {
-        const Machine before = result.machine;
-        for (const IdentifiedParameter* p : searched_limits(result)) {
-            const LimitSlice slice(scores, result.machine, p->name, p->axis);
-            const double now = *planning_value(result.machine, p->name, p->axis);
-            set_planning_value(result.machine, p->name, p->axis, slice.best(std::min(p->value, now), now, least_gain));
-        }
-        if (plan_alike(before, result.machine)) return;
-    }
+    const Identification before = result;
+    search_limits_in_order(SearchedFirst::speeds, least_gain, scores, result);
+    const double error = scores.mean_error(result.machine);
+    if (!is_trapezoidal(result.machine) || !scores.has_arcs() || error <= scores.resolution()) return;
+    Identification other = before;
+    search_limits_in_order(SearchedFirst::accelerations, least_gain, scores, other);
+    if (scores.mean_error(other.machine) < error) result = std::move(other);
 }
 
 std::vector<SimulatedLimit> limit_intervals(RuleScores& scores, const Identification& result) {
     std::vector<SimulatedLimit> limits;
     // Where less than the error of the other limits decides, their error is stated.
     const double exact = error_of_fixed(result) * std::sqrt(decisive) / correlation;
-    for (const IdentifiedParameter* p : searched_limits(result)) {
+    for (const IdentifiedParameter* p : searched_limits(scores, result)) {
         const double now = *planning_value(result.machine, p->name, p->axis);
         limits.push_back(
             LimitSlice(scores, result.machine, p->name, p->axis).interval(std::min(p->value, now), now, exact));

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
+#include "identify/rule_list.h"
 #include "pipeline/simulated_log.h"
 #include "repair/parts.h"
 #include "simulation/path/block_merging.h"
@@ -138,6 +139,31 @@ TEST(PlannerRules, FeedsByConstantSpeedIntervalsAreFound) {
     const Part part = run_on(real);
     const Identification result = identified(part, known);
     EXPECT_EQ(result.machine.controller.feed, FeedRule::intervals);
+}
+
+// Between an arc of the XZ plane and a step-over along Y no arc is possible: these blocks overlap, each with half of the acceleration,
+// although the planner joins other blocks by arcs.
+TEST(PlannerRules, AnAccelerationOfWhichSomeBlocksShowHalfIsFound) {
+    Machine real;
+    real.controller.planner = PlannerKind::trapezoidal;
+    real.path.max_acceleration = real.path.max_normal_acceleration = no_path_limit;
+    for (MachineAxis& axis : real.axes) axis.max_jerk = 0, axis.max_acceleration = 3000;
+    std::string text = "G21 G90 G18\nG64 P0.01\nF3000\nG1 X0 Y0 Z0\n";
+    for (int pass = 0; pass < 8; ++pass) {
+        const bool out = pass % 2 == 0;
+        for (int k = 1; k <= 6; ++k)
+            text += fmt::format("{} X{} Z0 R{}\n", k % 2 == 0 ? "G2" : "G3", out ? 4 * k : 24 - 4 * k, 8 + 2 * k);
+        text += fmt::format("G1 Y{}\n", 0.8 * (pass + 1));
+    }
+    const Part part = run_on(real, read_text(text + "M30\n"));
+    Identification result;
+    result.machine = real;
+    result.machine.axes[1].max_acceleration = 1500;
+    result.parameters = {{"max_acceleration", "y", 1500, "mm/s²", 1.0, true, "", 1500}};
+    const RecordedRun run(part);
+    ASSERT_TRUE(identify_rules({&run, 1}, result));
+    EXPECT_DOUBLE_EQ(result.machine.axes[1].max_acceleration, 3000);
+    EXPECT_DOUBLE_EQ(result.parameters.front().value, 3000);
 }
 
 TEST(PlannerRules, WhatTheRunDoesNotShowKeepsItsValueAndIsNamed) {

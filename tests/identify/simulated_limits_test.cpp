@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "machine/planning_value.h"
@@ -115,6 +116,62 @@ TEST(SimulatedLimits, LimitsThatHoldBackTheSimulationTogetherAreFreedTogether) {
     EXPECT_TRUE(scores.explains(error()));
     EXPECT_GT(result.machine.path.max_acceleration, 700);
     EXPECT_GT(result.machine.path.max_jerk, 20'000);
+}
+
+/// Passes of flat arcs in the XZ plane, and with `in_xy` of arcs in the XY plane between them. Half of 800 mm/s² holds 120 mm/s on a
+/// radius of 36 mm, and 0.866 of it on one of 42 mm: on flatter arcs the highest speed decides what is left along them.
+Part arcs_on(const Machine& machine, bool in_xy) {
+    std::string text = "G21 G90 G17\nG64 P0.01\nF3000\nG1 X0 Y0 Z0\n";
+    for (int pass = 0; pass < 4; ++pass) {
+        for (int k = 1; k <= 12; ++k)
+            text += fmt::format("G18 {} X{} Z0 R{}\n", k % 2 == 0 ? "G2" : "G3", pass % 2 == 0 ? 3 * k : 36 - 3 * k,
+                                60 + 5 * k);
+        for (int k = 1; k <= 6 && in_xy; ++k)
+            text += fmt::format("G17 {} X{} Y{} R80\n", k % 2 == 0 ? "G2" : "G3",
+                                pass % 2 == 0 ? 36 - 4 * (k % 2) : 4 * (k % 2), 0.5 * pass);
+        text += fmt::format("G1 Y{}\n", 0.5 * (pass + 1));
+    }
+    const Program program = read_text(text + "M30\n");
+    return assemble(program, simulate_to_log(program, machine, Vec3::Zero()).log);
+}
+
+/// What simulations tell of the highest speeds of all axes, of which the motion shows 3000 and the file has 15,000 mm/min.
+Identification speeds_from(const Part& part) {
+    const RecordedRun run(part);
+    RuleScores scores({&run, 1});
+    Identification found;
+    found.machine = overlapping();
+    for (const char* axis : {"x", "y", "z"})
+        found.parameters.push_back({"max_speed", axis, 3000, "mm/min", {}, false, "", 3000});
+    search_limits(0, scores, found);
+    state_limits(limit_intervals(scores, found), found);
+    return found;
+}
+
+// An arc is limited by the slower axis of its plane. Arcs of the XZ plane do not tell X from Z; those of the XY plane do.
+TEST(SimulatedLimits, SpeedsOfAxesThatOnlyArcsDependOn) {
+    Machine real = overlapping();
+    set_planning_value(real, "max_speed", "z", 7200);
+    const Identification of_both = speeds_from(arcs_on(real, true));
+    EXPECT_TRUE(*of_both.find("max_speed", "z")->reached);
+    EXPECT_NEAR(of_both.find("max_speed", "z")->value, 7200, 3 * *of_both.find("max_speed", "z")->standard_error);
+    EXPECT_DOUBLE_EQ(*planning_value(of_both.machine, "max_speed", "x"), 15'000);
+    const Identification of_one = speeds_from(arcs_on(real, false));
+    for (const char* axis : {"x", "z"}) {
+        EXPECT_FALSE(*of_one.find("max_speed", axis)->reached);
+        EXPECT_NEAR(*planning_value(of_one.machine, "max_speed", axis), 7200, 20);
+        EXPECT_NEAR(of_one.find("max_speed", axis)->value, 7200, 100);
+    }
+    EXPECT_DOUBLE_EQ(*planning_value(of_one.machine, "max_speed", "y"), 15'000);
+}
+
+// Only rapids depend on them where no arc is.
+TEST(SimulatedLimits, SpeedsOfAxesAreNotSearchedWithoutArcs) {
+    const Identification found = speeds_from(waves_on(overlapping()));
+    for (const char* axis : {"x", "y", "z"}) {
+        EXPECT_DOUBLE_EQ(*planning_value(found.machine, "max_speed", axis), 15'000);
+        EXPECT_DOUBLE_EQ(found.find("max_speed", axis)->value, 3000);
+    }
 }
 
 // A path limit that the axes hide gets no standard error, and no bound above the truth, from what another fault leaves.
