@@ -40,7 +40,7 @@ void refuse_unclear_shards(const po::variables_map& values) {
 }
 
 /// What pieces must have in common besides the survey: how the map looks.
-std::string settings_of(const po::variables_map& values) {
+std::string settings_of_map(const po::variables_map& values) {
     po::options_description options;
     declare_render(options);
     return fmt::format("{}", fmt::join(words_of(options, values, {"output"}), " "));
@@ -64,7 +64,7 @@ void write_piece(const RenderOptions& options, const ShardNumber& shard, const p
     const ShardMap::Drawn drawn = map.draw(shard.number, shard.number, shard.count);
     clock.begin("write the piece");
     const std::string bytes = drawn.parts.bytes();
-    output.write(io::bytes_of({shard, drawn.lowest, drawn.highest, bytes}, log.origin, settings_of(values)));
+    output.write(io::bytes_of({shard, drawn.lowest, drawn.highest, bytes}, log.origin, settings_of_map(values)));
     output.commit();
     clock.end();
 }
@@ -140,7 +140,8 @@ bool draw_in_shards(const RenderOptions& options, const po::variables_map& value
     const int shards = read_shard_count(values);
     const viz::Image image = map.picture(
         given(values, "merge")
-            ? merged(read_pieces(values["merge"].as<std::vector<std::string>>(), log.origin, settings_of(values)), map)
+            ? merged(read_pieces(values["merge"].as<std::vector<std::string>>(), log.origin, settings_of_map(values)),
+                     map)
             : map.draw(1, shards, shards));
     clock.begin("write the picture");
     output.write(image, fmt::format("clsurf map of {} from {}: {} {:g} to {:g} {}", file_name(wanted.part.program),
