@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/not_finite.h"
 #include "simulation/path/junction.h"
+#include "simulation/plan/broken_places.h"
 #include "simulation/plan/five_axis_limits.h"
 #include "simulation/plan/rest_pieces.h"
 #include "simulation/plan/speed_problem.h"
@@ -21,15 +22,12 @@ constexpr double cells_in_ramp = 10;     ///< over the time in which the jerk re
 constexpr double cell_growth = 0.15;     ///< of the time from or to a rest or a rounding: longest cell
 constexpr double most_cell_turn = 0.05;  ///< [rad] of the angles in a cell that is longer
 constexpr double slow_approach = 0.5;    ///< of the way to a slow place: longest cell before it
-constexpr std::size_t window_cells = 1500, samples_of_cell = 4;
+constexpr std::size_t window_cells = 1500;
 constexpr std::size_t least_cells = 100;                                       ///< of a window whose end is moved
 constexpr double kept_share = 0.6;                                             ///< of a window
 constexpr std::array<double, 6> slower_tries{1, 0.5, 0.25, 0.1, 0.03, 0.003};  ///< first v², tried in turn
 constexpr std::size_t most_cells = 12000;  ///< of a window: one that has more is planned in shorter ones
 constexpr double held_share = 0.7;         ///< of the v² that would just hold every limit
-constexpr int dip_halvings = 24;           ///< of the way in which the pace is least
-constexpr double dip_step = 0.125;         ///< between places, of the way over which it is
-constexpr int dip_places = 16;             ///< on each side of it
 constexpr int most_halvings = 30;          ///< of v² that breaks a limit between samples
 
 class FiveAxisPlanner {
@@ -214,96 +212,8 @@ private:
         return true;
     }
 
-    /// A place within a cell, with what the limits say there.
-    [[nodiscard]] AxisSample<5> sample_at(std::size_t cell, double u) const {
-        AxisSample<5> sample;
-        sample.cap = limits_.at(u, sample).free_cap;
-        sample.at = u - cells_[cell].begin;
-        return sample;
-    }
-
-    /// A place that was looked at.
-    struct Seen {
-        std::size_t cell = 0;
-        double u = 0, share = 0;  ///< share: of the limit that the solution takes most of
-        double slope = 0;         ///< of the pace
-    };
-    /// Looks at places of the cells in order, for those at which the solution breaks a limit.
-    struct Look {
-        std::vector<AxisSpeedProblem<5>::Between> broken;
-        Seen last;
-    };
-
-    [[nodiscard]] Seen see(std::size_t cell, double u) const {
-        const AxisSample<5> sample = sample_at(cell, u);
-        return {cell, u, problem_.greatest_share(cell, sample), sample.pace.slope};
-    }
-
-    void note_broken(Look& look, const Seen& seen) const {
-        if (seen.share > 1) look.broken.push_back({seen.cell, sample_at(seen.cell, seen.u)});
-    }
-
-    /// The cell of a place in one of two that follow each other.
-    [[nodiscard]] std::size_t cell_of(double u, std::size_t first, std::size_t second) const {
-        return u < cells_[second].begin ? first : second;
-    }
-
-    void look_at(Look& look, std::size_t cell, double u) const {
-        const Seen here = see(cell, u);
-        note_broken(look, here);
-        if (look.last.slope < 0 && here.slope > 0) look_around_dip(look, here);
-        look.last = here;
-    }
-
-    /// Where the tip nearly reverses, its pace falls to next to nothing over a way that may be far shorter than those between
-    /// the places: it is √(m² + k² d²) at d from where it is least, and √(m/its second derivative) is the length of that way.
-    void look_around_dip(Look& look, const Seen& after) const {
-        const Seen& before = look.last;
-        double from = before.u, to = after.u;
-        for (int k = 0; k < dip_halvings; ++k) {
-            const double middle = 0.5 * (from + to);
-            (sample_at(cell_of(middle, before.cell, after.cell), middle).pace.slope < 0 ? from : to) = middle;
-        }
-        const double least = 0.5 * (from + to);
-        const Pace pace = sample_at(cell_of(least, before.cell, after.cell), least).pace;
-        if (!(pace.curve > 0)) return;
-        const double width = std::sqrt(pace.value / pace.curve);
-        if (width > 4 * (after.u - before.u)) return;  // the places are close enough
-        Seen last, before_last;
-        for (int k = -dip_places; k <= dip_places + 1; ++k) {
-            const double u = least + dip_step * k * width;
-            Seen here;
-            if (k <= dip_places && u > cells_[before.cell].begin &&
-                u < cells_[after.cell].begin + cells_[after.cell].length)
-                here = see(cell_of(u, before.cell, after.cell), u);
-            if (last.share >= std::max(here.share, before_last.share)) note_broken(look, last);
-            before_last = std::exchange(last, here);
-        }
-    }
-
-    /// Places within the cells at which the solution breaks a limit.
     [[nodiscard]] std::vector<AxisSpeedProblem<5>::Between> broken_between() const {
-        Look look;
-        std::size_t place = first_;
-        for (std::size_t i = 0; i < cells_.size(); ++i) {
-            const double begin = cells_[i].begin, length = cells_[i].length;
-            double before = begin;
-            for (std::size_t k = 1; k <= samples_of_cell; ++k) {
-                const double next = begin + length * static_cast<double>(k) / samples_of_cell;
-                for (; place < last_ && places_[place].u < next; ++place) {
-                    const double u = places_[place].u;
-                    if (u <= before) continue;
-                    look_at(look, i, 0.5 * (before + u));
-                    look_at(look, i, u);
-                    before = u;
-                }
-                look_at(look, i, 0.5 * (before + next));
-                before = next;
-            }
-        }
-        // A dip that begins in one cell is looked at from the next one.
-        std::ranges::stable_sort(look.broken, {}, &AxisSpeedProblem<5>::Between::cell);
-        return std::move(look.broken);
+        return BrokenPlaces(limits_, problem_, cells_).find({places_.data() + first_, last_ - first_});
     }
 
     /// v² to begin with at u; `cursor`: the first place behind it.
@@ -436,18 +346,13 @@ private:
         }
     }
 
-    struct Cell {
-        double begin, length;
-        LimitingFactor why;
-    };
-
     const FiveAxisPath* path_;
     const std::function<Place(std::size_t block)>* place_of_;
     FiveAxisLimits limits_;
     std::vector<LimitPlace> places_;
     RestPieces rests_;
     std::size_t first_ = 0, last_ = 0;  ///< places of the window
-    std::vector<Cell> cells_;
+    std::vector<FiveAxisCell> cells_;
     AxisSpeedProblem<5> problem_;
     double ramp_;    ///< of the limits [s]
     double at_ = 0;  ///< where the window begins
