@@ -14,7 +14,7 @@ namespace clsurf {
 /// What the limits say at a place.
 struct LimitPlace {
     double u = 0;
-    double free_cap = infinite, cap = infinite;  ///< of u's speed: without bends, and with them at no acceleration
+    double free_cap = infinite, cap = infinite;  ///< of u's speed: without bends, and for first speeds with them
     double acceleration = 0, jerk = 0;           ///< of u, on a straight path with these slopes
     double square = 0;                           ///< v² to begin with
     LimitingFactor why = LimitingFactor::none;
