@@ -7,84 +7,131 @@
 namespace clsurf {
 namespace {
 
-constexpr int dip_halvings = 24;    ///< of the way in which the pace is least
-constexpr double dip_step = 0.125;  ///< between places, of the way over which it is
-constexpr int dip_places = 16;      ///< on each side of it
+constexpr double near_limit = 0.95;  ///< share from which on the greatest is looked for
+constexpr int peak_halvings = 3;     ///< of the way between the place of a greatest share and those beside it
+constexpr int dip_halvings = 24;     ///< of the way in which the pace is least
+constexpr double dip_step = 0.125;   ///< between places, of the way over which it is
+constexpr int dip_places = 16;       ///< on each side of it
 
 }  // namespace
 
+BrokenPlaces::BrokenPlaces(const FiveAxisLimits& limits, const AxisSpeedProblem<5>& problem,
+                           std::span<const FiveAxisCell> cells, std::span<const LimitPlace> places)
+    : limits_(&limits), problem_(&problem), cells_(cells) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const double end = cells[i].begin + cells[i].length;
+        std::size_t inside = 0;
+        while (inside < places.size() && places[inside].u < end) ++inside;
+        add_cell(i, places.first(inside));
+        places = places.subspan(inside);
+    }
+    const std::size_t of_cells = places_.size();
+    for (std::size_t k = 1; k < of_cells; ++k) {
+        if (places_[k - 1].sample.pace.slope < 0 && places_[k].sample.pace.slope > 0)
+            add_dip(Between(places_[k - 1]), Between(places_[k]));  // copies, as places are added
+    }
+}
+
 /// A place within a cell, with what the limits say there.
-AxisSample<5> BrokenPlaces::sample_at(std::size_t cell, double u) const {
-    AxisSample<5> sample;
-    sample.cap = limits_->at(u, sample).free_cap;
-    sample.at = u - cells_[cell].begin;
-    return sample;
+BrokenPlaces::Between BrokenPlaces::place_at(std::size_t cell, double u) const {
+    Between place{cell, {}};
+    place.sample.cap = limits_->at(u, place.sample).free_cap;
+    place.sample.at = u - cells_[cell].begin;
+    return place;
 }
 
-BrokenPlaces::Seen BrokenPlaces::see(std::size_t cell, double u) const {
-    const AxisSample<5> sample = sample_at(cell, u);
-    return {cell, u, problem_->greatest_share(cell, sample), sample.pace.slope};
+/// In the cell of one or the other, which follow each other.
+BrokenPlaces::Between BrokenPlaces::place_between(const Between& before, const Between& after, double u) const {
+    return place_at(u < cells_[after.cell].begin ? before.cell : after.cell, u);
 }
 
-void BrokenPlaces::note_broken(const Seen& seen) {
-    if (seen.share > 1) broken_.push_back({seen.cell, sample_at(seen.cell, seen.u)});
-}
-
-void BrokenPlaces::look_at(std::size_t cell, double u) {
-    const Seen here = see(cell, u);
-    note_broken(here);
-    if (last_.slope < 0 && here.slope > 0) look_around_dip(here);
-    last_ = here;
+/// The samples of a cell, the places within it, and what lies halfway between these.
+void BrokenPlaces::add_cell(std::size_t cell, std::span<const LimitPlace> places) {
+    const double begin = cells_[cell].begin, length = cells_[cell].length;
+    const std::size_t first = places_.size();
+    double before = begin;
+    places_.push_back(place_at(cell, begin));
+    const auto add = [&](double u) {
+        places_.push_back(place_at(cell, 0.5 * (before + u)));
+        places_.push_back(place_at(cell, u));
+        before = u;
+    };
+    auto place = places.begin();
+    for (std::size_t k = 1; k <= samples_of_cell; ++k) {
+        const double next = begin + length * static_cast<double>(k) / samples_of_cell;
+        for (; place != places.end() && place->u < next; ++place) {
+            if (place->u > before) add(place->u);
+        }
+        add(next);
+    }
+    sequences_.push_back({first, places_.size()});
 }
 
 /// Where the tip nearly reverses, its pace falls to next to nothing over a way that may be far shorter than those between
 /// the places: it is √(m² + k² d²) at d from where it is least, and √(m/its second derivative) is the length of that way.
-void BrokenPlaces::look_around_dip(const Seen& after) {
-    const Seen& before = last_;
-    double from = before.u, to = after.u;
+void BrokenPlaces::add_dip(const Between& before, const Between& after) {
+    const double begin = u_of(before), end = u_of(after);
+    double from = begin, to = end;
     for (int k = 0; k < dip_halvings; ++k) {
         const double middle = 0.5 * (from + to);
-        (sample_at(cell_of(middle, before.cell, after.cell), middle).pace.slope < 0 ? from : to) = middle;
+        (place_between(before, after, middle).sample.pace.slope < 0 ? from : to) = middle;
     }
     const double least = 0.5 * (from + to);
-    const Pace pace = sample_at(cell_of(least, before.cell, after.cell), least).pace;
+    const Pace pace = place_between(before, after, least).sample.pace;
     if (!(pace.curve > 0)) return;
     const double width = std::sqrt(pace.value / pace.curve);
-    if (width > 4 * (after.u - before.u)) return;  // the places are close enough
-    Seen last, before_last;
-    for (int k = -dip_places; k <= dip_places + 1; ++k) {
+    if (width > 4 * (end - begin)) return;  // the places are close enough
+    const std::size_t first = places_.size();
+    const double cells_begin = cells_[before.cell].begin,
+                 cells_end = cells_[after.cell].begin + cells_[after.cell].length;
+    for (int k = -dip_places; k <= dip_places; ++k) {
         const double u = least + dip_step * k * width;
-        Seen here;
-        if (k <= dip_places && u > cells_[before.cell].begin &&
-            u < cells_[after.cell].begin + cells_[after.cell].length)
-            here = see(cell_of(u, before.cell, after.cell), u);
-        if (last.share >= std::max(here.share, before_last.share)) note_broken(last);
-        before_last = std::exchange(last, here);
+        if (u > cells_begin && u < cells_end) places_.push_back(place_between(before, after, u));
     }
+    sequences_.push_back({first, places_.size()});
 }
 
-std::vector<BrokenPlaces::Between> BrokenPlaces::find(std::span<const LimitPlace> places) {
-    broken_.clear();
-    last_ = {};
-    auto place = places.begin();
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-        const double begin = cells_[i].begin, length = cells_[i].length;
-        double before = begin;
-        for (std::size_t k = 1; k <= samples_of_cell; ++k) {
-            const double next = begin + length * static_cast<double>(k) / samples_of_cell;
-            for (; place != places.end() && place->u < next; ++place) {
-                if (place->u <= before) continue;
-                look_at(i, 0.5 * (before + place->u));
-                look_at(i, place->u);
-                before = place->u;
-            }
-            look_at(i, 0.5 * (before + next));
-            before = next;
+BrokenPlaces::Seen BrokenPlaces::see(const Between& place) const {
+    return {place, problem_->greatest_share(place.cell, place.sample)};
+}
+
+/// The greatest share about a place that has more than those beside it: it may be above the limit over a small part of the way
+/// between places that hold it.
+BrokenPlaces::Seen BrokenPlaces::look_around(Seen before, Seen peak, Seen after) const {
+    const auto halfway = [this](const Seen& a, const Seen& b) {
+        return see(place_between(a.place, b.place, 0.5 * (u_of(a.place) + u_of(b.place))));
+    };
+    for (int k = 0; k < peak_halvings; ++k) {
+        const Seen left = halfway(before, peak), right = halfway(peak, after);
+        if (left.share > std::max(peak.share, right.share)) {
+            after = std::exchange(peak, left);
+        } else if (right.share > peak.share) {
+            before = std::exchange(peak, right);
+        } else {
+            before = left, after = right;
         }
     }
-    // A dip that begins in one cell is looked at from the next one.
-    std::ranges::stable_sort(broken_, {}, &Between::cell);
-    return std::move(broken_);
+    return peak;
+}
+
+std::vector<BrokenPlaces::Between> BrokenPlaces::find() const {
+    std::vector<Between> broken;
+    std::vector<double> shares;
+    for (const Sequence& sequence : sequences_) {
+        const std::span places = std::span(places_).subspan(sequence.begin, sequence.end - sequence.begin);
+        shares.clear();
+        for (const Between& place : places) shares.push_back(problem_->greatest_share(place.cell, place.sample));
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const std::size_t before = i > 0 ? i - 1 : i, after = std::min(i + 1, places.size() - 1);
+            if (shares[i] < std::max({near_limit, shares[before], shares[after]})) continue;
+            const Seen peak =
+                look_around({places[before], shares[before]}, {places[i], shares[i]}, {places[after], shares[after]});
+            if (peak.share > 1) broken.push_back(peak.place);
+        }
+    }
+    // Dips stand behind the cells that they are in.
+    std::ranges::stable_sort(broken, {}, &Between::cell);
+    return broken;
 }
 
 }  // namespace clsurf

@@ -24,37 +24,37 @@ class BrokenPlaces {
 public:
     using Between = AxisSpeedProblem<5>::Between;
 
-    /// All must outlive it; `cells`: those of the problem, in order.
-    BrokenPlaces(const FiveAxisLimits& limits, const AxisSpeedProblem<5>& problem, std::span<const FiveAxisCell> cells)
-        : limits_(&limits), problem_(&problem), cells_(cells) {}
+    /// All must outlive it. `cells`: those of the problem, in order; `places`: those of the path from the first to the last.
+    BrokenPlaces(const FiveAxisLimits& limits, const AxisSpeedProblem<5>& problem, std::span<const FiveAxisCell> cells,
+                 std::span<const LimitPlace> places);
 
-    /// In the order of cells; looked at are `places`, those of the path from the first to the last cell, and what lies between
-    /// them and the samples.
-    [[nodiscard]] std::vector<Between> find(std::span<const LimitPlace> places);
+    /// In the order of cells. The problem's values may change from call to call. Looked at are samples, places of the path, what
+    /// lies halfway between them, dips of the pace, and what is around the greatest shares of a limit among these.
+    [[nodiscard]] std::vector<Between> find() const;
 
 private:
-    /// A place that was looked at.
     struct Seen {
-        std::size_t cell = 0;
-        double u = 0, share = 0;  ///< share: of the limit that the solution takes most of
-        double slope = 0;         ///< of the pace
+        Between place;
+        double share = 0;  ///< of the limit that the values take most of
+    };
+    /// Places that follow each other.
+    struct Sequence {
+        std::size_t begin, end;
     };
 
-    [[nodiscard]] AxisSample<5> sample_at(std::size_t cell, double u) const;
-    [[nodiscard]] Seen see(std::size_t cell, double u) const;
-    /// The cell of a place in one of two that follow each other.
-    [[nodiscard]] std::size_t cell_of(double u, std::size_t first, std::size_t second) const {
-        return u < cells_[second].begin ? first : second;
-    }
-    void note_broken(const Seen& seen);
-    void look_at(std::size_t cell, double u);
-    void look_around_dip(const Seen& after);
+    [[nodiscard]] double u_of(const Between& place) const { return cells_[place.cell].begin + place.sample.at; }
+    [[nodiscard]] Between place_at(std::size_t cell, double u) const;
+    [[nodiscard]] Between place_between(const Between& before, const Between& after, double u) const;
+    void add_cell(std::size_t cell, std::span<const LimitPlace> places);
+    void add_dip(const Between& before, const Between& after);
+    [[nodiscard]] Seen see(const Between& place) const;
+    [[nodiscard]] Seen look_around(Seen before, Seen peak, Seen after) const;
 
     const FiveAxisLimits* limits_;
     const AxisSpeedProblem<5>* problem_;
     std::span<const FiveAxisCell> cells_;
-    std::vector<Between> broken_;
-    Seen last_;
+    std::vector<Between> places_;      ///< where it is looked
+    std::vector<Sequence> sequences_;  ///< of each cell, then of each dip
 };
 
 }  // namespace clsurf

@@ -147,7 +147,8 @@ private:
     }
 
     bool find_speeds() {
-        return problem_.solve(start_, stop_, [this] { return broken_between(); });
+        const BrokenPlaces broken = broken_places();
+        return problem_.solve(start_, stop_, [&broken] { return broken.find(); });
     }
 
     /// Where no first speeds lead to a solution: from speeds that hold every limit. These exist on every path between rests, as a
@@ -169,8 +170,9 @@ private:
     /// Lowers all v² of the window by one factor, so that all limits hold.
     bool hold_everywhere() {
         slow_down(held_share * problem_.holding_share(start_, stop_));
+        const BrokenPlaces broken = broken_places();
         for (int k = 0; k < most_halvings; ++k) {
-            if (broken_between().empty()) return true;
+            if (broken.find().empty()) return true;
             slow_down(0.5);
         }
         return false;
@@ -212,8 +214,9 @@ private:
         return true;
     }
 
-    [[nodiscard]] std::vector<AxisSpeedProblem<5>::Between> broken_between() const {
-        return BrokenPlaces(limits_, problem_, cells_).find({places_.data() + first_, last_ - first_});
+    /// Of the window's cells.
+    [[nodiscard]] BrokenPlaces broken_places() const {
+        return {limits_, problem_, cells_, {places_.data() + first_, last_ - first_}};
     }
 
     /// v² to begin with at u; `cursor`: the first place behind it.
