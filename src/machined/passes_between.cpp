@@ -34,6 +34,18 @@ public:
         const double before = to.norm(), after = on.norm();
         return gap_squared() * 2 / (before + after) * (on / after - to / before);
     }
+    /// The same, turned with the path from the pass to the gap, so that it is normal to the chord of the gap as the path's own
+    /// second derivative is there. Where the path turns by 0.2 rad from pass to pass, bends of two passes on one circle differ
+    /// in direction by as much, and a circle beside a line would seem to bend less than it does.
+    [[nodiscard]] Vec3 bend_in_gap(int number) const {
+        const Vec3 through = (at(number) - at(number - 1)).normalized() + (at(number + 1) - at(number)).normalized();
+        const Vec3 from = through.normalized(), to = (at(1) - at(0)).normalized();
+        const double cosine = from.dot(to);
+        const Vec3 here = bend(number);
+        if (!(cosine > 0)) return here;  // the path doubles back
+        const Vec3 axis = from.cross(to);
+        return here + axis.cross(here) + axis.cross(axis.cross(here)) / (1 + cosine);
+    }
     /// How a change of the bend in the gap shows at a pass at its ends: a share of it, over that of passes evenly apart.
     [[nodiscard]] double weight_of_gap(int number) const {
         const double gap = std::sqrt(gap_squared());
@@ -73,13 +85,14 @@ class AcrossCurve {
 public:
     explicit AcrossCurve(const Across& p) : from_(p.at(0)), chord_(p.at(1) - p.at(0)) {
         const bool before = p.has(-1), after = p.has(2);
-        if (before) bend_ = turn_ = p.bend(0);
-        if (after) turn_ = p.bend(1);
+        if (before) bend_ = turn_ = p.bend_in_gap(0);
+        if (after) turn_ = p.bend_in_gap(1);
         if (after && !before) bend_ = turn_;
         if (!before || !after) return;
         if (p.has(-2) && p.has(3)) {
-            const Vec3 low = p.bend(-1), high = p.bend(2);
-            if (meets_parabolas(p, low, high) || turns_corner(p, low, high)) return;
+            if (meets_parabolas(p, p.bend_in_gap(-1), p.bend_in_gap(2))) return;
+            // The sides of a corner go on in their own directions.
+            if (turns_corner(p, p.bend(-1), p.bend(2))) return;
         }
         go_on_from_smoother_side(p);
     }
@@ -127,8 +140,8 @@ private:
     /// on the other side alone tell how it goes here: the cubic through both sides would overshoot.
     void go_on_from_smoother_side(const Across& p) {
         const Vec3 change = turn_ - bend_;
-        const Vec3 before = p.has(-2) ? Vec3(bend_ - p.bend(-1)) : change;
-        const Vec3 after = p.has(3) ? Vec3(p.bend(2) - turn_) : change;
+        const Vec3 before = p.has(-2) ? Vec3(bend_ - p.bend_in_gap(-1)) : change;
+        const Vec3 after = p.has(3) ? Vec3(p.bend_in_gap(2) - turn_) : change;
         const double most = smoother_side * change.norm();
         if (change.norm() < least_turn || std::min(before.norm(), after.norm()) > most) return;
         if (after.norm() < before.norm())

@@ -114,6 +114,18 @@ TEST(PassesBetween, CornersAndEdgesOfFilletsAcrossThePassesAreNoRoughness) {
     }
 }
 
+TEST(PassesBetween, FilletsThatFewPassesCrossAreNoRoughness) {
+    // The path across the passes turns by 0.13 to 0.3 rad from pass to pass, and three to seven of them lie on the fillet.
+    struct Fillet {
+        double radius, slope, apart;
+    };
+    for (const Fillet& f : {Fillet{5, 0.3491, 0.3}, {5, 0.3491, 0.4}, {6, 0.3491, 0.4}, {4, 0.5236, 0.3}}) {
+        const double edge = f.radius * std::sin(f.slope);
+        for (const double beside : {0.0, 0.25, 0.5})
+            expect_envelope(f.radius, f.slope, f.apart, beside, {0.0, 0.4, -0.4, edge, -edge});
+    }
+}
+
 TEST(PassesBetween, WhatPassesLeaveInACornerIsRoughness) {
     for (const double beside : {0.25, 0.5}) expect_envelope(radius, 0.5236, 0.4, beside, {0.0, 0.3, 2.0});
 }
