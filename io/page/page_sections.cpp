@@ -277,9 +277,9 @@ std::string numbers_section(const ReportPage& page) {
     if (page.quality.as_machined != nullptr && !page.quality.as_machined->roughness.patches.empty()) {
         const PartRoughness& f = page.quality.as_machined->roughness;
         text += fmt::format(
-            "<p>Formed surface with {}, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}), Sa {:.2f}, Sz {:.2f} µm, cut-off {:g} mm.</p>\n",
+            "<p>Formed surface with {}, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}), Sa {:.2f}, Sz {:.2f} µm, {}.</p>\n",
             html(to_text(*page.quality.tool)), f.patches.size(), f.ra * um_per_mm, f.rz * um_per_mm,
-            f.patches[f.roughest].profile.rz * um_per_mm, f.sa * um_per_mm, f.sz * um_per_mm, f.cutoff);
+            f.patches[f.roughest].profile.rz * um_per_mm, f.sa * um_per_mm, f.sz * um_per_mm, cutoff_text(f.cutoff));
         text += fmt::format("<p>The form is not known on {:.0f} % of these patches: nothing is measured there.</p>\n",
                             100 * f.unknown);
         if (f.machine.cells > 0)

@@ -8,10 +8,9 @@
 namespace clsurf::io {
 
 std::string profile_text(const ProfileReport& p) {
-    return fmt::format(
-        "Ra {:.2f} µm, Rz {:.2f} µm from X {:g} Y {:g} to X {:g} Y {:g} mm, cut-off {:g} mm, {:.3g} mm evaluated\n",
-        p.roughness.ra * um_per_mm, p.roughness.rz * um_per_mm, p.from.x(), p.from.y(), p.to.x(), p.to.y(),
-        p.roughness.cutoff, p.roughness.length);
+    return fmt::format("Ra {:.2f} µm, Rz {:.2f} µm from X {:g} Y {:g} to X {:g} Y {:g} mm, {}, {:.3g} mm evaluated\n",
+                       p.roughness.ra * um_per_mm, p.roughness.rz * um_per_mm, p.from.x(), p.from.y(), p.to.x(),
+                       p.to.y(), cutoff_text(p.roughness.cutoff), p.roughness.length);
 }
 
 std::string profile_json(const ProfileReport& p, const Diagnostics& diagnostics) {

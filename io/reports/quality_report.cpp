@@ -120,9 +120,9 @@ std::string roughness_text(const PartRoughness& f) {
     if (f.patches.empty()) return {};
     const RoughPatch& roughest = f.patches[f.roughest];
     std::string text = fmt::format(
-        "formed surface, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}, at {}), Sa {:.2f}, Sz {:.2f} µm, cut-off {:g} mm\n",
+        "formed surface, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}, at {}), Sa {:.2f}, Sz {:.2f} µm, {}\n",
         f.patches.size(), um(f.ra), um(f.rz), um(roughest.profile.rz), coordinates_text(roughest.contact), um(f.sa),
-        um(f.sz), f.cutoff);
+        um(f.sz), cutoff_text(f.cutoff));
     if (f.unknown >= worth_saying)
         text +=
             fmt::format("form not known on {:.0f} % of these patches (creases, fillets, borders): not measured there\n",

@@ -34,7 +34,7 @@ AsMachinedProfile measure_profile(const AsMachinedSurface& as_machined, const As
     }
     profile.roughness = roughness_of(std::span(profile.deviation).subspan(profile.first, profile.count),
                                      std::span(profile.along).subspan(profile.first, profile.count),
-                                     cutoff_for(as_machined.surface().step_over));
+                                     cutoff_for(form_of.surface().step_over));
     return profile;
 }
 

@@ -1,9 +1,12 @@
 #include "machined/roughness.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include <fmt/format.h>
 
 #include "core/vectorised.h"
 
@@ -13,6 +16,14 @@ namespace {
 const double alpha =
     std::sqrt(std::numbers::ln2 / std::numbers::pi);  ///< half of a wave of the cut-off's length goes through
 constexpr int most_lengths = 5;
+
+struct CutoffClass {
+    double above = 0;  ///< [mm] step-over
+    double cutoff = 0;
+};
+constexpr std::array<CutoffClass, 2> wide_cutoffs{{{1.3, 8}, {0.4, 2.5}}};
+constexpr double usual_cutoff = 0.8;  ///< [mm]
+constexpr double scatter = 1.02;      ///< of a step-over that is estimated from positions
 
 /// Adds to every place the values `off` steps before and after it, weighed.
 CLSURF_VECTORISED void add_beside(std::span<const double> z, std::size_t off, double weight,
@@ -88,7 +99,18 @@ std::vector<double> gaussian_mean_line(std::span<const double> z, std::span<cons
     return interpolated(line, places, along);
 }
 
-double cutoff_for(double step_over) { return step_over > 1.3 ? 8.0 : step_over > 0.4 ? 2.5 : 0.8; }
+double cutoff_for(double step_over) {
+    for (const CutoffClass& c : wide_cutoffs)
+        if (step_over > scatter * c.above) return c.cutoff;
+    return usual_cutoff;
+}
+
+std::string cutoff_text(double cutoff) {
+    for (const CutoffClass& c : wide_cutoffs)
+        if (cutoff == c.cutoff)
+            return fmt::format("cut-off {:g} mm (ISO 4288, step-over above {:g} mm)", cutoff, c.above);
+    return fmt::format("cut-off {:g} mm (ISO 4288, step-over up to {:g} mm)", cutoff, wide_cutoffs.back().above);
+}
 
 Roughness roughness_of(std::span<const double> z, double step, double cutoff) {
     Roughness result;

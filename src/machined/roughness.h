@@ -3,6 +3,7 @@
 // and heights in one unit throughout, mm here.
 
 #include <span>
+#include <string>
 #include <vector>
 
 namespace clsurf {
@@ -22,9 +23,12 @@ struct ProfileHeights {
 [[nodiscard]] std::vector<double> gaussian_mean_line(std::span<const double> z, std::span<const double> along,
                                                      double cutoff);
 
-/// The cut-off [mm] for scallops so far apart: 0.8 mm, for wider ones what ISO 4288 gives for such a
-/// spacing of profile elements: 2.5 mm above 0.4 mm, 8 mm above 1.3 mm.
+/// The cut-off [mm] for scallops so far apart: 0.8 mm, for wider ones what ISO 4288 (now ISO 21920-3) gives for such a
+/// spacing of profile elements: 2.5 mm above 0.4 mm, 8 mm above 1.3 mm. A step-over up to 2 % above such a limit counts as
+/// the limit: it is estimated from logged positions, and runs of one program must not get different cut-offs.
 [[nodiscard]] double cutoff_for(double step_over);
+/// In words, with the step-overs that have it.
+[[nodiscard]] std::string cutoff_text(double cutoff);
 
 /// Roughness of a profile: what the filter leaves, in the middle of it.
 struct Roughness {

@@ -144,6 +144,15 @@ TEST(PartRoughness, IsThatOfWholeScallopsForAnyStepOverAndIncline) {
     }
 }
 
+TEST(PartRoughness, TwoRunsHaveTheCutoffOfTheFormWhateverTheirStepOvers) {
+    const Cut first(inclined(0.4, 0, 12)), second(inclined(0.41, 0, 12));
+    const AsMachinedSurface form_of = first.along(first.made.path), measured = second.along(second.made.path);
+    const PartRoughness found = measure_roughness({measured, form_of}, roughness_places(form_of, first.signals));
+    ASSERT_FALSE(found.patches.empty());
+    EXPECT_EQ(found.cutoff, 0.8);
+    for (const RoughPatch& patch : found.patches) EXPECT_EQ(patch.profile.cutoff, 0.8);
+}
+
 TEST(PartRoughness, BesideTheEndsOfPassesNothingIsHigherThanACusp) {
     // Where two passes end without a link between them, the cusp rises beyond their ends.
     constexpr double step_over = 0.3, length = 10;

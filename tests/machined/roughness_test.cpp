@@ -86,7 +86,10 @@ TEST(Roughness, AShortProfileIsOneSamplingLength) {
 TEST(Roughness, TheCutoffIsThatOfIso4288) {
     EXPECT_EQ(cutoff_for(0.1), 0.8);
     EXPECT_EQ(cutoff_for(0.4), 0.8);
+    EXPECT_EQ(cutoff_for(0.4002), 0.8) << "a programmed step-over of 0.4 mm, estimated from positions";
+    EXPECT_EQ(cutoff_for(0.41), 2.5);
     EXPECT_EQ(cutoff_for(0.5), 2.5);
+    EXPECT_EQ(cutoff_for(1.302), 2.5);
     EXPECT_EQ(cutoff_for(2), 8);
 }
 
