@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "numeric/curvature_steps.h"
 #include "numeric/polyline.h"
 #include "numeric/resolved_curvature.h"
 
@@ -81,6 +83,56 @@ void cut_drifts(std::vector<std::size_t>& boundaries, std::span<const double> cu
         all.push_back(boundaries[k]);
     }
     boundaries = std::move(all);
+}
+
+/// In one of both directions, whichever way the pass is travelled, so that adjacent passes get the same cuts.
+void cut_drifts_either_way(std::vector<std::size_t>& boundaries, std::span<const Vec3> points,
+                           std::span<const double> curvature, const IntervalRules& rules) {
+    if (!(rules.drift_ratio > 0)) return;
+    const Vec3 &begin = points.front(), &end = points.back();
+    if (!std::lexicographical_compare(end.begin(), end.end(), begin.begin(), begin.end()))
+        return cut_drifts(boundaries, curvature, rules);
+    const auto turn_round = [&] {
+        std::reverse(boundaries.begin(), boundaries.end());
+        for (std::size_t& b : boundaries) b = points.size() - 1 - b;
+    };
+    turn_round();
+    cut_drifts(boundaries, std::vector<double>(curvature.rbegin(), curvature.rend()), rules);
+    turn_round();
+}
+
+/// Boundaries where curvature steps. A step that is smeared over a section has cuts beside it, where curvature seems to drift;
+/// each of `cut` leads to it. Curvature on both sides of a step is measured again, from the points of that side. Whether
+/// there was a step.
+bool move_to_steps(std::vector<std::size_t>& boundaries, const std::vector<std::size_t>& cut,
+                   std::span<const Vec3> points, std::span<double> curvature, const IntervalRules& rules) {
+    std::vector<std::size_t> kept{boundaries.front()}, steps;
+    for (std::size_t k = 1; k + 1 < cut.size(); ++k) {
+        const auto after = std::upper_bound(boundaries.begin(), boundaries.end(), cut[k]);
+        const auto before = std::lower_bound(boundaries.begin(), boundaries.end(), cut[k]) - 1;
+        const std::optional<std::size_t> step =
+            curvature_step_near(points, curvature, cut[k], *before, *after, rules.coordinate_step);
+        if (step)
+            steps.push_back(*step);
+        else if (*(after - 1) == cut[k])
+            kept.push_back(cut[k]);
+    }
+    if (steps.empty()) return false;
+    kept.push_back(boundaries.back());
+    steps.push_back(boundaries.back());
+    std::sort(steps.begin(), steps.end());
+    std::size_t first = boundaries.front();
+    for (const std::size_t last : steps) {
+        if (last <= first) continue;
+        const std::vector<double> own = curvatures(points.subspan(first, last - first + 1), rules);
+        for (std::size_t i = first + 1; i < last; ++i) curvature[i] = own[i - first];
+        first = last;
+    }
+    boundaries = std::move(kept);
+    boundaries.insert(boundaries.end(), steps.begin(), steps.end());
+    std::sort(boundaries.begin(), boundaries.end());
+    boundaries.erase(std::unique(boundaries.begin(), boundaries.end()), boundaries.end());
+    return true;
 }
 
 /// Divides intervals that are too long into equal parts.
@@ -179,26 +231,18 @@ std::vector<double> curvatures(std::span<const Vec3> points, const IntervalRules
                                      : curvatures(points);
 }
 
-std::vector<std::size_t> all_boundaries(std::span<const Vec3> points, std::span<const double> curvature,
+std::vector<std::size_t> all_boundaries(std::span<const Vec3> points, std::span<double> curvature,
                                         const IntervalRules& rules) {
     std::vector<std::size_t> boundaries = interval_boundaries(points, curvature, rules);
     if (boundaries.size() < 2) return boundaries;
-    // In one of both directions, whichever way the pass is travelled, so that adjacent passes get the same cuts.
-    const Vec3 &begin = points.front(), &end = points.back();
-    const bool back = std::lexicographical_compare(end.begin(), end.end(), begin.begin(), begin.end());
-    const auto turn_round = [&] {
-        if (!back) return;
-        std::reverse(boundaries.begin(), boundaries.end());
-        for (std::size_t& b : boundaries) b = points.size() - 1 - b;
-    };
-    turn_round();
-    if (rules.drift_ratio > 0) {
-        const std::vector<double> backward(curvature.rbegin(), curvature.rend());
-        cut_drifts(boundaries, back ? backward : curvature, rules);
+    std::vector<std::size_t> cut = boundaries;
+    cut_drifts_either_way(cut, points, curvature, rules);
+    if (rules.coordinate_step > 0 && move_to_steps(boundaries, cut, points, curvature, rules)) {
+        cut = boundaries;
+        cut_drifts_either_way(cut, points, curvature, rules);
     }
-    turn_round();
-    if (rules.greatest_length > 0) cut_lengths(boundaries, points, rules.greatest_length);
-    return boundaries;
+    if (rules.greatest_length > 0) cut_lengths(cut, points, rules.greatest_length);
+    return cut;
 }
 
 std::vector<SpeedInterval> intervals_between(std::span<const Vec3> points, std::span<const double> curvature,
@@ -221,8 +265,9 @@ std::vector<SpeedInterval> intervals_between(std::span<const Vec3> points, std::
 
 std::vector<SpeedInterval> divide(std::span<const Vec3> points, const IntervalRules& rules) {
     if (points.size() < 2) return {};
-    const std::vector<double> curvature = curvatures(points, rules);
-    return intervals_between(points, curvature, all_boundaries(points, curvature, rules));
+    std::vector<double> curvature = curvatures(points, rules);
+    const std::vector<std::size_t> boundaries = all_boundaries(points, curvature, rules);
+    return intervals_between(points, curvature, boundaries);
 }
 
 }  // namespace clsurf

@@ -49,8 +49,9 @@ struct SpeedInterval {
 /// The curvatures that rules ask for: those of the neighbours, or, where coordinates are rounded, resolved ones.
 [[nodiscard]] std::vector<double> curvatures(std::span<const Vec3> points, const IntervalRules& rules);
 
-/// The same, and where curvature drifts or an interval would get too long.
-[[nodiscard]] std::vector<std::size_t> all_boundaries(std::span<const Vec3> points, std::span<const double> curvature,
+/// The same, at the very points where curvature steps, and where it drifts or an interval would get too long. Curvatures
+/// that were measured across a step are measured again on one side of it.
+[[nodiscard]] std::vector<std::size_t> all_boundaries(std::span<const Vec3> points, std::span<double> curvature,
                                                       const IntervalRules& rules);
 
 /// The intervals from each boundary to the next.

@@ -113,6 +113,37 @@ TEST(Intervals, CutWhereCurvatureDrifts) {
         EXPECT_LE(interval.greatest_curvature, 2.01 * std::max(interval.mean_curvature, rules.flat_curvature));
 }
 
+// A line, an arc of 1.2 rad and a line, by arc length, in coordinates that are rounded to micrometres.
+TEST(Intervals, EndWithinABlockOfWhereALineMeetsAnArc) {
+    constexpr double line = 20, turn = 1.2;
+    IntervalRules rules;
+    rules.coordinate_step = 0.001;
+    for (const double radius : {3.0, 10.0, 50.0}) {
+        for (const double block : {0.05, 0.1, 0.5}) {
+            for (const double first : {0.0, 0.33, 0.7}) {
+                std::vector<Vec3> points;
+                std::vector<double> way;
+                for (double s = first * block; s < 2 * line + radius * turn; s += block) {
+                    const double angle = std::clamp((s - line) / radius, 0.0, turn);
+                    const double rest = s < line ? s - line : std::max(0.0, s - line - radius * turn);
+                    const Vec3 at(radius * std::sin(angle) + rest * std::cos(angle), 0,
+                                  radius * (1 - std::cos(angle)) + rest * std::sin(angle));
+                    points.push_back((at / rules.coordinate_step).array().round() * rules.coordinate_step);
+                    way.push_back(s);
+                }
+                const std::vector<SpeedInterval> intervals = divide(points, rules);
+                EXPECT_LE(intervals.size(), 4U) << radius << " " << block;
+                for (const double meets : {line, line + radius * turn}) {
+                    double off = line;
+                    for (const SpeedInterval& interval : intervals)
+                        off = std::min(off, std::abs(way[interval.first] - meets));
+                    EXPECT_LE(off, std::max(block, 0.06)) << radius << " " << block << " " << first << " " << meets;
+                }
+            }
+        }
+    }
+}
+
 TEST(Intervals, OfWhatHasNoInside) {
     EXPECT_TRUE(divide({}, {}).empty());
     EXPECT_TRUE(divide(std::vector<Vec3>{{1, 1, 1}}, {}).empty());
