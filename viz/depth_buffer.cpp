@@ -56,6 +56,14 @@ void DepthBuffer::draw(const Vec3& a, const Vec3& b, const Vec3& c) {
     }
 }
 
+bool DepthBuffer::covers(const Vec2& pixel) const {
+    const Vec2 at = pixel / cell;
+    if (!(at.x() >= 0 && at.y() >= 0 && at.x() < columns_ && at.y() < rows_)) return false;
+    const auto column = static_cast<std::size_t>(at.x());
+    const auto row = static_cast<std::size_t>(at.y());
+    return std::isfinite(nearest_[row * static_cast<std::size_t>(columns_) + column]);
+}
+
 bool DepthBuffer::hides(const Vec3& place, double tolerance) const {
     const Vec3 at = seen(place);
     if (!(at.x() >= 0 && at.y() >= 0 && at.x() < columns_ && at.y() < rows_)) return false;

@@ -22,6 +22,9 @@ public:
     /// Whether a triangle lies between a place [mm] and the eye, nearer to the eye by more than `tolerance` [mm].
     [[nodiscard]] bool hides(const Vec3& place, double tolerance) const;
 
+    /// Whether a triangle lies at a place of the picture [px], to a pixel.
+    [[nodiscard]] bool covers(const Vec2& pixel) const;
+
     /// Nearest distances towards the eye [mm], row by row; −infinity: nothing is there.
     [[nodiscard]] std::span<float> cells() { return nearest_; }
     [[nodiscard]] std::span<const float> cells() const { return nearest_; }

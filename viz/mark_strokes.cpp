@@ -32,6 +32,19 @@ Vec2 direction_at(const Band& band, std::size_t k, const Vec2& lonely) {
     return direction.norm() > 0 ? Vec2(direction.normalized()) : lonely;
 }
 
+/// The way [px] that brings both ends of an edge of a band onto the part; zero where they lie there, or none of them does.
+template <typename IsOnPart>
+Vec2 to_part(const Vec2& first, const Vec2& last, const IsOnPart& is_on_part) {
+    const bool first_on = is_on_part(first);
+    if (first_on == is_on_part(last)) return Vec2::Zero();
+    const Vec2 off = first_on ? last : first;
+    const Vec2 along = (first_on ? first : last) - off;
+    const double most = 0.5 * along.norm();
+    for (double way = finest_step; way <= most; way += finest_step)
+        if (is_on_part(Vec2(off + way * along.normalized()))) return way * along.normalized();
+    return Vec2::Zero();
+}
+
 /// Where the strip is seen from the side it is a line, and could not be seen.
 void widen(Band& band, double least, const Vec2& lonely) {
     Band wide = band;
@@ -46,7 +59,9 @@ void widen(Band& band, double least, const Vec2& lonely) {
     band = std::move(wide);
 }
 
-void lengthen(Band& band, double least, const Vec2& lonely) {
+/// A section that comes towards the eye is short. A longer one must not reach beyond the outline of the part.
+template <typename IsOnPart>
+void lengthen(Band& band, double least, const Vec2& lonely, const IsOnPart& is_on_part) {
     const double more = 0.5 * (least - length_of(band));
     if (!(more > 0)) return;
     const Vec2 first = direction_at(band, 0, lonely), last = direction_at(band, band.size() - 1, lonely);
@@ -55,6 +70,11 @@ void lengthen(Band& band, double least, const Vec2& lonely) {
         edge->back() += more * last;
         edge->insert(edge->begin(), Vec2(edge->front() - more * first));
     }
+    const Vec2 of_left = to_part(band.left.front(), band.left.back(), is_on_part);
+    const Vec2 of_right = to_part(band.right.front(), band.right.back(), is_on_part);
+    const Vec2 inwards = of_left.norm() > of_right.norm() ? of_left : of_right;
+    for (std::vector<Vec2>* edge : {&band.left, &band.right})
+        for (Vec2& at : *edge) at += inwards;
 }
 
 class StrokeMaker {
@@ -181,9 +201,10 @@ std::vector<Stroke> strokes_of(const ClSurface& surface, const PointRange& secti
     const StrokeMaker maker(surface, camera, corner, look, depth);
     std::vector<Stroke> strokes = maker.strokes(section);
     const Vec2 lonely = maker.direction((section.first + section.last) / 2);
+    const auto is_on_part = [&](const Vec2& at) { return depth.covers(at - corner); };
     for (Stroke& stroke : strokes) {
         widen(stroke.band, least_size, lonely);
-        lengthen(stroke.band, least_size, lonely);
+        lengthen(stroke.band, least_size, lonely, is_on_part);
     }
     return strokes;
 }

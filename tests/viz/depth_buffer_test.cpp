@@ -34,6 +34,16 @@ TEST_F(DepthBufferTest, ShowsTheSameFromBelow) {
     EXPECT_TRUE(depth.hides(Vec3(5, 5, 8), 0.5));
 }
 
+TEST_F(DepthBufferTest, CoversThePicturesOfTriangles) {
+    const Camera camera = seen_from(90);
+    const DepthBuffer depth(square_, camera);
+    EXPECT_TRUE(depth.covers(camera.pixel(Vec3(5, 5, 5))));
+    EXPECT_TRUE(depth.covers(camera.pixel(Vec3(9.8, 0.2, 5))));
+    EXPECT_FALSE(depth.covers(camera.pixel(Vec3(10.3, 5, 5))));
+    EXPECT_FALSE(depth.covers(Vec2(-1, 5)));
+    EXPECT_FALSE(depth.covers(Vec2(5, 1e9)));
+}
+
 TEST_F(DepthBufferTest, NothingIsHiddenOutsideThePicture) {
     const DepthBuffer depth(square_, seen_from(90));
     EXPECT_FALSE(depth.hides(Vec3(1000, 5, 0), 0.5));
