@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -145,12 +146,19 @@ std::vector<RuleCandidate> choose_family(RuleScores& scores, Identification& res
     return compared.rules;
 }
 
+/// Puts the machine's value into the note of a lower bound.
+void restate_value_of_file(IdentifiedParameter& p, double now) {
+    constexpr std::string_view words = "; the file has ";
+    if (const std::size_t at = p.note.find(words); at != std::string::npos)
+        p.note.replace(at + words.size(), std::string::npos, fmt::format("{:.6g}", now));
+}
+
 /// Parameters of limits that the searches have changed.
 void restate_limits(Identification& result) {
     for (IdentifiedParameter& p : result.parameters) {
-        if (p.name == "max_speed" && p.reached == false)
-            p.note = fmt::format("hardly exceeded; the file has {:.6g}",
-                                 planning_value(result.machine, p.name, p.axis).value_or(0));
+        if (p.name == "max_speed" && p.reached == false) {
+            if (const auto now = planning_value(result.machine, p.name, p.axis)) restate_value_of_file(p, *now);
+        }
         if (p.name != "max_acceleration") continue;
         if (p.axis == "path" && result.machine.path.max_acceleration == no_path_limit) {
             p.note = "the axes alone limit it";
@@ -160,7 +168,7 @@ void restate_limits(Identification& result) {
         const auto axis = std::find(axis_names.begin(), axis_names.end(), p.axis);
         if (axis == axis_names.end()) continue;
         const double now = result.machine.axes[static_cast<std::size_t>(axis - axis_names.begin())].max_acceleration;
-        if (p.reached == false) p.note = fmt::format("hardly exceeded; the file has {:.6g}", now);
+        if (p.reached == false) restate_value_of_file(p, now);
         if (p.reached == false || std::abs(now - 2 * p.value) > 0.01 * now) continue;
         p.value *= 2;
         if (p.standard_error) *p.standard_error *= 2;
