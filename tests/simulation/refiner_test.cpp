@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include <fmt/format.h>
@@ -131,6 +132,36 @@ TEST(Refiner, ALineBetweenRestsStaysAsPlanned) {
     EXPECT_EQ(line.cells, 0);
     // 2 s at the feed and two ramps of 2 √(50/50000) s, each of which covers half of what the feed would.
     EXPECT_NEAR(line.time, 2 + 2 * std::sqrt(50.0 / 50000.0), 1e-6);
+}
+
+/// Two sides of a star, 5.2 mm long, cut into lines. Their ends have six decimals, so that all of them meet in tiny bends.
+std::string sides_of_star(int lines) {
+    constexpr double radius = 8, inner = 0.45;
+    std::string text = "G21 G90 G64 P0.05\nF6000\n";
+    Vec3 from = Vec3::Zero();
+    for (int side = 1; side <= 2; ++side) {
+        const double angle = side * std::numbers::pi / 5, r = radius * (side % 2 == 0 ? 1 : inner);
+        const Vec3 to(r * std::cos(angle) - radius, r * std::sin(angle), 0);
+        for (int k = 1; k <= lines; ++k) {
+            const Vec3 p = from + (to - from) * k / lines;
+            text += fmt::format("G1 X{:.6f} Y{:.6f}\n", p.x(), p.y());
+        }
+        from = to;
+    }
+    return text + "M2\n";
+}
+
+// From rest at the greatest jerk j, a distance s takes the time (6 s / j)^(1/3), the same towards rest. The last of the spans
+// that the tiny bends make are much shorter than that.
+TEST(Refiner, ARestBehindShortSpansIsReachedAtTheGreatestJerk) {
+    constexpr double distance = 0.25;  // mm
+    for (const int lines : {1, 5, 20}) {
+        const Received refined = refine(sides_of_star(lines), 1000);
+        double length = 0, time = 0;
+        for (std::size_t i = refined.parts.size(); i-- > 0 && length + refined.parts[i].length < distance;)
+            length += refined.parts[i].length, time += refined.parts[i].time;
+        EXPECT_LT(time, 1.1 * std::cbrt(6 * distance / 50000)) << lines;
+    }
 }
 
 }  // namespace

@@ -142,14 +142,15 @@ void Refiner::divide(Section& section) {
         lead_ = section;
         lead_.to = std::min(rest_share * profile.durations()[0], section.to);
         section.from = lead_.to;
-        steepest_lead_ = steepest_from_rest(profile.at(lead_.to).arc_length, run.spans.front(), *machine_);
+        steepest_lead_ =
+            steepest_from_rest(profile.at(lead_.to).arc_length, run.spans.begin(), run.spans.end(), *machine_);
     }
     if (run.to_rest && section.to == profile.duration()) {
         tail_ = section;
         tail_.from = std::max(profile.duration() - rest_share * profile.durations()[6], section.from);
         section.to = tail_.from;
-        steepest_tail_ =
-            steepest_from_rest(profile.length() - profile.at(tail_.from).arc_length, run.spans.back(), *machine_);
+        steepest_tail_ = steepest_from_rest(profile.length() - profile.at(tail_.from).arc_length, run.spans.rbegin(),
+                                            run.spans.rend(), *machine_);
     }
     if (cells_.empty() && open_.length == 0) start_ = end_ = state_at(profile, section.from);
     add_cells(section);

@@ -5,8 +5,7 @@
 
 namespace clsurf {
 
-RestRamp steepest_from_rest(double distance, const Span& span, const Machine& machine) {
-    if (distance > span.length) return {};
+RestRamp steepest_on(const Span& span, double distance, const Machine& machine) {
     const auto most = [distance](double limit, double first, double second, double third) {
         return limit / (first + 9 * second * distance + 4.5 * third * distance * distance);
     };
