@@ -56,20 +56,19 @@ void DepthBuffer::draw(const Vec3& a, const Vec3& b, const Vec3& c) {
     }
 }
 
+float DepthBuffer::nearest_at(double column, double row) const {
+    if (!(column >= 0 && row >= 0 && column < columns_ && row < rows_)) return -std::numeric_limits<float>::infinity();
+    return nearest_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                    static_cast<std::size_t>(column)];
+}
+
 bool DepthBuffer::covers(const Vec2& pixel) const {
-    const Vec2 at = pixel / cell;
-    if (!(at.x() >= 0 && at.y() >= 0 && at.x() < columns_ && at.y() < rows_)) return false;
-    const auto column = static_cast<std::size_t>(at.x());
-    const auto row = static_cast<std::size_t>(at.y());
-    return std::isfinite(nearest_[row * static_cast<std::size_t>(columns_) + column]);
+    return std::isfinite(nearest_at(pixel.x() / cell, pixel.y() / cell));
 }
 
 bool DepthBuffer::hides(const Vec3& place, double tolerance) const {
     const Vec3 at = seen(place);
-    if (!(at.x() >= 0 && at.y() >= 0 && at.x() < columns_ && at.y() < rows_)) return false;
-    const auto column = static_cast<std::size_t>(at.x());
-    const auto row = static_cast<std::size_t>(at.y());
-    return nearest_[row * static_cast<std::size_t>(columns_) + column] > at.z() + tolerance;
+    return nearest_at(at.x(), at.y()) > at.z() + tolerance;
 }
 
 }  // namespace clsurf::viz

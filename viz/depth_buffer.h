@@ -35,6 +35,8 @@ private:
     void draw(const Vec3& a, const Vec3& b, const Vec3& c);
     /// Column and row [cells], and the distance towards the eye [mm].
     [[nodiscard]] Vec3 seen(const Vec3& place) const;
+    /// The distance [mm] that the cell at a column and a row has; −infinity: nothing is there, or it is outside.
+    [[nodiscard]] float nearest_at(double column, double row) const;
 
     Camera camera_;
     int columns_ = 0, rows_ = 0;

@@ -199,16 +199,22 @@ private:
     std::string key_, of_;
 };
 
-/// Lower bounds of limits that the machine has, as far as the speeds of the runs may depend on them: those of speed hold in rapids,
-/// and on the arcs of a trapezoidal planner, whose acceleration along an arc is what the highest speed of the axes leaves.
+/// Whether the runs have arcs on which the highest speeds of the axes show. A trapezoidal planner gives an arc the tangential
+/// acceleration that the highest speed of its axes would leave.
+bool arcs_depend_on_speeds(const RuleScores& scores, const Machine& machine) {
+    return is_trapezoidal(machine) && scores.has_arcs();
+}
+
+/// Lower bounds of limits that the machine has, as far as the speeds of the runs may depend on them. On other paths than arcs,
+/// limits of speed hold in rapids alone.
 std::vector<const IdentifiedParameter*> searched_limits(const RuleScores& scores, const Identification& result) {
     std::vector<const IdentifiedParameter*> limits;
     if (result.machine.kinematics.has_rotary()) return limits;
-    const bool has_arcs = is_trapezoidal(result.machine) && scores.has_arcs();
+    const bool arcs_tell = arcs_depend_on_speeds(scores, result.machine);
     for (const IdentifiedParameter& p : result.parameters) {
         const std::optional<double> now = planning_value(result.machine, p.name, p.axis);
         const bool unlimited = p.axis == "path" && now >= no_path_limit;
-        const bool held_in_rapids_alone = p.name == speed_key && (!has_arcs || p.axis == "path");
+        const bool held_in_rapids_alone = p.name == speed_key && (!arcs_tell || p.axis == "path");
         if (p.reached == false && p.value > 0 && now > 0.0 && !unlimited && !held_in_rapids_alone) limits.push_back(&p);
     }
     return limits;
@@ -319,7 +325,7 @@ void search_limits(double least_gain, RuleScores& scores, Identification& result
     const Identification before = result;
     search_limits_in_order(SearchedFirst::speeds, least_gain, scores, result);
     const double error = scores.mean_error(result.machine);
-    if (!is_trapezoidal(result.machine) || !scores.has_arcs() || error <= scores.resolution()) return;
+    if (!arcs_depend_on_speeds(scores, result.machine) || error <= scores.resolution()) return;
     Identification other = before;
     search_limits_in_order(SearchedFirst::accelerations, least_gain, scores, other);
     if (scores.mean_error(other.machine) < error) result = std::move(other);

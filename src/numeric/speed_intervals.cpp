@@ -101,9 +101,9 @@ void cut_drifts_either_way(std::vector<std::size_t>& boundaries, std::span<const
     turn_round();
 }
 
-/// Boundaries where curvature steps. A step that is smeared over a section has cuts beside it, where curvature seems to drift;
-/// each of `cut` leads to it. Curvature on both sides of a step is measured again, from the points of that side. Whether
-/// there was a step.
+/// Moves boundaries to the points where curvature steps. Returns whether there is any step. Curvature is measured over sections,
+/// so a step looks like a drift, and the intervals next to it are cut. `cut`: the boundaries with these cuts; a step is looked
+/// for near each of them. Curvature on each side of a step is then measured again, from the points of that side alone.
 bool move_to_steps(std::vector<std::size_t>& boundaries, const std::vector<std::size_t>& cut,
                    std::span<const Vec3> points, std::span<double> curvature, const IntervalRules& rules) {
     std::vector<std::size_t> kept{boundaries.front()}, steps;

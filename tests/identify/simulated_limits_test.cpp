@@ -118,8 +118,9 @@ TEST(SimulatedLimits, LimitsThatHoldBackTheSimulationTogetherAreFreedTogether) {
     EXPECT_GT(result.machine.path.max_jerk, 20'000);
 }
 
-/// Passes of flat arcs in the XZ plane, and with `in_xy` of arcs in the XY plane between them. Half of 800 mm/s² holds 120 mm/s on a
-/// radius of 36 mm, and 0.866 of it on one of 42 mm: on flatter arcs the highest speed decides what is left along them.
+/// Passes of flat arcs in the XZ plane, with `in_xy` also of arcs in the XY plane. Blocks overlap, so that each has half of
+/// 800 mm/s². At 120 mm/s, the normal acceleration is 0.866 of that on a radius of 42 mm. All radii here are greater, so the
+/// highest speed determines the tangential acceleration.
 Part arcs_on(const Machine& machine, bool in_xy) {
     std::string text = "G21 G90 G17\nG64 P0.01\nF3000\nG1 X0 Y0 Z0\n";
     for (int pass = 0; pass < 4; ++pass) {

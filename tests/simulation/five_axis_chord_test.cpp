@@ -81,7 +81,7 @@ TEST(FiveAxisChord, ALongerPeriodIsHardlySlowerWhereTheTipNearlyReverses) {
     const ZigzagRun fine = zigzag(0.0005), coarse = zigzag(0.004);
     EXPECT_NEAR(coarse.duration, fine.duration, 0.01 * fine.duration);
     const ControllerSettings& c = machine_at(0.004).controller;
-    // The corner is rounded within its tolerance, and the steps cut no more than theirs off what is left.
+    // The tip misses the corner by at most the tolerance of its rounding plus the chord error of a period.
     EXPECT_GE(coarse.least_end, width - c.tolerance - c.chord_tolerance);
 }
 

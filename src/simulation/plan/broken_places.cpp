@@ -8,7 +8,7 @@ namespace clsurf {
 namespace {
 
 constexpr double near_limit = 0.95;  ///< share from which on the greatest is looked for
-constexpr int peak_halvings = 3;     ///< of the way between the place of a greatest share and those beside it
+constexpr int peak_halvings = 3;     ///< of the two intervals next to a local maximum of the share
 constexpr int dip_halvings = 24;     ///< of the way in which the pace is least
 constexpr double dip_step = 0.125;   ///< between places, of the way over which it is
 constexpr int dip_places = 16;       ///< on each side of it
@@ -95,8 +95,8 @@ BrokenPlaces::Seen BrokenPlaces::see(const Between& place) const {
     return {place, problem_->greatest_share(place.cell, place.sample)};
 }
 
-/// The greatest share about a place that has more than those beside it: it may be above the limit over a small part of the way
-/// between places that hold it.
+/// The greatest share near a place whose share is greater than those of the places before and after it. The limit may be exceeded
+/// on a small part of the path between two places that keep it.
 BrokenPlaces::Seen BrokenPlaces::look_around(Seen before, Seen peak, Seen after) const {
     const auto halfway = [this](const Seen& a, const Seen& b) {
         return see(place_between(a.place, b.place, 0.5 * (u_of(a.place) + u_of(b.place))));
