@@ -45,9 +45,11 @@ set(CPACK_DEBIAN_CLSURF_DESCRIPTION "clsurf reads an NC program and the interpol
 set(CPACK_DEBIAN_LIBCLSURF-DEV_PACKAGE_NAME libclsurf-dev)
 set(CPACK_DEBIAN_LIBCLSURF-DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBCLSURF-DEV_PACKAGE_DEPENDS
-  "libeigen3-dev, libtbb-dev, libfmt-dev, libtomlplusplus-dev, zlib1g-dev, libzstd-dev, liblzma-dev, libexpat1-dev, libssl-dev, libsqlite3-dev, libmodbus-dev, libvtk9-dev, libosmesa6-dev, libegl-dev, libhdf5-dev")
+  "libeigen3-dev, libtbb-dev, libfmt-dev, libtomlplusplus-dev, zlib1g-dev, libzstd-dev, liblzma-dev, libexpat1-dev, libssl-dev, libsqlite3-dev, libmodbus-dev")
+# Programs that draw load the libraries of clsurf.
+set(CPACK_DEBIAN_LIBCLSURF-DEV_PACKAGE_SUGGESTS clsurf)
 set(CPACK_DEBIAN_LIBCLSURF-DEV_DESCRIPTION "Static libraries, headers and the CMake package of clsurf, which finds the NC program lines that mark a machined surface.")
-# Its libclsurf_image, which writes pictures, is that of clsurf.
+# Its libclsurf_image, which writes pictures, is that of clsurf; VTK is linked to the package itself.
 set(CPACK_DEBIAN_PYTHON3-CLSURF_PACKAGE_NAME python3-clsurf)
 set(CPACK_DEBIAN_PYTHON3-CLSURF_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON3-CLSURF_PACKAGE_SHLIBDEPS ON)

@@ -11,9 +11,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/clsurf-config-version.cma
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/clsurf-config.cmake
               ${PROJECT_BINARY_DIR}/clsurf-config-version.cmake DESTINATION ${package_folder})
-foreach(export clsurf_rooms clsurf_rooms_with_vtk)
-  install(EXPORT ${export} NAMESPACE clsurf:: DESTINATION ${package_folder})
-endforeach()
+install(EXPORT clsurf_rooms NAMESPACE clsurf:: DESTINATION ${package_folder})
 
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/clsurf)
 install(FILES ${PROJECT_SOURCE_DIR}/viz/page/dist/NOTICE.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/clsurf)

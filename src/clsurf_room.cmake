@@ -38,9 +38,6 @@ if(CLSURF_FUZZ)
   target_compile_options(clsurf_build_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
-# Where the rooms are listed for the package config: those that need VTK, and all others.
-set(CLSURF_ROOMS_WITH_VTK viz)
-
 # clsurf_arrows(NAME rooms…): what NAME may include.
 function(clsurf_arrows name)
   list(JOIN ARGN " " needs)
@@ -75,11 +72,7 @@ function(clsurf_room name)
 
   set_property(GLOBAL APPEND PROPERTY CLSURF_ROOMS ${name})
 
-  set(export clsurf_rooms)
-  if(name IN_LIST CLSURF_ROOMS_WITH_VTK)
-    set(export clsurf_rooms_with_vtk)
-  endif()
-  install(TARGETS clsurf_${name} EXPORT ${export}
+  install(TARGETS clsurf_${name} EXPORT clsurf_rooms
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/clsurf)
 endfunction()

@@ -1,6 +1,5 @@
 #pragma once
-// Canvas: meshes and flat drawing → pixels, through VTK on a GL context of our own. The only VTK in
-// the drawing of maps; what is drawn where is decided in scene.cpp.
+// Canvas: meshes and flat drawing → pixels. What is drawn where is decided in scene.cpp; vtk_module/picture.cpp draws.
 //
 // Flat things are placed in pixels of the finished picture, from its lower left corner.
 

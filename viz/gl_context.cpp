@@ -1,20 +1,11 @@
 #include "viz/gl_context.h"
 
-#include "core/error.h"
-#include "viz/gl_context_makers.h"
+#include "viz/vtk_library.h"
 
 namespace clsurf::viz {
 
 std::unique_ptr<GlContext> make_gl_context(const std::string& kind, int width, int height) {
-    if (kind == "osmesa") return make_osmesa_context(width, height);
-    if (kind == "egl") {
-#ifdef CLSURF_WITH_EGL
-        return make_egl_context();
-#else
-        throw UsageError("--gl egl: this program was built without EGL");
-#endif
-    }
-    throw UsageError("--gl: '" + kind + "' is not osmesa or egl");
+    return vtk_library().make_gl_context(kind, width, height);
 }
 
 }  // namespace clsurf::viz

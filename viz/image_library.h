@@ -32,14 +32,4 @@ struct ImageLibrary {
 /// The library, loaded at the first call. Throws SystemError. Thread-safe.
 [[nodiscard]] const ImageLibrary& image_library();
 
-/// Begins to load it in the background, and ends when it is loaded. A program must not end while a library is being
-/// loaded: the constructors of its static objects would run beside the destructors that exit() calls.
-class ImageLibraryPreload {
-public:
-    ImageLibraryPreload();
-    ~ImageLibraryPreload();
-    ImageLibraryPreload(const ImageLibraryPreload&) = delete;
-    ImageLibraryPreload& operator=(const ImageLibraryPreload&) = delete;
-};
-
 }  // namespace clsurf::viz

@@ -12,19 +12,18 @@ namespace clsurf::viz {
 /// Draws the mesh of a panel in parts, which are in memory one at a time. All parts give the same samples as the whole mesh.
 class MeshPainter {
 public:
-    /// For the panels of a sheet of that size. Throws SystemError.
-    MeshPainter(int width, int height, const std::string& gl, int supersample);
+    MeshPainter() = default;
     MeshPainter(const MeshPainter&) = delete;
     MeshPainter& operator=(const MeshPainter&) = delete;
-    ~MeshPainter();
+    virtual ~MeshPainter() = default;
 
     /// Adds the next part to samples of the size that empty() has. Throws SystemError.
-    void draw(const MeshPanel& part, MeshSamples& samples);
-    [[nodiscard]] MeshSamples empty() const;
-
-private:
-    class Window;
-    std::unique_ptr<Window> window_;
+    virtual void draw(const MeshPanel& part, MeshSamples& samples) = 0;
+    [[nodiscard]] virtual MeshSamples empty() const = 0;
 };
+
+/// For the panels of a sheet of that size [px]. Throws SystemError.
+[[nodiscard]] std::unique_ptr<MeshPainter> make_mesh_painter(int width, int height, const std::string& gl,
+                                                             int supersample);
 
 }  // namespace clsurf::viz

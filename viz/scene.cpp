@@ -293,15 +293,15 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const PlacedMap& placed, co
 
 DrawnParts draw_parts(const MapPanel& whole, const std::function<std::optional<PanelPart>()>& next,
                       const PlacedMap& placed, const ColourScale& scale, const Look& look) {
-    MeshPainter painter(look.width, look.height, look.gl, look.supersample);
-    DrawnParts drawn{painter.empty(), DepthBuffer(placed.camera), {}};
+    const std::unique_ptr<MeshPainter> painter = make_mesh_painter(look.width, look.height, look.gl, look.supersample);
+    DrawnParts drawn{painter->empty(), DepthBuffer(placed.camera), {}};
     while (const std::optional<PanelPart> part = next()) {
         MeshPanel panel;
         panel.rect = panel_rect({whole}, 0, look, placed);
         panel.camera = placed.camera;
         drawn.beyond.widen(fill_panel(part->panel, scale, look, panel, part->own));
         if (has_box(look)) drawn.depth.add(panel.geometry);
-        painter.draw(panel, drawn.samples);
+        painter->draw(panel, drawn.samples);
     }
     return drawn;
 }

@@ -6,7 +6,7 @@
 
 #include "io/files/atomic_file.h"
 #include "viz/image.h"
-#include "viz/image_library.h"
+#include "viz/picture_libraries.h"
 
 namespace clsurf::cli {
 
@@ -15,7 +15,7 @@ enum class PictureKind { pixels, drawing };
 
 class PictureOutput {
 public:
-    /// Opens the file: a name that cannot be written fails before the work. Begins to load the image library.
+    /// Opens the file: a name that cannot be written fails before the work. Begins to load the libraries that pictures need.
     /// `option` names it in messages. Throws UsageError (the ending, a terminal, an input), SystemError.
     explicit PictureOutput(const std::string& path, std::string_view option = "-o",
                            PictureKind kind = PictureKind::pixels);
@@ -27,7 +27,7 @@ public:
 private:
     std::string format_;
     io::AtomicFile file_;
-    viz::ImageLibraryPreload preload_;
+    viz::PictureLibrariesPreload preload_;
 };
 
 }  // namespace clsurf::cli

@@ -13,7 +13,7 @@
 #include "cli/survey_options.h"
 #include "compare/run_alignment.h"
 #include "io/files/atomic_file.h"
-#include "viz/image_library.h"
+#include "viz/picture_libraries.h"
 
 namespace clsurf::cli {
 namespace {
@@ -29,7 +29,7 @@ void keep_common_fields(std::vector<Field>& fields, const std::vector<Field>& ot
 ExitCode write_page(const ReportOptions& options, const po::variables_map& values, bool last) {
     (void)output_format(options.output, page_formats());
     io::AtomicFile output(options.output);  // a name that cannot be written fails before the work
-    const viz::ImageLibraryPreload preload;
+    const viz::PictureLibrariesPreload preload;
     StageClock clock(read_common(values), options.before.empty() ? 12 : 21);
     std::vector<ReportLog> logs;
     logs.push_back(load_report_log(options.part, options, clock));

@@ -16,7 +16,10 @@ if(CLSURF_SANITIZE STREQUAL "none")
                       ${launcher}
       --test-command consumer ${PROJECT_SOURCE_DIR}/data/programs/bottle_uneven.nc
                               ${PROJECT_BINARY_DIR}/samples/bottle_uneven.biip)
+  add_test(NAME consumer.draws COMMAND ${here}/build/picture ${here}/picture.png)
   set_tests_properties(consumer.install PROPERTIES FIXTURES_SETUP installed_tree)
-  set_tests_properties(consumer.uses_the_installed_package PROPERTIES FIXTURES_REQUIRED installed_tree
+  set_tests_properties(consumer.uses_the_installed_package PROPERTIES FIXTURES_REQUIRED installed_tree FIXTURES_SETUP consumer_built
     PASS_REGULAR_EXPRESSION "lines [0-9]+ to [0-9]+: [0-9]+ mm/min, adjacent passes [0-9]+ mm/min.*[0-9]+ to [0-9]+ mm/min.*[0-9.]+ s simulated")
+  set_tests_properties(consumer.draws PROPERTIES FIXTURES_REQUIRED consumer_built
+    PASS_REGULAR_EXPRESSION "text drawn with [1-9][0-9]+ dark values")
 endif()

@@ -14,7 +14,7 @@
 #include "viz/image.h"
 #include "viz/mesh_samples.h"
 
-namespace clsurf::viz {
+namespace clsurf::viz::vtk_module {
 
 class GlWindow {
 public:
@@ -45,4 +45,4 @@ private:
     vtkNew<vtkGenericOpenGLRenderWindow> window_;
 };
 
-}  // namespace clsurf::viz
+}  // namespace clsurf::viz::vtk_module

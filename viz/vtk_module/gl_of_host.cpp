@@ -1,14 +1,14 @@
-// The OpenGL of a module that another program loads (the Python module), in place of gl_symbols.cpp and
-// gl_context_osmesa.cpp (clsurf_link_gl_of_module). A program exports glX functions of its own, so that VTK draws with
+// The OpenGL of a module that another program loads (the Python module), in place of gl_symbols.cpp, gl_context_osmesa.cpp and
+// viz/vtk_library.cpp (clsurf_link_vtk_of_host). libclsurf_vtk exports glX functions of its own, so that VTK draws with
 // OSMesa. A module must not: its host may have loaded VTK already, and may draw on a display with it. The module's
 // contexts come from EGL. libGL (GLVND) passes each call to the vendor of the current context, so that VTK needs no other
 // functions than those of its host.
 
 #include "core/error.h"
-#include "viz/gl_context.h"
-#include "viz/gl_context_makers.h"
+#include "viz/vtk_module/gl_context_makers.h"
+#include "viz/vtk_module/table.h"
 
-namespace clsurf::viz {
+namespace clsurf::viz::vtk_module {
 namespace {
 
 GlResolver resolver_of_module = nullptr;
@@ -25,4 +25,6 @@ std::unique_ptr<GlContext> make_osmesa_context(int, int) {
     throw SystemError("a module draws with EGL, not with OSMesa");
 }
 
-}  // namespace clsurf::viz
+}  // namespace clsurf::viz::vtk_module
+
+const clsurf::viz::VtkLibrary& clsurf::viz::vtk_library() { return vtk_module::table; }

@@ -3,10 +3,9 @@
 #include <vector>
 
 #include "core/error.h"
-#include "viz/gl_context.h"
-#include "viz/gl_context_makers.h"
+#include "viz/vtk_module/gl_context_makers.h"
 
-namespace clsurf::viz {
+namespace clsurf::viz::vtk_module {
 namespace {
 
 class OsMesaContext final : public GlContext {
@@ -61,4 +60,4 @@ std::unique_ptr<GlContext> make_osmesa_context(int width, int height) {
     return std::make_unique<OsMesaContext>(width, height);
 }
 
-}  // namespace clsurf::viz
+}  // namespace clsurf::viz::vtk_module

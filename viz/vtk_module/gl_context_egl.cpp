@@ -2,10 +2,9 @@
 #include <EGL/eglext.h>
 
 #include "core/error.h"
-#include "viz/gl_context.h"
-#include "viz/gl_context_makers.h"
+#include "viz/vtk_module/gl_context_makers.h"
 
-namespace clsurf::viz {
+namespace clsurf::viz::vtk_module {
 namespace {
 
 /// Surfaceless: VTK draws into a framebuffer object of its own.
@@ -70,4 +69,4 @@ private:
 
 std::unique_ptr<GlContext> make_egl_context() { return std::make_unique<EglContext>(); }
 
-}  // namespace clsurf::viz
+}  // namespace clsurf::viz::vtk_module

@@ -1,13 +1,13 @@
-#include "viz/gl_window.h"
+#include "viz/vtk_module/gl_window.h"
 
 #include <algorithm>
 
 #include <vtkUnsignedCharArray.h>
 
 #include "core/error.h"
-#include "viz/gl_context_makers.h"
+#include "viz/vtk_module/gl_context_makers.h"
 
-namespace clsurf::viz {
+namespace clsurf::viz::vtk_module {
 namespace {
 
 // VTK draws into a framebuffer object of its own size; the context's own buffer is never seen.
@@ -20,8 +20,7 @@ void give_resolver(Window* window) {
         window->SetOpenGLSymbolLoader([](void*, const char* name) { return resolve_gl(name); }, nullptr);
     } else {
         (void)window;
-        if (!gl_symbols_are_ours())
-            throw SystemError("this program was linked without clsurf_link_gl: VTK would call another OpenGL");
+        if (!gl_symbols_are_ours()) throw SystemError("VTK was loaded before clsurf: it would call another OpenGL");
     }
 }
 
@@ -116,4 +115,4 @@ void GlWindow::put(const Column<std::uint8_t>& rgb) {
         throw SystemError("VTK takes no pixels");
 }
 
-}  // namespace clsurf::viz
+}  // namespace clsurf::viz::vtk_module

@@ -8,7 +8,7 @@
 #include "viz/mesh_panel.h"
 #include "viz/mesh_samples.h"
 
-namespace clsurf::viz {
+namespace clsurf::viz::vtk_module {
 
 /// Adds the cells of a panel, of one kind or of all. The panel must outlive them. Returns whether there are any.
 bool add_mesh(vtkRenderer* renderer, const MeshPanel& panel, int supersample, std::optional<CellKind> only = {});
@@ -16,4 +16,4 @@ bool add_mesh(vtkRenderer* renderer, const MeshPanel& panel, int supersample, st
 /// Shows a panel on its rectangle of a picture of that size [px].
 void place(vtkRenderer* renderer, const MeshPanel& panel, double width, double height);
 
-}  // namespace clsurf::viz
+}  // namespace clsurf::viz::vtk_module

@@ -1,4 +1,4 @@
-#include "viz/mesh_actors.h"
+#include "viz/vtk_module/mesh_actors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@
 #include <vtkTypeInt32Array.h>
 #include <vtkUnsignedCharArray.h>
 
-namespace clsurf::viz {
+namespace clsurf::viz::vtk_module {
 namespace {
 
 /// Our 32-bit vertex numbers as VTK cells of `size` vertices, without a copy. The column must outlive it.
@@ -199,4 +199,4 @@ void place(vtkRenderer* renderer, const MeshPanel& panel, double width, double h
     renderer->GetCullers()->RemoveAllItems();
 }
 
-}  // namespace clsurf::viz
+}  // namespace clsurf::viz::vtk_module

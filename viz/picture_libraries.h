@@ -1,0 +1,19 @@
+#pragma once
+// The libraries that pictures need.
+
+#include <future>
+
+namespace clsurf::viz {
+
+/// Begins to load VTK and OpenImageIO in the background, and ends when they are loaded. A program must not end while a library is
+/// being loaded: the constructors of its static objects would run beside the destructors that exit() calls.
+class PictureLibrariesPreload {
+public:
+    PictureLibrariesPreload();
+
+private:
+    // Whoever draws is told if one cannot be loaded.
+    std::future<void> image_, vtk_;
+};
+
+}  // namespace clsurf::viz
