@@ -8,9 +8,10 @@ add_test(NAME manual.reference_is_up_to_date COMMAND bash -c
 add_test(NAME manual.bash_completes COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/cli/completion_test
   ${PROJECT_BINARY_DIR}/manual/completion/clsurf)
 
-# The documents: links lead somewhere, shown outputs are what the commands print. `update` in place of `listings` writes them.
+# The documents: links lead somewhere, pages for users have no history of measurements, shown outputs are what the commands print. `update` in place of `listings` writes them.
 set(check_documents python3 ${PROJECT_SOURCE_DIR}/tests/docs/check_documents.py)
 add_test(NAME docs.links COMMAND ${check_documents} links ${PROJECT_SOURCE_DIR})
+add_test(NAME docs.histories COMMAND ${check_documents} histories ${PROJECT_SOURCE_DIR})
 add_test(NAME docs.listings COMMAND ${check_documents} listings ${PROJECT_SOURCE_DIR} $<TARGET_FILE:clsurf> README.md docs/tutorial.md)
 set_tests_properties(docs.listings PROPERTIES TIMEOUT 600)
 add_test(NAME docs.pictures COMMAND ${check_documents} pictures ${PROJECT_SOURCE_DIR} $<TARGET_FILE:clsurf>
@@ -25,6 +26,14 @@ file(WRITE ${wrong}/docs/alone.md "# Alone\n")
 add_test(NAME docs.wrong_links_are_found COMMAND ${check_documents} links ${wrong})
 set_tests_properties(docs.wrong_links_are_found PROPERTIES PASS_REGULAR_EXPRESSION
   "^README.md: there is no docs/gone.md\ndocs/page.md: docs/page.md has no heading #one-word\ndocs/alone.md: no way leads here from README.md\n$")
+set(history ${CMAKE_CURRENT_BINARY_DIR}/documents_with_history)
+file(MAKE_DIRECTORY ${history}/docs/experiments)
+file(WRITE ${history}/README.md "A run takes 4.3 s. Measured on 2026-11-26. On 2026-11-25, on a loaded machine, it took 83.9 s.\n")
+file(WRITE ${history}/docs/page.md "Feeds before and after. `--time 2026-11-24` is later.\n\n| check | 5.3 s in a slow hour |\n")
+file(WRITE ${history}/docs/experiments/page.md "On 2026-11-25, at a load of 8, it took 65.2 s.\n")
+add_test(NAME docs.histories_are_found COMMAND ${check_documents} histories ${history})
+set_tests_properties(docs.histories_are_found PROPERTIES PASS_REGULAR_EXPRESSION
+  "^README.md: belongs to docs/experiments: On 2026-11-25, on a loaded machine, it took 83.9 s.\ndocs/page.md: belongs to docs/experiments: [|] check [|] 5.3 s in a slow hour [|]\n$")
 add_test(NAME docs.wrong_listings_are_found COMMAND ${check_documents} listings ${wrong} $<TARGET_FILE:clsurf> README.md)
 set_tests_properties(docs.wrong_listings_are_found PROPERTIES PASS_REGULAR_EXPRESSION
   "shown: +line 560: X1.874 Z4.723\n +printed: line 560: X1.873 Z4.723\n")

@@ -2,6 +2,7 @@
 #
 # check_documents.py links ROOT                     every relative link leads to a file and, after #, to one of its headings;
 #                                                   every page of docs can be reached from README.md
+# check_documents.py histories ROOT                 pages for users have no history of measurements: that is in docs/experiments
 # check_documents.py listings ROOT CLSURF PAGE…     the outputs that a page shows are those of its commands
 # check_documents.py update ROOT CLSURF PAGE…       writes the outputs into the pages instead
 # check_documents.py pictures ROOT CLSURF PAGE…     the pictures of a page are those of its commands
@@ -83,6 +84,34 @@ def check_links(root):
     for page in sorted(pages):
         if page.startswith("docs" + os.sep) and page not in reached:
             complaints.append("%s: no way leads here from README.md" % page)
+    return complaints
+
+
+# Pages that may tell the history of a measurement; README.md and the rest of docs give its result.
+WITH_HISTORIES = ("docs/experiments/", "docs/design/")
+DATE = re.compile(r"\b20\d\d-\d\d-\d\d\b")
+# What a dated sentence says of a measurement if it tells how it came about, and not only when.
+CONDITION = re.compile(r"\b(load(ed)?|hours?|busy|busier|earlier|before|after|since then|later|passed)\b", re.I)
+# What belongs to a history in a sentence without a date, too.
+HISTORY = re.compile(r"\b(at a load of|slow(er)? hour|(heavily|less) loaded|busier|(an |the )?earlier version|with other work running)\b", re.I)
+
+
+def sentences_of(text):
+    """The sentences and the rows of tables of a page, without code."""
+    plain = re.sub(r"`[^`\n]*`", "``", without_code(text))
+    for line in plain.split("\n"):
+        yield from ([line] if line.startswith("|") else re.split(r"(?<=[.!?])\s+", line))
+
+
+def check_histories(root):
+    """The sentences of pages for users that tell how a measurement came about."""
+    complaints = []
+    for page, text in sorted(pages_of(root).items()):
+        if page != "README.md" and not page.startswith("docs/") or page.startswith(WITH_HISTORIES):
+            continue
+        for sentence in sentences_of(text):
+            if HISTORY.search(sentence) or DATE.search(sentence) and CONDITION.search(sentence):
+                complaints.append("%s: belongs to docs/experiments: %s" % (page, sentence.strip()))
     return complaints
 
 
@@ -198,6 +227,8 @@ def main(arguments):
     complaints = []
     if what == "links":
         complaints = check_links(root)
+    elif what == "histories":
+        complaints = check_histories(root)
     else:
         for path in arguments[3:]:
             page = Page(root, os.path.abspath(arguments[2]), path)
