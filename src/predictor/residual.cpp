@@ -123,8 +123,9 @@ float beyond_sides(float relief, std::span<const float> left, std::span<const fl
 }
 
 /// The same next to the border, where the outermost pass has no chord: what relief it would have is not known. A relief is
-/// a mark if it and those farther in, `inner`, are what a fault of this pass makes (docs/predictor.md#at-the-border). `outer`: the relief of the pass between
-/// this one and the outermost one; NaN: there is none.
+/// a mark if it and those farther in, `inner`, are what a fault of this pass makes
+/// (docs/design/predictor.md#at-the-border). `outer`: the relief of the pass between this one and the outermost one;
+/// NaN: there is none.
 float mark_at_border(float relief, float outer, std::span<const float> inner) {
     const bool few = known(inner) < fewest_values;
     const float base = few ? (outer + inner[0] + relief) / 3 : median_beside(relief, inner);
