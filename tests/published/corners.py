@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the tables of docs/corners.md and its pictures: ways to pass a corner, measured on set points.
+"""Writes the tables of docs/experiments/corners.md and its pictures: ways to pass a corner, measured on set points.
 
     /usr/bin/python3 tests/published/corners.py build/release/src/cli/clsurf
 
@@ -17,7 +17,7 @@ sys.dont_write_bytecode = True
 import set_points
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-DOCS = os.path.join(ROOT, "docs")
+DOCS = os.path.join(ROOT, "docs", "experiments")
 WAYS = {
     "three_axis_mill": {
         "stop": ["stop"],
@@ -214,7 +214,7 @@ def main():
                 print(f"{program}, {machine}, {name}: {run.time:.3f} s", file=sys.stderr, flush=True)
             block = re.compile(f"(<!-- {program} {machine} -->\n).*?(<!-- end -->\n)", re.S)
             if not block.search(page):
-                raise SystemExit(f"docs/corners.md has no place for {program} on {machine}")
+                raise SystemExit(f"docs/experiments/corners.md has no place for {program} on {machine}")
             page = block.sub(lambda m: m[1] + table_of(rows) + m[2], page)
             if (program, machine) == ("corners", "three_axis_mill"):
                 corners = corners_of(clsurf, path)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the tables of docs/published.md: simulated runs of the standard curves next to published times and to optima.
+"""Writes the tables of docs/experiments/published.md: simulated runs of the standard curves next to published times and to optima.
 
     /usr/bin/python3 tests/published/published.py build/release/src/cli/clsurf [--clone DIR] [--only NAME]
 
@@ -25,7 +25,7 @@ sys.dont_write_bytecode = True
 import set_points
 from standard_curves import HERE, ROOT, read_curves
 
-PAGE = os.path.join(ROOT, "docs", "published.md")
+PAGE = os.path.join(ROOT, "docs", "experiments", "published.md")
 GROUPS = ["axis", "tangential", "normal", "vector"]
 RUNS = 3  # of which the fastest counts
 

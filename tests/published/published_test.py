@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The tools of docs/published.md against answers from paper, and one short curve of the page: published_test.py CLSURF"""
+"""The tools of docs/experiments/published.md against answers from paper, and one short curve of the page: published_test.py CLSURF"""
 import os
 import sys
 import tempfile

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the tables of docs/rounded_rectangle.md that a simulated lap gives.
+"""Writes the tables of docs/experiments/rounded_rectangle.md that a simulated lap gives.
 
     /usr/bin/python3 tests/published/rounded_rectangle.py build/release/src/cli/clsurf
 

@@ -1,6 +1,6 @@
 // The rounded rectangle of Li et al., Optimal Control of CNC Machining Tool Motion in Green Converter PathSample
 // Based on Multisensor Fusion Data, Sensors and Materials (2025): its times and its Fig. 5, with
-// docs/rounded_rectangle.md saying what of the printed numbers cannot hold. mm, s.
+// docs/experiments/rounded_rectangle.md saying what of the printed numbers cannot hold. mm, s.
 
 #include <gtest/gtest.h>
 
