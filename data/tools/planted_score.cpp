@@ -52,7 +52,7 @@ private:
 
 std::vector<PointIndex> points_of(const clsurf::Defect& defect) {
     std::vector<PointIndex> points;
-    for (const DefectRun& run : defect.runs) {
+    for (const DefectSection& run : defect.sections) {
         for (PointIndex i = run.points.first; i <= run.points.last; ++i) points.push_back(i);
     }
     return points;
@@ -109,7 +109,7 @@ bool lines_match(const PlantedLog& log, const std::vector<PointIndex>& truth, co
             ++end;
         const auto first = static_cast<long long>(log.line[static_cast<std::size_t>(truth[k])]);
         const auto last = static_cast<long long>(log.line[static_cast<std::size_t>(truth[end - 1])]);
-        const bool matched = std::any_of(defect.runs.begin(), defect.runs.end(), [&](const DefectRun& run) {
+        const bool matched = std::any_of(defect.sections.begin(), defect.sections.end(), [&](const DefectSection& run) {
             return std::abs(static_cast<long long>(run.first_line) - first) <= 1 &&
                    std::abs(static_cast<long long>(run.last_line) - last) <= 1;
         });

@@ -24,10 +24,10 @@ struct Excerpt {
     LineNumber first = 0, last = 0;
 };
 
-Excerpt excerpt_of(const Program& program, const DefectRun& run) {
-    if (run.file.empty()) return {&program.main(), run.first_line, run.last_line};
+Excerpt excerpt_of(const Program& program, const DefectSection& section) {
+    if (section.file.empty()) return {&program.main(), section.first_line, section.last_line};
     for (const SourceText& text : program.files) {
-        if (file_name(text.name()) == run.file) return {&text, run.file_first_line, run.file_last_line};
+        if (file_name(text.name()) == section.file) return {&text, section.file_first_line, section.file_last_line};
     }
     return {};
 }
@@ -39,8 +39,8 @@ std::string code_line(const SourceText& text, LineNumber number) {
 }
 
 /// The lines of a run, the first and the last of many.
-std::string code_html(const Program& program, const DefectRun& run) {
-    const Excerpt excerpt = excerpt_of(program, run);
+std::string code_html(const Program& program, const DefectSection& section) {
+    const Excerpt excerpt = excerpt_of(program, section);
     if (excerpt.text == nullptr || excerpt.first == 0) return {};
     const bool all = excerpt.last - excerpt.first < most_lines;
     const LineNumber shown = all ? excerpt.last : excerpt.first + (most_lines - lines_at_the_end - 1) - 1;
@@ -55,7 +55,7 @@ std::string code_html(const Program& program, const DefectRun& run) {
     return text + "</pre>\n";
 }
 
-std::string list_of_lines(const std::vector<DefectRun>& runs) {
+std::string list_of_lines(const std::vector<DefectSection>& runs) {
     constexpr std::size_t most_runs = 6;
     std::string text;
     for (std::size_t k = 0; k < std::min(most_runs, runs.size()); ++k)
@@ -73,15 +73,15 @@ std::string picture_html(const PagePicture& picture) {
         html(picture.title), to_base64(picture.png), html(picture.text));
 }
 
-std::string lines_text(const DefectRun& run) {
-    if (run.first_line == 0) return "–";
-    return run.first_line == run.last_line ? fmt::format("{}", run.first_line)
-                                           : fmt::format("{}–{}", run.first_line, run.last_line);
+std::string lines_text(const DefectSection& section) {
+    if (section.first_line == 0) return "–";
+    return section.first_line == section.last_line ? fmt::format("{}", section.first_line)
+                                                   : fmt::format("{}–{}", section.first_line, section.last_line);
 }
 
 std::string defect_card_html(const ReportPage& page, std::size_t defect) {
     const Defect& d = page.quality.report->defects[defect];
-    const std::vector<DefectRun> runs = strongest_first(d);
+    const std::vector<DefectSection> runs = strongest_first(d);
     std::string text = "<article class=\"defect-card\">\n" + picture_html(*page.defects[defect].picture);
     text += fmt::format("<p>Lines {}", html(list_of_lines(runs)));
     if (!d.neighbours.empty()) text += fmt::format("; adjacent: {}", html(list_of_lines(d.neighbours)));

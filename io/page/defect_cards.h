@@ -11,7 +11,7 @@ namespace clsurf::io {
 [[nodiscard]] std::string picture_html(const PagePicture& picture);
 
 /// "1178–1334"; without a line "–".
-[[nodiscard]] std::string lines_text(const DefectRun& run);
+[[nodiscard]] std::string lines_text(const DefectSection& section);
 
 /// The card of a defect that has a picture, as HTML. O(lines shown).
 [[nodiscard]] std::string defect_card_html(const ReportPage& page, std::size_t defect);

@@ -44,8 +44,8 @@ void mark_extremes(Marks& marks, const Column<float>& values, PointIndex first, 
 /// take(range) for the points of a defect and of the adjacent passes.
 template <typename Take>
 void for_each_run(const Defect& defect, const Take& take) {
-    for (const std::vector<DefectRun>* runs : {&defect.runs, &defect.neighbours}) {
-        for (const DefectRun& run : *runs) take(run.points);
+    for (const std::vector<DefectSection>* runs : {&defect.sections, &defect.neighbours}) {
+        for (const DefectSection& section : *runs) take(section.points);
     }
 }
 

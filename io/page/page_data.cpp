@@ -271,12 +271,12 @@ Json fields_json(const ReportPage& page) {
     return all;
 }
 
-Json runs_json(const std::vector<DefectRun>& runs) {
+Json runs_json(const std::vector<DefectSection>& runs) {
     Json all = Json::array();
-    for (const DefectRun& run : runs) {
-        all.push_back({{"pass", run.pass},
-                       {"points", {run.points.first, run.points.last}},
-                       {"lines", {run.first_line, run.last_line}}});
+    for (const DefectSection& section : runs) {
+        all.push_back({{"pass", section.pass},
+                       {"points", {section.points.first, section.points.last}},
+                       {"lines", {section.first_line, section.last_line}}});
     }
     return all;
 }

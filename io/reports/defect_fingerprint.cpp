@@ -15,8 +15,8 @@ std::string coarse_name(const Defect& d) {
     const auto coarse = [](double mm) { return static_cast<long>(std::floor(mm / cell)); };
     if (d.systematic) return std::string(rule_of(d).id);
     return fmt::format("{}/{}/{}/{}/{}/{}", name_of(d.cause), name_of(d.quantity),
-                       d.runs.empty() ? 0 : d.runs.front().pass, coarse(d.place.tip.x()), coarse(d.place.tip.y()),
-                       coarse(d.place.tip.z()));
+                       d.sections.empty() ? 0 : d.sections.front().pass, coarse(d.place.tip.x()),
+                       coarse(d.place.tip.y()), coarse(d.place.tip.z()));
 }
 
 }  // namespace

@@ -9,21 +9,21 @@ namespace clsurf::io {
 namespace {
 
 /// "passes", "lines" and "points" of runs, side by side, and "subprograms" where one runs in a file of its own.
-void add_runs(Json& json, const std::vector<DefectRun>& runs) {
+void add_runs(Json& json, const std::vector<DefectSection>& runs) {
     Json passes = Json::array();
     Json lines = Json::array();
     Json points = Json::array();
     Json subprograms = Json::array();
     bool in_subprogram = false;
-    for (const DefectRun& run : runs) {
-        passes.push_back(run.pass);
-        lines.push_back(Json::array({run.first_line, run.last_line}));
-        points.push_back(Json::array({run.points.first, run.points.last}));
-        in_subprogram = in_subprogram || !run.file.empty();
-        subprograms.push_back(
-            run.file.empty()
-                ? Json(nullptr)
-                : Json{{"file", run.file}, {"lines", Json::array({run.file_first_line, run.file_last_line})}});
+    for (const DefectSection& section : runs) {
+        passes.push_back(section.pass);
+        lines.push_back(Json::array({section.first_line, section.last_line}));
+        points.push_back(Json::array({section.points.first, section.points.last}));
+        in_subprogram = in_subprogram || !section.file.empty();
+        subprograms.push_back(section.file.empty()
+                                  ? Json(nullptr)
+                                  : Json{{"file", section.file},
+                                         {"lines", Json::array({section.file_first_line, section.file_last_line})}});
     }
     json["passes"] = std::move(passes);
     json["lines"] = std::move(lines);
@@ -62,7 +62,7 @@ Json defect_json(const Defect& d, std::size_t id, double scallop) {
               {"point", d.point}};
     if (d.systematic) add_systematic(json, d);
     add_place(json, d.place);
-    add_runs(json, d.runs);
+    add_runs(json, d.sections);
     Json beside;
     add_runs(beside, d.neighbours);
     json["neighbours"] = std::move(beside);

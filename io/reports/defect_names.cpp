@@ -47,7 +47,7 @@ Group group_of(const QualityReport& report) {
     Group group;
     for (const Defect& d : report.defects) {
         if (&d != &strongest && (!same_kind(d, strongest) || d.score < as_strong * strongest.score)) continue;
-        for (const DefectRun& run : d.runs) group.passes.insert(run.pass);
+        for (const DefectSection& section : d.sections) group.passes.insert(section.pass);
         const double size = shown_size(d);
         group.least = group.defects == 0 ? size : std::min(group.least, size);
         group.most = std::max(group.most, size);

@@ -51,11 +51,11 @@ std::string text_of(const Defect& defect, std::size_t shown, bool in_sentence) {
     const std::vector<LineRange> ranges = sections_lines(defect);
     if (ranges.empty()) return "-";
     std::map<std::string, std::vector<LineRange>> of_file;
-    for (const DefectRun& run : defect.runs) {
-        if (!run.file.empty()) of_file[run.file].emplace_back(run.file_first_line, run.file_last_line);
+    for (const DefectSection& section : defect.sections) {
+        if (!section.file.empty()) of_file[section.file].emplace_back(section.file_first_line, section.file_last_line);
     }
     std::string text = text_of_ranges(ranges, shown, in_sentence);
-    const DefectRun* strongest = strongest_run(defect);
+    const DefectSection* strongest = strongest_section(defect);
     for (auto& [file, lines] : of_file) {
         std::vector<LineRange> in_file = merged(std::move(lines));
         if (strongest->file == file) put_first(in_file, strongest->file_first_line);
@@ -68,11 +68,11 @@ std::string text_of(const Defect& defect, std::size_t shown, bool in_sentence) {
 
 std::vector<LineRange> sections_lines(const Defect& defect) {
     std::vector<LineRange> ranges;
-    for (const DefectRun& run : defect.runs) {
-        if (run.first_line > 0) ranges.push_back(rising(run.first_line, run.last_line));
+    for (const DefectSection& section : defect.sections) {
+        if (section.first_line > 0) ranges.push_back(rising(section.first_line, section.last_line));
     }
     ranges = merged(std::move(ranges));
-    if (const DefectRun* strongest = strongest_run(defect); strongest != nullptr && strongest->first_line > 0)
+    if (const DefectSection* strongest = strongest_section(defect); strongest != nullptr && strongest->first_line > 0)
         put_first(ranges, strongest->first_line);
     return ranges;
 }

@@ -13,7 +13,7 @@ namespace clsurf::io {
 using LineRange = std::pair<LineNumber, LineNumber>;
 
 /// The lines of the sections of a defect, each once: overlapping ranges are one. The first is that of the strongest section
-/// (strongest_run()), the others rise. Empty: no section has a line.
+/// (strongest_section()), the others rise. Empty: no section has a line.
 [[nodiscard]] std::vector<LineRange> sections_lines(const Defect& defect);
 
 /// The same as text: "40, 12-13", at most `shown` ranges and then "and 3 more"; "-": none has a line.

@@ -225,9 +225,10 @@ std::string against_baseline(const RecordedMatch& match) {
     return text;
 }
 
-std::string subprogram_columns(const DefectRun& run) {
-    return run.file.empty() ? ",,"
-                            : fmt::format("{},{},{}", csv_field(run.file), run.file_first_line, run.file_last_line);
+std::string subprogram_columns(const DefectSection& section) {
+    return section.file.empty()
+               ? ",,"
+               : fmt::format("{},{},{}", csv_field(section.file), section.file_first_line, section.file_last_line);
 }
 
 }  // namespace
@@ -311,13 +312,13 @@ std::string quality_csv(const ReportedQuality& q) {
     for (std::size_t i = 0; i < q.report->defects.size(); ++i) {
         const Defect& d = q.report->defects[i];
         const Vec3& at = d.place.position();
-        for (const DefectRun& run : d.runs) {
+        for (const DefectSection& section : d.sections) {
             text += fmt::format(
                 "{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.3f},{},{:.1f},{:.1f},{:.3f},{:.4f},{:.2f},{:.1f},{},{},{},{},,,,,,,,,{},{}\n",
-                i + 1, d.severity, name_of(d.cause), run.pass, run.first_line, run.last_line, run.points.first,
-                run.points.last, at.x(), at.y(), at.z(), um(d.depth), shape_of(d), per_minute(d.speed_jump),
-                d.acceleration_jump, d.length, d.area, d.score, 100 * d.speed_mismatch, name_of(d.quantity),
-                d.systematic, place_word(d.place), subprogram_columns(run),
+                i + 1, d.severity, name_of(d.cause), section.pass, section.first_line, section.last_line,
+                section.points.first, section.points.last, at.x(), at.y(), at.z(), um(d.depth), shape_of(d),
+                per_minute(d.speed_jump), d.acceleration_jump, d.length, d.area, d.score, 100 * d.speed_mismatch,
+                name_of(d.quantity), d.systematic, place_word(d.place), subprogram_columns(section),
                 q.acceptance != nullptr && q.acceptance->accepts(i),
                 q.acceptance != nullptr ? csv_field(q.acceptance->of_defect[i].comment) : std::string());
         }

@@ -35,10 +35,11 @@ std::string path_of(const Program& program, const std::string& file) {
     return file;
 }
 
-Json location(const Program& program, const DefectRun& run, const std::string& message) {
-    if (run.file.empty())
-        return sarif_location(sarif_uri(program.main().name()), run.first_line, run.last_line, message);
-    return sarif_location(sarif_uri(path_of(program, run.file)), run.file_first_line, run.file_last_line, message);
+Json location(const Program& program, const DefectSection& section, const std::string& message) {
+    if (section.file.empty())
+        return sarif_location(sarif_uri(program.main().name()), section.first_line, section.last_line, message);
+    return sarif_location(sarif_uri(path_of(program, section.file)), section.file_first_line, section.file_last_line,
+                          message);
 }
 
 std::string message_of(const Defect& d) {
@@ -74,12 +75,12 @@ Json rule_json(const RuleText& rule) {
 }
 
 /// `runs`: strongest_first(d).
-Json related_locations(const Program& program, const Defect& d, std::span<const DefectRun> runs) {
+Json related_locations(const Program& program, const Defect& d, std::span<const DefectSection> runs) {
     Json related = Json::array();
     if (!runs.empty() && !runs.front().file.empty()) {
-        const DefectRun& run = runs.front();
-        related.push_back(sarif_location(sarif_uri(program.main().name()), run.first_line, run.last_line,
-                                         fmt::format("Calls {}.", run.file)));
+        const DefectSection& section = runs.front();
+        related.push_back(sarif_location(sarif_uri(program.main().name()), section.first_line, section.last_line,
+                                         fmt::format("Calls {}.", section.file)));
     }
     for (std::size_t k = 1; k < std::min(runs.size(), most_related); ++k)
         related.push_back(location(program, runs[k], fmt::format("The same defect on pass {}.", runs[k].pass)));
@@ -122,14 +123,14 @@ std::string quality_sarif(const ReportedQuality& q) {
     Json results = Json::array();
     for (std::size_t i = 0; i < defects.size(); ++i) {
         const Defect& d = defects[i];
-        const std::vector<DefectRun> runs = strongest_first(d);
+        const std::vector<DefectSection> runs = strongest_first(d);
         const std::string_view rule = rule_of(d).id;
         Json result{
             {"ruleId", rule},
             {"ruleIndex", index_of_rule.at(rule)},
             {"level", level_of(d.severity)},
             {"message", {{"text", message_of(d)}, {"markdown", markdown_of(d)}}},
-            {"locations", Json::array({location(*q.program, runs.empty() ? DefectRun{} : runs.front(), "")})},
+            {"locations", Json::array({location(*q.program, runs.empty() ? DefectSection{} : runs.front(), "")})},
             {"rank", number(100.0 * static_cast<double>(defects.size() - i) / static_cast<double>(defects.size()), 1)},
             {"partialFingerprints", {{"clsurfDefect/v1", fingerprints[i]}}},
             {"properties",
@@ -142,7 +143,8 @@ std::string quality_sarif(const ReportedQuality& q) {
               {"log", q.log}}}};
         add_place(result["properties"], d.place);
         Json lines = Json::array();
-        for (const DefectRun& run : d.runs) lines.push_back(Json::array({run.first_line, run.last_line}));
+        for (const DefectSection& section : d.sections)
+            lines.push_back(Json::array({section.first_line, section.last_line}));
         result["properties"].update(
             {{"cause", name_of(d.cause)}, {"systematic", d.systematic}, {"lines", std::move(lines)}});
         if (q.baseline != nullptr) result["baselineState"] = baseline_state(q.baseline->states[i]);

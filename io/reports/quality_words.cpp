@@ -21,7 +21,7 @@ std::string with_um(double mm) { return fmt::format("{:.1f} µm", mm * um_per_mm
 /// "pass 14", "passes 12 and 13", "12 passes from 3 to 57".
 std::string passes_text(const Defect& d) {
     std::vector<std::int64_t> passes;
-    for (const DefectRun& run : d.runs) passes.push_back(run.pass);
+    for (const DefectSection& section : d.sections) passes.push_back(section.pass);
     std::sort(passes.begin(), passes.end());
     passes.erase(std::unique(passes.begin(), passes.end()), passes.end());
     if (passes.empty()) return "a pass";
@@ -31,8 +31,8 @@ std::string passes_text(const Defect& d) {
 }
 
 bool one_pass(const Defect& d) {
-    return std::all_of(d.runs.begin(), d.runs.end(),
-                       [&](const DefectRun& run) { return run.pass == d.runs.front().pass; });
+    return std::all_of(d.sections.begin(), d.sections.end(),
+                       [&](const DefectSection& section) { return section.pass == d.sections.front().pass; });
 }
 
 std::string capitalised(std::string text) {

@@ -70,16 +70,15 @@ void draw_place(const JudgedPart& judged, std::size_t index, const viz::CardMapS
     look.gl = gl;
     look.keep_drawing = keep_drawing;
     look.view = view_along(judged.signals.normal(d.point));
-    Box3 section;
-    for (const DefectRun& run : d.runs) {
-        if (d.point < run.points.first || d.point > run.points.last) continue;
-        for (PointIndex i = run.points.first; i <= run.points.last; ++i)
-            section.extend(judged.surface.positions.absolute(i));
+    Box3 box;
+    for (const DefectSection& section : d.sections) {
+        if (d.point < section.points.first || d.point > section.points.last) continue;
+        for (PointIndex i = section.points.first; i <= section.points.last; ++i)
+            box.extend(judged.surface.positions.absolute(i));
     }
-    if (section.isEmpty()) section = d.bounds;
-    const double room =
-        std::max(least_surroundings * judged.surface.step_over, surroundings * section.sizes().maxCoeff());
-    look.box = Box3(section.min() - Vec3::Constant(room), section.max() + Vec3::Constant(room));
+    if (box.isEmpty()) box = d.bounds;
+    const double room = std::max(least_surroundings * judged.surface.step_over, surroundings * box.sizes().maxCoeff());
+    look.box = Box3(box.min() - Vec3::Constant(room), box.max() + Vec3::Constant(room));
     const viz::PlacedMap placed = viz::placed_map({panel}, look);
     card.map = viz::draw_map({panel}, placed, {}, {}, look);
     card.bearings = bearings_of(placed.camera, judged.signals.feed(d.point));
@@ -128,8 +127,9 @@ void label_lines(viz::CardChart& chart, const DefectProfile& profile) {
 
 /// "pass 14": the one of the strongest section.
 std::string pass_name(const Defect& d) {
-    for (const DefectRun& run : d.runs) {
-        if (d.point >= run.points.first && d.point <= run.points.last) return fmt::format("pass {}", run.pass);
+    for (const DefectSection& section : d.sections) {
+        if (d.point >= section.points.first && d.point <= section.points.last)
+            return fmt::format("pass {}", section.pass);
     }
     return "pass at fault";
 }

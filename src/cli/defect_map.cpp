@@ -28,7 +28,7 @@ viz::DefectKind kind_of(Quantity quantity) {
 
 /// Where it is strongest, on the section that io::lines_label() names.
 PointIndex named_point(const Defect& d) {
-    const DefectRun* run = strongest_run(d);
+    const DefectSection* run = strongest_section(d);
     if (run == nullptr) return d.point;
     return std::clamp(d.point, run->points.first, run->points.last) == d.point ? d.point : run->points.first;
 }
@@ -50,7 +50,7 @@ viz::DefectMap defect_map_of(const QualityReport& report) {
         const auto q =
             static_cast<std::size_t>(std::find(quantities.begin(), quantities.end(), d.quantity) - quantities.begin());
         viz::DefectMark mark;
-        for (const DefectRun& run : d.runs) mark.sections.push_back(run.points);
+        for (const DefectSection& section : d.sections) mark.sections.push_back(section.points);
         mark.point = named_point(d);
         mark.kind = index[q];
         mark.strength = std::clamp(std::log2(std::max(1.0, double{d.score})) / std::log2(darkest_score), 0.0, 1.0);

@@ -19,11 +19,11 @@ bool is_height(const Defect& d) { return d.quantity == Quantity::lag || d.quanti
 /// Its runs as places, evenly spaced [mm].
 std::vector<Vec3> samples_of(const Defect& defect, const Positions& positions, double reach) {
     std::vector<Vec3> places;
-    for (const DefectRun& run : defect.runs) {
-        for (PointIndex i = run.points.first; i <= run.points.last; ++i) {
+    for (const DefectSection& section : defect.sections) {
+        for (PointIndex i = section.points.first; i <= section.points.last; ++i) {
             const Vec3 place = positions.absolute(i);
             if (!place.allFinite()) continue;
-            if (i > run.points.first && !places.empty() && (place - places.back()).norm() < sample_spacing * reach)
+            if (i > section.points.first && !places.empty() && (place - places.back()).norm() < sample_spacing * reach)
                 continue;
             places.push_back(place);
         }

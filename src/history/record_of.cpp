@@ -31,7 +31,8 @@ std::vector<RecordedDefect> recorded_defects(const QualityReport& report) {
         r.area_mm2 = d.area;
         r.tip = d.place.tip;
         r.position = d.place.position();
-        for (const DefectRun& run : d.runs) r.sections.push_back({run.pass, run.first_line, run.last_line});
+        for (const DefectSection& section : d.sections)
+            r.sections.push_back({section.pass, section.first_line, section.last_line});
         all.push_back(std::move(r));
     }
     return all;

@@ -141,8 +141,8 @@ private:
     /// f(cell) of each point at fault, until it returns true.
     template <typename F>
     bool visit(const Defect& defect, F&& f) const {
-        for (const DefectRun& run : defect.runs)
-            for (PointIndex i = run.points.first; i <= run.points.last; ++i)
+        for (const DefectSection& section : defect.sections)
+            for (PointIndex i = section.points.first; i <= section.points.last; ++i)
                 if (f(grid_.key(positions_->absolute(i)))) return true;
         return false;
     }

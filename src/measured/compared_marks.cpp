@@ -31,15 +31,16 @@ struct Crossing {
 
 /// Where a measurement crosses a run of a mark: the point whose contact lies nearest to its profile, or to the middle of
 /// its map.
-std::optional<Crossing> crossing_of(const DefectRun& run, const MeasuredData& data, const AlignedHeights& measured,
-                                    const AsMachinedSurface& as_machined, const Signals& signals) {
+std::optional<Crossing> crossing_of(const DefectSection& section, const MeasuredData& data,
+                                    const AlignedHeights& measured, const AsMachinedSurface& as_machined,
+                                    const Signals& signals) {
     const bool profile = data.kind == MeasuredKind::profile;
     const ProfileRow row = profile ? measured.own_row(0) : ProfileRow{};
     const Vec2 aside(-row.along.y(), row.along.x());
     const double step_over = as_machined.surface().step_over;
     std::optional<Crossing> found;
     double least = profile ? crossing * step_over : infinite;
-    for (PointIndex i = run.points.first; i <= run.points.last; ++i) {
+    for (PointIndex i = section.points.first; i <= section.points.last; ++i) {
         const Vec3 contact = as_machined.contact(i);
         if (!contact.allFinite()) continue;
         const Vec2 place = contact.head<2>();
@@ -122,8 +123,8 @@ std::vector<ComparedMark> compare_marks(const MeasuredData& data, const AlignedH
     const MarkJudge judge(data, measured, as_machined, noise);
     for (std::size_t k = 0; k < report.defects.size(); ++k) {
         std::optional<ComparedMark> deepest;
-        for (const DefectRun& run : report.defects[k].runs) {
-            const std::optional<Crossing> crossed = crossing_of(run, data, measured, as_machined, signals);
+        for (const DefectSection& section : report.defects[k].sections) {
+            const std::optional<Crossing> crossed = crossing_of(section, data, measured, as_machined, signals);
             if (!crossed) continue;
             ComparedMark mark = judge.judge(report.defects[k], *crossed);
             mark.defect = k;

@@ -51,7 +51,7 @@ std::vector<Field> CauseFields::compute(std::span<const std::string_view> names,
         if (is_of_surface(pass.kind)) fill({pass.first, pass.last}, no_defect);
     }
     for (const Defect* defect : smallest_last(report.defects)) {
-        for (const DefectRun& run : defect->runs) fill(run.points, value_of(defect->cause));
+        for (const DefectSection& section : defect->sections) fill(section.points, value_of(defect->cause));
     }
     return std::vector<Field>(names.size(), field);
 }

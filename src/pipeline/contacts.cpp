@@ -63,12 +63,12 @@ void PartContacts::locate(RunReport& report) const {
 
 void PartContacts::locate(Defect& defect) const {
     defect.place.contact = contact_of(defect.point);
-    for (const DefectRun& run : defect.runs) {
-        const PointIndex every = std::max<PointIndex>(1, run.points.size() / bounds_points);
-        for (PointIndex i = run.points.first; i <= run.points.last; i += every) {
+    for (const DefectSection& section : defect.sections) {
+        const PointIndex every = std::max<PointIndex>(1, section.points.size() / bounds_points);
+        for (PointIndex i = section.points.first; i <= section.points.last; i += every) {
             if (const std::optional<Vec3> contact = contact_of(i)) defect.contact_bounds.extend(*contact);
         }
-        if (const std::optional<Vec3> contact = contact_of(run.points.last)) defect.contact_bounds.extend(*contact);
+        if (const std::optional<Vec3> contact = contact_of(section.points.last)) defect.contact_bounds.extend(*contact);
     }
 }
 

@@ -39,7 +39,7 @@ std::vector<SpeedShares> speed_shares(const QualityReport& report, const Part& p
     for (const Defect& defect : report.defects) {
         const double programmed = programmed_feed_at(part, defect.point);
         const double feed = programmed > 0 ? programmed : static_cast<double>(report.thresholds.usual_speed);
-        shares.push_back({defect.speed / feed, defect.speed_beside / feed});
+        shares.push_back({defect.speed / feed, defect.adjacent_speed / feed});
     }
     return shares;
 }

@@ -20,17 +20,17 @@ PartRules without_refusal(PartRules rules) {
 
 bool overlap(const PointRange& a, const PointRange& b) { return a.first <= b.last && b.first <= a.last; }
 
-void shift_runs(std::vector<DefectRun>& runs, PointIndex points, std::int64_t passes) {
-    for (DefectRun& run : runs) {
-        run.points = {run.points.first + points, run.points.last + points};
-        run.pass += passes;
+void shift_runs(std::vector<DefectSection>& runs, PointIndex points, std::int64_t passes) {
+    for (DefectSection& section : runs) {
+        section.points = {section.points.first + points, section.points.last + points};
+        section.pass += passes;
     }
 }
 
 /// Makes the points and passes of a window's defect those of the log.
 void shift(Defect& defect, PointIndex points, std::int64_t passes) {
     defect.point += points;
-    shift_runs(defect.runs, points, passes);
+    shift_runs(defect.sections, points, passes);
     shift_runs(defect.neighbours, points, passes);
 }
 
@@ -40,7 +40,7 @@ bool is_motion(const Defect& defect) {
 
 std::int64_t last_pass(const Defect& defect) {
     std::int64_t last = 0;
-    for (const DefectRun& run : defect.runs) last = std::max(last, run.pass);
+    for (const DefectSection& section : defect.sections) last = std::max(last, section.pass);
     return last;
 }
 
@@ -128,9 +128,9 @@ void FollowedRun::choose_window(const ClSurface& surface, PointIndex first) {
 /// The finding that a defect is a part of, or has grown from; 0: none.
 std::int64_t FollowedRun::finding_of(const Defect& defect) const {
     if (defect.systematic) return systematic_;
-    for (const DefectRun& run : defect.runs) {
-        const auto known = std::find_if(sections_.begin(), sections_.end(), [&](const Section& section) {
-            return section.motion == is_motion(defect) && overlap(section.points, run.points);
+    for (const DefectSection& section : defect.sections) {
+        const auto known = std::find_if(sections_.begin(), sections_.end(), [&](const Section& before) {
+            return before.motion == is_motion(defect) && overlap(before.points, section.points);
         });
         if (known != sections_.end()) return known->finding;
     }
@@ -149,15 +149,15 @@ void FollowedRun::remember(const Defect& defect, std::int64_t finding) {
         systematic_ = finding;
         return;
     }
-    for (const DefectRun& run : defect.runs) {
-        const auto known = std::find_if(sections_.begin(), sections_.end(), [&](const Section& section) {
-            return section.finding == finding && overlap(section.points, run.points);
+    for (const DefectSection& section : defect.sections) {
+        const auto known = std::find_if(sections_.begin(), sections_.end(), [&](const Section& before) {
+            return before.finding == finding && overlap(before.points, section.points);
         });
         if (known == sections_.end()) {
-            sections_.push_back({run.points, finding, is_motion(defect)});
+            sections_.push_back({section.points, finding, is_motion(defect)});
         } else {
-            known->points = {std::min(known->points.first, run.points.first),
-                             std::max(known->points.last, run.points.last)};
+            known->points = {std::min(known->points.first, section.points.first),
+                             std::max(known->points.last, section.points.last)};
         }
     }
 }
@@ -179,12 +179,12 @@ ResolvedFindings FollowedRun::resolve(const QualityReport& complete) const {
             known = true;
         };
         if (defect.systematic && systematic_ > 0) lies_at(systematic_);
-        for (const DefectRun& run : defect.runs) {
-            auto at = std::lower_bound(all.begin(), all.end(), run.points.first,
+        for (const DefectSection& section : defect.sections) {
+            auto at = std::lower_bound(all.begin(), all.end(), section.points.first,
                                        [](const Section& s, PointIndex point) { return s.points.last < point; });
-            for (; at != all.end() && at->points.last - longest <= run.points.last; ++at) {
+            for (; at != all.end() && at->points.last - longest <= section.points.last; ++at) {
                 // A systematic lag, which lies nearly everywhere, explains other lags only.
-                if (overlap(at->points, run.points) && !(defect.systematic && at->motion)) lies_at(at->finding);
+                if (overlap(at->points, section.points) && !(defect.systematic && at->motion)) lies_at(at->finding);
             }
         }
         if (!known) result.late.push_back(d);

@@ -70,9 +70,9 @@ std::optional<PointIndex> last_point_needed(const Defect& defect, const DefectSu
     const std::optional<PointIndex> tells = last_that_tells(defect, around);
     if (!tells) return std::nullopt;
     PointIndex last = std::max(*tells, defect.point);
-    for (const DefectRun& run : defect.runs)
-        last = std::max(
-            {last, last_beside(around.surface, run.points.first), last_beside(around.surface, run.points.last)});
+    for (const DefectSection& section : defect.sections)
+        last = std::max({last, last_beside(around.surface, section.points.first),
+                         last_beside(around.surface, section.points.last)});
     const PointIndex newest = around.surface.positions.size() - 1;
     if (!around.arc_length.at_least(last, newest, around.settling)) return std::nullopt;
     // The first point at which the way is long enough, by halving.

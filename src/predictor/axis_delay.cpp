@@ -28,11 +28,11 @@ struct FollowedPoint {
 std::vector<FollowedPoint> sample(const Defect& defect, const Trajectory& path, const Trajectory& measured,
                                   const Signals& signals) {
     PointIndex all = 0;
-    for (const DefectRun& run : defect.runs) all += run.points.size();
+    for (const DefectSection& section : defect.sections) all += section.points.size();
     const PointIndex stride = std::max<PointIndex>(1, all / most_samples);
     std::vector<FollowedPoint> points;
-    for (const DefectRun& run : defect.runs) {
-        for (PointIndex i = run.points.first + 1; i < run.points.last; i += stride) {
+    for (const DefectSection& section : defect.sections) {
+        for (PointIndex i = section.points.first + 1; i < section.points.last; i += stride) {
             FollowedPoint p;
             p.velocity = (path.at(i + 1) - path.at(i - 1)) / (2 * path.period);
             p.error = measured.at(i) - path.at(i);

@@ -83,12 +83,12 @@ std::string_view description_of(Cause cause) {
     return "";
 }
 
-double CauseFinder::spacing(std::span<const DefectRun> runs) const {
+double CauseFinder::spacing(std::span<const DefectSection> runs) const {
     std::vector<double> steps;
-    for (const DefectRun& run : runs) {
-        if (run.first_line == 0) continue;
-        const LineNumber last = std::min(run.last_line, run.first_line + most_lines);
-        for (LineNumber line = run.first_line; line <= last; ++line) {
+    for (const DefectSection& section : runs) {
+        if (section.first_line == 0) continue;
+        const LineNumber last = std::min(section.last_line, section.first_line + most_lines);
+        for (LineNumber line = section.first_line; line <= last; ++line) {
             if (lines_.kind_of(line) != PointKind::cut) continue;
             for (const std::uint32_t motion : lines_.motions_of(line)) steps.push_back(toolpath_.length(motion));
         }
@@ -97,7 +97,7 @@ double CauseFinder::spacing(std::span<const DefectRun> runs) const {
 }
 
 bool CauseFinder::spaced_otherwise(const Defect& defect) const {
-    const double own = spacing(defect.runs);
+    const double own = spacing(defect.sections);
     const double beside = spacing(defect.neighbours);
     return own > 0 && beside > 0 && (own > uneven_spacing * beside || beside > uneven_spacing * own);
 }
@@ -144,9 +144,9 @@ bool CauseFinder::leaves_program(const Defect& defect, std::span<const DefectCan
     return !shares.empty() && median(shares) > share_of_control;
 }
 
-bool CauseFinder::turns(const DefectRun& run) const {
-    PointIndex behind = run.points.first;
-    for (PointIndex i = run.points.first; i <= run.points.last; ++i) {
+bool CauseFinder::turns(const DefectSection& section) const {
+    PointIndex behind = section.points.first;
+    for (PointIndex i = section.points.first; i <= section.points.last; ++i) {
         while (behind < i && arc_length_.at_least(behind, i, corner_arc_length)) ++behind;
         const float cosine = signals_.feed(behind).dot(signals_.feed(i));
         if (cosine < corner_cosine) return true;
@@ -154,12 +154,12 @@ bool CauseFinder::turns(const DefectRun& run) const {
     return false;
 }
 
-bool CauseFinder::begins_with_reversal(const DefectRun& run) const {
-    PointIndex from = run.points.first;
-    while (from > 0 && !arc_length_.at_least(from, run.points.first, reversal_arc_length)) --from;
+bool CauseFinder::begins_with_reversal(const DefectSection& section) const {
+    PointIndex from = section.points.first;
+    while (from > 0 && !arc_length_.at_least(from, section.points.first, reversal_arc_length)) --from;
     const Eigen::Vector3f before = signals_.feed(from);
-    PointIndex to = run.points.first;
-    while (to < run.points.last && !arc_length_.at_least(run.points.first, to, reversal_arc_length)) ++to;
+    PointIndex to = section.points.first;
+    while (to < section.points.last && !arc_length_.at_least(section.points.first, to, reversal_arc_length)) ++to;
     const Eigen::Vector3f after = signals_.feed(to);
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
         if (before[axis] * after[axis] < 0 && std::min(std::abs(before[axis]), std::abs(after[axis])) > axis_moves)
@@ -173,12 +173,13 @@ Cause CauseFinder::cause_of(const Defect& defect, std::span<const DefectCandidat
     if (defect.quantity == Quantity::relief || (defect.quantity != Quantity::lag && spaced_otherwise(defect)))
         return Cause::point_spacing;
     const auto most_runs = [&](auto&& test) {
-        const auto runs = std::count_if(defect.runs.begin(), defect.runs.end(), test);
-        return 2 * runs > static_cast<std::ptrdiff_t>(defect.runs.size());
+        const auto runs = std::count_if(defect.sections.begin(), defect.sections.end(), test);
+        return 2 * runs > static_cast<std::ptrdiff_t>(defect.sections.size());
     };
-    if (most_runs([&](const DefectRun& run) { return turns(run); })) return Cause::corner;
+    if (most_runs([&](const DefectSection& section) { return turns(section); })) return Cause::corner;
     if (defect.quantity == Quantity::lag) {
-        if (most_runs([&](const DefectRun& run) { return begins_with_reversal(run); })) return Cause::reversal;
+        if (most_runs([&](const DefectSection& section) { return begins_with_reversal(section); }))
+            return Cause::reversal;
         return Cause::lag_step;
     }
     return count_lobes(sites) >= lobes_of_oscillation ? Cause::oscillation : Cause::feed_drop;

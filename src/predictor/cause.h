@@ -29,9 +29,9 @@ private:
     [[nodiscard]] bool spaced_otherwise(const Defect& defect) const;
     [[nodiscard]] bool leaves_program(const Defect& defect, std::span<const DefectCandidate* const> sites) const;
     [[nodiscard]] double off_program(PointIndex point) const;
-    [[nodiscard]] bool turns(const DefectRun& run) const;
-    [[nodiscard]] bool begins_with_reversal(const DefectRun& run) const;
-    [[nodiscard]] double spacing(std::span<const DefectRun> runs) const;
+    [[nodiscard]] bool turns(const DefectSection& section) const;
+    [[nodiscard]] bool begins_with_reversal(const DefectSection& section) const;
+    [[nodiscard]] double spacing(std::span<const DefectSection> runs) const;
 
     const ClSurface& surface_;
     const Signals& signals_;

@@ -29,7 +29,7 @@ inline constexpr int cause_count = static_cast<int>(Cause::path_tolerance) + 1;
 [[nodiscard]] std::string_view description_of(Cause cause);  ///< "slower than its neighbours"
 
 /// A section of one pass.
-struct DefectRun {
+struct DefectSection {
     std::int64_t pass = 0;  ///< number of the cut pass, from 1
     PointRange points;
     LineNumber first_line = 0, last_line = 0;  ///< of these points, in the main program; 0: no line
@@ -51,29 +51,29 @@ struct Defect {
     float score = 0;                      ///< peak over threshold: how far it stands out of what the part is like
     bool systematic = false;              ///< lag that alternates with the direction of travel (systematic_lag.h)
     double share = 0;                     ///< of a systematic one: of the path of all cut passes, 0 … 1
-    std::vector<AxisDelay> delays;      ///< of a systematic one: the axes that differ, slowest first; empty: not known
-    CutterPlace place;                  ///< where it is strongest; the contact where the tool is known
-    PointIndex point = 0;               ///< there
-    Box3 bounds;                        ///< [mm] of tips
-    Box3 contact_bounds;                ///< [mm] of contact points; empty: not known
-    double area = 0;                    ///< [mm²]
-    double length = 0;                  ///< [mm] along the feed, of the longest run
-    double depth = 0;                   ///< [mm] ≥ 0, predicted step against the neighbours along the normal
-    bool pit = false;                   ///< below its neighbours; else a bulge, which they cut down again
-    double speed = 0;                   ///< [mm/s] where it is strongest
-    double speed_beside = 0;            ///< [mm/s] of the adjacent passes, there
-    double speed_jump = 0;              ///< [mm/s] signed, against the neighbours
-    double speed_mismatch = 0;          ///< the same relative to the neighbours' speed, ≥ −1
-    double acceleration_jump = 0;       ///< [mm/s²] ≥ 0
-    std::vector<DefectRun> runs;        ///< of the passes at fault, in the order of their points
-    std::vector<DefectRun> neighbours;  ///< the clean passes beside them
+    std::vector<AxisDelay> delays;  ///< of a systematic one: the axes that differ, slowest first; empty: not known
+    CutterPlace place;              ///< where it is strongest; the contact where the tool is known
+    PointIndex point = 0;           ///< there
+    Box3 bounds;                    ///< [mm] of tips
+    Box3 contact_bounds;            ///< [mm] of contact points; empty: not known
+    double area = 0;                ///< [mm²]
+    double length = 0;              ///< [mm] along the feed, of the longest run
+    double depth = 0;               ///< [mm] ≥ 0, predicted step against the neighbours along the normal
+    bool pit = false;               ///< below its neighbours; else a bulge, which they cut down again
+    double speed = 0;               ///< [mm/s] where it is strongest
+    double adjacent_speed = 0;      ///< [mm/s] of the adjacent passes, there
+    double speed_jump = 0;          ///< [mm/s] signed, against the neighbours
+    double speed_mismatch = 0;      ///< the same relative to the neighbours' speed, ≥ −1
+    double acceleration_jump = 0;   ///< [mm/s²] ≥ 0
+    std::vector<DefectSection> sections;    ///< of the passes at fault, in the order of their points
+    std::vector<DefectSection> neighbours;  ///< the clean passes beside them
 };
 
 /// The section of a defect that is strongest. Of many sections only the longest are kept: the first one where that is none
 /// of them. nullptr: there is no section.
-[[nodiscard]] const DefectRun* strongest_run(const Defect& defect);
+[[nodiscard]] const DefectSection* strongest_section(const Defect& defect);
 /// All sections as a reader wants them: the strongest first, the others in the order of their points.
-[[nodiscard]] std::vector<DefectRun> strongest_first(const Defect& defect);
+[[nodiscard]] std::vector<DefectSection> strongest_first(const Defect& defect);
 
 /// How a mark differs from the adjacent passes: a pit is deep, a bulge is high.
 [[nodiscard]] constexpr std::string_view deep_or_high(bool pit) { return pit ? "deep" : "high"; }

@@ -17,13 +17,6 @@ constexpr double room_of_step_over = 6;  ///< … and at least so many step-over
 constexpr PointIndex most_places = 4000;
 constexpr int most_across = 5;  ///< passes to each side of the strongest place
 
-PointRange strongest_section(const Defect& defect) {
-    for (const DefectRun& run : defect.runs) {
-        if (defect.point >= run.points.first && defect.point <= run.points.last) return run.points;
-    }
-    return defect.runs.empty() ? PointRange{defect.point, defect.point} : defect.runs.front().points;
-}
-
 /// The points of the same pass round a section.
 PointRange with_room(const PointRange& section, const ClSurface& surface, double room) {
     const auto pass = std::find_if(surface.passes.begin(), surface.passes.end(),
@@ -71,7 +64,8 @@ float height_at(HeightOf of, const PathLocation& at, const Compared& there, cons
 class Faults {
 public:
     Faults(const Defect& defect, const ClSurface& surface, double room) {
-        for (const DefectRun& run : defect.runs) ranges_.push_back(with_room(run.points, surface, room));
+        for (const DefectSection& section : defect.sections)
+            ranges_.push_back(with_room(section.points, surface, room));
     }
     [[nodiscard]] bool have(PointIndex i) const {
         return std::any_of(ranges_.begin(), ranges_.end(),
@@ -155,7 +149,8 @@ DefectProfile profile_of(const Defect& defect, const ClSurface& surface, const S
         profile.height_of = HeightOf::measured;
     else if (!marks.at(defect.point).isZero(0))
         profile.height_of = HeightOf::programmed;
-    const PointRange section = strongest_section(defect);
+    const DefectSection* const strongest = strongest_section(defect);
+    const PointRange section = strongest != nullptr ? strongest->points : PointRange{defect.point, defect.point};
     double length = 0;
     for (PointIndex i = section.first; i < section.last; ++i)
         length += (surface.positions[i + 1] - surface.positions[i]).norm();

@@ -131,7 +131,7 @@ public:
         const DefectCandidate& strongest = **std::max_element(core.begin(), core.end(), weaker);
         defect.point = strongest.point;
         defect.speed = signals_[strongest.point].speed;
-        defect.speed_beside = defect.speed - strongest.comparison.speed_jump;
+        defect.adjacent_speed = defect.speed - strongest.comparison.speed_jump;
         defect.place.tip = surface_.positions.absolute(defect.point);
         const auto score_of = [&](Quantity q) {
             float most = 0;
@@ -147,9 +147,9 @@ public:
             defect.score = score_of(other);
         }
         for (const CandidateSpan run : runs_of(core, arc_length_, joined_))
-            defect.runs.push_back(run_of(run.front()->pass, {run.front()->point, run.back()->point}));
+            defect.sections.push_back(run_of(run.front()->pass, {run.front()->point, run.back()->point}));
         measure(core, defect);
-        defect.neighbours = neighbours_of(core, defect.runs);
+        defect.neighbours = neighbours_of(core, defect.sections);
         defect.cause = causes_.cause_of(defect, core);
         const bool motion = defect.quantity == Quantity::speed || defect.quantity == Quantity::acceleration;
         defect.severity = severity_of({defect.depth, defect.score, motion, false}, rules_.severity);
@@ -183,7 +183,7 @@ public:
         }
         defect.point = strongest->point;
         defect.place.tip = surface_.positions.absolute(defect.point);
-        defect.speed = defect.speed_beside = signals_[defect.point].speed;
+        defect.speed = defect.adjacent_speed = signals_[defect.point].speed;
         defect.depth = nearest_quantile(steps, systematic_depth);
         defect.score = static_cast<float>(defect.depth) / thresholds_.of[index_of(Quantity::lag)];
         for (std::size_t k = 0; k < lag.sites.size();) {
@@ -191,19 +191,19 @@ public:
             while (end < lag.sites.size() && lag.sites[end].pass == lag.sites[k].pass &&
                    !arc_length_.at_least(lag.sites[end - 1].point, lag.sites[end].point, joined_))
                 ++end;
-            defect.runs.push_back(run_of(lag.sites[k].pass, {lag.sites[k].point, lag.sites[end - 1].point}));
+            defect.sections.push_back(run_of(lag.sites[k].pass, {lag.sites[k].point, lag.sites[end - 1].point}));
             k = end;
         }
         const double arc_length = add_up_runs(defect);
         defect.share = arc_length / cut_arc_length(surface_, arc_length_);
-        keep_longest(most_systematic_runs, defect.runs);
+        keep_longest(most_systematic_runs, defect.sections);
         defect.severity = severity_of({defect.depth, defect.score, false, true}, rules_.severity);
         return defect;
     }
 
 private:
-    [[nodiscard]] DefectRun run_of(std::size_t pass, PointRange points) const {
-        DefectRun run{numbers_[pass], points, 0, 0};
+    [[nodiscard]] DefectSection run_of(std::size_t pass, PointRange points) const {
+        DefectSection run{numbers_[pass], points, 0, 0};
         std::vector<LineNumber> lines(static_cast<std::size_t>(points.size()));
         lines_.read(points.first, lines);
         for (const LineNumber line : lines) {
@@ -241,26 +241,26 @@ private:
     }
 
     /// In the order of their points.
-    void keep_longest(std::size_t most, std::vector<DefectRun>& runs) const {
+    void keep_longest(std::size_t most, std::vector<DefectSection>& runs) const {
         if (runs.size() <= most) return;
-        const auto length = [&](const DefectRun& run) {
-            return arc_length_.to(run.points.last) - arc_length_.to(run.points.first);
+        const auto length = [&](const DefectSection& section) {
+            return arc_length_.to(section.points.last) - arc_length_.to(section.points.first);
         };
         std::nth_element(runs.begin(), runs.begin() + static_cast<std::ptrdiff_t>(most), runs.end(),
-                         [&](const DefectRun& a, const DefectRun& b) {
+                         [&](const DefectSection& a, const DefectSection& b) {
                              const double in_a = length(a), in_b = length(b);
                              return in_a != in_b ? in_a > in_b : a.points.first < b.points.first;
                          });
         runs.resize(most);
         std::sort(runs.begin(), runs.end(),
-                  [](const DefectRun& a, const DefectRun& b) { return a.points.first < b.points.first; });
+                  [](const DefectSection& a, const DefectSection& b) { return a.points.first < b.points.first; });
     }
 
     /// Length and area of a defect from its runs. Returns the length of all runs [mm].
     double add_up_runs(Defect& defect) const {
         double arc_length = 0;
-        for (const DefectRun& run : defect.runs) {
-            const double length = arc_length_.to(run.points.last) - arc_length_.to(run.points.first);
+        for (const DefectSection& section : defect.sections) {
+            const double length = arc_length_.to(section.points.last) - arc_length_.to(section.points.first);
             defect.length = std::max(defect.length, length);
             arc_length += length;
         }
@@ -269,7 +269,8 @@ private:
     }
 
     /// The sections beside `runs` on passes that are not at fault.
-    [[nodiscard]] std::vector<DefectRun> neighbours_of(CandidateSpan core, const std::vector<DefectRun>& runs) const {
+    [[nodiscard]] std::vector<DefectSection> neighbours_of(CandidateSpan core,
+                                                           const std::vector<DefectSection>& runs) const {
         std::map<std::size_t, PointRange> found;  // by pass
         for (const DefectCandidate* s : core) {
             for (const PathLocation& at : {s->comparison.beside_left, s->comparison.beside_right}) {
@@ -280,15 +281,15 @@ private:
                 points.last = std::max(points.last, n);
             }
         }
-        std::vector<DefectRun> clean;
+        std::vector<DefectSection> clean;
         for (const auto& [pass, points] : found) {
             const bool at_fault =
                 std::any_of(runs.begin(), runs.end(),
-                            [&, number = numbers_[pass]](const DefectRun& r) { return r.pass == number; });
+                            [&, number = numbers_[pass]](const DefectSection& r) { return r.pass == number; });
             if (!at_fault) clean.push_back(run_of(pass, points));
         }
         std::sort(clean.begin(), clean.end(),
-                  [](const DefectRun& a, const DefectRun& b) { return a.points.first < b.points.first; });
+                  [](const DefectSection& a, const DefectSection& b) { return a.points.first < b.points.first; });
         return clean;
     }
 
@@ -402,18 +403,18 @@ int QualityReport::worst_severity() const {
     return worst;
 }
 
-const DefectRun* strongest_run(const Defect& defect) {
-    for (const DefectRun& run : defect.runs) {
-        if (defect.point >= run.points.first && defect.point <= run.points.last) return &run;
+const DefectSection* strongest_section(const Defect& defect) {
+    for (const DefectSection& section : defect.sections) {
+        if (defect.point >= section.points.first && defect.point <= section.points.last) return &section;
     }
-    return defect.runs.empty() ? nullptr : &defect.runs.front();
+    return defect.sections.empty() ? nullptr : &defect.sections.front();
 }
 
-std::vector<DefectRun> strongest_first(const Defect& defect) {
-    std::vector<DefectRun> runs = defect.runs;
-    const DefectRun* strongest = strongest_run(defect);
+std::vector<DefectSection> strongest_first(const Defect& defect) {
+    std::vector<DefectSection> runs = defect.sections;
+    const DefectSection* strongest = strongest_section(defect);
     if (strongest == nullptr) return runs;
-    const auto at = runs.begin() + (strongest - defect.runs.data());
+    const auto at = runs.begin() + (strongest - defect.sections.data());
     std::rotate(runs.begin(), at, at + 1);
     return runs;
 }
@@ -421,7 +422,7 @@ std::vector<DefectRun> strongest_first(const Defect& defect) {
 std::vector<PointRange> QualityReport::sections() const {
     std::vector<PointRange> found;
     for (const Defect& defect : defects) {
-        for (const DefectRun& run : defect.runs) found.push_back(run.points);
+        for (const DefectSection& section : defect.sections) found.push_back(section.points);
     }
     return found;
 }

@@ -19,8 +19,9 @@ public:
     /// `room`: points round a run that are its own too.
     explicit Explanations(PointIndex room) : room_(room) {}
 
-    void add(const std::vector<DefectRun>& runs) {
-        for (const DefectRun& run : runs) sections_.push_back({run.points.first - room_, run.points.last + room_, 0});
+    void add(const std::vector<DefectSection>& runs) {
+        for (const DefectSection& section : runs)
+            sections_.push_back({section.points.first - room_, section.points.last + room_, 0});
         sorted_ = false;
     }
 
@@ -83,8 +84,8 @@ std::vector<BuiltDefect> unexplained(std::span<std::vector<BuiltDefect>> of_fami
     for (std::size_t family = 0; family < of_family.size(); family += 2) {
         Explanations before(room), expected(room);
         for (const BuiltDefect& built : all) {
-            before.add(built.defect.runs);
-            if (built.expected) expected.add(built.defect.runs);
+            before.add(built.defect.sections);
+            if (built.expected) expected.add(built.defect.sections);
         }
         for (std::vector<BuiltDefect>& built_there : of_family.subspan(family, 2)) {
             for (BuiltDefect& built : built_there) {
@@ -97,7 +98,7 @@ std::vector<BuiltDefect> unexplained(std::span<std::vector<BuiltDefect>> of_fami
     }
     for (BuiltDefect& height : programmed) {
         Explanations program(room);
-        program.add(height.defect.runs);
+        program.add(height.defect.sections);
         std::erase_if(all, [&](const BuiltDefect& built) {
             return !built.expected && explains(height.defect, built.defect) && program.explain(built.core);
         });

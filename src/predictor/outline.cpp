@@ -16,8 +16,8 @@ constexpr float joined_arc_length = 2.0F;   ///< step-overs: runs of one pass th
 /// The points of a defect, and of the clean passes between two of its own.
 class Region {
 public:
-    Region(const std::vector<DefectRun>& runs, const ClSurface& surface) : surface_(surface) {
-        for (const DefectRun& run : runs) ranges_.push_back(run.points);
+    Region(const std::vector<DefectSection>& runs, const ClSurface& surface) : surface_(surface) {
+        for (const DefectSection& section : runs) ranges_.push_back(section.points);
         join_near();
         std::vector<PointIndex> between;
         for (const PointRange& range : ranges_) {
@@ -121,7 +121,7 @@ void add_side(const Region& region, const ClSurface& surface, const PlaceOf& pla
 
 std::vector<std::vector<Vec3>> outlines_of(const Defect& defect, const ClSurface& surface, const PlaceOf& place_of) {
     const PlaceOf at = place_of ? place_of : [&](PointIndex i) { return surface.positions.absolute(i); };
-    const Region region(defect.runs, surface);
+    const Region region(defect.sections, surface);
     std::vector<std::vector<Vec3>> lines;
     for (const PointRange& range : region.ranges()) {
         const std::vector<PointIndex> samples = region.samples(range);

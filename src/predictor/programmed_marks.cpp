@@ -118,9 +118,9 @@ ProgrammedMarks::ProgrammedMarks(const ClSurface& surface, const Signals& signal
     std::vector<PointRange> at_fault;
     for (const Defect& defect : report.defects) {
         if (!is_programmed(defect, signals, report.thresholds)) continue;
-        for (const DefectRun& run : defect.runs) {
-            marks.push_back(run.points);
-            at_fault.push_back(widened(run.points, surface));
+        for (const DefectSection& section : defect.sections) {
+            marks.push_back(section.points);
+            at_fault.push_back(widened(section.points, surface));
         }
     }
     marks = joined(std::move(marks));

@@ -8,21 +8,21 @@ namespace clsurf {
 namespace {
 
 /// Names the lines of subprograms that are in files of their own.
-void name_subprograms(const Program& program, const LineMap& lines, std::vector<DefectRun>& runs) {
+void name_subprograms(const Program& program, const LineMap& lines, std::vector<DefectSection>& runs) {
     const Motions& motions = program.motions;
-    for (DefectRun& run : runs) {
+    for (DefectSection& section : runs) {
         std::uint16_t file = 0;  // of the first point in one
-        for (PointIndex i = run.points.first; i <= run.points.last; ++i) {
+        for (PointIndex i = section.points.first; i <= section.points.last; ++i) {
             const std::int64_t motion = lines.motion_at(i);
             if (motion < 0) continue;
             const auto m = static_cast<std::size_t>(motion);
             if (file == 0) file = motions.file[m];
             if (file == 0 || motions.file[m] != file) continue;
             const LineNumber line = motions.line[m];
-            run.file_first_line = run.file_first_line == 0 ? line : std::min(run.file_first_line, line);
-            run.file_last_line = std::max(run.file_last_line, line);
+            section.file_first_line = section.file_first_line == 0 ? line : std::min(section.file_first_line, line);
+            section.file_last_line = std::max(section.file_last_line, line);
         }
-        if (file != 0) run.file = file_name(program.files[file].name());
+        if (file != 0) section.file = file_name(program.files[file].name());
     }
 }
 
@@ -31,7 +31,7 @@ void name_subprograms(const Program& program, const LineMap& lines, std::vector<
 void name_subprograms(const Program& program, const LineMap& lines, std::vector<Defect>& defects) {
     if (program.motions.file.empty()) return;
     for (Defect& defect : defects) {
-        name_subprograms(program, lines, defect.runs);
+        name_subprograms(program, lines, defect.sections);
         name_subprograms(program, lines, defect.neighbours);
     }
 }

@@ -75,9 +75,9 @@ private:
         }
         for (const Defect& defect : run.report.defects) {
             PointIndex points = 0;
-            for (const DefectRun& r : defect.runs) points += r.points.size();
+            for (const DefectSection& r : defect.sections) points += r.points.size();
             const double each = 1 / (defects * static_cast<double>(points));
-            for (const DefectRun& r : defect.runs) {
+            for (const DefectSection& r : defect.sections) {
                 for (PointIndex i = r.points.first; i <= r.points.last; ++i) at(run, i, k).loss += each;
             }
         }

@@ -27,8 +27,8 @@ Marks marked_places(const JudgedRun& run, const RepairMaskRules& rules) {
     }
     for (const Defect& defect : run.report.defects) {
         if (defect.quantity == Quantity::lag) continue;
-        for (const DefectRun& r : defect.runs) mark(marks, r.points);
-        for (const DefectRun& r : defect.neighbours) mark(marks, r.points);
+        for (const DefectSection& r : defect.sections) mark(marks, r.points);
+        for (const DefectSection& r : defect.neighbours) mark(marks, r.points);
     }
     return marks;
 }

@@ -3,10 +3,10 @@
 an error. Then reads all headers together: a type that two of them define is an error there. Everywhere else it would be
 undefined behaviour without a message.
 
-    read_separately.py ROOT BUILD [headers]
+    read_separately.py ROOT BUILD [quarter]
 
 ROOT: the project; BUILD: a folder configured without unity builds and precompiled headers, with its compile_commands.json;
-headers: leaves the sources out.
+quarter: of the sources only those that the last commit changed, and a quarter of the others, another one for each commit.
 Exit code 1: a file is refused; the compiler has said why.
 
 Most of the time goes to headers that many files share. Files that include the same of SHARED, directly or through other
@@ -23,6 +23,7 @@ import re
 import shlex
 import subprocess
 import sys
+import zlib
 
 # The costly headers that many files reach. One that includes another stands behind it.
 SHARED = ["gtest/gtest.h", "fmt/format.h", "boost/program_options.hpp", "nlohmann/json.hpp", "core/geometry.h",
@@ -86,21 +87,30 @@ class Project:
         return tuple(words)
 
 
+def quarter_of(sources, root):
+    def git(*words):
+        return subprocess.run(["git", "-C", root, *words], check=True, capture_output=True, text=True).stdout.split()
+
+    changed = {root / name for name in git("show", "--format=", "--name-only", "HEAD")}
+    turn = int(git("rev-list", "--count", "HEAD")[0]) % 4
+    return [each for each in sources
+            if each in changed or zlib.crc32(str(each.relative_to(root)).encode()) % 4 == turn]
+
+
 def accepted(words, folder):
     done = subprocess.run(words, cwd=folder, capture_output=True, text=True)
     sys.stderr.write(done.stderr)
     return done.returncode == 0
 
 
-def main(root, build, headers_alone):
+def main(root, build, quarter):
     project = Project(root, build)
     made = build / "read_separately"
     made.mkdir(exist_ok=True)
 
     groups = collections.defaultdict(list)  # (words, shared headers) → files
-    if not headers_alone:
-        for source, words in project.words.items():
-            groups[words, project.shared(source)].append(source)
+    for source in quarter_of(project.words, root) if quarter else project.words:
+        groups[project.words[source], project.shared(source)].append(source)
     headers = project.headers()
     for header in headers:
         # Its own source begins with it (architecture_test).
@@ -132,4 +142,4 @@ def main(root, build, headers_alone):
 
 
 if __name__ == "__main__":
-    sys.exit(main(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve(), sys.argv[3:] == ["headers"]))
+    sys.exit(main(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve(), sys.argv[3:] == ["quarter"]))

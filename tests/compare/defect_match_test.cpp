@@ -30,10 +30,10 @@ Positions passes(int count, double first = 0, Vec3 origin = Vec3::Zero()) {
 Defect defect_on(int pass, PointIndex first, PointIndex last, Quantity quantity = Quantity::speed) {
     Defect defect;
     defect.quantity = quantity;
-    DefectRun run;
+    DefectSection run;
     run.pass = pass + 1;
     run.points = {pass * per_pass + first, pass * per_pass + last};
-    defect.runs.push_back(run);
+    defect.sections.push_back(run);
     return defect;
 }
 

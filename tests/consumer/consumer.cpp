@@ -1,6 +1,7 @@
 // Which lines of a program leave marks on the part that was cut, and how long a simulated machine would take for it.
 
 #include <cstdio>
+#include <exception>
 
 #include <clsurf/field/field_set.h>
 #include <clsurf/field/range.h>
@@ -8,14 +9,18 @@
 #include <clsurf/pipeline/judge.h>
 #include <clsurf/pipeline/simulated_log.h>
 
-int main(int, char** arguments) {
-    const clsurf::Part part = clsurf::io::read_part(arguments[1], arguments[2]);  // program and log
+int main(int count, char** arguments) try {
+    if (count != 3) {
+        std::fputs("usage: consumer PROGRAM LOG\n", stderr);
+        return 2;
+    }
+    const clsurf::Part part = clsurf::io::read_part(arguments[1], arguments[2]);
     const clsurf::ClSurface surface = clsurf::stitch(part);
     const clsurf::Quality quality = clsurf::judge(part, surface);
     for (const clsurf::Defect& defect : quality.report.defects) {
-        const clsurf::DefectRun& run = defect.runs.front();
-        std::printf("lines %u to %u: %.0f mm/min, adjacent passes %.0f mm/min\n", run.first_line, run.last_line,
-                    60 * defect.speed, 60 * defect.speed_beside);
+        const clsurf::DefectSection& section = defect.sections.front();
+        std::printf("lines %u to %u: %.0f mm/min, adjacent passes %.0f mm/min\n", section.first_line, section.last_line,
+                    60 * defect.speed, 60 * defect.adjacent_speed);
     }
 
     const clsurf::Field speed = clsurf::FieldSet(part.log, part.path, surface.passes).get("speed");
@@ -25,4 +30,7 @@ int main(int, char** arguments) {
     const clsurf::Program program = clsurf::io::read_program(arguments[1]);
     const clsurf::SimulatedRun run = clsurf::simulate_to_log(program, clsurf::Machine{});
     std::printf("%.1f s simulated\n", run.summary.duration);
+} catch (const std::exception& error) {  // a file cannot be read, for example: which one, and where
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
 }

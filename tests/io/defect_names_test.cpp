@@ -5,8 +5,8 @@
 namespace clsurf::io::defect_names_test {
 namespace {
 
-DefectRun run_of(std::int64_t pass, LineNumber first, LineNumber last, PointRange points = {0, 9}) {
-    DefectRun run;
+DefectSection run_of(std::int64_t pass, LineNumber first, LineNumber last, PointRange points = {0, 9}) {
+    DefectSection run;
     run.pass = pass;
     run.points = points;
     run.first_line = first;
@@ -19,7 +19,7 @@ Defect slow(std::int64_t pass, double mismatch, float score) {
     d.quantity = Quantity::speed;
     d.speed_mismatch = mismatch;
     d.score = score;
-    d.runs = {run_of(pass, 10 * pass, 10 * pass + 5)};
+    d.sections = {run_of(pass, 10 * pass, 10 * pass + 5)};
     return d;
 }
 
@@ -63,7 +63,7 @@ TEST(Headline, SaysWhoLeavesTheProgram) {
     EXPECT_EQ(headline_of(report), "Pass 3 is 9.0 µm off its neighbours in the program");
     report.defects[0].cause = Cause::path_tolerance;
     EXPECT_EQ(headline_of(report), "The controller leaves the program: pass 3 runs 9.0 µm off its neighbours");
-    d.runs[0].pass = 5;
+    d.sections[0].pass = 5;
     report.defects.push_back(d);
     EXPECT_EQ(headline_of(report), "The controller leaves the program: pass 3 runs 9.0 µm off its neighbours")
         << "the fifth pass is off in the program";
@@ -106,10 +106,10 @@ TEST(Label, SaysWhichWay) {
 TEST(LinesLabel, NamesTheStrongestSection) {
     Defect d = slow(1, -0.5, 1);
     EXPECT_EQ(lines_label(d), "lines 10–15");
-    d.runs = {run_of(1, 10, 15, {0, 9}), run_of(2, 20, 20, {10, 19}), run_of(3, 30, 31, {20, 29})};
+    d.sections = {run_of(1, 10, 15, {0, 9}), run_of(2, 20, 20, {10, 19}), run_of(3, 30, 31, {20, 29})};
     d.point = 12;
     EXPECT_EQ(lines_label(d), "line 20, 3 sections");
-    d.runs = {run_of(1, 0, 0)};
+    d.sections = {run_of(1, 0, 0)};
     EXPECT_EQ(lines_label(d), "") << "a log without lines";
 }
 

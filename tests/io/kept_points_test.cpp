@@ -108,7 +108,7 @@ TEST(KeptPoints, ExtremesOfEveryWindowEndsOfPassesAndStartsOfLinesStay) {
 TEST(KeptPoints, ADefectStaysWhole) {
     Defect defect;
     defect.point = 5250;
-    defect.runs.push_back({6, {5200, 5300}, 1, 1});
+    defect.sections.push_back({6, {5200, 5300}, 1, 1});
     defect.neighbours.push_back({5, {4700, 4800}, 1, 1});
     const Lines lines;
     const std::vector<Field> fields{noise()};
@@ -122,10 +122,10 @@ TEST(KeptPoints, DefectsTooLargeForAQuarterOfTheRoomAreReducedLikeAllElse) {
     Defect large;
     large.point = 450;
     for (PointIndex pass = 0; pass < 12; ++pass)
-        large.runs.push_back({pass, {pass * per_pass + 50, pass * per_pass + 949}, 1, 1});
+        large.sections.push_back({pass, {pass * per_pass + 50, pass * per_pass + 949}, 1, 1});
     Defect small;
     small.point = 15'050;
-    small.runs.push_back({15, {15'000, 15'099}, 1, 1});
+    small.sections.push_back({15, {15'000, 15'099}, 1, 1});
     const std::vector<Defect> defects{large, small};
     const Lines lines;
     const std::vector<Field> fields{noise()};
@@ -134,7 +134,8 @@ TEST(KeptPoints, DefectsTooLargeForAQuarterOfTheRoomAreReducedLikeAllElse) {
     EXPECT_EQ(kept.whole_defects, 1U);
     EXPECT_LE(kept.points.size(), 4000U);
     for (PointIndex i = 15'000; i <= 15'099; ++i) EXPECT_TRUE(keeps(kept, i));
-    for (const DefectRun& run : large.runs) EXPECT_TRUE(keeps(kept, run.points.first) && keeps(kept, run.points.last));
+    for (const DefectSection& section : large.sections)
+        EXPECT_TRUE(keeps(kept, section.points.first) && keeps(kept, section.points.last));
     EXPECT_TRUE(keeps(kept, 450));
 }
 

@@ -10,11 +10,11 @@
 namespace clsurf::io::line_ranges_test {
 namespace {
 
-DefectRun run(LineNumber first, LineNumber last) { return {1, {0, 1}, first, last}; }
+DefectSection run(LineNumber first, LineNumber last) { return {1, {0, 1}, first, last}; }
 
-Defect defect_of(std::vector<DefectRun> runs) {
+Defect defect_of(std::vector<DefectSection> runs) {
     Defect defect;
-    defect.runs = std::move(runs);
+    defect.sections = std::move(runs);
     return defect;
 }
 
@@ -29,7 +29,7 @@ TEST(LineRanges, NamesEachLineOnce) {
 
 TEST(LineRanges, BeginWithTheStrongestSection) {
     Defect defect = defect_of({run(1, 3), run(7, 8), run(8, 9), run(20, 20)});
-    defect.runs[2].points = {50, 60};
+    defect.sections[2].points = {50, 60};
     defect.point = 55;
     EXPECT_EQ(line_ranges(defect, 2), "7-9, 1-3 and 1 more");
     EXPECT_EQ(lines_label(defect), "lines 7–9, 3 sections") << "a map names the same";
@@ -45,7 +45,7 @@ TEST(LineRanges, SayLineOfOneAndLinesOfMore) {
     EXPECT_EQ(named_line_ranges(defect_of({run(1, 1), run(3, 3), run(5, 5), run(7, 9)}), 2),
               "lines 1, 3 and 2 more ranges");
     EXPECT_EQ(named_line_ranges(defect_of({run(0, 0)}), 4), "no known line");
-    DefectRun called = run(16, 16);
+    DefectSection called = run(16, 16);
     called.file = "ramp.nc";
     called.file_first_line = 3;
     called.file_last_line = 9;

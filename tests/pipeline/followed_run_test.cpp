@@ -67,8 +67,8 @@ private:
 };
 
 bool has_pass(const ProvisionalDefect& found, std::int64_t pass) {
-    for (const DefectRun& run : found.defect.runs) {
-        if (run.pass == pass) return true;
+    for (const DefectSection& section : found.defect.sections) {
+        if (section.pass == pass) return true;
     }
     return false;
 }
@@ -158,7 +158,7 @@ TEST(FollowedRun, ASystematicLagHidesNoOtherFinding) {
     for (const ProvisionalDefect& found : listener.found()) {
         systematic += found.defect.systematic ? 1 : 0;
         if (found.defect.cause == Cause::point_spacing && found.defect.speed_mismatch < -0.5)
-            crowded.insert(found.defect.runs.front().pass);
+            crowded.insert(found.defect.sections.front().pass);
     }
     EXPECT_EQ(systematic, 1);
     EXPECT_EQ(crowded, (std::set<std::int64_t>{7, 14, 21, 28, 35}));
@@ -171,7 +171,7 @@ TEST(FollowedRun, WhatTheCompleteLogDoesNotShowIsWithdrawn) {
     QualityReport other;
     EXPECT_EQ(listener.run().resolve(other).withdrawn(), findings);
     other.defects.emplace_back();
-    other.defects[0].runs.push_back({1, {10, 20}, 5, 5});  // where nothing was found
+    other.defects[0].sections.push_back({1, {10, 20}, 5, 5});  // where nothing was found
     const ResolvedFindings resolved = listener.run().resolve(other);
     EXPECT_EQ(resolved.withdrawn(), findings);
     EXPECT_EQ(resolved.late, std::vector<std::size_t>{0});

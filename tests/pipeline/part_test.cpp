@@ -46,10 +46,10 @@ TEST(Pipeline, FindsTheLinesOfASimulatedRunThatLeaveAMark) {
     EXPECT_NEAR(surface.step_over, 0.4, 0.01);
     const Quality quality = judge(part, surface);
     ASSERT_FALSE(quality.report.defects.empty());
-    const DefectRun& run = quality.report.defects.front().runs.front();
-    EXPECT_EQ(run.pass, 4);
+    const DefectSection& section = quality.report.defects.front().sections.front();
+    EXPECT_EQ(section.pass, 4);
     // The line that the report names is one of those 0.02 mm apart.
-    const std::int64_t motion = part.lines->motion_at(run.points.first + run.points.size() / 2);
+    const std::int64_t motion = part.lines->motion_at(section.points.first + section.points.size() / 2);
     ASSERT_GT(motion, 0);
     const Vec3 step = part.program.motions.end[static_cast<std::size_t>(motion)].vec() -
                       part.program.motions.end[static_cast<std::size_t>(motion - 1)].vec();

@@ -93,11 +93,11 @@ void expect_same(const Quality& a, const Quality& b) {
         EXPECT_EQ(x.area, y.area);
         EXPECT_EQ(x.cause, y.cause);
         EXPECT_EQ(x.place.contact->x(), y.place.contact->x());
-        ASSERT_EQ(x.runs.size(), y.runs.size());
-        for (std::size_t r = 0; r < x.runs.size(); ++r) {
-            EXPECT_EQ(x.runs[r].points, y.runs[r].points);
-            EXPECT_EQ(x.runs[r].pass, y.runs[r].pass);
-            EXPECT_EQ(x.runs[r].first_line, y.runs[r].first_line);
+        ASSERT_EQ(x.sections.size(), y.sections.size());
+        for (std::size_t r = 0; r < x.sections.size(); ++r) {
+            EXPECT_EQ(x.sections[r].points, y.sections[r].points);
+            EXPECT_EQ(x.sections[r].pass, y.sections[r].pass);
+            EXPECT_EQ(x.sections[r].first_line, y.sections[r].first_line);
         }
         EXPECT_EQ(a.as_machined->marks[k].note, b.as_machined->marks[k].note);
     }

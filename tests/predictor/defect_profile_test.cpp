@@ -41,9 +41,9 @@ Defect middle_of(const test::MadeSurface& made, std::size_t pass, double half) {
         d.point = (p.first + p.last) / 2;
         const double step = (made.surface.positions[d.point + 1] - made.surface.positions[d.point]).norm();
         const auto points = static_cast<PointIndex>(std::lround(half / step));
-        DefectRun run;
+        DefectSection run;
         run.points = {d.point - points, d.point + points};
-        d.runs = {run};
+        d.sections = {run};
         return d;
     }
     return {};
@@ -79,7 +79,7 @@ TEST(DefectProfile, ComparesWithPassesThatAreNotAtFault) {
     std::vector<std::uint32_t> columns;
     const LineMap lines = lines_of(made, columns);
     Defect defect = middle_of(made, 5, 4);
-    for (const std::size_t pass : {3, 4, 6, 7}) defect.runs.push_back(middle_of(made, pass, 4).runs[0]);
+    for (const std::size_t pass : {3, 4, 6, 7}) defect.sections.push_back(middle_of(made, pass, 4).sections[0]);
     const DefectProfile profile = profile_of(defect, made.surface, signals, lines, {});
     for (std::size_t i = 0; i < profile.along.size(); ++i) {
         EXPECT_NEAR(profile.speed[DefectProfile::at_fault - 1][i], 35, 0.5) << "the curves are of the next passes";
@@ -146,7 +146,7 @@ TEST(DefectProfile, ShowsThePassesOfAProgrammedMarkOverThoseThatAreNotOnIt) {
         QualityReport report;
         report.defects = {middle_of(made, 5, 4)};
         report.defects[0].quantity = Quantity::relief;
-        report.defects[0].runs.push_back(middle_of(made, 6, 4).runs[0]);
+        report.defects[0].sections.push_back(middle_of(made, 6, 4).sections[0]);
         const ProgrammedMarks marks(made.surface, signals, report);
         const DefectProfile profile = profile_of(report.defects[0], made.surface, signals, lines, marks);
         EXPECT_EQ(profile.height_of, DefectProfile::HeightOf::programmed) << "a relief is one of the program";

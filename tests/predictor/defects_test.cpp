@@ -140,8 +140,9 @@ TEST(Defects, OfARecordedPartAreWhereTheProgramHasThem) {
         });
         ASSERT_NE(here, report.defects.end()) << "y = " << y;
         // The dense lines: their pass holds more than a hundred of them.
-        const bool dense = std::any_of(here->runs.begin(), here->runs.end(),
-                                       [](const DefectRun& run) { return run.last_line - run.first_line > 100; });
+        const bool dense = std::any_of(here->sections.begin(), here->sections.end(), [](const DefectSection& section) {
+            return section.last_line - section.first_line > 100;
+        });
         EXPECT_TRUE(dense) << "y = " << y;
     }
 }
@@ -229,7 +230,7 @@ TEST(SystematicLag, IsOneDefectOfTheWhole) {
     EXPECT_NEAR(lag.share, 16.0 / 24.0, 0.05);
     EXPECT_NEAR(lag.bounds.min().x(), 4, 0.5);
     EXPECT_NEAR(lag.bounds.max().x(), 20, 0.5);
-    EXPECT_GE(lag.runs.size(), 20U);
+    EXPECT_GE(lag.sections.size(), 20U);
     EXPECT_LE(lag.severity, 3);
 }
 
@@ -243,8 +244,8 @@ TEST(SystematicLag, LeavesALocalFaultInsideItToItself) {
         EXPECT_FALSE(local.systematic);
         EXPECT_NEAR(local.depth, 0.009, 0.001);
         EXPECT_FALSE(local.pit);
-        ASSERT_EQ(local.runs.size(), 1U);
-        EXPECT_EQ(local.runs[0].pass, pass + 1);
+        ASSERT_EQ(local.sections.size(), 1U);
+        EXPECT_EQ(local.sections[0].pass, pass + 1);
         EXPECT_GE(local.bounds.min().x(), 9.5);
         EXPECT_LE(local.bounds.max().x(), 13.5);
     }
@@ -334,8 +335,8 @@ TEST(Defects, NearTheBorderAreOfThePassesAtFault) {
             [&](int k, double x, double) { return k >= first && k <= last && x > 8 && x < 12 ? 35.0 : 50.0; });
         const QualityReport report = planted::judge(log);
         ASSERT_EQ(report.defects.size(), 1U) << first;
-        EXPECT_EQ(report.defects[0].runs.front().pass, first + 1);
-        EXPECT_EQ(report.defects[0].runs.back().pass, last + 1);
+        EXPECT_EQ(report.defects[0].sections.front().pass, first + 1);
+        EXPECT_EQ(report.defects[0].sections.back().pass, last + 1);
         EXPECT_NEAR(report.defects[0].speed_mismatch, -0.3, 0.01) << first;
     }
 }

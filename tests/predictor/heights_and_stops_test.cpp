@@ -119,7 +119,7 @@ TEST(Defects, OfAPeakAreNotOfThePassesBesideIt) {
         const QualityReport report = planted::judge(peaks(height, 0));
         int reliefs = 0;
         for (const Defect& defect : report.defects) {
-            for (const DefectRun& run : defect.runs) EXPECT_EQ(run.pass, programmed_pass + 1) << height;
+            for (const DefectSection& section : defect.sections) EXPECT_EQ(section.pass, programmed_pass + 1) << height;
             if (defect.quantity != Quantity::relief) continue;
             ++reliefs;
             EXPECT_EQ(defect.pit, height < 0);
@@ -132,7 +132,7 @@ TEST(Defects, OfAPeakAreNotOfThePassesBesideIt) {
 TEST(Defects, OfAPassBesideAPeakStayIfItLiesOffItself) {
     const QualityReport report = planted::judge(peaks(0.02, -0.03));
     EXPECT_TRUE(std::any_of(report.defects.begin(), report.defects.end(), [](const Defect& defect) {
-        return defect.pit && defect.runs.front().pass == programmed_pass + 2;
+        return defect.pit && defect.sections.front().pass == programmed_pass + 2;
     }));
 }
 
@@ -155,8 +155,8 @@ TEST(Defects, OfAStopAreFoundHoweverShortTheyAre) {
                 EXPECT_EQ(defect.severity, 3);
                 EXPECT_LT(defect.speed_jump, -25);
                 EXPECT_NEAR(defect.place.tip.x(), place, 0.2);
-                ASSERT_EQ(defect.runs.size(), 1U);
-                EXPECT_EQ(defect.runs.front().pass, 13);
+                ASSERT_EQ(defect.sections.size(), 1U);
+                EXPECT_EQ(defect.sections.front().pass, 13);
             }
         }
     }

@@ -23,7 +23,7 @@ protected:
                                                     const test::MadeSurface& made) {
         Defect defect;
         for (const std::size_t k : passes) {
-            DefectRun run;
+            DefectSection run;
             run.points = {std::numeric_limits<PointIndex>::max(), -1};
             const Pass& pass = cut(made, k);
             for (PointIndex i = pass.first; i <= pass.last; ++i) {
@@ -31,7 +31,7 @@ protected:
                 if (x < from || x > to) continue;
                 run.points = {std::min(run.points.first, i), std::max(run.points.last, i)};
             }
-            defect.runs.push_back(run);
+            defect.sections.push_back(run);
         }
         return outlines_of(defect, made.surface);
     }

@@ -7,7 +7,7 @@
 
 namespace clsurf::viz::vtk_module {
 
-constinit const VtkLibrary table{text_width, draw,          make_mesh_painter,  make_gl_context,
+constinit const VtkLibrary table{text_width, draw,         make_mesh_painter,  make_gl_context,
                                  write_vtp,  write_vtkhdf, write_vtkhdf_piece, merge_vtkhdf};
 
 }  // namespace clsurf::viz::vtk_module

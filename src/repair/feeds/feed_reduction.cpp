@@ -116,8 +116,8 @@ private:
                                       std::vector<std::uint8_t>(n, 0)};
         for (const std::int32_t k : taken) {
             const Defect& defect = run_.report.defects[static_cast<std::size_t>(k)];
-            for (const auto* segments : {&defect.runs, &defect.neighbours}) {
-                for (const DefectRun& segment : *segments) mark(segment.points, k, equalisation);
+            for (const auto* segments : {&defect.sections, &defect.neighbours}) {
+                for (const DefectSection& segment : *segments) mark(segment.points, k, equalisation);
             }
             if (defect.quantity == Quantity::lag) slow_for_lag(defect, equalisation.speeds);
         }
@@ -149,8 +149,8 @@ private:
 
     void slow_for_lag(const Defect& defect, std::vector<float>& speeds) const {
         const double most = lag_aim * run_.report.thresholds.of[index_of(Quantity::lag)];
-        for (const auto* segments : {&defect.runs, &defect.neighbours}) {
-            for (const DefectRun& segment : *segments) {
+        for (const auto* segments : {&defect.sections, &defect.neighbours}) {
+            for (const DefectSection& segment : *segments) {
                 for (PointIndex i = segment.points.first; i <= segment.points.last; ++i) {
                     const double share = std::pow(std::max(1.0, lag_step(i) / most), -1 / rules_.lag_power);
                     float& speed = speeds[static_cast<std::size_t>(i)];
