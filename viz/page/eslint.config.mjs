@@ -1,4 +1,4 @@
-// What eslint looks for in the page's sources: mistakes, not layout (that is prettier's).
+// What eslint looks for in the page's sources: mistakes and length, not layout (that is prettier's).
 import js from '@eslint/js';
 import tseslint from 'typescript-eslint';
 
@@ -6,6 +6,7 @@ export default tseslint.config(
     { ignores: ['dist/', 'node_modules/'] },
     js.configs.recommended,
     { rules: { 'no-control-regex': 'off' } }, // control characters are looked for by their codes
+    { rules: { 'max-lines': ['error', 500], 'max-lines-per-function': ['error', 60] } }, // as in C++
     {
         files: ['**/*.ts'],
         extends: [tseslint.configs.recommendedTypeChecked],

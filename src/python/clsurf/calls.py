@@ -176,17 +176,8 @@ def optimize(
         InputError: the program cannot be run, or has no adjacent passes.
     """
     options = options_of(
-        program,
-        log,
-        tool=tool,
-        machine=machine,
-        dialect=dialect,
-        tools=tools,
-        block_delete=block_delete,
-        layout=layout,
-        mapping=mapping,
-        period=period,
-        work_offset=work_offset,
+        program, log, tool=tool, machine=machine, dialect=dialect, tools=tools, block_delete=block_delete,
+        layout=layout, mapping=mapping, period=period, work_offset=work_offset,
     )
     repair = _clsurf.RepairOptions()
     repair.tolerance = tolerance
@@ -196,6 +187,10 @@ def optimize(
     repair.feeds = feeds
     repair.tradeoff = tradeoff
     repair.weight = weight
+    return _optimize(options, repair)
+
+
+def _optimize(options: _clsurf.PartOptions, repair: _clsurf.RepairOptions) -> OptimizedProgram:
     made = _clsurf.optimize(options, repair)
     report = json.loads(made.report)
     if made.front:

@@ -76,6 +76,17 @@ export class CurvesPane {
     private add(field: number, index: number, last: boolean): void {
         const info = this.manifest.fields[field];
         const holder = element('div', { class: 'chart' });
+        const key = element('ul', { class: 'key', tabindex: '0', 'aria-label': `legend of chart ${index + 1}` });
+        holder.append(this.choiceOf(field, index), key);
+        this.element.append(holder);
+        const plot = new uPlot(this.plotOptions(field, last), [[0], [null], [null]], holder); // filled by fill()
+        plot.over.addEventListener('click', (event) => this.click(plot, event.offsetX));
+        plot.over.addEventListener('dblclick', () => this.showAll());
+        plot.over.title = `${info.label}: click to select the place, drag to zoom, double click to show all`;
+        this.charts.push({ plot, holder, key, field });
+    }
+
+    private choiceOf(field: number, index: number): HTMLSelectElement {
         const choice = element('select', { title: 'what this curve shows', 'aria-label': `curve ${index + 1}` });
         this.manifest.fields.forEach((f, k) =>
             choice.append(new Option(f.unit ? `${f.label} [${f.unit}]` : f.label, String(k), false, k === field)),
@@ -86,62 +97,52 @@ export class CurvesPane {
             if (index === 0) this.store.set({ field: curves[0] });
             else this.store.set({ curves });
         });
-        const key = element('ul', { class: 'key', tabindex: '0', 'aria-label': `legend of chart ${index + 1}` });
-        holder.append(choice, key);
-        this.element.append(holder);
-        const ink = styleValue('--ink');
+        return choice;
+    }
+
+    private plotOptions(field: number, last: boolean): uPlot.Options {
+        const { classes } = this.manifest.fields[field];
         const grid = { stroke: styleValue('--line'), width: 1 };
         const font = `11px ${styleValue('--font')}`;
-        const plot = new uPlot(
-            {
-                width: 300,
-                height: 80,
-                padding: [info.classes ? 30 : 6, 12, last ? 0 : 6, 0], // names of classes; half a tick text
-                legend: { show: false },
-                cursor: { drag: { x: true, y: false, setScale: false }, points: { show: false }, y: false },
-                scales: { x: { time: false } },
-                axes: [
-                    {
-                        stroke: ink,
-                        grid,
-                        ticks: grid,
-                        font,
-                        size: last ? 34 : 0,
-                        show: last,
-                        labelFont: font,
-                        label: this.store.state.over === 'time' ? 'time [s]' : 'arc length [mm]',
-                        labelSize: 13,
-                        gap: 2,
-                    },
-                    {
-                        stroke: ink,
-                        grid: { ...grid, show: !info.classes },
-                        ticks: grid,
-                        font,
-                        size: 62,
-                        gap: 3,
-                        space: 22,
-                        ...(info.classes ? { splits: () => [] } : {}),
-                    },
-                ],
-                // The other log lies behind.
-                series: [
-                    {},
-                    { stroke: styleValue('--second'), width: 1.2, spanGaps: false, points: { show: false } },
-                    { stroke: styleValue('--curve'), width: 1.2, spanGaps: false, points: { show: false } },
-                ],
-                hooks: {
-                    draw: [(u) => this.drawBands(u, field), (u) => this.drawCursor(u)],
-                    setSelect: [(u) => this.zoomTo(u)],
+        const axis = { stroke: styleValue('--ink'), ticks: grid, font };
+        return {
+            width: 300,
+            height: 80,
+            padding: [classes ? 30 : 6, 12, last ? 0 : 6, 0], // names of classes; half a tick text
+            legend: { show: false },
+            cursor: { drag: { x: true, y: false, setScale: false }, points: { show: false }, y: false },
+            scales: { x: { time: false } },
+            axes: [
+                {
+                    ...axis,
+                    grid,
+                    size: last ? 34 : 0,
+                    show: last,
+                    labelFont: font,
+                    label: this.store.state.over === 'time' ? 'time [s]' : 'arc length [mm]',
+                    labelSize: 13,
+                    gap: 2,
                 },
+                {
+                    ...axis,
+                    grid: { ...grid, show: !classes },
+                    size: 62,
+                    gap: 3,
+                    space: 22,
+                    ...(classes ? { splits: () => [] } : {}),
+                },
+            ],
+            // The other log lies behind.
+            series: [
+                {},
+                { stroke: styleValue('--second'), width: 1.2, spanGaps: false, points: { show: false } },
+                { stroke: styleValue('--curve'), width: 1.2, spanGaps: false, points: { show: false } },
+            ],
+            hooks: {
+                draw: [(u) => this.drawBands(u, field), (u) => this.drawCursor(u)],
+                setSelect: [(u) => this.zoomTo(u)],
             },
-            [[0], [null], [null]], // filled by fill()
-            holder,
-        );
-        plot.over.addEventListener('click', (event) => this.click(plot, event.offsetX));
-        plot.over.addEventListener('dblclick', () => this.showAll());
-        plot.over.title = `${info.label}: click to select the place, drag to zoom, double click to show all`;
-        this.charts.push({ plot, holder, key, field });
+        };
     }
 
     /** The log that lies behind. */

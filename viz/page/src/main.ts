@@ -4,7 +4,7 @@ import 'uplot/dist/uPlot.min.css';
 import './style.css';
 
 import { firstOpinions } from './accepted';
-import { actionsOf } from './actions';
+import { actionsOf, type Action } from './actions';
 import { ColourMap } from './colour';
 import { readBytes } from './columns';
 import { renderCommand } from './command';
@@ -14,18 +14,19 @@ import { printDefect } from './defect_print';
 import { DefectList } from './defect_list';
 import { showCommand, showKeys } from './dialogs';
 import { baseName, element, saveFile } from './dom';
-import { everyDefect, keeps } from './filters';
-import { readManifest, type Defect, type Manifest } from './manifest';
+import { everyDefect } from './filters';
+import { readManifest, type Manifest } from './manifest';
+import { defectOfLink, Navigation } from './navigation';
 import { ProgramPane } from './program_pane';
 import { ProgramText } from './program_text';
 import { Player } from './player';
-import { readProgrammed } from './programmed';
+import { readProgrammed, type ProgrammedPath } from './programmed';
 import { rememberKeys, rememberedKeys } from './preferences';
 import { RangePane } from './range_pane';
 import { RecordsPane } from './records_pane';
-import { readRelief } from './relief';
-import { Store } from './store';
-import { readSurface } from './surface';
+import { readRelief, type Relief } from './relief';
+import { Store, type State } from './store';
+import { readSurface, type Surface } from './surface';
 import { TablePane } from './table_pane';
 import { Toolbar } from './toolbar';
 import { TreePane } from './tree_pane';
@@ -36,29 +37,17 @@ const system = matchMedia('(prefers-color-scheme: dark)');
 const setTheme = (theme: 'light' | 'dark') => (document.documentElement.dataset.theme = theme);
 const dark = () => document.documentElement.dataset.theme === 'dark';
 
-/** "#defect-10" is the tenth one. */
-const defectLink = (index: number) => `#defect-${index + 1}`;
-function defectOfLink(hash: string, count: number): number | null {
-    const number = Number(/^#defect-(\d+)$/.exec(hash)?.[1] ?? 0);
-    return number >= 1 && number <= count ? number - 1 : null;
+/** What the page shows, read from its data. */
+interface PageData {
+    manifest: Manifest;
+    surfaces: Surface[];
+    text: ProgramText;
+    relief: Relief | null;
+    programmed: ProgrammedPath | null;
+    maps: ColourMap[];
 }
 
-/** The field that shows a quantity best, among those of the page. */
-function fieldOfQuantity(manifest: Manifest, quantity: Defect['quantity']): number | null {
-    const names = {
-        speed: ['speed_mismatch', 'feed_share', 'speed'],
-        acceleration: ['acceleration_mismatch', 'acceleration'],
-        lag: ['height'],
-        relief: ['height'],
-    }[quantity];
-    for (const name of names) {
-        const index = manifest.fields.findIndex((field) => field.name === name);
-        if (index >= 0) return index;
-    }
-    return null;
-}
-
-async function begin(app: HTMLElement): Promise<void> {
+async function readPage(): Promise<PageData> {
     const manifest = readManifest();
     const surfaces = [];
     for (let k = 0; k < manifest.surfaces.length; ++k) surfaces.push(await readSurface(manifest, k));
@@ -67,13 +56,15 @@ async function begin(app: HTMLElement): Promise<void> {
     const programmed = manifest.programmed
         ? await readProgrammed(manifest.programmed, manifest.surfaces[0].origin_mm)
         : null;
-    const maps = manifest.colour_maps.map((info) => new ColourMap(info));
+    return { manifest, surfaces, text, relief, programmed, maps: manifest.colour_maps.map((i) => new ColourMap(i)) };
+}
 
+function initialState(manifest: Manifest): State {
     const first = Math.max(
         0,
         manifest.fields.findIndex((f) => f.name === manifest.first_field),
     );
-    const store = new Store({
+    return {
         field: first,
         map: manifest.fields[first].map,
         bins: 0,
@@ -104,8 +95,12 @@ async function begin(app: HTMLElement): Promise<void> {
         records: false,
         theme: dark() ? 'dark' : 'light',
         keys: rememberedKeys(),
-    });
-    let usual = manifest.fields[first].map;
+    };
+}
+
+/** Theme, keys and colour map follow from the state. */
+function followState(manifest: Manifest, store: Store): void {
+    let usual = store.state.map;
     store.on((state, changed) => {
         if (changed.has('theme')) setTheme(state.theme);
         if (changed.has('keys')) rememberKeys(state.keys);
@@ -119,62 +114,27 @@ async function begin(app: HTMLElement): Promise<void> {
         }
     });
     system.addEventListener('change', () => store.set({ theme: system.matches ? 'dark' : 'light' }));
+}
 
-    const view = new ViewPane(manifest, store, surfaces, maps, relief, programmed);
+interface Panes {
+    toolbar: Toolbar;
+    range: RangePane;
+    curves: CurvesPane;
+    records: RecordsPane;
+    tree: TreePane;
+    program: ProgramPane;
+    table: TablePane;
+    player: Player;
+    card: DefectCard;
+    actions: Action[];
+}
+
+function buildPanes(data: PageData, store: Store, view: ViewPane, navigation: Navigation): Panes {
+    const { manifest, surfaces, text } = data;
     const surface = () => view.surface;
-    const goToDefect = (index: number) => {
-        const defect = manifest.defects[index];
-        if (store.state.shown === 'before') store.set({ shown: 'after' });
-        const vertex = surface().vertexOfPoint(defect.point);
-        const origin = manifest.surfaces[0].origin_mm;
-        // The numbers are those of the defect until the pointer moves.
-        store.set({ defect: index, pinned: index, vertex, hover: null, line: surface().line[vertex], pass: 0 });
-        const field = fieldOfQuantity(manifest, defect.quantity);
-        if (field !== null && (field !== store.state.field || store.state.formed)) store.set({ field, formed: false });
-        if (defect.normal) view.lookAlong(defect.normal);
-        history.replaceState(null, '', defectLink(index));
-        view.goTo(
-            defect.bounds_mm[0].map((c, k) => c - origin[k]),
-            defect.bounds_mm[1].map((c, k) => c - origin[k]),
-        );
-        card.reveal(view.element);
-    };
-    view.showDefect = goToDefect;
-    const goToGone = (index: number) => {
-        const gone = manifest.gone[index];
-        const origin = manifest.surfaces[0].origin_mm;
-        store.set({ shown: 'before', formed: false, defect: null, pinned: null, pass: 0 });
-        const vertex = surface().vertexOfPoint(gone.point);
-        store.set({ vertex, hover: null, line: surface().line[vertex] });
-        view.goTo(
-            gone.bounds_mm[0].map((c, k) => c - origin[k]),
-            gone.bounds_mm[1].map((c, k) => c - origin[k]),
-        );
-    };
-    const stepDefect = (by: number) => {
-        const kept = manifest.defects.map((_, k) => k).filter((k) => keeps(store.state, manifest.defects[k]));
-        if (kept.length === 0) return;
-        const at = kept.indexOf(store.state.defect ?? store.state.pinned ?? -1);
-        goToDefect(kept[at < 0 ? (by > 0 ? 0 : kept.length - 1) : (at + by + kept.length) % kept.length]);
-    };
-    const locate = (kind: string, value: number): string | null => {
-        const s = surface();
-        if (kind === 'line') {
-            if (value < 1 || value > text.lineCount || !Number.isInteger(value))
-                return `the program has lines 1 … ${text.lineCount}`;
-            const runs = s.runsOfLine(value);
-            store.set({ line: value, vertex: runs.length > 0 ? runs[0][0] : null, defect: null, pass: 0 });
-            return runs.length > 0 ? null : 'this report has no point on that line';
-        }
-        const last = kind === 'point' ? s.info.records - 1 : s.time[s.count - 1];
-        if (value < 0 || value > last)
-            return kind === 'point' ? `the log has points 0 … ${last}` : `the log lasts ${last.toFixed(3)} s`;
-        const vertex = kind === 'point' ? s.vertexOfPoint(value) : s.vertexAtTime(value);
-        store.set({ vertex, line: s.line[vertex], defect: null, pass: 0 });
-        return null;
-    };
+    const { goToDefect, goToGone, stepDefect, locate } = navigation;
     const savePicture = async () => saveFile(`${baseName(manifest.program.name)}.png`, await view.picture());
-    const actions = actionsOf(
+    const actions: Action[] = actionsOf(
         store,
         view,
         {
@@ -188,13 +148,13 @@ async function begin(app: HTMLElement): Promise<void> {
         },
         surfaces.length,
         surfaces[0].before !== null,
-        maps.map((m) => m.name),
+        data.maps.map((m) => m.name),
     );
     const toolbar = new Toolbar(manifest, store, actions, locate);
     const range = new RangePane(store, view);
     const curves = new CurvesPane(manifest, store, surfaces, surface);
     const records = new RecordsPane(manifest, store, surface);
-    const tree = new TreePane(manifest, store, surface, { goToDefect, goToGone }, relief !== null);
+    const tree = new TreePane(manifest, store, surface, { goToDefect, goToGone }, data.relief !== null);
     const program = new ProgramPane(manifest, text, store, surface);
     const table = new TablePane(manifest, text, store, surface);
     const player = new Player(store, surface);
@@ -209,32 +169,35 @@ async function begin(app: HTMLElement): Promise<void> {
         goToDefect,
         print: (index) => void printCard(index),
     });
+    return { toolbar, range, curves, records, tree, program, table, player, card, actions };
+}
+
+function putTogether(app: HTMLElement, panes: Panes, view: ViewPane): void {
     app.append(
-        toolbar.element,
-        element('div', { class: 'side' }, range.element, tree.element),
+        panes.toolbar.element,
+        element('div', { class: 'side' }, panes.range.element, panes.tree.element),
         view.element,
-        card.element,
-        player.element,
-        program.element,
-        curves.element,
-        records.element,
-        table.element,
+        panes.card.element,
+        panes.player.element,
+        panes.program.element,
+        panes.curves.element,
+        panes.records.element,
+        panes.table.element,
     );
     app.hidden = false;
+}
+
+/** The heights that the style sheet leaves room for. */
+function publishHeights(card: HTMLElement): void {
     const summary = document.getElementById('summary');
     const setHeight = () => document.documentElement.style.setProperty('--summary', `${summary?.offsetHeight ?? 0}px`);
     if (summary) new ResizeObserver(setHeight).observe(summary);
     setHeight();
-    const setCard = () => document.documentElement.style.setProperty('--card', `${card.element.offsetHeight}px`);
-    new ResizeObserver(setCard).observe(card.element);
-    view.begin();
-    range.begin();
-    curves.build();
-    store.on((state, changed) => {
-        if (changed.has('vertex') && state.vertex !== null && state.defect === null && !state.playing)
-            view.reveal(state.vertex);
-    });
+    const setCard = () => document.documentElement.style.setProperty('--card', `${card.offsetHeight}px`);
+    new ResizeObserver(setCard).observe(card);
+}
 
+function bindKeys(store: Store, actions: Action[]): void {
     document.addEventListener('keydown', (event) => {
         const target = event.target as HTMLElement;
         if (!store.state.keys && event.key.length === 1) return;
@@ -244,18 +207,45 @@ async function begin(app: HTMLElement): Promise<void> {
         event.preventDefault();
         action.run();
     });
+}
+
+/** The list below the view, and the part of the address behind "#". */
+function bindDefects(app: HTMLElement, manifest: Manifest, store: Store, goToDefect: (index: number) => void): void {
     const list = document.getElementById('defect-list');
     if (list)
         new DefectList(list, manifest, store, (index) => {
             app.scrollIntoView();
             goToDefect(index);
         });
-    const linked = defectOfLink(location.hash, manifest.defects.length);
-    if (linked !== null) goToDefect(linked);
-    addEventListener('hashchange', () => {
+    const follow = () => {
         const index = defectOfLink(location.hash, manifest.defects.length);
         if (index !== null) goToDefect(index);
+    };
+    follow();
+    addEventListener('hashchange', follow);
+}
+
+async function begin(app: HTMLElement): Promise<void> {
+    const data = await readPage();
+    const { manifest } = data;
+    const store = new Store(initialState(manifest));
+    followState(manifest, store);
+    const view = new ViewPane(manifest, store, data.surfaces, data.maps, data.relief, data.programmed);
+    const navigation = new Navigation(manifest, store, data.text, view);
+    view.showDefect = navigation.goToDefect;
+    const panes = buildPanes(data, store, view, navigation);
+    navigation.showCard = () => panes.card.reveal(view.element);
+    putTogether(app, panes, view);
+    publishHeights(panes.card.element);
+    view.begin();
+    panes.range.begin();
+    panes.curves.build();
+    store.on((state, changed) => {
+        if (changed.has('vertex') && state.vertex !== null && state.defect === null && !state.playing)
+            view.reveal(state.vertex);
     });
+    bindKeys(store, panes.actions);
+    bindDefects(app, manifest, store, navigation.goToDefect);
     document.documentElement.dataset.ready = 'yes';
 }
 
