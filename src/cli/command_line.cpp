@@ -1,17 +1,14 @@
 #include "cli/command_line.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <cstdint>
 #include <set>
 #include <string_view>
-#include <typeinfo>
 #include <utility>
 
 #include "cli/config.h"
-#include "cli/options.h"
-#include "cli/vocabulary.h"
+#include "cli/option_rows.h"
+#include "cli/option_value.h"
+#include "cli/used_config.h"
 #include "core/spelling.h"
 
 namespace clsurf::cli {
@@ -25,54 +22,6 @@ std::string without_dashes(std::string name) {
 }
 
 std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
-
-template <typename Number>
-bool is_number(std::string_view text) {
-    if (text.starts_with('+')) text.remove_prefix(1);
-    Number number{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if constexpr (std::is_floating_point_v<Number>) {
-        if (!std::isfinite(number)) return false;
-    }
-    return error == std::errc() && end == text.data() + text.size();
-}
-
-bool is_list_type(const std::type_info& type) {
-    return type == typeid(std::vector<std::string>) || type == typeid(std::vector<double>) ||
-           type == typeid(std::vector<int>) || type == typeid(std::vector<long>) ||
-           type == typeid(std::vector<long long>);
-}
-
-// Checked here, so that the message does not speak of C++ and -1 never wraps into an unsigned.
-void check_number(const std::string& option, const std::type_info& type, const std::string& text) {
-    const bool whole = type == typeid(int) || type == typeid(long) || type == typeid(long long) ||
-                       type == typeid(std::vector<int>) || type == typeid(std::vector<long>) ||
-                       type == typeid(std::vector<long long>);
-    const bool counted =
-        type == typeid(unsigned) || type == typeid(unsigned long) || type == typeid(unsigned long long);
-    const bool real = type == typeid(double) || type == typeid(float) || type == typeid(std::vector<double>);
-    const bool good =
-        (!whole || is_number<std::int64_t>(text)) && (type != typeid(int) || is_number<std::int32_t>(text)) &&
-        (!counted || is_number<std::uint64_t>(text)) && (type != typeid(unsigned) || is_number<std::uint32_t>(text)) &&
-        (!real || is_number<double>(text));
-    if (good) return;
-    throw UsageError("--" + option + ": " + quoted(text) +
-                     (real      ? " is not a number"
-                      : counted ? " is not a whole number from 0 on that fits"
-                                : " is not a whole number that fits"));
-}
-
-void check_word(const std::string& option, const std::string& value_name, const std::string& text) {
-    if (!lists_all_words(value_name)) return;
-    const std::vector<std::string> words = words_of(value_name);
-    std::string list;
-    for (const std::string& word : words) {
-        if (word == text) return;
-        list += (list.empty() ? "" : ", ") + word;
-    }
-    const std::vector<std::string_view> views(words.begin(), words.end());
-    throw UsageError("--" + option + ": " + quoted(text) + " is not one of " + list, did_you_mean(text, views));
-}
 
 // "--output --json" is a forgotten file name, not a file called --json. Numbers may be negative.
 void check_taken(const po::option& option) {
@@ -105,7 +54,7 @@ private:
     [[nodiscard]] UsageError unknown(const po::option& option) const {
         const std::string& token = option.original_tokens.front();
         const std::string name = token.substr(0, token.find('='));
-        if (is_number<double>(token))
+        if (is_a_number(token))
             return UsageError("a value " + quoted(token) + " without its option",
                               "the numbers of one value are separated by commas: --at 2,-5.6,4.7");
         std::vector<std::string_view> known;
@@ -164,7 +113,7 @@ std::vector<std::string> join_numbers(const std::vector<std::string>& words, con
         const std::string value_name = option->format_parameter();
         const auto commas = std::count(value_name.begin(), value_name.end(), ',');
         std::string value;
-        for (std::ptrdiff_t k = 0; k <= commas && i + 1 < words.size() && is_number<double>(words[i + 1]); ++k, ++i)
+        for (std::ptrdiff_t k = 0; k <= commas && i + 1 < words.size() && is_a_number(words[i + 1]); ++k, ++i)
             value += (value.empty() ? "" : ",") + words[i + 1];
         if (!value.empty()) joined.push_back(value);
     }
@@ -196,32 +145,7 @@ void name_arguments(const Subcommand& subcommand, std::vector<po::option>& words
     }
 }
 
-void declare_arguments(const Subcommand& subcommand, po::options_description& options) {
-    for (const std::string& name : subcommand.positional) {
-        if (name.ends_with(repeats)) {
-            options.add_options()(name.substr(0, name.size() - repeats.size()).c_str(),
-                                  po::value<std::vector<std::string>>());
-        } else {
-            options.add_options()(name.c_str(), po::value<std::string>());
-        }
-    }
-}
-
-}  // namespace
-
-bool is_a_number(const std::string& text) { return is_number<double>(text); }
-
-bool takes_a_list(const po::typed_value_base& type) { return is_list_type(type.value_type()); }
-
-void check_option(const po::option& option, const po::option_description& description) {
-    const auto* typed = dynamic_cast<const po::typed_value_base*>(description.semantic().get());
-    if (typed == nullptr) return;
-    for (const std::string& text : option.value) {
-        check_number(option.string_key, typed->value_type(), text);
-        check_word(option.string_key, description.format_parameter(), text);
-    }
-}
-
+// The words that are not options, in order.
 std::vector<std::string> argument_values(const Subcommand& subcommand, const po::variables_map& values) {
     std::vector<std::string> all;
     for (std::string name : subcommand.positional) {
@@ -238,6 +162,19 @@ std::vector<std::string> argument_values(const Subcommand& subcommand, const po:
     return all;
 }
 
+void declare_arguments(const Subcommand& subcommand, po::options_description& options) {
+    for (const std::string& name : subcommand.positional) {
+        if (name.ends_with(repeats)) {
+            options.add_options()(name.substr(0, name.size() - repeats.size()).c_str(),
+                                  po::value<std::vector<std::string>>());
+        } else {
+            options.add_options()(name.c_str(), po::value<std::string>());
+        }
+    }
+}
+
+}  // namespace
+
 std::vector<std::string> subcommand_first(std::vector<std::string> words) {
     if (!words.front().starts_with('-')) return words;
     const auto found = std::find_if(words.begin(), words.end(), is_subcommand);
@@ -245,13 +182,6 @@ std::vector<std::string> subcommand_first(std::vector<std::string> words) {
         throw UsageError("expected a subcommand, found '" + words.front() + "'", "see clsurf --help");
     std::rotate(words.begin(), found, found + 1);
     return words;
-}
-
-ShownOptions shown_options(const Subcommand& subcommand) {
-    ShownOptions shown;
-    subcommand.declare(shown.own);
-    declare_common(shown.common);
-    return shown;
 }
 
 po::variables_map parse_words(const Subcommand& subcommand, const std::vector<std::string>& given_words) {
@@ -277,7 +207,7 @@ po::variables_map parse_words(const Subcommand& subcommand, const std::vector<st
     po::store(parsed, values);
     po::notify(values);
     if (values.count("no-config") == 0 && values.count("help") == 0) {
-        const std::string config = find_config(subcommand, values);
+        const std::string config = find_config(argument_values(subcommand, values), values);
         if (!config.empty()) used_config() = store_config(config, options, values);
     }
     return values;

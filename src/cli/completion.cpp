@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/help.h"
+#include "cli/option_rows.h"
 #include "cli/vocabulary.h"
 #include "core/version.h"
 

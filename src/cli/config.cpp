@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <set>
 
-#include "cli/command_line.h"
-#include "cli/help.h"
+#include "cli/option_rows.h"
+#include "cli/option_value.h"
 #include "core/spelling.h"
 #include "io/readers/config_file.h"
 
@@ -60,12 +60,12 @@ po::option option_of(const io::ConfigEntry& entry, const po::option_description&
     return option;
 }
 
-std::string find_config(const Subcommand& subcommand, const po::variables_map& values) {
+std::string find_config(const std::vector<std::string>& arguments, const po::variables_map& values) {
     std::error_code error;
     fs::path folder = fs::current_path(error);
     if (error) return {};
     const std::string database = values.count("DB") > 0 ? values["DB"].as<std::string>() : "";
-    for (const std::string& argument : argument_values(subcommand, values)) {
+    for (const std::string& argument : arguments) {
         if (argument == database) continue;  // of many parts: none of its own
         if (argument == "-" || !fs::is_regular_file(argument, error)) continue;
         folder = fs::absolute(argument, error).parent_path();
@@ -100,17 +100,6 @@ UsedConfig store_config(const std::string& path, const po::options_description& 
     po::store(parsed, read);
     for (const auto& [name, value] : read) values.insert({name, po::variable_value(value.value(), true)});
     return used;
-}
-
-const Place* UsedConfig::find(std::string_view message) const {
-    if (!message.starts_with("--")) return nullptr;
-    const auto at = places.find(std::string(message.substr(2, message.find_first_of(": ") - 2)));
-    return at == places.end() ? nullptr : &at->second;
-}
-
-UsedConfig& used_config() {
-    static UsedConfig config;
-    return config;
 }
 
 }  // namespace clsurf::cli

@@ -7,7 +7,7 @@
 
 #include "cli/export_columns.h"
 #include "cli/export_shards.h"
-#include "cli/help.h"
+#include "cli/help_text.h"
 #include "cli/output_format.h"
 #include "cli/part.h"
 #include "io/files/atomic_file.h"

@@ -8,9 +8,9 @@
 
 #include "cli/checked_run.h"
 #include "cli/child_process.h"
-#include "cli/command_line.h"
 #include "cli/config.h"
-#include "cli/help.h"
+#include "cli/option_rows.h"
+#include "cli/option_value.h"
 #include "cli/run_recorder.h"
 #include "core/spelling.h"
 #include "io/readers/fleet_file.h"

@@ -1,55 +1,24 @@
-#include "cli/help.h"
+// clsurf help: the options of a subcommand, and the words that options take.
 
-#include <algorithm>
-#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
 
-#include <fmt/format.h>
-
-#include "cli/command_line.h"
+#include "cli/help_text.h"
 #include "cli/options.h"
-#include "cli/terminal.h"
-#include "cli/text.h"
 #include "cli/vocabulary.h"
 #include "core/spelling.h"
-#include "core/version.h"
+#include "io/reports/listing_json.h"
 
 namespace clsurf::cli {
 namespace {
 
-constexpr std::size_t least_right = 24;   // columns of a description on a narrow terminal
-constexpr std::size_t widest_names = 30;  // wider ones have a line of their own
-
-struct Entry {
-    std::string left, right;
-};
-
-/// Two columns, the right one filled.
-std::string two_columns(const std::vector<Entry>& entries) {
-    std::size_t left = 0;
-    const std::size_t widest = std::min(widest_names, help_columns() / 3 + 4);
-    for (const Entry& entry : entries) {
-        if (columns_of(entry.left) <= widest) left = std::max(left, columns_of(entry.left));
-    }
-    const std::string indent(left + 4, ' ');
-    std::string text;
-    for (const Entry& entry : entries) {
-        text += "  " + entry.left;
-        std::string gap =
-            columns_of(entry.left) > left ? "\n" + indent : std::string(left + 2 - columns_of(entry.left), ' ');
-        for (const std::string& line :
-             wrap(entry.right, std::max(help_columns(), indent.size() + least_right) - indent.size())) {
-            text += gap + line;
-            gap = "\n" + indent;
-        }
-        text += "\n";
-    }
-    return text;
-}
-
-std::string options_text(std::string_view title, const po::options_description& options) {
-    std::vector<Entry> entries;
-    for (const OptionRow& row : rows_of(options)) entries.push_back({row.names(), row.text()});
-    return entries.empty() ? std::string() : fmt::format("\n{}:\n{}", title, two_columns(entries));
+/// "fields, channels, formats": the lists of words.
+std::string vocabulary_names() {
+    std::string names;
+    for (const Vocabulary& vocabulary : vocabularies())
+        names += (names.empty() ? "" : ", ") + std::string(vocabulary.name);
+    return names;
 }
 
 ExitCode run_help(const po::variables_map& values) {
@@ -79,120 +48,16 @@ ExitCode run_help(const po::variables_map& values) {
 
 }  // namespace
 
-std::string listing_text(std::span<const io::ListingRow> rows) {
-    std::vector<Entry> entries;
-    for (const io::ListingRow& row : rows)
-        entries.push_back({row.name, row.unit.empty() ? row.summary : fmt::format("{} [{}]", row.summary, row.unit)});
-    return two_columns(entries);
-}
-
-std::string OptionRow::names() const {
-    return fmt::format("{}{}{}{}", short_name.empty() ? "" : short_name + ", ", long_name,
-                       value_name.empty() ? "" : " ", value_name);
-}
-
-std::string OptionRow::text() const {
-    return default_value.empty() ? description : fmt::format("{} (default: {})", description, default_value);
-}
-
-std::vector<OptionRow> rows_of(const po::options_description& options) {
-    std::vector<OptionRow> rows;
-    for (const auto& option : options.options()) {
-        OptionRow row;
-        row.long_name = "--" + option->long_name();
-        const std::string name = option->canonical_display_name(po::command_line_style::allow_dash_for_short);
-        if (name.size() == 2 && name[0] == '-') row.short_name = name;
-        // Boost writes the default behind the value's name: "N (=3)".
-        row.value_name = option->format_parameter();
-        if (const std::size_t at = row.value_name.find(" (="); at != std::string::npos) {
-            row.default_value = row.value_name.substr(at + 3, row.value_name.size() - at - 4);
-            row.value_name.resize(at);
-        }
-        row.description = option->description();
-        rows.push_back(std::move(row));
-    }
-    return rows;
-}
-
-std::vector<OptionRow> all_rows(const Subcommand& subcommand) {
-    const ShownOptions shown = shown_options(subcommand);
-    std::vector<OptionRow> rows = rows_of(shown.own);
-    for (OptionRow& row : rows_of(shown.common)) rows.push_back(std::move(row));
-    return rows;
-}
-
-std::vector<const Subcommand*> shown_subcommands() {
-    std::vector<const Subcommand*> shown;
-    for (const Subcommand& subcommand : subcommands()) {
-        if (!subcommand.hidden) shown.push_back(&subcommand);
-    }
-    return shown;
-}
-
-bool names_a_file(std::string_view value_name) {
-    return value_name.ends_with("FILE") || value_name.ends_with("FOLDER") ||
-           value_name.find('.') != std::string_view::npos || value_name == "LOG" || value_name == "PROGRAM";
-}
-
-std::string usage_of(const Subcommand& subcommand) {
-    return fmt::format("clsurf {} [options]{}{}", subcommand.name, subcommand.arguments.empty() ? "" : " ",
-                       subcommand.arguments);
-}
-
-std::span<const ExitCodeRow> exit_codes() {
-    static constexpr std::array table{
-        ExitCodeRow{ExitCode::done, "done"},
-        ExitCodeRow{ExitCode::check_failed, "done, but a check or a comparison failed"},
-        ExitCodeRow{ExitCode::usage, "wrong options or arguments"},
-        ExitCodeRow{ExitCode::bad_input, "an input that cannot be used"},
-        ExitCodeRow{ExitCode::system, "system failure: disk, memory, graphics"},
-        ExitCodeRow{ExitCode::not_judged, "done, but not judged: the data do not allow a verdict"},
-    };
-    return table;
-}
-
-std::string overview_text() {
-    std::vector<Entry> commands;
-    for (const Subcommand& subcommand : subcommands()) {
-        if (subcommand.hidden) continue;
-        commands.push_back({std::string(subcommand.name), std::string(subcommand.summary)});
-    }
-    std::vector<Entry> lists;
-    for (const Vocabulary& vocabulary : vocabularies()) {
-        lists.push_back({fmt::format("help {}", vocabulary.name), std::string(vocabulary.summary)});
-    }
-    std::vector<Entry> codes;
-    for (const ExitCodeRow& row : exit_codes()) {
-        codes.push_back({std::to_string(static_cast<int>(row.code)), std::string(row.meaning)});
-    }
-    return fmt::format(
-        "clsurf {}: {}\n\nusage: clsurf SUBCOMMAND [options] …\n\nsubcommands:\n{}\nlists:\n{}\n"
-        "exit codes:\n{}\n`clsurf SUBCOMMAND --help` shows the options of one.\n",
-        version, motto, two_columns(commands), two_columns(lists), two_columns(codes));
-}
-
-std::string help_text(const Subcommand& subcommand) {
-    std::string text = fmt::format("usage: {}\n", usage_of(subcommand));
-    for (const Paragraph& paragraph : paragraphs_of(subcommand.description)) {
-        text += "\n";
-        if (paragraph.literal) {
-            text += paragraph.text;
-        } else {
-            for (const std::string& line : wrap(paragraph.text, help_columns())) text += line + "\n";
-        }
-    }
-    const ShownOptions shown = shown_options(subcommand);
-    return text + options_text("options", shown.own) + options_text("everywhere", shown.common);
-}
-
 Subcommand help_subcommand() {
+    // Views of these outlive the call.
+    static const std::string summary = "a subcommand's options; " + vocabulary_names();
+    static const std::string description = "TOPIC is a subcommand, or a list of words that options take as values:\n" +
+                                           vocabulary_names() + ". Lists can be had as JSON.";
     return {
         .name = "help",
         .arguments = "[TOPIC]",
-        .summary = "a subcommand's options; fields, channels, formats, dialects, colour maps",
-        .description =
-            "TOPIC is a subcommand, or a list of words that options take as values:\n"
-            "fields, channels, formats, dialects, colormaps. Lists can be had as JSON.",
+        .summary = summary,
+        .description = description,
         .declare = [](po::options_description& options) { declare_json(options); },
         .positional = {"TOPIC"},
         .run = run_help,

@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/config.h"
 #include "cli/output_format.h"
 #include "cli/terminal.h"
+#include "cli/used_config.h"
 #include "core/units.h"
 #include "io/readers/machine_file.h"
 

@@ -34,6 +34,8 @@ struct Subcommand {
 
 /// All subcommands, in the order of the help text.
 [[nodiscard]] std::span<const Subcommand> subcommands();
+/// Those that are no tools of the build.
+[[nodiscard]] std::vector<const Subcommand*> shown_subcommands();
 
 /// The subcommand of that name. Throws UsageError with the nearest one.
 [[nodiscard]] const Subcommand& find_subcommand(std::string_view name);

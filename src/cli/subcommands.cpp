@@ -28,4 +28,12 @@ const Subcommand& find_subcommand(std::string_view name) {
     throw UsageError("unknown subcommand '" + std::string(name) + "'", did_you_mean(name, names));
 }
 
+std::vector<const Subcommand*> shown_subcommands() {
+    std::vector<const Subcommand*> shown;
+    for (const Subcommand& subcommand : subcommands()) {
+        if (!subcommand.hidden) shown.push_back(&subcommand);
+    }
+    return shown;
+}
+
 }  // namespace clsurf::cli

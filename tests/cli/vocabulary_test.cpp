@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "cli/command_line.h"
-#include "cli/help.h"
+#include "cli/option_rows.h"
 #include "field/field_table.h"
 #include "io/formats/log_format.h"
 #include "predictor/quality_fields.h"
