@@ -92,7 +92,7 @@ void AtomicFile::open_part() {
     temporary_ = path_ + ".part";
     descriptor_ = ::open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     if (descriptor_ < 0 && errno == EEXIST) {
-        throw UsageError(temporary_ + " exists: a run that was stopped left it behind, or a run is writing it now",
+        throw UsageError(temporary_ + " exists: left by an interrupted run, or in use by another one",
                          "rename or remove it");
     }
     if (descriptor_ < 0) fail(temporary_, "cannot write");

@@ -219,7 +219,7 @@ Log open_edge(const Source& source, const LogOptions& options) {
     const std::optional<Mapping> mapping = mapping_of(options);
     const Mapping* map = mapping ? &*mapping : nullptr;
     EdgeRecording recording = read_edge_recording(source);
-    if (recording.rows == 0) throw InputError(Place::of_file(source.name), "holds no records");
+    if (recording.rows == 0) throw InputError(Place::of_file(source.name), "contains no records");
 
     Log log;
     log.name = source.name;

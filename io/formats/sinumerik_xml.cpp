@@ -272,7 +272,7 @@ Log open_sinumerik_xml(const Source& source, const LogOptions& options) {
     const Mapping* map = mapping ? &*mapping : nullptr;
     Reader reader(source);
     reader.read();
-    if (reader.time.empty()) throw InputError(Place::of_file(source.name), "holds no records");
+    if (reader.time.empty()) throw InputError(Place::of_file(source.name), "contains no records");
 
     Log log;
     log.name = source.name;

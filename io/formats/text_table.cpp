@@ -315,7 +315,7 @@ Log read_table(const Source& source, const TextPlan& plan, const char* format) {
         line_offset += chunk.lines;
     }
     refuse_wide_rows(source, plan, chunks);
-    if (rows == 0) throw InputError(Place::of_file(source.name), "holds no records");
+    if (rows == 0) throw InputError(Place::of_file(source.name), "contains no records");
     log.records = static_cast<PointIndex>(rows);
     if (!plan.words.empty()) {
         const std::string more = plan.words.size() > 1 ? fmt::format(" (and {} more)", plan.words.size() - 1) : "";

@@ -43,7 +43,7 @@ std::string read_name(const TomlFile& file, const toml::table& entry) {
     const toml::node& node = *entry.get("name");
     if (name->size() > longest_name) file.fail(node, "the name '" + *name + "' is longer than 23 bytes");
     if (is_reserved(*name)) {
-        file.fail(node, "'" + *name + "' cannot come from Modbus: records are too rare and not of one moment",
+        file.fail(node, "'" + *name + "' cannot come from Modbus: registers are read too slowly and not at one moment",
                   "a channel of another name is possible, for example display." + *name);
     }
     return *name;

@@ -196,7 +196,7 @@ std::string runs_text(const ReportedRuns& runs) {
     std::string text;
     for (const ReportedRun& run : runs.runs) text += (text.empty() ? "" : "\n") + run_text(run, runs.reference);
     if (runs.departures.empty()) return text;
-    text += "\nfrom what is usual, rms:\n";
+    text += "\ndeviation from the median run, rms:\n";
     for (std::size_t i = 0; i < runs.departures.size(); ++i) {
         const RunDeparture& d = runs.departures[i];
         text += fmt::format("{:<30}", runs.name_of(i));

@@ -78,7 +78,7 @@ std::optional<ControllerCommand> read_controller(const po::variables_map& values
 ControllerCommand::ControllerCommand(std::string words, double timeout) : words_(std::move(words)), timeout_(timeout) {
     for (const char* name : {"{program}", "{log}"}) {
         if (words_.find(name) == std::string::npos)
-            throw UsageError(fmt::format("--controller has no {}", name),
+            throw UsageError(fmt::format("the --controller command lacks {}", name),
                              "for example: --controller 'run_on_kernel.sh {program} {log}'");
     }
 }

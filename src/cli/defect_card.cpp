@@ -11,6 +11,7 @@
 #include "cli/defect_map.h"
 #include "cli/picture_output.h"
 #include "cli/stage_clock.h"
+#include "core/counted.h"
 #include "core/file_name.h"
 #include "core/not_finite.h"
 #include "core/units.h"
@@ -230,7 +231,8 @@ ExitCode plot_defect(const po::variables_map& values, const PartOptions& options
     part.diagnostics.append(quality.diagnostics);
     print(part.diagnostics, values);
     if (number < 1 || number > static_cast<long long>(report.defects.size()))
-        throw UsageError(fmt::format("--defect {}: `clsurf check` finds {} of them", number, report.defects.size()));
+        throw UsageError(fmt::format("--defect {}: there {} only {}", number, report.defects.size() == 1 ? "is" : "are",
+                                     counted(report.defects.size(), "defect")));
     clock.begin("draw");
     const auto index = static_cast<std::size_t>(number - 1);
     const viz::Image image =

@@ -120,8 +120,8 @@ Subcommand diff_subcommand() {
         .arguments = "A B…",
         .summary = "compares runs of a part by path: speed, acceleration, lag and height",
         .description =
-            "Aligns runs with the first one by path, not by time. Feed override, pauses, other sampling\n"
-            "periods and logs that begin in the middle therefore do not disturb. Lists where speed,\n"
+            "Aligns runs with the first one by path, not by time, so overrides, pauses,\n"
+            "other periods and partial logs do not matter. Lists where speed,\n"
             "acceleration, lag along the feed, height and jerk (its root mean square over 50 ms: how rough the\n"
             "motion is) differ: B minus A. If the tool is known, it also gives the roughness that each run\n"
             "leaves. Each argument is a log, or a program, which is simulated. With a budget, exit code 1 means that a limit is exceeded. With\n"

@@ -65,7 +65,7 @@ ExitCode run_fleet_command(const po::variables_map& values) {
     const std::string database = required(values, "output");
     const bool tasks = values.count("tasks") > 0;
     const bool merges = values.count("merge") > 0;
-    if (tasks && merges) throw UsageError("--tasks and --merge are two steps");
+    if (tasks && merges) throw UsageError("--tasks and --merge cannot be combined");
     for (const char* name : {"jobs", "memory", "retry-failed"}) {
         if ((tasks || merges) && given(values, name))
             throw UsageError(fmt::format("--{} does not apply to --tasks and --merge, which judge no runs", name));
@@ -101,7 +101,7 @@ Subcommand fleet_subcommand() {
             "RUNS.toml lists the runs; in a FOLDER each log is judged with the program of its name. Each run is\n"
             "judged in a process of its own, and recorded as `clsurf history DB add` does. A run that fails is\n"
             "recorded with its cause. Runs that DB has already, of the same content and judged by the same\n"
-            "options, are not judged again: a fleet that was stopped goes on where it was.\n"
+            "options, are not judged again: a stopped fleet resumes where it was.\n"
             "--tasks prints a command for each run, for GNU parallel, Slurm, Dask or snakemake; each makes a\n"
             "database in DB.parts, and --merge takes them into DB.\n"
             "The exit code is 1 if a run failed or exceeds its limits, 5 if one was not judged\n"
@@ -116,7 +116,7 @@ Subcommand fleet_subcommand() {
                     ("output,o", po::value<std::string>()->value_name("DB"), "the history")
                     ("jobs", po::value<int>()->value_name("N"), "runs that are judged at the same time (default: as many as cores)")
                     ("memory", po::value<std::string>()->value_name("SIZE"), "memory for all of them together, such as 8G (default: no limit)")
-                    ("retry-failed", "try runs again that failed before")
+                    ("retry-failed", "repeat runs that failed before")
                     ("tasks", "print a command for each run and judge nothing")
                     ("merge", "take the runs of other histories into DB")
                     ("program", po::value<std::string>()->value_name("FILE"), "program of a single run, with --log")

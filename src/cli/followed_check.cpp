@@ -21,7 +21,7 @@ std::unique_ptr<FollowedCheck> read_followed(const po::variables_map& values, co
                                              std::size_t logs) {
     const std::optional<FollowOptions> follow = read_follow(values);
     if (!follow) return nullptr;
-    if (logs > 1) throw UsageError("--follow follows one log");
+    if (logs > 1) throw UsageError("--follow accepts one log");
     if (format != "text" && format != "json" && values.count("output") == 0)
         throw UsageError("--follow writes its findings to standard output, as text or JSON",
                          "give the " + format + " report a file with -o");

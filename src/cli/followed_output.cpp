@@ -19,10 +19,9 @@ ExitCode make_while_it_grows(PartOptions& part, const FollowOptions& follow, con
     std::error_code error;
     const auto status = std::filesystem::status(output, error);
     if (output == "-" || (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)))
-        throw UsageError("--follow makes the output again and again: -o needs a file, not " + output);
+        throw UsageError("--follow rewrites its output: -o needs a file, not " + output);
     if (part.log.empty()) throw UsageError("--follow needs a LOG, not a program alone");
-    if (part.program == "-")
-        throw UsageError("--follow reads the program again and again: it cannot come from standard input");
+    if (part.program == "-") throw UsageError("--follow rereads the program: it cannot come from standard input");
     LookRules rules{least_seconds, pause_share, std::numeric_limits<PointIndex>::max(), false, false};
     std::string said;
     io::Source complete;

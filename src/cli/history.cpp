@@ -70,7 +70,7 @@ Subcommand history_subcommand() {
             "DB is one SQLite file; `add` makes it. Several programs may add to it at the same time.\n\n"
             "  add PROGRAM LOG       judge a run as `check` does, and record it\n"
             "  list                  one row for each run\n"
-            "  show N                all that is kept of a run\n"
+            "  show N                everything recorded for a run\n"
             "  trend                 a quantity over the runs: since when, and with which tool\n"
             "  against N|best|first  the latest run against another one of its program\n"
             "  outliers              runs that stand out among those of their program\n"

@@ -56,12 +56,12 @@ io::RunFilter read_run_choice(const po::variables_map& values) {
 void declare_trend(po::options_description& options) {
     // clang-format off
     options.add_options()
-        ("quantity", po::value<std::string>()->value_name("QUANTITY"), "what the trend is of (default: worst_score; `clsurf help quantities`)")
+        ("quantity", po::value<std::string>()->value_name("QUANTITY"), "the quantity that the trend shows (default: worst_score; `clsurf help quantities`)")
         ("pass", po::value<long long>()->value_name("N"), "only defects on that pass")
         ("lines", po::value<std::string>()->value_name("FIRST-LAST"), "only defects on these lines of the program")
         ("cause", po::value<std::string>()->value_name("feed_drop|oscillation|lag_step|point_spacing|corner|reversal|pass_end|path_tolerance"), "only defects of that cause")
         ("by", po::value<std::string>()->value_name("NAME"), "mark the runs by a parameter, or by program, machine or tool")
-        ("limit", po::value<double>()->value_name("VALUE"), "a line across; the answer counts the runs above it")
+        ("limit", po::value<double>()->value_name("VALUE"), "a limit line; runs above it are counted")
         ("size", po::value<std::string>()->value_name("WxH|hd|4k"), "size of the picture in pixels (default: 1600x900)")
         ("gl", po::value<std::string>()->value_name("osmesa|egl"), "renderer: osmesa uses the processor, egl a graphics card (default: osmesa)");
     // clang-format on

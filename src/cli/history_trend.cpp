@@ -44,7 +44,7 @@ viz::TrendPicture picture_of(const io::ReportedTrend& r) {
     viz::TrendPicture picture;
     picture.groups = legend_of(*r.trend);
     if (picture.groups.size() > most_groups)
-        throw UsageError(fmt::format("--by {}: the runs have {} different values, and a picture shows {}", r.by,
+        throw UsageError(fmt::format("--by {}: the runs have {} different values, at most {} can be drawn", r.by,
                                      picture.groups.size(), most_groups),
                          "choose fewer runs with --where, --since or --last");
     for (const TrendPoint& point : r.trend->points) {

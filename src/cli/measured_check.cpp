@@ -27,7 +27,7 @@ std::unique_ptr<MeasuredInput> read_measured_input(const po::variables_map& valu
         if (alone != nullptr) throw UsageError(fmt::format("--{} needs --measured", alone));
         return nullptr;
     }
-    if (logs > 1) throw UsageError("--measured belongs to one log: the part that was measured was cut once");
+    if (logs > 1) throw UsageError("--measured accepts one log: one measurement belongs to one run");
     if (format != "text" && format != "json")
         throw UsageError(fmt::format("--measured is reported as text and JSON, not as {}", format));
     auto input = std::make_unique<MeasuredInput>();

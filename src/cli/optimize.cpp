@@ -72,7 +72,7 @@ Subcommand optimize_subcommand() {
             "It must also be better on other machines that the machine file allows (--machines). With --log and\n"
             "without --machine, the machine is fitted to the log. With --controller, your own controller runs the\n"
             "program and the best candidates, --runs times in all, and its logs decide. After a new program has\n"
-            "run, --round adds it and its log: the next program is better than it, or there is none.\n"
+            "run, --round adds it and its log: the next program is written only if it is better.\n"
             "Programs that move rotary axes need a machine file that has them. Passes are then those of the\n"
             "tool tip, and the tool axis stays within a hundredth of a degree of the programmed one.\n"
             "--tradeoff shows what the search found: the Pareto front of its acceptable candidates by time, speed\n"

@@ -25,7 +25,7 @@ void declare_optimize(po::options_description& options) {
         ("picture", po::value<std::string>()->value_name("FILE"), "picture of the speeds, and of the differences between adjacent passes, before and after (.png, .jpg, .tif, .webp, .svg or .pdf), also if the new program is rejected")
         ("tolerance", po::value<double>()->value_name("MM"), "largest distance of the new path from the programmed path (default: 0.005)")
         ("feeds", po::value<std::string>()->value_name("searched|intervals"), "feeds of the new program: searched, so that adjacent passes run at equal speeds, or intervals, the planned speed of each constant-speed interval, as clsurf intervals lists them (default: searched)")
-        ("splines", "writes repaired sections as the splines of the dialect (fanuc G06.2, siemens BSPLINE, klartext SPL, linuxcnc G5 in planes of constant Z) where they need fewer blocks than the lines; three axes")
+        ("splines", "write repaired sections as the splines of the dialect (fanuc G06.2, siemens BSPLINE, klartext SPL, linuxcnc G5 in planes of constant Z) where they need fewer blocks than the lines; three axes")
         ("machines", po::value<int>()->value_name("N"), "other machines that the new program must be better on, drawn from what the machine file says of its uncertainty (default: 4; 0: none)")
         ("more-time", po::value<double>()->value_name("PERCENT"), "additional machining time that is allowed for fewer defects (default: 0)")
         ("decimals", po::value<int>()->value_name("N"), "smallest number of decimals of new coordinates, if the controller reads them (default: as in the program)");

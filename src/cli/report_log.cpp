@@ -140,7 +140,7 @@ std::string fit_page(io::ReportPage& page, std::vector<ReportLog>& logs) {
         most = std::max(1000.0, filled > 1 ? std::min(next, 0.9 * static_cast<double>(kept)) : next);
     }
     if (text.size() <= page.most_bytes) return text;
-    throw UsageError(fmt::format("--max-size {:g}: the page has {:.1f} MB with as few points as can be",
+    throw UsageError(fmt::format("--max-size {:g}: the smallest possible page has {:.1f} MB",
                                  static_cast<double>(page.most_bytes) / 1e6, static_cast<double>(text.size()) / 1e6),
                      "its program's text and the passes' ends alone need that; fewer --fields, or a larger --max-size");
 }

@@ -14,7 +14,7 @@ namespace clsurf::cli {
 namespace {
 
 std::string asked_format(const po::variables_map& values) {
-    if (given(values, "json") && given(values, "format")) throw UsageError("--json and --format say the same");
+    if (given(values, "json") && given(values, "format")) throw UsageError("use either --json or --format");
     const bool json = values.count("json") > 0;
     if (values.count("format") == 0 || (json && !given(values, "format"))) return json ? "json" : "";
     return values["format"].as<std::string>();

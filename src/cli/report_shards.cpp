@@ -30,7 +30,7 @@ void declare_report_with_shards(po::options_description& options) {
     // clang-format off
     options.add_options()
         ("merge", po::value<std::vector<std::string>>()->multitoken()->value_name("FILE…"), "the page from what was found in all shards")
-        ("shards", po::value<int>()->default_value(8)->value_name("N"), "with --survey alone: how many parts the log is cut into, which are judged here one after the other, and in any case how many the map is drawn in")
+        ("shards", po::value<int>()->default_value(8)->value_name("N"), "with --survey alone: how many parts the log is cut into, which are judged here one after the other; also the number of pieces of the map")
         ("scratch", po::value<std::string>()->value_name("FOLDER"), "with --survey: columns of the whole log are kept in files in this folder (default: that of the page)");
     // clang-format on
 }

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/help.h"
+#include "cli/option_rows.h"
 #include "core/version.h"
 #include "history/record_of.h"
 #include "io/files/mapped_file.h"
@@ -109,7 +109,7 @@ io::AddedRun RunRecorder::add(const PartOptions& options, const CheckedRun& run)
 
 std::string RunRecorder::text_of(const io::AddedRun& added) const {
     return fmt::format("run {} of {}{}", added.id, database_,
-                       added.replaced ? ", which was there already: same program, log and parameters" : "");
+                       added.replaced ? ", replaces an earlier record of the same program, log and parameters" : "");
 }
 
 }  // namespace clsurf::cli

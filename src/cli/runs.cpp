@@ -55,7 +55,7 @@ LoadedRun load_run(const std::string& path, const RunOptions& options) {
     } else {
         simulate_into(run, source, options);
     }
-    if (run.log.records == 0) throw InputError(Place::of_file(path), "holds no records");
+    if (run.log.records == 0) throw InputError(Place::of_file(path), "contains no records");
     return run;
 }
 

@@ -55,7 +55,7 @@ SurveyedLog read_surveyed_log(const PartOptions& options, const po::variables_ma
     if (values.count("survey") == 0)
         throw UsageError("shards need the survey of the log", "clsurf survey part.nc run.biip -o run.survey");
     if (options.derivative != DerivativeMethod::savgol)
-        throw UsageError("--derivative kalman looks at the log as a whole: shards have savgol only");
+        throw UsageError("--derivative kalman needs the whole log; shards support savgol only");
     SurveyedLog log{survey_origin(options, values), {}};
     log.survey = io::read_survey(values["survey"].as<std::string>(), log.origin);
     return log;

@@ -92,7 +92,7 @@ std::span<const Vocabulary> vocabularies() {
         Vocabulary{"formats", "FORMAT", "log formats that are recognised", format_rows},
         Vocabulary{"dialects", "DIALECT", "languages of NC programs", dialect_rows},
         Vocabulary{"colormaps", "COLORMAP", "named colour maps", colour_map_rows},
-        Vocabulary{"quantities", "QUANTITY", "what a history can show over its runs", quantity_rows},
+        Vocabulary{"quantities", "QUANTITY", "quantities of a run that a history can show", quantity_rows},
     };
     return table;
 }

@@ -9,7 +9,7 @@
 
 namespace clsurf {
 
-/// How far a run departs from what is usual.
+/// How far a run deviates from the median run.
 struct RunDeparture {
     std::array<double, run_quantities> rms{};   ///< inside units; NaN: not known
     double score = 0;                           ///< the greatest rms over its threshold

@@ -91,7 +91,7 @@ Trend make_trend(std::span<const RunRecord> runs, const HistoryQuantity& quantit
                  const std::string& by) {
     if (!filter.empty() && quantity.of_defects == nullptr)
         throw UsageError("--quantity " + std::string(quantity.name) +
-                         " is of the whole run: --pass, --lines and --cause choose defects");
+                         " describes whole runs; --pass, --lines and --cause apply to defects only");
     Trend trend;
     std::vector<double> known;
     std::vector<std::size_t> at;

@@ -42,7 +42,7 @@ void add_fidelity(const RecordedRun& run, const Machine& machine, std::vector<Ru
         if (fidelity.compared > 0)
             list.push_back(fidelity);
         else
-            result.unidentified.push_back({"fidelity", "controller", name + " follows its program nowhere"});
+            result.unidentified.push_back({"fidelity", "controller", name + " does not follow its program anywhere"});
     } catch (const InputError& error) {
         result.unidentified.push_back({"fidelity", "controller", name + " cannot be simulated: " + error.what()});
     }

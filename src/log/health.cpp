@@ -113,7 +113,7 @@ Diagnostics check_health(const Log& log, LineNumber program_lines) {
     Diagnostics found;
     check_channels(log, found);
     if (log.records == 0) {
-        found.add({Severity::error, "log.empty", Place::of_file(log.name), "holds no records", {}});
+        found.add({Severity::error, "log.empty", Place::of_file(log.name), "contains no records", {}});
         return found;
     }
     const double period = check_period(log, found);

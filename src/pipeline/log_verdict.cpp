@@ -16,8 +16,8 @@ LogVerdict log_verdict(const Log& log, const Diagnostics& diagnostics, const std
     std::string text = "OK: ";
     if (!program.empty() && diagnostics.count("map.distance") > 0) {
         // A part of the program, or another one, would have been a warning.
-        text += fmt::format("a run of {}{}, all of it, ", program,
-                            identity == ProgramIdentity::same ? " as it stands" : "");
+        text += fmt::format("a run of {}{}, all of it, ", identity == ProgramIdentity::same ? "the unmodified " : "",
+                            program);
     } else if (!program.empty()) {
         text += fmt::format("not compared with {}, ", program);
     }

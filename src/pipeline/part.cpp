@@ -34,7 +34,7 @@ void ask_for_kinematics(bool accept_unknown_tips, LineMap& lines) {
 
 /// The part of a log before its path is known.
 Part part_of(Log log, const PartRules& rules) {
-    if (log.records == 0) throw InputError(Place::of_file(log.name), "holds no records");
+    if (log.records == 0) throw InputError(Place::of_file(log.name), "contains no records");
     Part part;
     part.log = std::move(log);
     part.tool = rules.tool;
@@ -106,7 +106,7 @@ Part assemble(Program program, Log log, const PartRules& rules) {
 }
 
 void exchange_log(Part& part, Log log, const PartRules& rules) {
-    if (log.records == 0) throw InputError(Place::of_file(log.name), "holds no records");
+    if (log.records == 0) throw InputError(Place::of_file(log.name), "contains no records");
     Diagnostics diagnostics = log.diagnostics;
     if (part.path.kinematics == nullptr) note_rotary(log, part.path.role, diagnostics);
     Trajectory path = reconstruct(log, part.path.role, part.path.pose(), part.path.kinematics);

@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view scallop = "scallop";
 
 FieldInfo scallop_info() {
-    FieldInfo info{std::string(scallop), "Scallop beside the path", unit::um, FieldScale::sequential, {}};
+    FieldInfo info{std::string(scallop), "Scallop height", unit::um, FieldScale::sequential, {}};
     info.preference = FieldPreference::lower;
     return info;
 }

@@ -24,7 +24,7 @@ void refuse_others(const Part& part) {
     if (part.path.kinematics || find_rotary_motion(part.log, part.path.role))
         throw UsageError("a survey is for machines of three axes: " + part.log.name + " has rotary axes that move");
     if (part.derivative != DerivativeMethod::savgol)
-        throw UsageError("--derivative kalman looks at a log as a whole: shards have savgol only");
+        throw UsageError("--derivative kalman needs the whole log; shards support savgol only");
 }
 
 void extend_by(const Trajectory& path, const Vec3& origin, PointIndex first, PointIndex last,

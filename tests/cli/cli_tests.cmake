@@ -131,8 +131,8 @@ clsurf_cli_test(NAME render_of_made_one_way SETUP "${make_sample} one-way 200000
 clsurf_cli_test(NAME info_of_good_csv ARGS info @LOGS@/mixed.csv --period 0.001 STDOUT "  OK: a record every 1 ms, no jumps")
 clsurf_cli_test(NAME info_of_good_raw ARGS info @LOGS@/petal_spiral.raw --layout @DATA@/logs/petal_spiral.layout.toml STDOUT "  OK: a record every 1 ms, no jumps")
 set(own_run @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip)
-clsurf_cli_test(NAME info_says_ok ARGS info ${own_run} STDOUT "  OK: a run of bottle_uneven.nc as it stands, all of it, a record every 1 ms, no jumps")
-clsurf_cli_test(NAME info_says_ok_in_json ARGS info ${own_run} --json STDOUT "\"ok\": true" "\"verdict\": \"OK: a run of bottle_uneven.nc as it stands, all of it")
+clsurf_cli_test(NAME info_says_ok ARGS info ${own_run} STDOUT "  OK: a run of the unmodified bottle_uneven.nc, all of it, a record every 1 ms, no jumps")
+clsurf_cli_test(NAME info_says_ok_in_json ARGS info ${own_run} --json STDOUT "\"ok\": true" "\"verdict\": \"OK: a run of the unmodified bottle_uneven.nc, all of it")
 clsurf_cli_test(NAME info_of_a_part_says_care SETUP "head -c 1000000 @LOGS@/bottle_uneven.biip > cut.biip" ARGS info @DATA@/programs/bottle_uneven.nc cut.biip
   STDOUT "  usable with care: 2 warnings, see below" NO_STDOUT "OK:")
 clsurf_cli_test(NAME info_of_another_program_says_no ARGS info @DATA@/programs/bottle_zigzag.nc @LOGS@/bottle_uneven.biip EXIT 3 STDOUT "  not usable as it is: 1 error, see below" NO_STDOUT "OK:")
@@ -435,7 +435,7 @@ clsurf_cli_test(NAME lint_json ARGS lint ${uneven} --json EXIT 1 STDOUT "\"by_ru
 clsurf_cli_test(NAME lint_sarif ARGS lint ${uneven} --format sarif -o part.sarif EXIT 1 FILE part.sarif)
 clsurf_cli_test(NAME lint_of_a_clean_program SETUP "printf 'G0 X0 Y0 Z0\nG1 X10 F600\nX20\n' > a.nc" ARGS lint a.nc STDOUT "nothing found" "no adjacent passes")
 clsurf_cli_test(NAME lint_wrong_tolerance ARGS lint ${uneven} --tolerance 0 EXIT 2 STDERR "--tolerance must be above 0 mm")
-clsurf_cli_test(NAME lint_format_twice ARGS lint ${uneven} --json --format text EXIT 2 STDERR "say the same")
+clsurf_cli_test(NAME lint_format_twice ARGS lint ${uneven} --json --format text EXIT 2 STDERR "use either --json or --format")
 clsurf_cli_test(NAME lint_summary_first ARGS lint ${uneven} EXIT 1 STDOUT "^[0-9]+ warnings( and [0-9]+ notes?)? on [0-9]+ passes, 0[.]4[0-9]* mm apart.*point-spacing [0-9]+.*:[0-9]+-[0-9]+: warning")
 set(two_programs "cp ${uneven} b.nc; printf 'G0 X0 Y0 Z0\nG1 X10 F600\nX20\n' > a.nc")
 clsurf_cli_test(NAME lint_several SETUP "${two_programs}" ARGS lint a.nc b.nc EXIT 1

@@ -76,7 +76,7 @@ private:
                 // What was planned before comes to rest.
                 if (tail_.empty()) {
                     throw InputError((*place_of_)(path_->chord(path_->chord_at(at_)).block),
-                                     "no speeds hold the limits of all axes here");
+                                     "no speed satisfies all axis limits here");
                 }
                 for (const FiveAxisMotion& motion : tail_) motions_.push_back(motion);
                 tail_.clear();

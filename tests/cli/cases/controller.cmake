@@ -35,7 +35,7 @@ clsurf_cli_test(NAME optimize_controller_writes_garbage EXIT 3
 clsurf_cli_test(NAME optimize_controller_runs_another_program EXIT 3
   ARGS optimize ${dome} --controller "cp @LOGS@/bottle_uneven.biip {log} # {program}" -o better.nc STDERR "its log cannot be used: does not belong to")
 clsurf_cli_test(NAME optimize_controller_without_log_word EXIT 2
-  ARGS optimize ${dome} --controller "run {program}" -o better.nc STDERR "controller has no .log.")
+  ARGS optimize ${dome} --controller "run {program}" -o better.nc STDERR "the --controller command lacks .log.")
 clsurf_cli_test(NAME optimize_runs_without_controller EXIT 2
   ARGS optimize ${dome} --runs 3 -o better.nc STDERR "--runs needs --controller")
 clsurf_cli_test(NAME simulate_on_a_controller SETUP "${other}"

@@ -5,7 +5,7 @@ clsurf_cli_test(NAME follow_a_closed_log ARGS check ${followed} --follow STDOUT 
 clsurf_cli_test(NAME follow_quietly ARGS check ${followed} --follow -q --fail-on distinct EXIT 1 NO_STDOUT "finding")
 clsurf_cli_test(NAME follow_into_a_file ARGS check ${followed} --follow -o part.sarif STDOUT "finding 3 .provisional" FILE part.sarif)
 clsurf_cli_test(NAME follow_as_csv ARGS check ${followed} --follow --format csv EXIT 2 STDERR "as text or JSON" "hint: give the csv report a file with -o")
-clsurf_cli_test(NAME follow_two_logs ARGS check ${followed} @LOGS@/planted_zigzag.biip --follow EXIT 2 STDERR "--follow follows one log")
+clsurf_cli_test(NAME follow_two_logs ARGS check ${followed} @LOGS@/planted_zigzag.biip --follow EXIT 2 STDERR "--follow accepts one log")
 clsurf_cli_test(NAME follow_timeout_alone ARGS check ${followed} --follow-timeout 3 EXIT 2 STDERR "--follow-timeout needs --follow")
 clsurf_cli_test(NAME follow_timeout_below_zero ARGS check ${followed} --follow --follow-timeout -3 EXIT 2 STDERR "--follow-timeout must not be negative")
 clsurf_cli_test(NAME follow_program_and_log_on_standard_input ARGS check - - --follow EXIT 2 STDERR "cannot both come from standard input")

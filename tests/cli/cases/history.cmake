@@ -16,7 +16,7 @@ clsurf_cli_test(NAME history_list_json_has_the_stated_keys
   ARGS history shop.db list --where tool=D8R1 NO_STDOUT "bottle" STDOUT "planted")
 clsurf_cli_test(NAME history_adds_a_run_once SETUP "${two_parts}; ${two_parts}" ARGS history shop.db list --json STDOUT "\"id\": 1" "\"id\": 2" NO_STDOUT "\"id\": 3")
 clsurf_cli_test(NAME history_adds_it_again_with_other_parameters AFTER history_list_is_in_the_order_of_time SETUP "${same_runs}" ARGS history shop.db add ${bottle} @LOGS@/bottle_uneven.biip --tool none --param tool=new STDOUT "^run 3 of shop.db\n")
-clsurf_cli_test(NAME history_says_what_it_replaced AFTER history_list_is_in_the_order_of_time SETUP "${same_runs}" ARGS history shop.db add ${bottle} @LOGS@/bottle_uneven.biip --tool none --param tool=D6R3 STDOUT "^run 1 of shop.db, which was there already")
+clsurf_cli_test(NAME history_says_what_it_replaced AFTER history_list_is_in_the_order_of_time SETUP "${same_runs}" ARGS history shop.db add ${bottle} @LOGS@/bottle_uneven.biip --tool none --param tool=D6R3 STDOUT "^run 1 of shop.db, replaces an earlier record")
 clsurf_cli_test(NAME history_add_fails_as_check_does ARGS history shop.db add ${bottle} @LOGS@/bottle_uneven.biip --tool none --max-depth 5um EXIT 1 FILE shop.db STDOUT "over budget")
 clsurf_cli_test(NAME history_adds_what_is_not_judged SETUP "head -c 100000 @LOGS@/bottle_uneven.biip > run.biip" ARGS history shop.db add ${bottle} run.biip EXIT 5 STDOUT "not judged")
 
@@ -29,7 +29,7 @@ clsurf_cli_test(NAME history_trend_of_a_pass AFTER history_list_is_in_the_order_
 clsurf_cli_test(NAME history_trend_of_lines AFTER history_list_is_in_the_order_of_time SETUP "${same_runs}" ARGS history shop.db trend --program bottle_uneven.nc --lines 500-670 --quantity defects STDOUT "Defects, lines 500-670 over 1 run: [1-9]")
 clsurf_cli_test(NAME history_trend_of_passes_of_two_programs AFTER history_list_is_in_the_order_of_time SETUP "${same_runs}" ARGS history shop.db trend --pass 7 EXIT 2 STDERR "passes and lines are those of one program" "--program")
 clsurf_cli_test(NAME history_trend_of_an_unknown_quantity AFTER history_list_is_in_the_order_of_time SETUP "${same_runs}" ARGS history shop.db trend --quantity worst_scor -o t.png EXIT 2 STDERR "has no quantity 'worst_scor'" "did you mean 'worst_score'" NO_FILE t.png)
-clsurf_cli_test(NAME history_trend_of_the_whole_run AFTER history_list_is_in_the_order_of_time SETUP "${same_runs}" ARGS history shop.db trend --quantity ra_um --cause corner EXIT 2 STDERR "ra_um is of the whole run")
+clsurf_cli_test(NAME history_trend_of_the_whole_run AFTER history_list_is_in_the_order_of_time SETUP "${same_runs}" ARGS history shop.db trend --quantity ra_um --cause corner EXIT 2 STDERR "ra_um describes whole runs")
 clsurf_cli_test(NAME history_trend_by_nothing AFTER history_list_is_in_the_order_of_time SETUP "${same_runs}" ARGS history shop.db trend --by spindle EXIT 2 STDERR "--by: no run has a parameter 'spindle'")
 clsurf_cli_test(NAME history_trend_limit AFTER history_list_is_in_the_order_of_time SETUP "${same_runs}" ARGS history shop.db trend --limit 1 STDOUT "2 of 2 runs are above 1")
 clsurf_cli_test(NAME history_trend_over_its_own_database AFTER history_list_is_in_the_order_of_time SETUP "${same_runs}; ln shop.db shop.png" ARGS history shop.db trend -o shop.png EXIT 2 STDERR "would be overwritten")

@@ -62,7 +62,7 @@ clsurf_cli_test(NAME identify_without_commanded
 clsurf_cli_test(NAME identify_another_program ARGS identify @DATA@/programs/dome_loops.nc @LOGS@/bottle_uneven.biip -o m.toml EXIT 3 NO_FILE m.toml STDERR "another program|does not belong")
 # With --force the loops and limits show; no rule explains speeds that are compared nowhere, so none is chosen.
 clsurf_cli_test(NAME identify_another_program_by_force ARGS identify @DATA@/programs/dome_loops.nc @LOGS@/bottle_uneven.biip --force -o m.toml FILE m.toml
-  STDOUT "position_gain +y +(80|79[.]999[0-9]*|80[.]000[0-9]*) 1/s" "no run follows its program .planner" "follows its program nowhere .fidelity" NO_STDOUT "chosen" STDERR "does not belong")
+  STDOUT "position_gain +y +(80|79[.]999[0-9]*|80[.]000[0-9]*) 1/s" "no run follows its program .planner" "does not follow its program anywhere .fidelity" NO_STDOUT "chosen" STDERR "does not belong")
 clsurf_cli_test(NAME identify_without_a_log ARGS identify ${bottle} @DATA@/programs/dome_loops.nc -o m.toml EXIT 2 STDERR "dome_loops.nc' has no log")
 clsurf_cli_test(NAME identify_without_output ARGS identify ${bottle} EXIT 2 STDERR "output")
 clsurf_cli_test(NAME identify_does_not_replace_its_log SETUP "cp @LOGS@/bottle_uneven.biip r.biip" ARGS identify @DATA@/programs/bottle_uneven.nc r.biip -o r.biip EXIT 2 STDERR "is an input|input")
