@@ -1,8 +1,7 @@
-#include "program/dialects/dialect.h"
-
 #include <algorithm>
 #include <array>
 
+#include "program/dialects/dialect.h"
 #include "program/dialects/known_dialects.h"
 
 namespace clsurf {

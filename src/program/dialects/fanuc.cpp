@@ -11,7 +11,13 @@
 #include "core/not_finite.h"
 #include "program/dialects/fanuc_words.h"
 #include "program/dialects/known_dialects.h"
+#include "program/interpret/axis_words.h"
+#include "program/interpret/codes.h"
+#include "program/interpret/flow.h"
 #include "program/interpret/interpreter_state.h"
+#include "program/interpret/offsets.h"
+#include "program/interpret/path_modes.h"
+#include "program/interpret/tilted_plane.h"
 
 namespace clsurf {
 namespace fanuc {
@@ -117,11 +123,11 @@ bool has_rotary_word(const Block& block) {
 
 // Codes.
 bool refuse_curves(Interpreter& in, const CodeWord& w) {
-    in.refuse_motion(code_text(w.code), w.block, w.column, "involutes and exponential curves are not supported");
+    refuse_motion(in, code_text(w.code), w.block, w.column, "involutes and exponential curves are not supported");
 }
 bool refuse_rotary_interpolation(Interpreter& in, const CodeWord& w) {
-    in.refuse_motion(
-        code_text(w.code), w.block, w.column,
+    refuse_motion(
+        in, code_text(w.code), w.block, w.column,
         "cylindrical and polar coordinate interpolation are not supported: X, Y and C mean something else there");
 }
 bool interpolate_on_cylinder(Interpreter& in, const CodeWord& w) {
@@ -142,7 +148,8 @@ bool dwell(Interpreter& in, const CodeWord& w) {
 }
 /// Return check, return from the reference point, approach from one direction: a rapid to the end.
 bool go_at_rapid(Interpreter& in, const CodeWord& w) {
-    in.straight(MotionKind::rapid, in.target(w.block, in.this_block_.machine_coordinates), in.rotary_target(w.block));
+    in.straight(MotionKind::rapid, target_of(in, w.block, in.this_block_.machine_coordinates),
+                rotary_target(in, w.block));
     in.this_block_.motion_suppressed = true;
     in.event("mode", code_text(w.code));
     return true;
@@ -155,8 +162,8 @@ bool high_speed(Interpreter& in, const CodeWord& w) {
     Words& words = w.block.words;
     const bool moves = (words.has & Words::xyz) != 0;
     if (w.code < 8_g && moves)
-        in.refuse_motion(code_text(w.code), w.block, w.column,
-                         code_text(w.code) + " with coordinates is a spline of linuxcnc: --dialect linuxcnc");
+        refuse_motion(in, code_text(w.code), w.block, w.column,
+                      code_text(w.code) + " with coordinates is a spline of linuxcnc: --dialect linuxcnc");
     in.event("high-speed", code_text(w.code) + words_text(w.block, "PQR"));
     in.this_block_.motion_suppressed = !moves;
     words.has &= ~(Words::bit('P') | Words::bit('Q') | Words::bit('R'));
@@ -171,7 +178,7 @@ bool set_data(Interpreter& in, const CodeWord& w) {
     if (words.given('L') && words.of('L') >= 50) in.data_entry_ = true;
     const int level = words.given('L') ? static_cast<int>(std::clamp(words.of('L'), -1e6, 1e6)) : 0;
     in.this_block_.motion_suppressed = true;
-    if (!set_offsets(in, level, w.block)) in.set_offsets(w.block);
+    if (!set_offsets(in, level, w.block)) set_offsets(in, w.block);
     return true;
 }
 bool end_data(Interpreter& in, const CodeWord&) {
@@ -213,7 +220,7 @@ bool set_local_zero(Interpreter& in, const CodeWord& w) {
 }
 bool set_extended_system(Interpreter& in, const CodeWord& w) {
     if (!w.block.words.given('P') || w.block.words.has_g(65_g) || w.block.words.has_g(66_g)) return false;
-    in.select_work_system(plain_work_systems + static_cast<int>(std::clamp(w.block.words.of('P'), 1.0, 300.0)));
+    select_work_system(in, plain_work_systems + static_cast<int>(std::clamp(w.block.words.of('P'), 1.0, 300.0)));
     return true;
 }
 bool start_modal_macro(Interpreter& in, const CodeWord& w) {
@@ -239,7 +246,7 @@ bool rotate(Interpreter& in, const CodeWord& w) {
     return true;
 }
 bool tilt(Interpreter& in, const CodeWord& w) {
-    in.tilt_plane(w.block, w.column);
+    tilt_plane(in, w.block, w.column);
     return true;
 }
 bool turn_to_plane(Interpreter& in, const CodeWord& w) {
@@ -247,8 +254,8 @@ bool turn_to_plane(Interpreter& in, const CodeWord& w) {
         in.note(Severity::warning, "program.rotation",
                 code_text(w.code) + " without a tilted plane (G68.2) does nothing", w.column);
     else
-        in.turn_to_plane(in.frames_.fanuc.rotation.direction_to_work(Vec3::UnitZ()), w.code == 53.6_g,
-                         code_text(w.code));
+        turn_to_plane(in, in.frames_.fanuc.rotation.direction_to_work(Vec3::UnitZ()), w.code == 53.6_g,
+                      code_text(w.code));
     return true;
 }
 bool tilt_otherwise(Interpreter& in, const CodeWord& w) {
@@ -262,7 +269,7 @@ bool end_rotation(Interpreter& in, const CodeWord& w) {
     in.frames_.fanuc.angle = 0;
     in.state_.frame = in.frames_.fanuc.all();
     in.event("rotation", code_text(w.code));
-    in.end_tilted_plane(code_text(w.code));
+    end_tilted_plane(in, code_text(w.code));
     return true;
 }
 bool note_mode(Interpreter& in, const CodeWord& w) {
@@ -271,10 +278,10 @@ bool note_mode(Interpreter& in, const CodeWord& w) {
     return true;
 }
 bool stop_exactly(Interpreter& in, const CodeWord& w) {
-    return in.path_mode_word(w, {BlockEnd::exact_stop, 0}, w.code == 9_g);
+    return path_mode_word(in, w, {BlockEnd::exact_stop, 0}, w.code == 9_g);
 }
-bool round_in_corners(Interpreter& in, const CodeWord& w) { return in.path_mode_word(w, {BlockEnd::exact_path, 0}); }
-bool round_within_tolerance(Interpreter& in, const CodeWord& w) { return in.rounded_corners(w); }
+bool round_in_corners(Interpreter& in, const CodeWord& w) { return path_mode_word(in, w, {BlockEnd::exact_path, 0}); }
+bool round_within_tolerance(Interpreter& in, const CodeWord& w) { return rounded_corners(in, w); }
 
 constexpr auto codes = std::to_array<CodeRule>({
     {1.2_g, refuse_curves},
@@ -344,12 +351,12 @@ constexpr auto codes = std::to_array<CodeRule>({
 constexpr auto m_codes = std::to_array<MRule>({
     {98,
      [](Interpreter& in, int, const Block& block) {
-         in.call_by_number(block, 1, true);
+         call_by_number(in, block, 1, true);
          return true;
      }},
     {99,
      [](Interpreter& in, int, const Block& block) {
-         in.return_to_block(block);
+         return_to_block(in, block);
          return true;
      }},
 });
@@ -368,7 +375,7 @@ bool begin_block(Interpreter& in, Block& block) {
 
 bool call_modal_macro(Interpreter& in) {
     const ModalCall called = in.modal_call_;
-    in.call(called.name, called.repeats, true, called.arguments);
+    call_subprogram(in, called.name, called.repeats, true, called.arguments);
     return true;
 }
 
@@ -377,7 +384,7 @@ bool call_modal_macro(Interpreter& in) {
 void move_about_pole(Interpreter& in, const Block& block, Vec3& end) {
     const ModalState& state = in.state_;
     const Vec3 from = end.array().isNaN().select(0.0, end);
-    in.straight_to_pole_plane(block, from, end);
+    straight_to_pole_plane(in.state_, block, from, end);
     const char radius = "XYZ"[(state.plane_axis + 1) % 3];
     const char angle = "XYZ"[(state.plane_axis + 2) % 3];
     if (!block.words.given(radius) && !block.words.given(angle)) return;
@@ -387,7 +394,7 @@ void move_about_pole(Interpreter& in, const Block& block, Vec3& end) {
         polar.pole = state.incremental ? from : Vec3(Vec3::Zero());
     }
     if (block.words.given(angle)) polar.angle = block.words.of(angle) + (state.incremental ? polar.angle : 0.0);
-    in.put_at_pole(end);
+    put_at_pole(in.frames_.polar, in.state_.plane_axis, end);
 }
 
 constexpr auto code_signs = std::to_array<CodeSign>({{5_g, 8, "P", "IJQXYZ"},

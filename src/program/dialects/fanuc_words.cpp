@@ -1,4 +1,5 @@
 // Facts: Fanuc, operator's manual of the series 30i (B-63944EN).
+
 #include "program/dialects/fanuc_words.h"
 
 #include <algorithm>
@@ -8,7 +9,11 @@
 #include <fmt/format.h>
 
 #include "core/not_finite.h"
+#include "program/interpret/compensated_motions.h"
+#include "program/interpret/flow.h"
 #include "program/interpret/interpreter_state.h"
+#include "program/interpret/offsets.h"
+#include "program/interpret/tilted_plane.h"
 
 namespace clsurf::fanuc {
 namespace {
@@ -169,7 +174,7 @@ bool is_data_end(Interpreter& in, const Block& block) {
 /// G65: nothing else in the block is carried out, its words are arguments.
 void macro_call(Interpreter& in, const Block& block) {
     const int repeats = block.words.given('L') ? static_cast<int>(std::clamp(block.words.of('L'), 1.0, 99999.0)) : 1;
-    in.call(fmt::format("{}", macro_program(in, block, 65_g, 0)), repeats, true, macro_arguments(block));
+    call_subprogram(in, fmt::format("{}", macro_program(in, block, 65_g, 0)), repeats, true, macro_arguments(block));
 }
 
 /// G10 of Fanuc: L2 and L20 work offsets, L10 … L13 of tools; G90 sets, G91 adds.
@@ -235,7 +240,7 @@ bool write_parameter(Interpreter& in, int number, double value) {
 }
 
 double parameter(Interpreter& in, int number) {
-    const Vec3 at = in.tool_position();
+    const Vec3 at = tool_position(in.compensation_, in.state_);
     const Vec3 known = at.array().isNaN().select(0.0, at);
     const double unit = in.state_.unit_mm;
     const auto axis_of = [&](int first, const Vec3& lengths) {
@@ -276,6 +281,50 @@ double parameter(Interpreter& in, int number) {
     }
     if (number >= 1000 && !in.variables_.has(number)) in.this_block_.unknown_parameter = number;
     return missing<double>;
+}
+
+/// G68.2 X Y Z I J K: the plane's zero and its Euler angles, about Z, the new X and the new Z; with P1 Q the angles
+/// are those about X, Y and Z of the work system, in the order that Q tells.
+void tilt_plane(Interpreter& in, const Block& block, std::size_t column) {
+    in.this_block_.motion_suppressed = true;
+    const Words& w = block.words;
+    const auto refuse = [&](const std::string& what) {
+        in.note(Severity::warning, "program.rotation",
+                what + ": this tilted plane is not carried out, the path is read as programmed", column);
+    };
+    const int form = w.given('P') ? static_cast<int>(std::clamp(w.of('P'), 0.0, 99.0)) : 0;
+    if (form > 1) return refuse(fmt::format("G68.2 P{}", form));
+    if (in.state_.plane_axis != 2) return refuse("G68.2 in G18 or G19");
+    if (in.compensation_.path.on()) in.fail("G68.2 while cutter compensation is on", column);
+    const auto words = [&](const char* letters) {
+        Vec3 v = Vec3::Zero();
+        for (int k = 0; k < 3; ++k) {
+            if (w.given(letters[k])) v[k] = w.of(letters[k]);
+        }
+        return v;
+    };
+    const auto turned_about = [](int axis, double degrees) { return ProgramFrame::turned(Vec3::Unit(axis), degrees); };
+    const Vec3 angles = words("IJK");
+    ProgramFrame turn;
+    if (form == 0) {
+        turn = turned_about(2, angles[0]).around(turned_about(0, angles[1])).around(turned_about(2, angles[2]));
+    } else {
+        const int order = w.given('Q') ? static_cast<int>(std::clamp(w.of('Q'), 0.0, 999.0)) : 123;
+        const std::array<int, 3> axes{order / 100 - 1, order / 10 % 10 - 1, order % 10 - 1};
+        std::array<bool, 3> named{};
+        for (const int axis : axes) {
+            if (axis >= 0 && axis < 3) named[static_cast<std::size_t>(axis)] = true;
+        }
+        if (!(named[0] && named[1] && named[2]))
+            in.fail(fmt::format("G68.2 P1: Q{} is not a permutation of 1, 2 and 3", order), column);
+        for (const int axis : axes) turn = turned_about(axis, angles[axis]).around(turn);
+    }
+    in.frames_.fanuc.rotation = ProgramFrame::moved(in.state_.unit_mm * words("XYZ")).around(turn);
+    in.frames_.fanuc.angle = 0;
+    in.state_.frame = in.frames_.fanuc.all();
+    const std::string text = "G68.2" + words_text(block, "PQXYZIJK");
+    in.event("rotation", text);
+    begin_tilted_plane(in, text);
 }
 
 }  // namespace clsurf::fanuc

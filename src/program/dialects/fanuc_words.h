@@ -10,6 +10,9 @@ void rotate_frame(Interpreter& in, const Block& block, std::size_t column);
 void scale_frame(Interpreter& in, const Block& block);             ///< G51
 void mirror_frame(Interpreter& in, int code, const Block& block);  ///< G50.1, G51.1
 void count_from_local_zero(Interpreter& in, const Block& block);   ///< G52
+/// G68.2 X Y Z I J K: the plane's zero and its Euler angles, about Z, the new X and the new Z; with P1 Q the angles
+/// are those about X, Y and Z of the work system, in the order that Q tells.
+void tilt_plane(Interpreter& in, const Block& block, std::size_t column);
 
 /// The number of the program that a block calls (P). Throws as Interpreter::fail() does.
 [[nodiscard]] long macro_program(const Interpreter& in, const Block& block, int code, std::size_t column);

@@ -13,7 +13,12 @@
 #include "core/not_finite.h"
 #include "program/dialects/heidenhain_codes.h"
 #include "program/dialects/known_dialects.h"
+#include "program/interpret/axis_words.h"
+#include "program/interpret/flow.h"
 #include "program/interpret/interpreter_state.h"
+#include "program/interpret/path_modes.h"
+#include "program/interpret/tangential_arc.h"
+#include "program/interpret/tool_axis.h"
 
 namespace clsurf {
 namespace {
@@ -29,7 +34,7 @@ bool machine_position(Interpreter& in, int code, const Block&) {
 }
 
 bool tool_centre_point(Interpreter& in, int code, const Block&) {
-    in.control_tool_centre_point(code == 128, fmt::format("M{}", code));
+    control_tool_centre_point(in, code == 128, fmt::format("M{}", code));
     return true;
 }
 
@@ -51,7 +56,7 @@ void set_inches(Interpreter& in, bool inches) {
 
 bool arc_about_pole(Interpreter& in, const Block& block, ArcWords& words) {
     if (in.arcs_.kind == ArcKind::tangential) {
-        in.arc_along_tangent(words);
+        arc_along_tangent(in, words);
         return true;
     }
     in.arcs_.last_clockwise = words.clockwise;
@@ -77,9 +82,9 @@ void begin_or_call(Interpreter& in, const std::string& title) {
         set_inches(in, unit == "G70");
         in.event("program", title);
     } else if (unit == "G70" || unit == "G71") {
-        in.leave(false);
+        leave(in, false);
     } else {
-        in.call(name, 1, false, {});
+        call_subprogram(in, name, 1, false, {});
     }
 }
 
@@ -323,8 +328,8 @@ bool set_tolerance(Interpreter& in, std::string_view text) {
         if (tolerance < 0) throw ReadError{"a tolerance below 0", column, {}};
     }
     in.contour_tolerance_ = tolerance > 0 ? tolerance : std::numeric_limits<double>::quiet_NaN();
-    in.set_path_mode("path-mode", std::string(text.substr(text.find_first_not_of(' '))),
-                     {BlockEnd::rounded, in.contour_tolerance_});
+    set_path_mode(in, "path-mode", std::string(text.substr(text.find_first_not_of(' '))),
+                  {BlockEnd::rounded, in.contour_tolerance_});
     return true;
 }
 
@@ -354,7 +359,7 @@ constexpr auto m_codes = std::to_array<MRule>(
 /// L5 beside other words of a block.
 void call_label(Interpreter& in, const Block& block) {
     if (!block.words.given('L') || in.this_block_.motion_suppressed) return;
-    in.call(fmt::format("{}", std::lround(block.words.of('L'))), 1, false, {});
+    call_subprogram(in, fmt::format("{}", std::lround(block.words.of('L'))), 1, false, {});
 }
 
 constexpr auto code_signs = std::to_array<CodeSign>({{98_g, 6, "L", "XYZ"}, {99_g, 5, "T", ""}});
@@ -401,8 +406,8 @@ const DialectRules heidenhain_iso_rules{
             const auto word = [&](char letter) {
                 return block.words.given(letter) ? std::optional(block.words.of(letter)) : std::nullopt;
             };
-            in.straight_to_pole_plane(block, end.array().isNaN().select(0.0, end), end);
-            in.put_about_pole(word('R'), word('H'), false, in.state_.incremental, end);
+            straight_to_pole_plane(in.state_, block, end.array().isNaN().select(0.0, end), end);
+            put_about_pole(in.frames_.polar, in.state_, word('R'), word('H'), false, in.state_.incremental, end);
         },
 };
 

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "program/dialects/heidenhain_codes.h"
+#include "program/interpret/flow.h"
 
 namespace clsurf {
 namespace {
@@ -67,11 +68,11 @@ bool run_q_function(Interpreter& in, std::string_view text) {
     };
     const auto jump = [&](bool taken) {
         if (!taken) return;
-        in.count_jump();
+        count_jump(in);
         const std::string label = fmt::format("{}", std::lround(p[2]));
-        const int at = in.index(in.place_.file).find(ControlKind::sub, label);
+        const int at = control_index(in, in.place_.file).find(ControlKind::sub, label);
         if (at < 0) in.fail(fmt::format("there is no label to go to: '{}'", label));
-        in.go_to(in.place_.file, in.index(in.place_.file).all()[static_cast<std::size_t>(at)].line);
+        in.go_to(in.place_.file, control_index(in, in.place_.file).all()[static_cast<std::size_t>(at)].line);
     };
     switch (function->code) {
         case 0: set(p[0]); return true;
@@ -115,12 +116,12 @@ bool run_label_line(Interpreter& in, std::string_view text) {
     if (c.peek() != '\0') return false;
     const std::string name = fmt::format("{}", std::lround(std::clamp(label, 0.0, 1e6)));
     if (times < 1) {
-        in.call(name, 1, false, {});
+        call_subprogram(in, name, 1, false, {});
         return true;
     }
-    const int at = in.index(in.place_.file).find(ControlKind::sub, name);
+    const int at = control_index(in, in.place_.file).find(ControlKind::sub, name);
     if (at < 0) in.fail(fmt::format("there is no label to repeat: '{}'", name));
-    in.repeat_from(in.index(in.place_.file).all()[static_cast<std::size_t>(at)].line + 1, times);
+    repeat_from(in, control_index(in, in.place_.file).all()[static_cast<std::size_t>(at)].line + 1, times);
     return true;
 }
 

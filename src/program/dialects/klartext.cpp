@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 
 #include "program/dialects/heidenhain_codes.h"
+#include "program/interpret/axis_words.h"
+#include "program/interpret/flow.h"
 #include "program/interpret/interpreter_state.h"
 
 namespace clsurf {
@@ -33,7 +35,7 @@ void begin_program(Line& line) {
     line.c.skip_blanks();
     line.in.event("program", std::string(line.c.text.substr(line.c.at)));
 }
-void end_program(Line& line) { line.in.leave(false); }
+void end_program(Line& line) { leave(line.in, false); }
 void blank_form(Line& line) { note_rest(line, "blank"); }
 void stop(Line& line) {
     line.in.event("stop", "STOP");
@@ -166,12 +168,12 @@ void cut_corner(Line& line) {
 void call_label(Line& line) {
     Interpreter& in = line.in;
     const std::string label = label_of(line.c);
-    if (!line.c.take_word("REP") && line.c.peek() == '\0') return in.call(label, 1, false, {});
+    if (!line.c.take_word("REP") && line.c.peek() == '\0') return call_subprogram(in, label, 1, false, {});
     if (line.c.text.substr(line.c.at).starts_with("REP")) line.c.at += 3;
     const double times = line.value();
-    const int at = in.index(in.place_.file).find(ControlKind::sub, label);
+    const int at = control_index(in, in.place_.file).find(ControlKind::sub, label);
     if (at < 0) in.fail(fmt::format("there is no label to repeat: '{}'", label));
-    in.repeat_from(in.index(in.place_.file).all()[static_cast<std::size_t>(at)].line + 1, times);
+    repeat_from(in, control_index(in, in.place_.file).all()[static_cast<std::size_t>(at)].line + 1, times);
 }
 
 void call_program(Line& line) {
@@ -179,7 +181,7 @@ void call_program(Line& line) {
     name = name.substr(name.find_last_of("\\/:") + 1);
     if (name.ends_with(".H") || name.ends_with(".h")) name.resize(name.size() - 2);
     if (name.empty()) throw ReadError{"expected the program's name after CALL PGM", line.c.column(), {}};
-    line.in.call_file(name);
+    call_file(line.in, name);
 }
 
 struct StatementRow {
@@ -370,8 +372,8 @@ const DialectRules klartext_rules{
     .arc = arc_about_pole,
     .about_pole =
         [](Interpreter& in, const Block& block, Vec3& end) {
-            in.put_about_pole(block.polar_radius, block.polar_angle, block.polar_radius_incremental,
-                              block.polar_angle_incremental, end);
+            put_about_pole(in.frames_.polar, in.state_, block.polar_radius, block.polar_angle,
+                           block.polar_radius_incremental, block.polar_angle_incremental, end);
         },
 };
 

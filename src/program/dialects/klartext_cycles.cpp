@@ -10,6 +10,9 @@
 
 #include "program/dialects/heidenhain_codes.h"
 #include "program/dialects/klartext.h"
+#include "program/interpret/path_modes.h"
+#include "program/interpret/tilted_plane.h"
+#include "program/interpret/tool_axis.h"
 
 namespace clsurf::klartext {
 namespace {
@@ -142,8 +145,8 @@ void set_tolerance(Line& line, int step) {
     } else if (!line.c.text.substr(line.c.at).starts_with("HSC-MODE") && line.c.peek() != 'T') {
         throw ReadError{"expected HSC-MODE or TA", line.c.column(), {}};
     }
-    in.set_path_mode("path-mode", fmt::format("CYCL DEF 32.{} {}", step, words),
-                     {BlockEnd::rounded, in.contour_tolerance_});
+    set_path_mode(in, "path-mode", fmt::format("CYCL DEF 32.{} {}", step, words),
+                  {BlockEnd::rounded, in.contour_tolerance_});
 }
 
 void refuse_working_plane(Line& line) {
@@ -199,7 +202,7 @@ ProgramFrame plane_of_vectors(Line& line) {
 
 void reset_plane(Line& line) {
     set_frame_part(line.in, Part::tilt, {});
-    line.in.end_tilted_plane("PLANE RESET");
+    end_tilted_plane(line.in, "PLANE RESET");
 }
 
 }  // namespace
@@ -263,17 +266,17 @@ void tilt_plane(Line& line) {
     const std::string text(line.c.text.substr(line.start));
     set_frame_part(in, Part::tilt, frame);
     in.event("rotation", text);
-    in.begin_tilted_plane(text);
+    begin_tilted_plane(in, text);
     const bool moves = text.find(" MOVE") != std::string::npos;
     const bool turns = text.find(" TURN") != std::string::npos;
-    if (moves || turns) in.turn_to_plane(in.state_.frame.direction_to_work(Vec3::UnitZ()).normalized(), moves, text);
+    if (moves || turns) turn_to_plane(in, in.state_.frame.direction_to_work(Vec3::UnitZ()).normalized(), moves, text);
 }
 
 void start_tool_centre_point(Line& line) {
-    line.in.control_tool_centre_point(true, "M128 by " + std::string(line.c.text.substr(line.start)));
+    control_tool_centre_point(line.in, true, "M128 by " + std::string(line.c.text.substr(line.start)));
 }
 
-void end_tool_centre_point(Line& line) { line.in.control_tool_centre_point(false, "FUNCTION RESET TCPM"); }
+void end_tool_centre_point(Line& line) { control_tool_centre_point(line.in, false, "FUNCTION RESET TCPM"); }
 
 /// TRANS DATUM AXIS X+10 Y+5, TRANS DATUM RESET
 void shift_datum_by_axis(Line& line) {

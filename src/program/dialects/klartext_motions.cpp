@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "program/dialects/klartext.h"
+#include "program/interpret/axis_words.h"
+#include "program/interpret/tilted_plane.h"
 
 namespace clsurf::klartext {
 namespace {
@@ -57,7 +59,7 @@ void finish_corner(Line& line, const KlartextWords& words, const Block& block) {
     if (!circle || circle->axis != in.state_.plane_axis)
         in.fail("RND and CHF in a tilted or unevenly scaled frame are not supported");
     if (words.feed == KlartextFeed::rapid) in.fail("a line with feed must follow RND and CHF", line.start + 1);
-    const Vec3 after = in.target(block, false);
+    const Vec3 after = target_of(in, block, false);
     const CutCorner shape = cut(in, in.arcs_.begin_of_last, in.state_.position, after);
     in.corner_.pending = false;
     if (shape.begin == shape.end) return;
@@ -136,7 +138,7 @@ void move_with(Line& line, const KlartextWords& words, int code) {
     if (words.reads_plane_angles && in.five_axis_.tilted) {
         // The angles that PLANE has found: the tool stands upright on the plane.
         block.words.has &= ~(Words::bit('A') | Words::bit('B') | Words::bit('C'));
-        in.turn_to_plane(in.state_.frame.direction_to_work(Vec3::UnitZ()).normalized(), false, "PLANE");
+        turn_to_plane(in, in.state_.frame.direction_to_work(Vec3::UnitZ()).normalized(), false, "PLANE");
     }
     if (in.corner_.pending) finish_corner(line, words, block);
     in.execute(block);

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include "program/dialects/klartext.h"
+#include "program/interpret/axis_words.h"
+#include "program/interpret/flow.h"
 
 namespace clsurf::klartext {
 namespace {
@@ -60,10 +62,10 @@ void jump_if(Line& line, int function) {
     const bool equal = std::abs(a - b) < same_value;
     const std::array<bool, 4> taken{equal, !equal, a > b && !equal, a < b && !equal};
     if (!taken[static_cast<std::size_t>(function - 9)]) return;
-    const int at = in.index(in.place_.file).find(ControlKind::sub, label);
+    const int at = control_index(in, in.place_.file).find(ControlKind::sub, label);
     if (at < 0) in.fail(fmt::format("there is no label to go to: '{}'", label));
-    in.count_jump();
-    in.go_to(in.place_.file, in.index(in.place_.file).all()[static_cast<std::size_t>(at)].line);
+    count_jump(in);
+    in.go_to(in.place_.file, control_index(in, in.place_.file).all()[static_cast<std::size_t>(at)].line);
 }
 
 double divided(Line& line, double a, double b) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "program/dialects/klartext.h"
+#include "program/interpret/curves.h"
 
 namespace clsurf::klartext {
 namespace {
@@ -100,7 +101,7 @@ void spline(Line& line) {
     if (in.corner_.pending) in.fail("a straight line with feed must follow RND and CHF", line.start + 1);
     Block& block = in.block_;
     block.clear();
-    in.refuse_beside_spline(block);
+    refuse_beside_spline(in, block);
     const Vec3 begin = in.state_.programmed();
     std::array<Vec3, 4> points{begin, begin, begin, begin};
     unsigned placed = 0;
@@ -133,7 +134,7 @@ void spline(Line& line) {
     in.state_.place(placed, false);
     for (Vec3& p : points) p = in.state_.frame.to_work(p);
     points[0] = in.state_.position;
-    in.push_curve(BezierCurve(points), in.place_.line, in.state_.feed);
+    push_curve(in, BezierCurve(points), in.place_.line, in.state_.feed);
 }
 
 }  // namespace clsurf::klartext

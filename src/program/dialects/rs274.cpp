@@ -11,7 +11,15 @@
 
 #include "core/not_finite.h"
 #include "program/dialects/known_dialects.h"
+#include "program/interpret/compensated_motions.h"
+#include "program/interpret/curves.h"
+#include "program/interpret/flow.h"
 #include "program/interpret/interpreter_state.h"
+#include "program/interpret/kept_modes.h"
+#include "program/interpret/lathe_cycles.h"
+#include "program/interpret/offsets.h"
+#include "program/interpret/path_modes.h"
+#include "program/interpret/tools.h"
 
 namespace clsurf {
 namespace rs274 {
@@ -94,7 +102,7 @@ Control read_control(std::string_view statement) {
 double numbered_parameter(Interpreter& in, int number) {
     const double unit = in.state_.unit_mm;
     const double machine_unit = in.tools_.table.unit_mm;
-    const Vec3 at = in.tool_position();
+    const Vec3 at = tool_position(in.compensation_, in.state_);
     const Vec3 known = at.array().isNaN().select(0.0, at);
     const auto axis_of = [&](int first, const Vec3& lengths, const Vec3& angles, double per) {
         const int k = number - first;
@@ -155,7 +163,7 @@ int code_of(MotionMode mode, int cycle) {
 /// `_x`, `_abs_a`: where an axis is, in the units of the program.
 double axis_parameter(const Interpreter& in, const std::string& name) {
     const double unit = in.state_.unit_mm;
-    const Vec3 at = in.tool_position();
+    const Vec3 at = tool_position(in.compensation_, in.state_);
     const Vec3 machine = in.state_.to_machine(at);
     for (int k = 0; k < 3; ++k) {
         const std::string linear(1, "xyz"[k]);
@@ -237,23 +245,23 @@ bool set_motion(Interpreter& in, const CodeWord&) {
     return true;
 }
 
-constexpr CodeHandler lathe_cycle = [](Interpreter& in, const CodeWord& w) {
-    in.lathe_cycle(w.code, Block(w.block), w.column);
+bool lathe_cycle(Interpreter& in, const CodeWord& w) {
+    lathe_cycle(in, w.code, Block(w.block), w.column);
     return true;
-};
-constexpr CodeHandler set_diameter = [](Interpreter& in, const CodeWord& w) {
+}
+bool set_diameter(Interpreter& in, const CodeWord& w) {
     in.state_.diameter = w.code == 7_g;
     in.event("lathe", code_text(w.code));
     return true;
-};
-constexpr CodeHandler compensate = [](Interpreter& in, const CodeWord& w) {
-    in.start_compensation(w.code, w.block, w.column);
+}
+bool compensate(Interpreter& in, const CodeWord& w) {
+    start_compensation(in, w.code, w.block, w.column);
     return true;
-};
-constexpr CodeHandler keep_reference = [](Interpreter& in, const CodeWord& w) {
-    in.keep_reference(w.code);
+}
+bool keep_reference(Interpreter& in, const CodeWord& w) {
+    keep_reference(in.state_, in.this_block_, w.code);
     return true;
-};
+}
 
 constexpr auto codes = std::to_array<CodeRule>({
     {5_g, set_motion<MotionMode::cubic_spline>},
@@ -261,7 +269,7 @@ constexpr auto codes = std::to_array<CodeRule>({
     {5.2_g, set_motion<MotionMode::nurbs>},
     {5.3_g,
      [](Interpreter& in, const CodeWord&) {
-         in.nurbs_end();
+         nurbs_end(in);
          return true;
      }},
     {6.2_g, set_motion<MotionMode::knotted_nurbs>},
@@ -269,7 +277,7 @@ constexpr auto codes = std::to_array<CodeRule>({
     {8_g, set_diameter},
     {10_g,
      [](Interpreter& in, const CodeWord& w) {
-         in.set_offsets(w.block);
+         set_offsets(in, w.block);
          return true;
      }},
     {28.1_g, keep_reference},
@@ -281,7 +289,7 @@ constexpr auto codes = std::to_array<CodeRule>({
     {38.5_g, set_motion<MotionMode::probe>},
     {40_g,
      [](Interpreter& in, const CodeWord&) {
-         in.stop_compensation();
+         stop_compensation(in);
          return true;
      }},
     {41_g, compensate},
@@ -290,13 +298,13 @@ constexpr auto codes = std::to_array<CodeRule>({
     {42.1_g, compensate},
     {61_g,
      [](Interpreter& in, const CodeWord& w) {
-         return in.path_mode_word(w, {BlockEnd::exact_path, 0});
+         return path_mode_word(in, w, {BlockEnd::exact_path, 0});
      }},
     {61.1_g,
      [](Interpreter& in, const CodeWord& w) {
-         return in.path_mode_word(w, {BlockEnd::exact_stop, 0});
+         return path_mode_word(in, w, {BlockEnd::exact_stop, 0});
      }},
-    {64_g, [](Interpreter& in, const CodeWord& w) { return in.rounded_corners(w); }},
+    {64_g, [](Interpreter& in, const CodeWord& w) { return rounded_corners(in, w); }},
     {70_g, lathe_cycle},
     {71_g, lathe_cycle},
     {71.1_g, lathe_cycle},
@@ -307,7 +315,7 @@ constexpr auto codes = std::to_array<CodeRule>({
 });
 
 bool keep_modes(Interpreter& in, int code, const Block&) {
-    in.keep_modes(code);
+    keep_modes(in, code);
     return true;
 }
 constexpr auto m_codes = std::to_array<MRule>({
@@ -317,12 +325,12 @@ constexpr auto m_codes = std::to_array<MRule>({
     {73, keep_modes},
     {98,
      [](Interpreter& in, int, const Block& block) {
-         in.call_by_number(block, 0, false);  // L0 calls nothing
+         call_by_number(in, block, 0, false);  // L0 calls nothing
          return true;
      }},
     {99,
      [](Interpreter& in, int, const Block& block) {
-         in.return_to_block(block);
+         return_to_block(in, block);
          return true;
      }},
 });
@@ -394,7 +402,7 @@ const DialectRules linuxcnc_rules{
               .endings = rs274::ending_signs,
               .marks = rs274::mark_signs},
     .begin = rs274::begin,
-    .after_motion = [](Interpreter& in, const Block& block) { in.read_machine_position(block); },
+    .after_motion = [](Interpreter& in, const Block& block) { read_machine_position(in, block); },
     .parameter = rs274::numbered_parameter,
     .named_parameter = rs274::named_parameter,
     .work_system_name = rs274::work_system_name,

@@ -13,7 +13,12 @@
 
 #include "program/dialects/known_dialects.h"
 #include "program/dialects/siemens_words.h"
+#include "program/interpret/axis_words.h"
+#include "program/interpret/codes.h"
+#include "program/interpret/flow.h"
 #include "program/interpret/interpreter_state.h"
+#include "program/interpret/offsets.h"
+#include "program/interpret/path_modes.h"
 
 namespace clsurf {
 namespace siemens {
@@ -126,7 +131,7 @@ bool count_in_machine(Interpreter& in, const CodeWord&) {
     return true;
 }
 bool without_work_system(Interpreter& in, const CodeWord&) {
-    in.select_work_system(0);
+    select_work_system(in, 0);
     return true;
 }
 bool axis_frame(Interpreter& in, const CodeWord& w) {
@@ -169,16 +174,16 @@ bool refuse_exact_stop(Interpreter& in, const CodeWord& w) {
             "the exact stop of siemens is G60 or G9; fanuc and linuxcnc have G61 (--dialect)");
 }
 bool stop_exactly(Interpreter& in, const CodeWord& w) {
-    return in.path_mode_word(w, {BlockEnd::exact_stop, 0}, w.code == 9_g);
+    return path_mode_word(in, w, {BlockEnd::exact_stop, 0}, w.code == 9_g);
 }
 bool round_within_tolerance(Interpreter& in, const CodeWord& w) {
-    return in.path_mode_word(w, {BlockEnd::rounded, in.contour_tolerance_});
+    return path_mode_word(in, w, {BlockEnd::rounded, in.contour_tolerance_});
 }
 /// G64: as far off as the speed takes, unless CTOL or CYCLE832 gave a tolerance.
 bool round_corners(Interpreter& in, const CodeWord& w) {
     constexpr double unlimited = std::numeric_limits<double>::infinity();
-    return in.path_mode_word(
-        w, {BlockEnd::rounded, std::isnan(in.contour_tolerance_) ? unlimited : in.contour_tolerance_});
+    return path_mode_word(in, w,
+                          {BlockEnd::rounded, std::isnan(in.contour_tolerance_) ? unlimited : in.contour_tolerance_});
 }
 
 constexpr auto codes = std::to_array<CodeRule>({
@@ -250,14 +255,14 @@ constexpr auto codes = std::to_array<CodeRule>({
 /// Settable work systems: G505 … G599.
 bool work_system(Interpreter& in, const CodeWord& w) {
     if (w.code < 505_g || w.code > 599_g) return false;
-    in.select_work_system((w.code - 505_g) / 10 + 5);
+    select_work_system(in, (w.code - 505_g) / 10 + 5);
     return true;
 }
 
 constexpr auto m_codes = std::to_array<MRule>({
     {17,
      [](Interpreter& in, int, const Block&) {
-         in.leave(false);
+         leave(in, false);
          return true;
      }},
 });
@@ -308,7 +313,7 @@ void call_subprogram(Interpreter& in, const Block& block) {
     const Words& w = block.words;
     if (!w.given('L') || in.this_block_.motion_suppressed) return;
     const int times = w.given('P') ? static_cast<int>(std::clamp(w.of('P'), 1.0, 9999.0)) : 1;
-    in.call(fmt::format("L{}", std::lround(w.of('L'))), times, true, {});
+    call_subprogram(in, fmt::format("L{}", std::lround(w.of('L'))), times, true, {});
 }
 
 /// Variables of the control ($P_…) are read as 0, and reported.
@@ -396,8 +401,8 @@ const DialectRules siemens_rules{
     .named_parameter = siemens::named_parameter,
     .about_pole =
         [](Interpreter& in, const Block& block, Vec3& end) {
-            in.put_about_pole(block.polar_radius, block.polar_angle, block.polar_radius_incremental,
-                              block.polar_angle_incremental, end);
+            put_about_pole(in.frames_.polar, in.state_, block.polar_radius, block.polar_angle,
+                           block.polar_radius_incremental, block.polar_angle_incremental, end);
         },
     .work_system_name = siemens::work_system_name,
 };

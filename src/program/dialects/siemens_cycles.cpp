@@ -9,6 +9,9 @@
 #include <fmt/format.h>
 
 #include "program/dialects/siemens_words.h"
+#include "program/interpret/cycles.h"
+#include "program/interpret/threading.h"
+#include "program/interpret/tilted_plane.h"
 
 namespace clsurf::siemens {
 namespace {
@@ -96,16 +99,16 @@ void peck(Interpreter& in, double reference, double r, const std::vector<double>
     const double whole = depths.empty() ? 0 : depths.back();
     const double lead = whole <= shallow_mm ? shallow_lead_mm : std::min(whole / lead_share, most_lead_mm);
     for (std::size_t k = 0; k < depths.size(); ++k) {
-        in.go_to_level(MotionKind::feed, reference - depths[k], rotary);
+        go_to_level(in, MotionKind::feed, reference - depths[k], rotary);
         if (in.cycle_.p > 0) in.dwell(in.cycle_.p);
         if (k + 1 == depths.size()) return;
         if (breaks_chips) {
-            in.go_to_level(MotionKind::feed, reference - depths[k] + chip_break_mm, rotary);
+            go_to_level(in, MotionKind::feed, reference - depths[k] + chip_break_mm, rotary);
             continue;
         }
-        in.go_to_level(MotionKind::rapid, r, rotary);
+        go_to_level(in, MotionKind::rapid, r, rotary);
         if (dwell_above > 0) in.dwell(dwell_above);
-        in.go_to_level(MotionKind::rapid, reference - depths[k] + lead, rotary);
+        go_to_level(in, MotionKind::rapid, reference - depths[k] + lead, rotary);
     }
 }
 
@@ -128,7 +131,7 @@ void tap(Interpreter& in, bool rigid, const std::vector<double>& values, double 
             in.state_.feed_mode = FeedMode::per_minute;
             in.state_.feed = pitch * speed / in.state_.feed_unit_mm;
         }
-        in.go_to_level(MotionKind::feed, height, rotary);
+        go_to_level(in, MotionKind::feed, height, rotary);
     };
     go(bottom, speed_in);
     if (in.cycle_.p > 0) in.dwell(in.cycle_.p);
@@ -157,10 +160,10 @@ void drill(Interpreter& in, const std::string& name, const std::vector<double>& 
     in.cycle_.p =
         name == "CYCLE81" || name == "CYCLE87" ? 0 : seconds(value(name == "CYCLE83" ? std::size_t{8} : dtb, 0));
     const double feed = in.state_.feed;
-    in.go_to_level(MotionKind::rapid, r, rotary);
+    go_to_level(in, MotionKind::rapid, r, rotary);
     if (name == "CYCLE84" || name == "CYCLE840") {
         tap(in, name == "CYCLE84", values, bottom, r, rotary);
-        in.go_to_level(MotionKind::rapid, clear, rotary);
+        go_to_level(in, MotionKind::rapid, clear, rotary);
         return;
     }
     if (name == "CYCLE83") {
@@ -175,12 +178,12 @@ void drill(Interpreter& in, const std::string& name, const std::vector<double>& 
         if (depths.size() == most_drill_pecks && whole - depths.back() > whole_depth)
             in.fail("CYCLE83: too many pecks: FDEP, FDPR or DAM is too small");
         peck(in, reference, r, depths, value(11, 0) == 0, seconds(value(9, 0)), rotary);
-        in.go_to_level(MotionKind::rapid, clear, rotary);
+        go_to_level(in, MotionKind::rapid, clear, rotary);
         return;
     }
     const bool feeds_out = name == "CYCLE85" || name == "CYCLE89";
     if (name == "CYCLE85" && value(6, 0) > 0) in.state_.feed = value(6, 0);
-    in.go_to_level(MotionKind::feed, bottom, rotary);
+    go_to_level(in, MotionKind::feed, bottom, rotary);
     if (in.cycle_.p > 0) in.dwell(in.cycle_.p);
     if (name == "CYCLE85" && value(7, 0) > 0) in.state_.feed = value(7, 0);
     if (name == "CYCLE86") {
@@ -188,15 +191,15 @@ void drill(Interpreter& in, const std::string& name, const std::vector<double>& 
         const int c = in.state_.plane_axis;
         aside[(c + 1) % 3] = value(7, 0) * unit;
         aside[(c + 2) % 3] = value(8, 0) * unit;
-        if (!aside.isZero()) in.step_aside(aside, rotary);
-        in.go_to_level(MotionKind::rapid, r, rotary);
-        in.go_to_level(MotionKind::rapid, clear, rotary);
-        if (!aside.isZero()) in.step_aside(-aside, rotary);
+        if (!aside.isZero()) step_aside(in, aside, rotary);
+        go_to_level(in, MotionKind::rapid, r, rotary);
+        go_to_level(in, MotionKind::rapid, clear, rotary);
+        if (!aside.isZero()) step_aside(in, -aside, rotary);
         return;
     }
-    if (feeds_out) in.go_to_level(MotionKind::feed, r, rotary);
+    if (feeds_out) go_to_level(in, MotionKind::feed, r, rotary);
     in.state_.feed = feed;
-    in.go_to_level(MotionKind::rapid, clear, rotary);
+    go_to_level(in, MotionKind::rapid, clear, rotary);
 }
 
 /// HOLES1 (row), HOLES2 (circle), CYCLE801 (grid): the modal cycle at every place.
@@ -252,7 +255,7 @@ void hole_pattern(Interpreter& in, const std::string& name, const std::vector<do
 bool cycle_keyword(Interpreter& in, const Keyword& keyword) {
     const std::string& name = keyword.name;
     if (!is_cycle(name) || name == "CYCLE800" || name == "CYCLE832") return false;
-    const std::vector<std::optional<double>> given = in.arguments_of(keyword);
+    const std::vector<std::optional<double>> given = arguments_of(in.variables_, in.rules_->text, keyword);
     std::vector<double> values;
     for (const std::optional<double>& value : given)
         values.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
@@ -283,6 +286,54 @@ bool repeat_modal_call(Interpreter& in) {
         in.fail(fmt::format("subprogram '{}' is neither in the program nor in its folder", called.name));
     }
     return true;
+}
+
+/// CYCLE800(FR, TC, ST, MODE, X0, Y0, Z0, A, B, C, X1, Y1, Z1, DIR, …): moved by X0 Y0 Z0, turned by A, B and C about
+/// the axes that MODE names, one after the other, each about the axis where it is then, moved by X1 Y1 Z1.
+void swivel(Interpreter& in, const Keyword& keyword) {
+    const std::string text = "CYCLE800(" + keyword.arguments + ")";
+    in.event("swivel", text);
+    const std::vector<std::optional<double>> values = arguments_of(in.variables_, in.rules_->text, keyword);
+    const auto value = [&](std::size_t k) { return k < values.size() ? values[k].value_or(0.0) : 0.0; };
+    const bool given = keyword.arguments.find_first_not_of(" \t") != std::string::npos;
+    const bool deselects = keyword.arguments.find("\"0\"") != std::string::npos;
+    if (!given || deselects) {
+        in.frames_.swivel = {};
+        in.state_.frame = {};
+        end_tilted_plane(in, text);
+        return;
+    }
+    const auto refuse = [&](std::string_view why) {
+        in.note(Severity::warning, "program.rotation",
+                fmt::format("CYCLE800: {} is not carried out, the path is read as programmed", why), keyword.column);
+    };
+    // MODE: two bits an axis (1 X, 2 Y, 3 Z), the first one lowest, and two for the kind of angles.
+    const int mode = static_cast<int>(std::clamp(value(3), 0.0, 255.0));
+    if (const int kind = mode >> 6; kind != 0) {
+        constexpr std::array<std::string_view, 4> kinds{"", "a solid angle", "a projection angle",
+                                                        "direct positioning of the rotary axes"};
+        return refuse(kinds[static_cast<std::size_t>(kind)]);
+    }
+    if (in.state_.plane_axis != 2) return refuse("a plane of G18 or G19");
+    if (in.compensation_.path.on()) in.fail("CYCLE800 while cutter compensation is on", keyword.column);
+    const auto vector = [&](std::size_t k) { return Vec3(value(k), value(k + 1), value(k + 2)); };
+    ProgramFrame frame = ProgramFrame::moved(in.state_.unit_mm * vector(4));
+    for (std::size_t k = 0; k < 3; ++k) {
+        const int axis = (mode >> (2 * k)) & 3;
+        if (axis == 0 && value(7 + k) != 0)
+            in.fail(fmt::format("CYCLE800: mode {} has no axis for the angle {:g}", mode, value(7 + k)),
+                    keyword.column);
+        if (axis != 0) frame = frame.around(ProgramFrame::turned(Vec3::Unit(axis - 1), value(7 + k)));
+    }
+    frame = frame.around(ProgramFrame::moved(in.state_.unit_mm * vector(10)));
+    const bool additive = std::fmod(value(2), 10) >= 1;
+    in.frames_.swivel = additive ? in.state_.frame.around(frame) : frame;
+    in.state_.frame = in.frames_.swivel;
+    begin_tilted_plane(in, text);
+    // DIR 0: the plane is set, and the program turns the axes itself.
+    const bool tracks_tip = std::fmod(std::floor(value(2) / 10), 10) >= 1;
+    if (value(13) != 0)
+        turn_to_plane(in, in.frames_.swivel.direction_to_work(Vec3::UnitZ()).normalized(), tracks_tip, text);
 }
 
 }  // namespace clsurf::siemens

@@ -1,4 +1,5 @@
 // Facts: Siemens, SINUMERIK 840D sl, Programming Manual "Fundamentals" and "Job Planning".
+
 #include "program/dialects/siemens_words.h"
 
 #include <algorithm>
@@ -11,6 +12,12 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "program/interpret/codes.h"
+#include "program/interpret/flow.h"
+#include "program/interpret/path_modes.h"
+#include "program/interpret/tangential_arc.h"
+#include "program/interpret/tool_axis.h"
 
 namespace clsurf {
 namespace siemens {
@@ -46,7 +53,7 @@ bool contains(const List& list, const Value& value) {
 void high_speed_settings(Interpreter& in, const Keyword& keyword) {
     std::vector<std::optional<double>> values;
     try {
-        values = in.arguments_of(keyword);
+        values = arguments_of(in.variables_, in.rules_->text, keyword);
     } catch (const ReadError& error) {
         // A variable that the control alone knows: no axis moves by it.
         in.note(Severity::warning, "program.variable", error.what + ": the machine's own tolerance is used",
@@ -56,7 +63,7 @@ void high_speed_settings(Interpreter& in, const Keyword& keyword) {
     const double kind = values.size() > 1 ? values[1].value_or(1) : 1;
     const bool off = !(tolerance > 0) || std::fmod(std::round(kind), 10) == 0;
     in.contour_tolerance_ = off ? std::numeric_limits<double>::quiet_NaN() : tolerance;
-    in.set_path_mode("high-speed", "CYCLE832(" + keyword.arguments + ")", {BlockEnd::rounded, in.contour_tolerance_});
+    set_path_mode(in, "high-speed", "CYCLE832(" + keyword.arguments + ")", {BlockEnd::rounded, in.contour_tolerance_});
 }
 
 /// TRANS, ROT, SCALE and MIRROR replace the frame; with an A before it they add to it.
@@ -109,7 +116,7 @@ void start_modal_call(Interpreter& in, const Keyword& called) {
                       .arguments = {},
                       .level = in.calls_.frames.size(),
                       .column = called.column};
-    for (const std::optional<double>& value : in.arguments_of(called)) {
+    for (const std::optional<double>& value : arguments_of(in.variables_, in.rules_->text, called)) {
         in.modal_call_.arguments.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
     }
     in.event("modal-call",
@@ -150,9 +157,9 @@ bool mode_keyword(Interpreter& in, const Keyword& keyword) {
     if (name == "SUPA" || name == "G153") {
         in.this_block_.machine_coordinates = true;
     } else if (name == "TRAORI" || name == "TRAFOOF") {
-        in.control_tool_centre_point(name == "TRAORI", text_of(keyword));
+        control_tool_centre_point(in, name == "TRAORI", text_of(keyword));
     } else if (name == "CYCLE800") {
-        in.swivel(keyword);
+        swivel(in, keyword);
     } else if (name == "CYCLE832") {
         high_speed_settings(in, keyword);
     } else if (name == "T=") {
@@ -239,11 +246,11 @@ void move_pole(Interpreter& in, int code, const Block& block) {
 
 /// A subprogram by its name, with arguments for the names after its PROC; false: there is none.
 bool call_by_name(Interpreter& in, const std::string& name, const Keyword& keyword, int repeats) {
-    const bool here = in.index(in.place_.file).find(ControlKind::label, name) >= 0;
-    if (!here && !in.load(name)) return false;
+    const bool here = control_index(in, in.place_.file).find(ControlKind::label, name) >= 0;
+    if (!here && !load_text(in, name)) return false;
     // Evaluated before the call, in the caller's variables.
-    const std::vector<std::optional<double>> values = in.arguments_of(keyword);
-    in.call(name, repeats, true, {});
+    const std::vector<std::optional<double>> values = arguments_of(in.variables_, in.rules_->text, keyword);
+    call_subprogram(in, name, repeats, true, {});
     in.this_block_.motion_suppressed = true;
     const SourceText& text = in.program_.files[in.place_.file];
     const LineNumber first = in.calls_.frames.back().start_line;
@@ -282,7 +289,7 @@ void apply_keyword(Interpreter& in, const Keyword& keyword, Block& block) {
     if (frame_keyword(in, keyword, block) || cycle_keyword(in, keyword)) return;
     if (name == "EXTCALL" || name == "CALL" || name == "PCALL") return call_by_path(in, keyword);
     if (contains(curve_words, name)) {
-        in.refuse_motion(name, block, keyword.column, "involutes are not supported: let the CAM system write lines");
+        refuse_motion(in, name, block, keyword.column, "involutes are not supported: let the CAM system write lines");
     }
     if (contains(noted_words, name) || name.starts_with("COMP") || name.ends_with("=")) {
         in.event("mode", text_of(keyword));
@@ -302,7 +309,7 @@ bool arc_of_words(Interpreter& in, const Block& block, ArcWords& words) {
     if (in.arcs_.kind == ArcKind::tangential) {
         if (std::abs(words.end[words.axis] - words.begin[words.axis]) > 1e-6)
             in.fail("CT out of the plane (G17, G18, G19) is not supported");
-        in.arc_along_tangent(words);
+        arc_along_tangent(in, words);
         return true;
     }
     if (in.arcs_.kind == ArcKind::by_points) {
@@ -361,7 +368,7 @@ void set_contour_tolerance(Interpreter& in, const Block& block) {
     if (!value) return;
     in.contour_tolerance_ = *value >= 0 ? *value * in.state_.unit_mm : std::numeric_limits<double>::quiet_NaN();
     if (in.state_.path_mode.block_end == BlockEnd::rounded)
-        in.set_path_mode("path-mode", fmt::format("CTOL={:g}", *value), {BlockEnd::rounded, in.contour_tolerance_});
+        set_path_mode(in, "path-mode", fmt::format("CTOL={:g}", *value), {BlockEnd::rounded, in.contour_tolerance_});
 }
 
 /// DEF REAL a, b=5: names that exist from here on.
@@ -397,10 +404,9 @@ void define_variables(Interpreter& in, const std::string& definition) {
     }
 }
 
-}  // namespace siemens
-
 /// Values between parentheses; nullopt: left out, or a text.
-std::vector<std::optional<double>> Interpreter::arguments_of(const Keyword& keyword) const {
+std::vector<std::optional<double>> arguments_of(const Variables& variables, const TextRules& rules,
+                                                const Keyword& keyword) {
     std::vector<std::optional<double>> values;
     Cursor c{keyword.arguments, 0};
     while (keyword.has_arguments) {
@@ -413,7 +419,7 @@ std::vector<std::optional<double>> Interpreter::arguments_of(const Keyword& keyw
             values.emplace_back();
         } else {
             try {
-                values.emplace_back(evaluate(c, variables_, rules_->text));
+                values.emplace_back(evaluate(c, variables, rules));
             } catch (const ReadError& error) {
                 throw ReadError{keyword.name + ": " + error.what, keyword.column, error.hint};
             }
@@ -423,29 +429,6 @@ std::vector<std::optional<double>> Interpreter::arguments_of(const Keyword& keyw
     return values;
 }
 
-/// ANG= with one coordinate of the plane: a line whose other coordinate the angle gives.
-bool Interpreter::ends_by_angle(const Block& block) const {
-    if (block.find("ANG") == nullptr || (state_.motion != MotionMode::rapid && state_.motion != MotionMode::feed))
-        return false;
-    return block.words.given("XYZ"[(state_.plane_axis + 1) % 3]) !=
-           block.words.given("XYZ"[(state_.plane_axis + 2) % 3]);
-}
-
-void Interpreter::end_by_angle(const Block& block, Vec3& end) const {
-    const int u = (state_.plane_axis + 1) % 3;
-    const int v = (state_.plane_axis + 2) % 3;
-    const NamedWord& angle = *block.find("ANG");
-    const Vec3 from = state_.programmed().array().isNaN().select(0.0, state_.programmed());
-    const Vec2 displacement(std::cos(angle.value * rad_per_deg), std::sin(angle.value * rad_per_deg));
-    const bool along = block.words.given("XYZ"[u]);
-    const double given = along ? displacement.x() : displacement.y();
-    if (std::abs(given) < 1e-9)
-        fail(fmt::format("a line at ANG={:g} does not reach the given {}", angle.value, "XYZ"[along ? u : v]),
-             angle.column);
-    if (along)
-        end[v] = from[v] + (end[u] - from[u]) * displacement.y() / displacement.x();
-    else
-        end[u] = from[u] + (end[v] - from[v]) * displacement.x() / displacement.y();
-}
+}  // namespace siemens
 
 }  // namespace clsurf

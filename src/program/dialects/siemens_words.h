@@ -13,6 +13,12 @@ void set_contour_tolerance(Interpreter& in, const Block& block);          ///< C
 void define_variables(Interpreter& in, const std::string& definition);    ///< DEF
 bool arc_of_words(Interpreter& in, const Block& block, ArcWords& words);  ///< true: CR=, AR=, CIP, CT …
 
+/// Values between parentheses; nullopt: left out, or a text.
+[[nodiscard]] std::vector<std::optional<double>> arguments_of(const Variables& variables, const TextRules& rules,
+                                                              const Keyword& keyword);
+/// CYCLE800(FR, TC, ST, MODE, X0, Y0, Z0, A, B, C, X1, Y1, Z1, DIR, …): moved by X0 Y0 Z0, turned by A, B and C about
+/// the axes that MODE names, one after the other, each about the axis where it is then, moved by X1 Y1 Z1.
+void swivel(Interpreter& in, const Keyword& keyword);
 /// Calls a subprogram by its name. True: there is one.
 bool call_by_name(Interpreter& in, const std::string& name, const Keyword& keyword, int repeats);
 /// True: the word was a cycle, carried out or reported.

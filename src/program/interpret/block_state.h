@@ -76,6 +76,16 @@ struct Corner {
     LineNumber line = 0;
 };
 
+struct CycleState {
+    static constexpr double not_yet = std::numeric_limits<double>::quiet_NaN();
+    double r = not_yet, z = not_yet, q = 0;  ///< sticky words, as programmed
+    /// R and bottom where they were programmed [mm]. RS274 counts the words again in each block instead.
+    double r_height = not_yet, bottom = not_yet;
+    Vec3 ijk = Vec3::Zero();   ///< of G87: the way aside, and the height to bore to, as programmed
+    double p = 0;              ///< dwell [s]
+    double initial = not_yet;  ///< level where the cycle began [mm]
+};
+
 struct BlockFlags {
     bool machine_coordinates = false;  ///< G53, SUPA
     bool motion_suppressed = false;    ///< the axis words belong to G10, G92, G28 …

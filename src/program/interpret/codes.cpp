@@ -1,14 +1,24 @@
 // What the words of a block mean: G and M codes, offsets, modes.
 
+#include "program/interpret/codes.h"
+
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "program/interpret/axis_words.h"
+#include "program/interpret/compensated_motions.h"
+#include "program/interpret/feeds.h"
 #include "program/interpret/interpreter_state.h"
+#include "program/interpret/motions.h"
+#include "program/interpret/offsets.h"
+#include "program/interpret/path_modes.h"
+#include "program/interpret/tool_axis.h"
+#include "program/interpret/tools.h"
 
 namespace clsurf {
 namespace {
@@ -109,7 +119,7 @@ bool set_plane(Interpreter& in, const CodeWord&) {
 }
 template <FeedMode mode>
 bool set_feed_mode(Interpreter& in, const CodeWord&) {
-    in.select_feed_mode(mode);
+    select_feed_mode(in, mode);
     return true;
 }
 template <bool ModalState::*flag, bool value>
@@ -122,21 +132,21 @@ bool dwell_in_seconds(Interpreter& in, const CodeWord& w) {
     return true;
 }
 bool go_to_reference(Interpreter& in, const CodeWord& w) {
-    in.reference(w.code, w.block);
+    approach_reference(in, w.code, w.block);
     return true;
 }
 template <bool tip>
 bool set_tool_length(Interpreter& in, const CodeWord& w) {
-    in.tool_length(w.code, w.block);
-    in.control_tool_centre_point(tip, code_text(w.code));
+    tool_length(in, w.code, w.block);
+    control_tool_centre_point(in, tip, code_text(w.code));
     return true;
 }
 bool set_position(Interpreter& in, const CodeWord& w) {
-    in.shift_position(w.block);
+    shift_position(in, w.block);
     return true;
 }
 bool end_position_shift(Interpreter& in, const CodeWord& w) {
-    in.restore_shift(w.code);
+    restore_shift(in.state_, w.code);
     return true;
 }
 bool count_in_machine(Interpreter& in, const CodeWord&) {
@@ -145,12 +155,12 @@ bool count_in_machine(Interpreter& in, const CodeWord&) {
 }
 bool set_work_system(Interpreter& in, const CodeWord& w) {
     const bool extended = w.code > 59_g;  // G59.1 … G59.3
-    in.select_work_system(extended ? 6 + w.code - 59_g : (w.code - 54_g) / 10 + 1);
+    select_work_system(in, extended ? 6 + w.code - 59_g : (w.code - 54_g) / 10 + 1);
     return true;
 }
 bool set_extended_system(Interpreter& in, const CodeWord& w) {
     const double number = is(w.block, 'P') ? w.block.words.of('P') : 1;
-    in.select_work_system(6 + static_cast<int>(std::clamp(number, -1e6, 1e6)));
+    select_work_system(in, 6 + static_cast<int>(std::clamp(number, -1e6, 1e6)));
     return true;
 }
 bool end_cycles(Interpreter& in, const CodeWord&) {
@@ -159,7 +169,7 @@ bool end_cycles(Interpreter& in, const CodeWord&) {
     return true;
 }
 bool start_table_compensation(Interpreter& in, const CodeWord& w) {
-    in.compensate_by_table(w.code, w.block, w.column);
+    compensate_by_table(in, w.code, w.block, w.column);
     return true;
 }
 bool note_mode(Interpreter& in, const CodeWord& w, const char* name) {
@@ -170,7 +180,7 @@ bool note_mode(Interpreter& in, const CodeWord& w, const char* name) {
 }
 bool end_compensation(Interpreter& in, const CodeWord& w) {
     if (!in.compensation_.path.on()) return note_mode(in, w, "cutter-compensation");
-    in.stop_compensation();
+    stop_compensation(in);
     return true;
 }
 bool note_spindle_mode(Interpreter& in, const CodeWord& w) { return note_mode(in, w, "spindle-mode"); }
@@ -263,80 +273,35 @@ constexpr bool in_order(std::span<const CodeRule> rows) {
 }
 static_assert(in_order(common_codes));
 
-}  // namespace
-
-bool count_in_inches(Interpreter& in, const CodeWord&) {
-    in.count_in(mm_per_inch);
-    return true;
-}
-
-bool count_in_mm(Interpreter& in, const CodeWord&) {
-    in.count_in(1);
-    return true;
-}
-
-void Interpreter::count_in(double unit) {
-    state_.unit_mm = unit;
-    if (!rules_->motion.feed_keeps_unit) state_.feed_unit_mm = unit;
-}
-
-void Interpreter::take_feed(double value) {
-    state_.feed = value;
-    if (rules_->motion.feed_keeps_unit) state_.feed_unit_mm = state_.unit_mm;
-}
-
-void Interpreter::execute(Block& block) {
-    this_block_.machine_coordinates = false;
-    this_block_.motion_suppressed = false;
-    this_block_.probes = false;
-    if (rules_->begin_block != nullptr && rules_->begin_block(*this, block)) return;
-    if (ended_) return;
-    change_tool(block);
-    settle_codes(block);
-    if (rules_->after_codes != nullptr) rules_->after_codes(*this, block);
-    if (is(block, 'F') && !this_block_.motion_suppressed) take_feed(block.words.of('F'));
-    if (is(block, 'S')) {
-        if (block.words.of('S') < 0) note(Severity::warning, "program.spindle", "negative spindle speed");
-        state_.spindle = block.words.of('S');
-        event("spindle", fmt::format("S{:g}", state_.spindle));
-    }
-    if (is(block, 'T')) event("tool", fmt::format("T{:g}", block.words.of('T')));
-    const auto apply_m_codes = [&](bool that_stop) {
-        for (int i = 0; i < block.words.m_count; ++i) {
-            const int code = block.words.m[static_cast<std::size_t>(i)];
-            if (stops_block(code) == that_stop) apply_m(code, block);
-        }
-    };
-    apply_m_codes(false);
-    const std::int64_t before = program_.motions.size();
-    if (!this_block_.motion_suppressed) move(block);
-    if (rules_->after_motion != nullptr) rules_->after_motion(*this, block);
-    report_unused(block);
-    if (std::exchange(this_block_.path_mode_returns, false)) set_path_mode("path-mode", "as it was", state_.path_mode);
-    apply_m_codes(true);
-    if (ended_) return;
-    if (rules_->after_block != nullptr) rules_->after_block(*this, block);
-    const bool calls =
-        modal_call_.active && calls_.frames.size() == modal_call_.level && program_.motions.size() > before;
-    if (calls && rules_->modal_call != nullptr) rules_->modal_call(*this);
-}
-
-/// The dialect's rows and the common ones that it does not replace, by code.
-void Interpreter::index_codes() {
-    code_rules_.assign(rules_->codes.begin(), rules_->codes.end());
-    std::stable_sort(code_rules_.begin(), code_rules_.end(),
-                     [](const CodeRule& a, const CodeRule& b) { return a.code < b.code; });
-}
-
-const CodeRule* Interpreter::rule_of(int code) const {
-    const auto found = std::lower_bound(code_rules_.begin(), code_rules_.end(), code,
+const CodeRule* rule_of(const std::vector<CodeRule>& rules, int code) {
+    const auto found = std::lower_bound(rules.begin(), rules.end(), code,
                                         [](const CodeRule& row, int wanted) { return row.code < wanted; });
-    return found != code_rules_.end() && found->code == code ? &*found : nullptr;
+    return found != rules.end() && found->code == code ? &*found : nullptr;
 }
 
-void Interpreter::settle_codes(Block& block) {
+void apply_common(Interpreter& in, int code, Block& block, std::size_t column) {
+    const auto* found = std::lower_bound(common_codes.begin(), common_codes.end(), code,
+                                         [](const CodeRule& row, int wanted) { return row.code < wanted; });
+    if (found != common_codes.end() && found->code == code) {
+        (void)found->handle(in, {code, block, column});
+        return;
+    }
+    if ((in.rules_->motion.refuses_curve_codes && is_curve_elsewhere(code)) || names_axes(block))
+        refuse_motion(in, code_text(code), block, column, hint_of_code(code));
+    in.note(Severity::warning, "program.unknown-word", code_text(code) + " is not known", column);
+}
+
+void apply_code(Interpreter& in, int code, Block& block, std::size_t column) {
+    refuse_in_compensation(in, code, block, column);
+    const CodeWord word{code, block, column};
+    const CodeRule* rule = rule_of(in.code_rules_, code);
+    const CodeHandler handle = rule != nullptr ? rule->handle : in.rules_->other_code;
+    if (handle == nullptr || !handle(in, word)) apply_common(in, code, block, column);
+}
+
+void settle_codes(Interpreter& in, Block& block) {
     const int count = block.words.g_count;
-    if (count == 1) return apply_code(block.words.g[0], block, block.words.g_column[0]);
+    if (count == 1) return apply_code(in, block.words.g[0], block, block.words.g_column[0]);
     struct Step {
         int order;
         std::size_t k;
@@ -344,65 +309,37 @@ void Interpreter::settle_codes(Block& block) {
     std::array<Step, Words::most_codes> steps{};
     for (int i = 0; i < count; ++i) {
         const auto k = static_cast<std::size_t>(i);
-        const CodeRule* rule = rule_of(block.words.g[k]);
+        const CodeRule* rule = rule_of(in.code_rules_, block.words.g[k]);
         steps[k] = {rule != nullptr && rule->order >= 0 ? rule->order : order_of(block.words.g[k]), k};
     }
     std::stable_sort(steps.begin(), steps.begin() + count,
                      [](const Step& a, const Step& b) { return a.order < b.order; });
     for (int i = 0; i < count; ++i) {
         const std::size_t k = steps[static_cast<std::size_t>(i)].k;
-        apply_code(block.words.g[k], block, block.words.g_column[k]);
+        apply_code(in, block.words.g[k], block, block.words.g_column[k]);
     }
 }
 
-void Interpreter::apply_code(int code, Block& block, std::size_t column) {
-    refuse_in_compensation(code, block, column);
-    const CodeWord word{code, block, column};
-    const CodeRule* rule = rule_of(code);
-    const CodeHandler handle = rule != nullptr ? rule->handle : rules_->other_code;
-    if (handle == nullptr || !handle(*this, word)) apply_common(code, block, column);
-}
-
-void Interpreter::apply_common(int code, Block& block, std::size_t column) {
-    const auto* found = std::lower_bound(common_codes.begin(), common_codes.end(), code,
-                                         [](const CodeRule& row, int wanted) { return row.code < wanted; });
-    if (found != common_codes.end() && found->code == code) {
-        (void)found->handle(*this, {code, block, column});
-        return;
-    }
-    if ((rules_->motion.refuses_curve_codes && is_curve_elsewhere(code)) || names_axes(block))
-        refuse_motion(code_text(code), block, column, hint_of_code(code));
-    note(Severity::warning, "program.unknown-word", code_text(code) + " is not known", column);
-}
-
-/// A word whose motion would be read as another one, or not at all.
-void Interpreter::refuse_motion(const std::string& word, const Block& block, std::size_t column,
-                                const std::string& hint) const {
-    fail(fmt::format("{} is not known in {}{}", word, program_.dialect->name,
-                     names_axes(block) ? ", and its block moves axes" : ", and moves axes"),
-         column, hint);
-}
-
-void Interpreter::apply_m(int code, const Block& block) {
-    for (const MRule& row : rules_->m_codes) {
-        if (row.code == code && row.handle(*this, code, block)) return;
+void apply_m(Interpreter& in, int code, const Block& block) {
+    for (const MRule& row : in.rules_->m_codes) {
+        if (row.code == code && row.handle(in, code, block)) return;
     }
     switch (code) {
         case 0:
         case 1:
-        case 60: event("stop", fmt::format("M{}", code)); return;
+        case 60: in.event("stop", fmt::format("M{}", code)); return;
         case 2:
         case 30:
-            event("end", fmt::format("M{}", code));
-            ended_ = true;
+            in.event("end", fmt::format("M{}", code));
+            in.ended_ = true;
             return;
         case 3:
         case 4:
-        case 5: event("spindle", fmt::format("M{}", code)); return;
-        case 6: event("tool-change", is(block, 'T') ? fmt::format("M6 T{:g}", block.words.of('T')) : "M6"); return;
+        case 5: in.event("spindle", fmt::format("M{}", code)); return;
+        case 6: in.event("tool-change", is(block, 'T') ? fmt::format("M6 T{:g}", block.words.of('T')) : "M6"); return;
         case 7:
         case 8:
-        case 9: event("coolant", fmt::format("M{}", code)); return;
+        case 9: in.event("coolant", fmt::format("M{}", code)); return;
         case 17:
         case 70:
         case 71:
@@ -413,86 +350,142 @@ void Interpreter::apply_m(int code, const Block& block) {
         case 91:
         case 92:
         case 128:
-        case 129: event("m-code", fmt::format("M{}", code)); return;
-        default: event("m-code", fmt::format("M{}", code) + words_text(block, "PQ")); return;
+        case 129: in.event("m-code", fmt::format("M{}", code)); return;
+        default: in.event("m-code", fmt::format("M{}", code) + words_text(block, "PQ")); return;
     }
-}
-
-/// The axes stand for a time.
-void Interpreter::dwell(double seconds) {
-    constexpr double longest = 86'400;  // a day: a log has a record for each period of it
-    if (seconds < 0) fail("negative dwell time");
-    if (!(seconds <= longest)) fail(fmt::format("a dwell of {:.3g} s: the longest is {:.0f} s", seconds, longest));
-    push(MotionKind::dwell, tool_position(), state_.rotary, static_cast<float>(seconds));
 }
 
 /// Words of arcs, cycles and calls beside a straight motion, which uses none of them: an R that was
 /// meant as a corner, an I whose G2 is missing. Blocks with a code of another kind are left to it.
-void Interpreter::report_idle(const Block& block) {
+void report_idle(Interpreter& in, const Block& block) {
     constexpr auto plain_codes =
         std::to_array<int>({0_g, 1_g, 17_g, 18_g, 19_g, 20_g, 21_g, 70_g, 71_g, 90_g, 91_g, 94_g});
-    const bool straight =
-        (state_.motion == MotionMode::rapid || state_.motion == MotionMode::feed) && !this_block_.motion_suppressed;
+    const bool straight = (in.state_.motion == MotionMode::rapid || in.state_.motion == MotionMode::feed) &&
+                          !in.this_block_.motion_suppressed;
     const auto* first = block.words.g.data();
     const bool plain = std::all_of(first, first + block.words.g_count, [&](int code) {
         return std::find(plain_codes.begin(), plain_codes.end(), code) != plain_codes.end();
     });
-    const bool theirs = block.words.m_count > 0 || !block.keywords.empty() || modal_call_.active ||
-                        five_axis_.tool_centre_point || compensation_.path.on();
+    const bool theirs = block.words.m_count > 0 || !block.keywords.empty() || in.modal_call_.active ||
+                        in.five_axis_.tool_centre_point || in.compensation_.path.on();
     if (!straight || !plain || theirs) return;
-    for (const char letter : rules_->motion.idle_letters) {
+    for (const char letter : in.rules_->motion.idle_letters) {
         if (!is(block, letter)) continue;
-        note(Severity::warning, "program.unused-word",
-             fmt::format("word {} has no meaning for a straight motion and is ignored", letter),
-             block.words.column[static_cast<std::size_t>(letter - 'A')]);
+        in.note(Severity::warning, "program.unused-word",
+                fmt::format("word {} has no meaning for a straight motion and is ignored", letter),
+                block.words.column[static_cast<std::size_t>(letter - 'A')]);
     }
 }
 
 /// Words that no part of the interpreter has a meaning for.
-void Interpreter::report_unused(const Block& block) {
-    report_idle(block);
+void report_unused(Interpreter& in, const Block& block) {
+    report_idle(in, block);
     for (const UnknownWord& word : block.unknown) {
-        if (is_numbered_axis(word.text)) refuse_motion(word.text, block, word.column);
-        if (is_axis_without_value(word.text)) fail(fmt::format("{} has no value", word.text.front()), word.column);
-        note(Severity::warning, "program.unknown-word", "'" + word.text + "' is not known", word.column);
+        if (is_numbered_axis(word.text)) refuse_motion(in, word.text, block, word.column);
+        if (is_axis_without_value(word.text)) in.fail(fmt::format("{} has no value", word.text.front()), word.column);
+        in.note(Severity::warning, "program.unknown-word", "'" + word.text + "' is not known", word.column);
     }
     for (const NamedWord& word : block.named) {
         const bool corner = word.name == "RND" || word.name == "RNDM" || word.name == "CHR" || word.name == "CHF" ||
                             word.name == "DISR";
         if (corner)
-            note(Severity::warning, "program.corner",
-                 fmt::format("{}={:g} is not carried out: the corner is read as programmed", word.name, word.value),
-                 word.column);
-        const bool line = word.name == "ANG" && (this_block_.motion_suppressed || !ends_by_angle(block));
+            in.note(Severity::warning, "program.corner",
+                    fmt::format("{}={:g} is not carried out: the corner is read as programmed", word.name, word.value),
+                    word.column);
+        const bool line = word.name == "ANG" && (in.this_block_.motion_suppressed || !ends_by_angle(in.state_, block));
         if (line)
-            note(Severity::warning, "program.corner",
-                 fmt::format(
-                     "ANG={:g} is not carried out without one coordinate of the plane: the end is read as programmed",
-                     word.value),
-                 word.column);
+            in.note(
+                Severity::warning, "program.corner",
+                fmt::format(
+                    "ANG={:g} is not carried out without one coordinate of the plane: the end is read as programmed",
+                    word.value),
+                word.column);
     }
     for (const char letter : {'V', 'W', 'U', 'E'}) {
-        if (!is(block, letter) || this_block_.motion_suppressed) continue;
+        if (!is(block, letter) || in.this_block_.motion_suppressed) continue;
         const std::size_t column = block.words.column[static_cast<std::size_t>(letter - 'A')];
         if (letter == 'E') {
-            note(Severity::warning, "program.unknown-word", "word E is not known", column);
+            in.note(Severity::warning, "program.unknown-word", "word E is not known", column);
             continue;
         }
         // Where such an axis stays at 0 it changes nothing; moved, it takes the tool or the part elsewhere.
-        const bool moves = state_.motion == MotionMode::rapid || state_.motion == MotionMode::feed ||
-                           state_.motion == MotionMode::cw || state_.motion == MotionMode::ccw;
+        const bool moves = in.state_.motion == MotionMode::rapid || in.state_.motion == MotionMode::feed ||
+                           in.state_.motion == MotionMode::cw || in.state_.motion == MotionMode::ccw;
         if (block.words.of(letter) == 0) continue;
-        if (moves && rules_->motion.separate_uvw) {
+        if (moves && in.rules_->motion.separate_uvw) {
             // Its axes U V W are never increments of X Y Z, which stay true.
-            note(Severity::warning, "program.axis",
-                 fmt::format("axis {} moves: positions are those of X Y Z without it", letter), column);
+            in.note(Severity::warning, "program.axis",
+                    fmt::format("axis {} moves: positions are those of X Y Z without it", letter), column);
             continue;
         }
         if (moves)
-            fail(fmt::format("axis {} moves: where the tool is with axes U V W is not known", letter), column,
-                 "X Y Z A B C are");
-        note(Severity::warning, "program.axis", fmt::format("word {} has no meaning here", letter), column);
+            in.fail(fmt::format("axis {} moves: where the tool is with axes U V W is not known", letter), column,
+                    "X Y Z A B C are");
+        in.note(Severity::warning, "program.axis", fmt::format("word {} has no meaning here", letter), column);
     }
+}
+
+}  // namespace
+
+bool count_in_inches(Interpreter& in, const CodeWord&) {
+    count_in(in.state_, in.rules_->motion, mm_per_inch);
+    return true;
+}
+
+bool count_in_mm(Interpreter& in, const CodeWord&) {
+    count_in(in.state_, in.rules_->motion, 1);
+    return true;
+}
+
+void refuse_motion(const Interpreter& in, const std::string& word, const Block& block, std::size_t column,
+                   const std::string& hint) {
+    in.fail(fmt::format("{} is not known in {}{}", word, in.program_.dialect->name,
+                        names_axes(block) ? ", and its block moves axes" : ", and moves axes"),
+            column, hint);
+}
+
+void Interpreter::execute(Block& block) {
+    this_block_.machine_coordinates = false;
+    this_block_.motion_suppressed = false;
+    this_block_.probes = false;
+    if (rules_->begin_block != nullptr && rules_->begin_block(*this, block)) return;
+    if (ended_) return;
+    change_tool(*this, block);
+    settle_codes(*this, block);
+    if (rules_->after_codes != nullptr) rules_->after_codes(*this, block);
+    if (is(block, 'F') && !this_block_.motion_suppressed) take_feed(state_, rules_->motion, block.words.of('F'));
+    if (is(block, 'S')) {
+        if (block.words.of('S') < 0) note(Severity::warning, "program.spindle", "negative spindle speed");
+        state_.spindle = block.words.of('S');
+        event("spindle", fmt::format("S{:g}", state_.spindle));
+    }
+    if (is(block, 'T')) event("tool", fmt::format("T{:g}", block.words.of('T')));
+    const auto apply_m_codes = [&](bool that_stop) {
+        for (int i = 0; i < block.words.m_count; ++i) {
+            const int code = block.words.m[static_cast<std::size_t>(i)];
+            if (stops_block(code) == that_stop) apply_m(*this, code, block);
+        }
+    };
+    apply_m_codes(false);
+    const std::int64_t before = program_.motions.size();
+    if (!this_block_.motion_suppressed) move_axes(*this, block);
+    if (rules_->after_motion != nullptr) rules_->after_motion(*this, block);
+    report_unused(*this, block);
+    if (std::exchange(this_block_.path_mode_returns, false))
+        set_path_mode(*this, "path-mode", "as it was", state_.path_mode);
+    apply_m_codes(true);
+    if (ended_) return;
+    if (rules_->after_block != nullptr) rules_->after_block(*this, block);
+    const bool calls =
+        modal_call_.active && calls_.frames.size() == modal_call_.level && program_.motions.size() > before;
+    if (calls && rules_->modal_call != nullptr) rules_->modal_call(*this);
+}
+
+std::vector<CodeRule> by_code(std::span<const CodeRule> rules) {
+    std::vector<CodeRule> sorted(rules.begin(), rules.end());
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const CodeRule& a, const CodeRule& b) { return a.code < b.code; });
+    return sorted;
 }
 
 }  // namespace clsurf

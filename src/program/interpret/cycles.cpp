@@ -1,16 +1,26 @@
 // Canned cycles G73 … G89 as motions. Rules: RS274/NGC, section 3.5.16; LinuxCNC, "Canned cycles";
 // Fanuc, operator's manual of the series 30i, "Canned cycle for drilling".
 
+#include "program/interpret/cycles.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "program/interpret/axis_words.h"
 #include "program/interpret/interpreter_state.h"
+#include "program/interpret/threading.h"
 
 namespace clsurf {
 namespace {
+
+/// What a cycle does between R and its bottom.
+struct Stroke {
+    bool dwells = false, feeds_out = false, pecks = false, breaks_chips = false;
+};
 
 constexpr double peck_clearance_mm = 0.254;  ///< 0.010 inch, as RS274/NGC has it; Fanuc keeps it in a parameter
 constexpr int most_pecks = 1'000'000;
@@ -43,203 +53,134 @@ int cycle_repeats(const Block& block, bool by_k) {
     return repeats;
 }
 
-}  // namespace
-
 /// R, depth, Q, P and I J K, which stay from hole to hole.
-void Interpreter::read_cycle_words(const Block& block, const Stroke& stroke) {
+void read_cycle_words(Interpreter& in, const Block& block, const Stroke& stroke) {
     const auto word = [&](char letter, double& kept) {
         if (block.words.given(letter)) kept = block.words.of(letter);
     };
-    word('R', cycle_.r);
-    word("XYZ"[state_.plane_axis], cycle_.z);
-    word('Q', cycle_.q);
-    if (block.words.given('P')) cycle_.p = block.words.of('P') * rules_->cycles.dwell_unit;
-    const int code = state_.cycle / 10;
+    word('R', in.cycle_.r);
+    word("XYZ"[in.state_.plane_axis], in.cycle_.z);
+    word('Q', in.cycle_.q);
+    if (block.words.given('P')) in.cycle_.p = block.words.of('P') * in.rules_->cycles.dwell_unit;
+    const int code = in.state_.cycle / 10;
     // In other cycles K says how often.
     const bool steps_aside = code == 76 || code == 87;
-    for (int k = 0; steps_aside && k < 3; ++k) word("IJK"[k], cycle_.ijk[k]);
-    for (const auto& [letter, kept] : {std::pair('R', &cycle_.r), std::pair("XYZ"[state_.plane_axis], &cycle_.z)}) {
+    for (int k = 0; steps_aside && k < 3; ++k) word("IJK"[k], in.cycle_.ijk[k]);
+    for (const auto& [letter, kept] :
+         {std::pair('R', &in.cycle_.r), std::pair("XYZ"[in.state_.plane_axis], &in.cycle_.z)}) {
         if (!std::isnan(*kept)) continue;
-        note(Severity::warning, "program.cycle", fmt::format("G{0} without {1}: read as {1}0", code, letter));
+        in.note(Severity::warning, "program.cycle", fmt::format("G{0} without {1}: read as {1}0", code, letter));
         *kept = 0;
     }
-    if (!stroke.pecks || cycle_.q > 0) return;
-    if (rules_->cycles.rs274) fail(fmt::format("G{} needs Q greater than 0", code));
-    note(Severity::warning, "program.cycle", fmt::format("G{} without Q: read as one stroke", code));
+    if (!stroke.pecks || in.cycle_.q > 0) return;
+    if (in.rules_->cycles.rs274) in.fail(fmt::format("G{} needs Q greater than 0", code));
+    in.note(Severity::warning, "program.cycle", fmt::format("G{} without Q: read as one stroke", code));
 }
 
 /// Where the pecks of Q end above the bottom [mm].
-std::vector<double> Interpreter::peck_depths(double r, double bottom) const {
+std::vector<double> peck_depths(const Interpreter& in, double r, double bottom) {
     std::vector<double> depths;
-    const double peck = cycle_.q * state_.unit_mm;
+    const double peck = in.cycle_.q * in.state_.unit_mm;
     if (!(peck > 0)) return depths;
-    if ((r - bottom) / peck > most_pecks) fail("too many pecks: Q is too small");
+    if ((r - bottom) / peck > most_pecks) in.fail("too many pecks: Q is too small");
     for (double depth = r - peck; depth > bottom; depth -= peck) depths.push_back(depth);
     return depths;
 }
 
-void Interpreter::cycle(const Block& block) {
-    const int code = state_.cycle;
-    const bool rs274 = rules_->cycles.rs274;
-    if (code == 76_g && rs274) {
-        thread_cycle(block);
-        return;
-    }
-    const bool from_below = code == 87_g;
-    const bool fine_bore = code == 76_g;
-    const Stroke stroke = stroke_of(code, rs274);
-    const double unit = state_.unit_mm;
-    const int c = state_.plane_axis;  // the drilling axis
-    read_cycle_words(block, stroke);
-    state_.place(1u << state_.plane_axis, false);
-    // Heights and holes count in the program's own frame.
-    const Vec3 here = state_.programmed();
-    const Vec3 position = here.array().isNaN().select(0.0, here);
-    // Increments of R count from where the first cycle began, whichever level the tool is at now.
-    if (std::isnan(cycle_.initial)) cycle_.initial = position[c];
-    // Under G91, increments. Fanuc keeps the heights as they were given, whether G90 or G91 holds at the next hole.
-    if (rs274 || block.words.given('R') || std::isnan(cycle_.r_height))
-        cycle_.r_height = cycle_.r * unit + (state_.incremental ? cycle_.initial : 0.0);
-    const double r = cycle_.r_height;
-    if (rs274 || block.words.given("XYZ"[c]) || std::isnan(cycle_.bottom))
-        cycle_.bottom = cycle_.z * unit + (state_.incremental ? r : 0.0);
-    const double bottom = cycle_.bottom;
-    if (r < bottom && (rs274 || !from_below))
-        fail(fmt::format("the cycle's R ({:g}) is below its bottom ({:g})", r, bottom));
-    const int repeats = cycle_repeats(block, rules_->cycles.repeats_by_k && !from_below);
-    const Vec3 rotary = rotary_target(block);
-    // Up to R at once where the cycles began below it, even if the tool has come up since.
-    if (rs274 && cycle_.initial < r) go_to_level(MotionKind::rapid, r, rotary);
-    const double clear = state_.retract_to_r && !(from_below && !rs274) ? r : std::max(r, cycle_.initial);
-    const std::vector<double> depths = stroke.pecks ? peck_depths(r, bottom) : std::vector<double>();
-    for (int k = 0; k < repeats; ++k) {
-        Vec3 hole =
-            this_block_.machine_coordinates ? state_.frame.to_programmed(target(block, true)) : read_axes(block, false);
-        const double now = state_.programmed()[c];
-        // RS274 climbs before it crosses; Fanuc crosses at the level where it is.
-        hole[c] = now < clear && rs274 ? clear : now;
-        straight(MotionKind::rapid, state_.frame.to_work(hole), rotary);
-        if (from_below && !rs274) {
-            bore_back_shifted(r, bottom, clear, rotary);
-            continue;
-        }
-        go_to_level(MotionKind::rapid, r, rotary);
-        if (from_below) {
-            bore_back(r, bottom, clear, rotary);
-            continue;
-        }
-        if (fine_bore) {
-            bore_fine(bottom, clear, rotary);
-            continue;
-        }
-        drill(stroke, r, bottom, clear, depths, rotary);
-    }
-}
-
-void Interpreter::go_to_level(MotionKind kind, double height, const Vec3& rotary) {
-    const Vec3 now = state_.programmed();
-    Vec3 end = now.array().isNaN().select(0.0, now);
-    end[state_.plane_axis] = height;
-    straight(kind, state_.frame.to_work(end), rotary);
+/// G74 and G84 outside the XY plane. LinuxCNC's interpreter (convert_cycle_g74_g84, up to 2.10) hands the axes
+/// on in another order, and the machine goes there: along X in G18, along Y to the wrong place in G19.
+void tap_turned(Interpreter& in, double bottom, double clear, const Vec3& rotary) {
+    const Vec3 hole = in.state_.position;
+    const bool zx = in.state_.plane_axis == 1;
+    const auto at = [&](double height) {
+        return zx ? Vec3(height, hole.z(), hole.x()) : Vec3(hole.z(), height, hole.y());
+    };
+    in.note(
+        Severity::warning, "program.cycle",
+        fmt::format("G{} in {}: LinuxCNC uses the axes in a wrong order; the motions are read as LinuxCNC makes them",
+                    in.state_.cycle / 10, zx ? "G18" : "G19"));
+    in.straight(MotionKind::feed, at(bottom), rotary);
+    in.straight(MotionKind::feed, at(clear), rotary);
+    in.state_.position = hole;  // what the interpreter goes on from
+    in.state_.position[in.state_.plane_axis] = clear;
 }
 
 /// From R down by way of the depths, and out.
-void Interpreter::drill(const Stroke& stroke, double r, double bottom, double clear, const std::vector<double>& depths,
-                        const Vec3& rotary) {
-    const int c = state_.plane_axis;
-    const bool rs274 = rules_->cycles.rs274;
-    if (rs274 && c != 2 && (state_.cycle == 74_g || state_.cycle == 84_g)) {
-        tap_turned(bottom, clear, rotary);
+void drill(Interpreter& in, const Stroke& stroke, double r, double bottom, double clear,
+           const std::vector<double>& depths, const Vec3& rotary) {
+    const int c = in.state_.plane_axis;
+    const bool rs274 = in.rules_->cycles.rs274;
+    if (rs274 && c != 2 && (in.state_.cycle == 74_g || in.state_.cycle == 84_g)) {
+        tap_turned(in, bottom, clear, rotary);
         return;
     }
     for (const double depth : depths) {
-        go_to_level(MotionKind::feed, depth, rotary);
-        if (stroke.dwells && cycle_.p > 0) dwell(cycle_.p);
-        if (!stroke.breaks_chips) go_to_level(MotionKind::rapid, r, rotary);
-        go_to_level(MotionKind::rapid, depth + peck_clearance_mm, rotary);
+        go_to_level(in, MotionKind::feed, depth, rotary);
+        if (stroke.dwells && in.cycle_.p > 0) in.dwell(in.cycle_.p);
+        if (!stroke.breaks_chips) go_to_level(in, MotionKind::rapid, r, rotary);
+        go_to_level(in, MotionKind::rapid, depth + peck_clearance_mm, rotary);
     }
-    go_to_level(MotionKind::feed, bottom, rotary);
-    if (stroke.dwells && (rs274 || cycle_.p > 0)) dwell(cycle_.p);
-    if (state_.cycle == 880 && rs274) {
+    go_to_level(in, MotionKind::feed, bottom, rotary);
+    if (stroke.dwells && (rs274 || in.cycle_.p > 0)) in.dwell(in.cycle_.p);
+    if (in.state_.cycle == 880 && rs274) {
         // The operator takes the tool out by hand: no motion of the program.
-        event("stop", "G88");
-        state_.position[c] = clear;
+        in.event("stop", "G88");
+        in.state_.position[c] = clear;
         return;
     }
     if (stroke.feeds_out) {
         // Feeds end at R; but LinuxCNC runs at feed all the way, except in G85.
-        const bool all_the_way = rs274 && state_.cycle != 850;
-        go_to_level(MotionKind::feed, all_the_way ? clear : r, rotary);
-        if (state_.programmed()[c] == clear) return;
+        const bool all_the_way = rs274 && in.state_.cycle != 850;
+        go_to_level(in, MotionKind::feed, all_the_way ? clear : r, rotary);
+        if (in.state_.programmed()[c] == clear) return;
     }
-    go_to_level(MotionKind::rapid, clear, rotary);
-}
-
-/// G74 and G84 outside the XY plane. LinuxCNC's interpreter (convert_cycle_g74_g84, up to 2.10) hands the axes
-/// on in another order, and the machine goes there: along X in G18, along Y to the wrong place in G19.
-void Interpreter::tap_turned(double bottom, double clear, const Vec3& rotary) {
-    const Vec3 hole = state_.position;
-    const bool zx = state_.plane_axis == 1;
-    const auto at = [&](double height) {
-        return zx ? Vec3(height, hole.z(), hole.x()) : Vec3(hole.z(), height, hole.y());
-    };
-    note(Severity::warning, "program.cycle",
-         fmt::format("G{} in {}: LinuxCNC uses the axes in a wrong order; the motions are read as LinuxCNC makes them",
-                     state_.cycle / 10, zx ? "G18" : "G19"));
-    straight(MotionKind::feed, at(bottom), rotary);
-    straight(MotionKind::feed, at(clear), rotary);
-    state_.position = hole;  // what the interpreter goes on from
-    state_.position[state_.plane_axis] = clear;
+    go_to_level(in, MotionKind::rapid, clear, rotary);
 }
 
 /// Q (or I J, K) of Fanuc's boring cycles: how far the edge steps aside. Which way is a parameter of
 /// the control; without I J K along the plane's first axis.
-Vec3 Interpreter::edge_shift() const {
-    const int c = state_.plane_axis;
-    Vec3 aside = cycle_.ijk * state_.unit_mm;
+Vec3 edge_shift(const CycleState& cycle, const ModalState& state) {
+    const int c = state.plane_axis;
+    Vec3 aside = cycle.ijk * state.unit_mm;
     aside[c] = 0;
-    if (aside.isZero()) aside[(c + 1) % 3] = cycle_.q * state_.unit_mm;
+    if (aside.isZero()) aside[(c + 1) % 3] = cycle.q * state.unit_mm;
     return aside;
 }
 
-void Interpreter::step_aside(const Vec3& by, const Vec3& rotary) {
-    straight(MotionKind::rapid, state_.frame.to_work(state_.programmed() + by), rotary);
-}
-
 /// G76 of Fanuc: down with feed, aside, and out without touching.
-void Interpreter::bore_fine(double bottom, double clear, const Vec3& rotary) {
-    go_to_level(MotionKind::feed, bottom, rotary);
-    if (cycle_.p > 0) dwell(cycle_.p);
-    const Vec3 aside = edge_shift();
-    step_aside(aside, rotary);
-    go_to_level(MotionKind::rapid, clear, rotary);
-    step_aside(-aside, rotary);
+void bore_fine(Interpreter& in, double bottom, double clear, const Vec3& rotary) {
+    go_to_level(in, MotionKind::feed, bottom, rotary);
+    if (in.cycle_.p > 0) in.dwell(in.cycle_.p);
+    const Vec3 aside = edge_shift(in.cycle_, in.state_);
+    step_aside(in, aside, rotary);
+    go_to_level(in, MotionKind::rapid, clear, rotary);
+    step_aside(in, -aside, rotary);
 }
 
 /// G87 of Fanuc: aside, below the hole to R, back to its middle, up to Z with feed, and out the same way.
-void Interpreter::bore_back_shifted(double r, double top, double clear, const Vec3& rotary) {
-    const Vec3 aside = edge_shift();
-    step_aside(aside, rotary);
-    go_to_level(MotionKind::rapid, r, rotary);
-    step_aside(-aside, rotary);
-    go_to_level(MotionKind::feed, top, rotary);
-    if (cycle_.p > 0) dwell(cycle_.p);
-    step_aside(aside, rotary);
-    go_to_level(MotionKind::rapid, clear, rotary);
-    step_aside(-aside, rotary);
+void bore_back_shifted(Interpreter& in, double r, double top, double clear, const Vec3& rotary) {
+    const Vec3 aside = edge_shift(in.cycle_, in.state_);
+    step_aside(in, aside, rotary);
+    go_to_level(in, MotionKind::rapid, r, rotary);
+    step_aside(in, -aside, rotary);
+    go_to_level(in, MotionKind::feed, top, rotary);
+    if (in.cycle_.p > 0) in.dwell(in.cycle_.p);
+    step_aside(in, aside, rotary);
+    go_to_level(in, MotionKind::rapid, clear, rotary);
+    step_aside(in, -aside, rotary);
 }
 
 /// G87, back boring: in beside the hole, below it to its middle, up to K with feed, and out the same way.
-void Interpreter::bore_back(double r, double bottom, double clear, const Vec3& rotary) {
-    const int c = state_.plane_axis;
-    Vec3 aside = cycle_.ijk * state_.unit_mm;
-    const double top = aside[c] + (state_.incremental ? bottom : 0.0);
+void bore_back(Interpreter& in, double r, double bottom, double clear, const Vec3& rotary) {
+    const int c = in.state_.plane_axis;
+    Vec3 aside = in.cycle_.ijk * in.state_.unit_mm;
+    const double top = aside[c] + (in.state_.incremental ? bottom : 0.0);
     aside[c] = 0;
-    const Vec3 hole = state_.position;
+    const Vec3 hole = in.state_.position;
     const auto to = [&](MotionKind kind, const Vec3& beside, double height) {
         Vec3 end = hole + beside;
         end[c] = height;
-        straight(kind, end, rotary);
+        in.straight(kind, end, rotary);
     };
     const Vec3 middle = Vec3::Zero();
     to(MotionKind::rapid, aside, r);
@@ -250,6 +191,77 @@ void Interpreter::bore_back(double r, double bottom, double clear, const Vec3& r
     to(MotionKind::rapid, aside, bottom);
     to(MotionKind::rapid, aside, clear);
     to(MotionKind::rapid, middle, clear);
+}
+
+}  // namespace
+
+void drilling_cycle(Interpreter& in, const Block& block) {
+    const int code = in.state_.cycle;
+    const bool rs274 = in.rules_->cycles.rs274;
+    if (code == 76_g && rs274) {
+        thread_cycle(in, block);
+        return;
+    }
+    const bool from_below = code == 87_g;
+    const bool fine_bore = code == 76_g;
+    const Stroke stroke = stroke_of(code, rs274);
+    const double unit = in.state_.unit_mm;
+    const int c = in.state_.plane_axis;  // the drilling axis
+    read_cycle_words(in, block, stroke);
+    in.state_.place(1u << in.state_.plane_axis, false);
+    // Heights and holes count in the program's own frame.
+    const Vec3 here = in.state_.programmed();
+    const Vec3 position = here.array().isNaN().select(0.0, here);
+    // Increments of R count from where the first cycle began, whichever level the tool is at now.
+    if (std::isnan(in.cycle_.initial)) in.cycle_.initial = position[c];
+    // Under G91, increments. Fanuc keeps the heights as they were given, whether G90 or G91 holds at the next hole.
+    if (rs274 || block.words.given('R') || std::isnan(in.cycle_.r_height))
+        in.cycle_.r_height = in.cycle_.r * unit + (in.state_.incremental ? in.cycle_.initial : 0.0);
+    const double r = in.cycle_.r_height;
+    if (rs274 || block.words.given("XYZ"[c]) || std::isnan(in.cycle_.bottom))
+        in.cycle_.bottom = in.cycle_.z * unit + (in.state_.incremental ? r : 0.0);
+    const double bottom = in.cycle_.bottom;
+    if (r < bottom && (rs274 || !from_below))
+        in.fail(fmt::format("the cycle's R ({:g}) is below its bottom ({:g})", r, bottom));
+    const int repeats = cycle_repeats(block, in.rules_->cycles.repeats_by_k && !from_below);
+    const Vec3 rotary = rotary_target(in, block);
+    // Up to R at once where the cycles began below it, even if the tool has come up since.
+    if (rs274 && in.cycle_.initial < r) go_to_level(in, MotionKind::rapid, r, rotary);
+    const double clear = in.state_.retract_to_r && !(from_below && !rs274) ? r : std::max(r, in.cycle_.initial);
+    const std::vector<double> depths = stroke.pecks ? peck_depths(in, r, bottom) : std::vector<double>();
+    for (int k = 0; k < repeats; ++k) {
+        Vec3 hole = in.this_block_.machine_coordinates ? in.state_.frame.to_programmed(target_of(in, block, true))
+                                                       : read_axes(in, block, false);
+        const double now = in.state_.programmed()[c];
+        // RS274 climbs before it crosses; Fanuc crosses at the level where it is.
+        hole[c] = now < clear && rs274 ? clear : now;
+        in.straight(MotionKind::rapid, in.state_.frame.to_work(hole), rotary);
+        if (from_below && !rs274) {
+            bore_back_shifted(in, r, bottom, clear, rotary);
+            continue;
+        }
+        go_to_level(in, MotionKind::rapid, r, rotary);
+        if (from_below) {
+            bore_back(in, r, bottom, clear, rotary);
+            continue;
+        }
+        if (fine_bore) {
+            bore_fine(in, bottom, clear, rotary);
+            continue;
+        }
+        drill(in, stroke, r, bottom, clear, depths, rotary);
+    }
+}
+
+void go_to_level(Interpreter& in, MotionKind kind, double height, const Vec3& rotary) {
+    const Vec3 now = in.state_.programmed();
+    Vec3 end = now.array().isNaN().select(0.0, now);
+    end[in.state_.plane_axis] = height;
+    in.straight(kind, in.state_.frame.to_work(end), rotary);
+}
+
+void step_aside(Interpreter& in, const Vec3& by, const Vec3& rotary) {
+    in.straight(MotionKind::rapid, in.state_.frame.to_work(in.state_.programmed() + by), rotary);
 }
 
 }  // namespace clsurf

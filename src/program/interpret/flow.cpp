@@ -1,98 +1,147 @@
 // Which line comes next: control statements, calls and returns.
 
+#include "program/interpret/flow.h"
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "program/interpret/interpreter_state.h"
+#include "program/interpret/kept_modes.h"
 
 namespace clsurf {
 namespace {
 
 constexpr std::size_t deepest_call = 64;
 
+/// Which line to stop before: that behind the section that is repeated at this level of calls.
+void watch_section(CallStack& calls) {
+    while (!calls.sections.empty() && calls.sections.back().level > calls.frames.size()) calls.sections.pop_back();
+    const bool here = !calls.sections.empty() && calls.sections.back().level == calls.frames.size();
+    calls.behind_section = here ? calls.sections.back().end + 1 : 0;
+}
+
+LineNumber find_block(Interpreter& in, double number, LineNumber line, int direction) {
+    auto found = in.texts_.numbers.find(in.place_.file);
+    if (found == in.texts_.numbers.end())
+        found = in.texts_.numbers.emplace(in.place_.file, BlockNumbers(in.program_.files[in.place_.file])).first;
+    return found->second.find(number, line, direction);
+}
+
+/// The call that the line makes which runs; a loop that calls again and again makes one.
+std::uint32_t call_from_here(CallStack& stack, const ReadingPlace& place, Motions& motions) {
+    std::vector<Call>& calls = motions.calls;
+    constexpr std::size_t most_calls = 1'000'000;  // by line and caller; further calls count as their caller
+    if (calls.size() >= most_calls) return stack.running;
+    const auto [found, is_new] =
+        stack.known.try_emplace({stack.running, static_cast<std::uint32_t>(place.file), place.line},
+                                static_cast<std::uint32_t>(calls.size() + 1));
+    if (is_new) calls.push_back({stack.running, static_cast<std::uint16_t>(place.file), place.line});
+    return found->second;
+}
+
+/// Goes on at a line of a subprogram, and comes back behind the line that runs.
+void enter(Interpreter& in, std::size_t file, LineNumber line, int repeats, bool locals) {
+    CallFrame frame;
+    frame.file = in.place_.file;
+    frame.line = in.place_.line;
+    frame.start_file = file;
+    frame.start_line = line;
+    frame.call = in.calls_.running;
+    in.calls_.running = call_from_here(in.calls_, in.place_, in.program_.motions);
+    frame.repeats = repeats - 1;
+    frame.locals = locals;
+    frame.counters = std::move(in.calls_.counters);
+    in.calls_.counters.clear();
+    if (locals) in.variables_.push_locals();
+    in.calls_.frames.push_back(std::move(frame));
+    in.calls_.kept_modes.emplace_back();
+    in.calls_.restores_modes.push_back(false);
+    watch_section(in.calls_);
+    in.go_to(file, line);
+}
+
 }  // namespace
 
-const ControlIndex& Interpreter::index(std::size_t file) {
-    if (!texts_.indexed[file]) {
-        texts_.indexes[file] = ControlIndex(program_.files[file], rules_->text);
-        texts_.indexed[file] = true;
+const ControlIndex& control_index(Interpreter& in, std::size_t file) {
+    if (!in.texts_.indexed[file]) {
+        in.texts_.indexes[file] = ControlIndex(in.program_.files[file], in.rules_->text);
+        in.texts_.indexed[file] = true;
     }
-    return texts_.indexes[file];
+    return in.texts_.indexes[file];
 }
 
-void Interpreter::count_jump() {
-    if (++calls_.jumps > options_.most_jumps) {
-        fail(fmt::format("more than {} jumps and calls: an endless loop?", options_.most_jumps));
+void count_jump(Interpreter& in) {
+    if (++in.calls_.jumps > in.options_.most_jumps) {
+        in.fail(fmt::format("more than {} jumps and calls: an endless loop?", in.options_.most_jumps));
     }
 }
 
-/// The condition of an elseif.
-bool Interpreter::branch_taken(const Control& branch) const {
-    const Statement statement = clean_line(program_.files[place_.file].line(branch.line), rules_->text);
+bool branch_taken(const Interpreter& in, const Control& branch) {
+    const Statement statement = clean_line(in.program_.files[in.place_.file].line(branch.line), in.rules_->text);
     Cursor c{statement.text, branch.rest};
-    return evaluate(c, variables_, rules_->text) != 0;
+    return evaluate(c, in.variables_, in.rules_->text) != 0;
 }
 
-/// To a label or a block number. `may_miss`: without it the program goes on.
-void Interpreter::jump_to(const std::string& label, int direction, bool may_miss) {
-    count_jump();
-    const bool numbers = rules_->calls.jumps_to_numbers;
+void jump_to(Interpreter& in, const std::string& label, int direction, bool may_miss) {
+    count_jump(in);
+    const bool numbers = in.rules_->calls.jumps_to_numbers;
     const bool number = numbers || (label.size() > 1 && label[0] == 'N' && is_digit(label[1]));
     LineNumber line = 0;
     if (number) {
         const std::string digits = numbers ? label : label.substr(1);
         double value = 0;
-        if (read_decimal(digits, 0, value) > 0) line = find_block(value, place_.line, direction);
+        if (read_decimal(digits, 0, value) > 0) line = find_block(in, value, in.place_.line, direction);
     } else {
         // Backwards from the end of this line: its own label counts.
-        const int at =
-            index(place_.file).find(ControlKind::label, label, place_.line + (direction < 0 ? 1 : 0), direction);
-        if (at >= 0) line = index(place_.file).all()[static_cast<std::size_t>(at)].line;
+        const int at = control_index(in, in.place_.file)
+                           .find(ControlKind::label, label, in.place_.line + (direction < 0 ? 1 : 0), direction);
+        if (at >= 0) line = control_index(in, in.place_.file).all()[static_cast<std::size_t>(at)].line;
     }
     if (line == 0 && may_miss) return;
-    if (line == 0) fail(fmt::format("there is no block to go to: '{}'", label));
-    const bool leaves = !calls_.sections.empty() && calls_.sections.back().level == calls_.frames.size() &&
-                        (line < calls_.sections.back().begin || line > calls_.sections.back().end);
+    if (line == 0) in.fail(fmt::format("there is no block to go to: '{}'", label));
+    const bool leaves = !in.calls_.sections.empty() && in.calls_.sections.back().level == in.calls_.frames.size() &&
+                        (line < in.calls_.sections.back().begin || line > in.calls_.sections.back().end);
     if (leaves) {
-        calls_.sections.pop_back();
-        watch_section();
+        in.calls_.sections.pop_back();
+        watch_section(in.calls_);
     }
-    go_to(place_.file, line);
+    in.go_to(in.place_.file, line);
 }
 
-/// CASE v OF 1 GOTOF A 2 GOTOF B DEFAULT GOTOF C
-void Interpreter::choose(const std::string& text, std::size_t begin) {
+void choose_label(Interpreter& in, const std::string& text, std::size_t begin) {
     Cursor c{text, begin};
-    const double wanted = evaluate(c, variables_, rules_->text);
+    const double wanted = evaluate(c, in.variables_, in.rules_->text);
     if (!c.take_word("OF")) throw ReadError{"expected OF after the value of CASE", c.column(), {}};
     while (c.peek() != '\0') {
-        const bool chosen = c.take_word("DEFAULT") || std::abs(read_value(c, variables_, rules_->text) - wanted) < 1e-9;
+        const bool chosen =
+            c.take_word("DEFAULT") || std::abs(read_value(c, in.variables_, in.rules_->text) - wanted) < 1e-9;
         const std::string jump = c.identifier();
         const bool known = jump == "GOTO" || jump == "GOTOF" || jump == "GOTOB" || jump == "GOTOC";
         if (!known) throw ReadError{"expected GOTOF or GOTOB and a label in CASE", c.column(), {}};
         (void)c.take_word(jump);
         const std::string label = c.identifier();
         if (chosen) {
-            jump_to(label, jump == "GOTOF" ? 1 : jump == "GOTOB" ? -1 : 0, jump == "GOTOC");
+            jump_to(in, label, jump == "GOTOF" ? 1 : jump == "GOTOB" ? -1 : 0, jump == "GOTOC");
             return;
         }
         (void)c.take_word(label);
     }
 }
 
-/// REPEAT and REPEATB: lines between labels once more, P times. From one label on, as far as ENDLABEL
-/// or this line.
-void Interpreter::repeat_lines(const Control& repeat, const std::string& text) {
+void repeat_lines(Interpreter& in, const Control& repeat, const std::string& text) {
     Cursor c{text, repeat.rest};
     const auto line_of = [&](const std::string& label) {
-        int at = index(place_.file).find(ControlKind::label, label, place_.line, -1);
-        if (at < 0) at = index(place_.file).find(ControlKind::label, label, place_.line, 1);
-        if (at < 0) fail(fmt::format("REPEAT: there is no label '{}'", label));
-        return index(place_.file).all()[static_cast<std::size_t>(at)].line;
+        int at = control_index(in, in.place_.file).find(ControlKind::label, label, in.place_.line, -1);
+        if (at < 0) at = control_index(in, in.place_.file).find(ControlKind::label, label, in.place_.line, 1);
+        if (at < 0) in.fail(fmt::format("REPEAT: there is no label '{}'", label));
+        return control_index(in, in.place_.file).all()[static_cast<std::size_t>(at)].line;
     };
-    Section section{.begin = line_of(repeat.label), .level = calls_.frames.size(), .back = place_.line};
+    Section section{.begin = line_of(repeat.label), .level = in.calls_.frames.size(), .back = in.place_.line};
     section.end = section.begin;
     if (repeat.kind == ControlKind::repeat_section) {
         const std::string until = c.identifier();
@@ -102,209 +151,162 @@ void Interpreter::repeat_lines(const Control& repeat, const std::string& text) {
             c = after;
             section.end = line_of(until);
         } else {
-            const int end = index(place_.file).find(ControlKind::label, "ENDLABEL", section.begin, 1);
-            const LineNumber line = end < 0 ? 0 : index(place_.file).all()[static_cast<std::size_t>(end)].line;
-            section.end = line != 0 && (line < place_.line || section.begin > place_.line) ? line : place_.line - 1;
+            const int end = control_index(in, in.place_.file).find(ControlKind::label, "ENDLABEL", section.begin, 1);
+            const LineNumber line =
+                end < 0 ? 0 : control_index(in, in.place_.file).all()[static_cast<std::size_t>(end)].line;
+            section.end =
+                line != 0 && (line < in.place_.line || section.begin > in.place_.line) ? line : in.place_.line - 1;
         }
     }
     double times = 1;
     if (c.take_word("P")) {
         if (!c.take('=')) throw ReadError{"expected '=' after P", c.column(), {}};
-        times = evaluate(c, variables_, rules_->text);
+        times = evaluate(c, in.variables_, in.rules_->text);
     }
     if (c.peek() != '\0') throw ReadError{"expected P= after the labels of REPEAT", c.column(), {}};
-    if (section.end < section.begin || (section.begin <= place_.line && place_.line <= section.end))
-        fail(fmt::format("REPEAT: no lines to repeat from '{}' on", repeat.label));
-    if (calls_.sections.size() >= deepest_call) fail(fmt::format("repeats are nested more than {} deep", deepest_call));
+    if (section.end < section.begin || (section.begin <= in.place_.line && in.place_.line <= section.end))
+        in.fail(fmt::format("REPEAT: no lines to repeat from '{}' on", repeat.label));
+    if (in.calls_.sections.size() >= deepest_call)
+        in.fail(fmt::format("repeats are nested more than {} deep", deepest_call));
     section.left = std::floor(times);
     if (!(section.left >= 1)) return;
-    calls_.sections.push_back(section);
-    next_of_section();
+    in.calls_.sections.push_back(section);
+    next_of_section(in);
 }
 
-/// Once more from its beginning, or back behind its REPEAT.
-void Interpreter::next_of_section() {
-    Section& section = calls_.sections.back();
-    count_jump();
+void next_of_section(Interpreter& in) {
+    Section& section = in.calls_.sections.back();
+    count_jump(in);
     if (section.left >= 1) {
         section.left -= 1;
-        go_to(place_.file, section.begin);
+        in.go_to(in.place_.file, section.begin);
     } else {
-        go_to(place_.file, section.back + 1);
-        calls_.sections.pop_back();
+        in.go_to(in.place_.file, section.back + 1);
+        in.calls_.sections.pop_back();
     }
-    watch_section();
+    watch_section(in.calls_);
 }
 
-/// Which line to stop before: that behind the section that is repeated at this level of calls.
-void Interpreter::watch_section() {
-    while (!calls_.sections.empty() && calls_.sections.back().level > calls_.frames.size()) calls_.sections.pop_back();
-    const bool here = !calls_.sections.empty() && calls_.sections.back().level == calls_.frames.size();
-    calls_.behind_section = here ? calls_.sections.back().end + 1 : 0;
-}
-
-/// Back to a line, `times` times; then on.
-void Interpreter::repeat_from(LineNumber begin, double times) {
-    const auto found = calls_.counters.try_emplace(place_.line, std::floor(times)).first;
+void repeat_from(Interpreter& in, LineNumber begin, double times) {
+    const auto found = in.calls_.counters.try_emplace(in.place_.line, std::floor(times)).first;
     if (!(found->second >= 1)) {
-        calls_.counters.erase(found);
+        in.calls_.counters.erase(found);
         return;
     }
     found->second -= 1;
-    count_jump();
-    go_to(place_.file, begin);
+    count_jump(in);
+    in.go_to(in.place_.file, begin);
 }
 
-LineNumber Interpreter::find_block(double number, LineNumber line, int direction) {
-    auto found = texts_.numbers.find(place_.file);
-    if (found == texts_.numbers.end())
-        found = texts_.numbers.emplace(place_.file, BlockNumbers(program_.files[place_.file])).first;
-    return found->second.find(number, line, direction);
-}
-
-/// Reads a subprogram's file once, however often it is called.
-bool Interpreter::load(const std::string& name) {
-    if (texts_.loaded.contains(name)) return true;
-    std::optional<SourceText> text = options_.load ? options_.load(name) : std::nullopt;
+bool load_text(Interpreter& in, const std::string& name) {
+    if (in.texts_.loaded.contains(name)) return true;
+    std::optional<SourceText> text = in.options_.load ? in.options_.load(name) : std::nullopt;
     if (!text) return false;
-    if (program_.files.size() >= 65535) fail("too many subprogram files");
-    texts_.loaded.emplace(name, program_.files.size());
-    program_.files.push_back(std::move(*text));
-    texts_.indexes.emplace_back();
-    texts_.indexed.push_back(false);
+    if (in.program_.files.size() >= 65535) in.fail("too many subprogram files");
+    in.texts_.loaded.emplace(name, in.program_.files.size());
+    in.program_.files.push_back(std::move(*text));
+    in.texts_.indexes.emplace_back();
+    in.texts_.indexed.push_back(false);
     return true;
 }
 
-void Interpreter::call(const std::string& name, int repeats, bool locals, const std::vector<double>& arguments) {
-    count_jump();
-    if (calls_.frames.size() >= deepest_call) {
-        fail(fmt::format("calls are nested more than {} deep: a subprogram that calls itself?", deepest_call));
+void call_subprogram(Interpreter& in, const std::string& name, int repeats, bool locals,
+                     const std::vector<double>& arguments) {
+    count_jump(in);
+    if (in.calls_.frames.size() >= deepest_call) {
+        in.fail(fmt::format("calls are nested more than {} deep: a subprogram that calls itself?", deepest_call));
     }
-    const CallRules& calls = rules_->calls;
+    const CallRules& calls = in.rules_->calls;
     const ControlKind kind = calls.by_sub ? ControlKind::sub : ControlKind::label;
     const auto begin_in = [&](std::size_t file) {
-        const int begin = index(file).find(kind, name);
+        const int begin = control_index(in, file).find(kind, name);
         // M98 of LinuxCNC calls `O1 … M99`, as Fanuc writes it.
-        return begin < 0 && calls.label_if_no_sub ? index(file).find(ControlKind::label, name) : begin;
+        return begin < 0 && calls.label_if_no_sub ? control_index(in, file).find(ControlKind::label, name) : begin;
     };
-    std::size_t file = place_.file;
+    std::size_t file = in.place_.file;
     int at = begin_in(file);
-    for (std::size_t other = 0; at < 0 && other < program_.files.size(); ++other) {
+    for (std::size_t other = 0; at < 0 && other < in.program_.files.size(); ++other) {
         file = other;
         at = begin_in(other);
     }
     LineNumber line = 1;
     if (at >= 0) {
-        line = texts_.indexes[file].all()[static_cast<std::size_t>(at)].line;
+        line = in.texts_.indexes[file].all()[static_cast<std::size_t>(at)].line;
     } else {
-        if (!load(name)) fail(fmt::format("subprogram '{}' is neither in the program nor in its folder", name));
-        file = texts_.loaded.at(name);
+        if (!load_text(in, name))
+            in.fail(fmt::format("subprogram '{}' is neither in the program nor in its folder", name));
+        file = in.texts_.loaded.at(name);
         const int begin = begin_in(file);
-        if (begin >= 0) line = texts_.indexes[file].all()[static_cast<std::size_t>(begin)].line;
+        if (begin >= 0) line = in.texts_.indexes[file].all()[static_cast<std::size_t>(begin)].line;
     }
     LineNumber first = line + (at >= 0 || !calls.begins_at_label ? 1 : 0);
     if (at < 0 && calls.file_from_top) first = 1;
-    enter(file, first, repeats, locals);
+    enter(in, file, first, repeats, locals);
     for (std::size_t k = 0; k < arguments.size() && k < 33; ++k) {
-        if (!std::isnan(arguments[k])) variables_.set(static_cast<int>(k) + 1, arguments[k]);
+        if (!std::isnan(arguments[k])) in.variables_.set(static_cast<int>(k) + 1, arguments[k]);
     }
 }
 
-void Interpreter::call_file(const std::string& name) {
-    count_jump();
-    if (calls_.frames.size() >= deepest_call) {
-        fail(fmt::format("calls are nested more than {} deep: a subprogram that calls itself?", deepest_call));
+void call_file(Interpreter& in, const std::string& name) {
+    count_jump(in);
+    if (in.calls_.frames.size() >= deepest_call) {
+        in.fail(fmt::format("calls are nested more than {} deep: a subprogram that calls itself?", deepest_call));
     }
-    if (!load(name)) fail(fmt::format("subprogram '{}' is neither in the program nor in its folder", name));
-    enter(texts_.loaded.at(name), 1, 1, false);
+    if (!load_text(in, name)) in.fail(fmt::format("subprogram '{}' is neither in the program nor in its folder", name));
+    enter(in, in.texts_.loaded.at(name), 1, 1, false);
 }
 
-/// Goes on at a line of a subprogram, and comes back behind the line that runs.
-void Interpreter::enter(std::size_t file, LineNumber line, int repeats, bool locals) {
-    CallFrame frame;
-    frame.file = place_.file;
-    frame.line = place_.line;
-    frame.start_file = file;
-    frame.start_line = line;
-    frame.call = calls_.running;
-    calls_.running = call_from_here();
-    frame.repeats = repeats - 1;
-    frame.locals = locals;
-    frame.counters = std::move(calls_.counters);
-    calls_.counters.clear();
-    if (locals) variables_.push_locals();
-    calls_.frames.push_back(std::move(frame));
-    calls_.kept_modes.emplace_back();
-    calls_.restores_modes.push_back(false);
-    watch_section();
-    go_to(file, line);
-}
-
-/// The call that the line makes which runs; a loop that calls again and again makes one.
-std::uint32_t Interpreter::call_from_here() {
-    std::vector<Call>& calls = program_.motions.calls;
-    constexpr std::size_t most_calls = 1'000'000;  // by line and caller; further calls count as their caller
-    if (calls.size() >= most_calls) return calls_.running;
-    const auto [found, is_new] =
-        calls_.known.try_emplace({calls_.running, static_cast<std::uint32_t>(place_.file), place_.line},
-                                 static_cast<std::uint32_t>(calls.size() + 1));
-    if (is_new) calls.push_back({calls_.running, static_cast<std::uint16_t>(place_.file), place_.line});
-    return found->second;
-}
-
-void Interpreter::leave(bool from_end_of_text) {
-    if (calls_.frames.empty()) {
-        ended_ = true;
+void leave(Interpreter& in, bool from_end_of_text) {
+    if (in.calls_.frames.empty()) {
+        in.ended_ = true;
         if (from_end_of_text)
-            note(Severity::note, "program.no-end", "the program ends without M2 or M30");
+            in.note(Severity::note, "program.no-end", "the program ends without M2 or M30");
         else
-            event("end", "return from the main program");
+            in.event("end", "return from the main program");
         return;
     }
-    CallFrame& frame = calls_.frames.back();
+    CallFrame& frame = in.calls_.frames.back();
     if (frame.repeats > 0) {
-        count_jump();
+        count_jump(in);
         --frame.repeats;
-        go_to(frame.start_file, frame.start_line);
+        in.go_to(frame.start_file, frame.start_line);
         return;
     }
-    if (calls_.restores_modes.back() && calls_.kept_modes.back()) restore_modes(*calls_.kept_modes.back());
-    calls_.kept_modes.pop_back();
-    calls_.restores_modes.pop_back();
-    if (frame.locals) variables_.pop_locals();
-    calls_.counters = std::move(frame.counters);
+    if (in.calls_.restores_modes.back() && in.calls_.kept_modes.back()) restore_modes(in, *in.calls_.kept_modes.back());
+    in.calls_.kept_modes.pop_back();
+    in.calls_.restores_modes.pop_back();
+    if (frame.locals) in.variables_.pop_locals();
+    in.calls_.counters = std::move(frame.counters);
     const std::size_t file = frame.file;
     const LineNumber line = frame.line;
-    calls_.running = frame.call;
-    calls_.frames.pop_back();
-    watch_section();
-    go_to(file, line + 1);
+    in.calls_.running = frame.call;
+    in.calls_.frames.pop_back();
+    watch_section(in.calls_);
+    in.go_to(file, line + 1);
 }
 
-/// M98 P L: P0031234 calls program 1234 three times where no L says how often and `counted`.
-void Interpreter::call_by_number(const Block& block, int least_repeats, bool counted) {
+void call_by_number(Interpreter& in, const Block& block, int least_repeats, bool counted) {
     const Words& w = block.words;
-    if (!w.given('P')) fail("M98 needs the program's number (P)");
+    if (!w.given('P')) in.fail("M98 needs the program's number (P)");
     int number = static_cast<int>(std::clamp(w.of('P'), 0.0, 99999999.0));
     int repeats = w.given('L') ? static_cast<int>(std::clamp(w.of('L'), double(least_repeats), 99999.0)) : 1;
     if (counted && !w.given('L') && number > 9999) {
         repeats = number / 10000;
         number %= 10000;
     }
-    if (repeats > 0) call(fmt::format("{}", number), repeats, false, {});
+    if (repeats > 0) call_subprogram(in, fmt::format("{}", number), repeats, false, {});
 }
 
-/// M99 P: back to that block of the caller, in the main program a jump to it; M99: behind the call.
-void Interpreter::return_to_block(const Block& block) {
-    if (!block.words.given('P')) return leave(false);
+void return_to_block(Interpreter& in, const Block& block) {
+    if (!block.words.given('P')) return leave(in, false);
     const double number = block.words.of('P');
-    if (calls_.frames.empty())
-        count_jump();
+    if (in.calls_.frames.empty())
+        count_jump(in);
     else
-        leave(false);
-    const LineNumber line = find_block(number, 0, 0);
-    if (line == 0) fail(fmt::format("M99 P{:g}: there is no block N{:g}", number, number));
-    go_to(place_.file, line);
+        leave(in, false);
+    const LineNumber line = find_block(in, number, 0, 0);
+    if (line == 0) in.fail(fmt::format("M99 P{:g}: there is no block N{:g}", number, number));
+    in.go_to(in.place_.file, line);
 }
 
 }  // namespace clsurf

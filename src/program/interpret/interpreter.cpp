@@ -1,5 +1,3 @@
-#include "program/interpreter.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -9,9 +7,17 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/not_finite.h"
 #include "core/printable_text.h"
 #include "program/dialects/dialect_guess.h"
+#include "program/interpret/codes.h"
+#include "program/interpret/control_statements.h"
+#include "program/interpret/curves.h"
+#include "program/interpret/feeds.h"
+#include "program/interpret/flow.h"
 #include "program/interpret/interpreter_state.h"
+#include "program/interpret/tangential_arc.h"
+#include "program/interpreter.h"
 
 namespace clsurf {
 namespace {
@@ -23,9 +29,16 @@ constexpr std::size_t shown_text_bytes = 400;   ///< of a message, which may nam
 
 Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
     : options_(options),
-      variables_([this](int number) { return parameter(number); },
-                 [this](const std::string& name) { return named_parameter(name); },
-                 [this](int number, double value) { return write_parameter(number, value); }) {
+      variables_(
+          [this](int number) {
+              return rules_->parameter == nullptr ? missing<double> : rules_->parameter(*this, number);
+          },
+          [this](const std::string& name) {
+              return rules_->named_parameter == nullptr ? missing<double> : rules_->named_parameter(*this, name);
+          },
+          [this](int number, double value) {
+              return rules_->write_parameter != nullptr && rules_->write_parameter(*this, number, value);
+          }) {
     if (options.dialect != nullptr) {
         program_.dialect = options.dialect;
     } else {
@@ -34,7 +47,7 @@ Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
         program_.dialect_guessed_from = guess.reason;
     }
     rules_ = program_.dialect->rules;
-    index_codes();
+    code_rules_ = by_code(rules_->codes);
     program_.files.push_back(std::move(text));
     // A line makes a span of a spline and a few motions; an arc in a tilted frame is chords.
     constexpr std::uint64_t most_of_a_line = 200;
@@ -54,7 +67,7 @@ Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
 std::int64_t Interpreter::read_on(std::int64_t motions) {
     if (!ended_) {
         while (!ended_ && settled() < motions) run_line();
-        if (ended_ && curves_.is_open()) close_spline(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+        if (ended_ && curves_.is_open()) close_spline(*this, Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
         if (ended_ && corner_.pending) fail("a straight line with feed must follow RND and CHF");
     }
     return settled();
@@ -69,7 +82,7 @@ std::int64_t Interpreter::settled() const {
 
 std::int64_t Interpreter::place_settled(std::int64_t motions) {
     if (motions == 0) return 0;
-    keep_tangents(motions);  // as the program counts them
+    keep_tangents(forgotten_tangents_, program_.motions, motions);  // as the program counts them
     tangents_kept_ = true;
     const std::int64_t placed = placer_.place(program_.motions, program_.events, motions);
     const std::int64_t more = placed - motions;
@@ -80,7 +93,7 @@ std::int64_t Interpreter::place_settled(std::int64_t motions) {
 }
 
 void Interpreter::forget(std::int64_t motions) {
-    if (!std::exchange(tangents_kept_, false)) keep_tangents(motions);
+    if (!std::exchange(tangents_kept_, false)) keep_tangents(forgotten_tangents_, program_.motions, motions);
     program_.motions.drop_front(motions);
     std::vector<ProgramEvent>& events = program_.events;
     events.erase(events.begin(), std::find_if(events.begin(), events.end(),
@@ -127,11 +140,11 @@ void Interpreter::go_to(std::size_t file, LineNumber line) {
 
 void Interpreter::run_line() {
     if (place_.next_line == calls_.behind_section) {
-        next_of_section();
+        next_of_section(*this);
         return;
     }
     if (place_.next_byte >= program_.files[place_.file].text().size()) {
-        leave(true);
+        leave(*this, true);
         return;
     }
     place_.text = next_line();
@@ -165,7 +178,7 @@ bool Interpreter::run_plain(const Words& words) {
     if (!ordinary) return false;
     state_.motion = mode;
     const double unit = state_.unit_mm;
-    if (words.given('F')) take_feed(words.of('F'));
+    if (words.given('F')) take_feed(state_, rules_->motion, words.of('F'));
     const Vec3 before = state_.position;
     Vec3& p = state_.position;
     if (words.given('X')) p.x() = words.of('X') * unit;
@@ -198,7 +211,7 @@ void Interpreter::run_block(std::string_view line) {
         if (statement.deleted && options_.block_delete) return;
         if (statement.text.empty()) return;
         const bool done = rules_->statement != nullptr && rules_->statement(*this, statement);
-        if (!done && !control_statement(statement)) {
+        if (!done && !control_statement(*this, statement)) {
             Cursor cursor{statement.text, 0};
             read_block(cursor, variables_, rules_->text, state_.least_increment(), block_);
             execute(block_);

@@ -1,15 +1,22 @@
 // Turning cycles of LinuxCNC: G70 finishes, G71 and G72 rough a profile that a subprogram describes.
 // Rules: LinuxCNC, "G70 Lathe finishing cycle", "G71 G72 Lathe roughing cycles".
 
+#include "program/interpret/lathe_cycles.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "program/interpret/axis_words.h"
+#include "program/interpret/flow.h"
 #include "program/interpret/interpreter_state.h"
 
 namespace clsurf {
+namespace {
 
 /// A roughing cut's frame: along `feed` (0 z, 1 x) the tool cuts, along `depth` it goes in.
 struct LatheFrame {
@@ -29,8 +36,6 @@ struct LatheCycle {
 struct RoughingStart {
     Vec2 start, front, first;
 };
-
-namespace {
 
 constexpr double coincident = 1e-9;  ///< [mm]
 constexpr double no_pocket = 0.01;   ///< of this depth: joints of the profile may be that rough [mm]
@@ -120,28 +125,26 @@ bool rises(const Vec2& first, const std::vector<CompensatedMove>& moves, const L
     return true;
 }
 
-}  // namespace
-
 /// Runs the profile's subprogram and takes its motions away again: the end of the first is where the
 /// profile begins, the others are its elements.
-Vec2 Interpreter::record_profile(const std::string& name, std::vector<CompensatedMove>& profile) {
-    const ModalState state = state_;
-    const Block block = block_;
-    const LineNumber line = place_.line;
-    const std::string_view current = place_.text;
-    Motions& m = program_.motions;
+Vec2 record_profile(Interpreter& in, const std::string& name, std::vector<CompensatedMove>& profile) {
+    const ModalState state = in.state_;
+    const Block block = in.block_;
+    const LineNumber line = in.place_.line;
+    const std::string_view current = in.place_.text;
+    Motions& m = in.program_.motions;
     const auto first = static_cast<std::size_t>(m.size());
-    const std::size_t first_event = program_.events.size();
-    call(name, 1, true, {});
-    const std::size_t depth = calls_.frames.size();
-    while (!ended_ && calls_.frames.size() >= depth) run_line();
-    place_.line = line;
-    place_.text = current;
-    if (m.kind.size() < first + 2) fail("the profile has no motion after its first point");
+    const std::size_t first_event = in.program_.events.size();
+    call_subprogram(in, name, 1, true, {});
+    const std::size_t depth = in.calls_.frames.size();
+    while (!in.ended_ && in.calls_.frames.size() >= depth) in.run_line();
+    in.place_.line = line;
+    in.place_.text = current;
+    if (m.kind.size() < first + 2) in.fail("the profile has no motion after its first point");
     const Vec2 begin = zx(m.end[first].vec());
     for (std::size_t i = first + 1; i < m.kind.size(); ++i) {
         CompensatedMove move{zx(m.end[i].vec())};
-        if (m.kind[i] == MotionKind::spline) fail("a profile of a lathe cycle may not have splines");
+        if (m.kind[i] == MotionKind::spline) in.fail("a profile of a lathe cycle may not have splines");
         if (const Arc* arc = m.arc_of(static_cast<std::int64_t>(i))) {
             move.centre = zx(arc->centre.vec());
             move.is_arc = true;
@@ -151,36 +154,97 @@ Vec2 Interpreter::record_profile(const std::string& name, std::vector<Compensate
         if (move.is_arc || (move.end - from).norm() > coincident) profile.push_back(move);
     }
     m.truncate(static_cast<std::int64_t>(first));
-    for (std::size_t i = first_event; i < program_.events.size(); ++i) program_.events[i].motion = m.size();
-    state_ = state;
-    block_ = block;
-    this_block_.machine_coordinates = false;
-    this_block_.motion_suppressed = true;  // the axis words of the cycle are its own, not those of a motion
-    if (profile.empty()) fail("the profile has no length");
+    for (std::size_t i = first_event; i < in.program_.events.size(); ++i) in.program_.events[i].motion = m.size();
+    in.state_ = state;
+    in.block_ = block;
+    in.this_block_.machine_coordinates = false;
+    in.this_block_.motion_suppressed = true;  // the axis words of the cycle are its own, not those of a motion
+    if (profile.empty()) in.fail("the profile has no length");
     return begin;
 }
 
-void Interpreter::follow(const std::vector<CompensatedMove>& moves) {
+/// With feed, in the XZ plane
+void follow(Interpreter& in, const std::vector<CompensatedMove>& moves) {
     for (const CompensatedMove& move : moves) {
-        const Vec3 end(move.end.y(), state_.position.y(), move.end.x());
+        const Vec3 end(move.end.y(), in.state_.position.y(), move.end.x());
         if (!move.is_arc) {
-            straight(MotionKind::feed, end, state_.rotary);
+            in.straight(MotionKind::feed, end, in.state_.rotary);
             continue;
         }
         Arc arc;
         arc.axis = 1;
-        arc.centre = Xyz(move.centre.y(), state_.position.y(), move.centre.x());
-        push_arc(arc, !move.counter_clockwise, state_.position, end, state_.rotary);
+        arc.centre = Xyz(move.centre.y(), in.state_.position.y(), move.centre.x());
+        in.push_arc(arc, !move.counter_clockwise, in.state_.position, end, in.state_.rotary);
     }
 }
 
-void Interpreter::lathe_cycle(int code, const Block& words, std::size_t column) {
-    if (state_.plane_axis != 1) fail(code_text(code) + " needs the XZ plane (G18)", column);
-    if (!words.words.given('Q')) fail(code_text(code) + " needs its profile's subprogram (Q)", column);
-    const LatheCycle cycle = lathe_words(words, code, column);
-    const Vec3 called_from = target(words, false);
+LatheCycle lathe_words(const Interpreter& in, const Block& words, int code, std::size_t column) {
+    const auto word = [&](char letter, double otherwise) {
+        return words.words.given(letter) ? words.words.of(letter) : otherwise;
+    };
+    const LatheCycle cycle{.code = code,
+                           .distance = word('D', 0) * in.state_.unit_mm,
+                           .step = word('I', 1) * in.state_.unit_mm,
+                           .retract = word('R', 0.5) * in.state_.unit_mm,
+                           .passes = static_cast<int>(std::clamp(word('P', 1), 1.0, 1e4))};
+    if (!(cycle.distance >= 0)) in.fail("D of a lathe cycle must not be negative", column);
+    if (code != 700 && !(cycle.step > 0)) in.fail("I of a roughing cycle must be greater than 0", column);
+    return cycle;
+}
+
+void go_in_zx(Interpreter& in, const Vec2& to, MotionKind kind = MotionKind::rapid) {
+    in.straight(kind, Vec3(to.y(), in.state_.position.y(), to.x()), in.state_.rotary);
+}
+
+/// Cuts along the feed, one below the other, then one along the contour `moves`.
+void rough(Interpreter& in, const LatheCycle& cycle, const LatheFrame& frame, const RoughingStart& at,
+           std::vector<CompensatedMove>& moves, std::size_t column) {
+    const auto& [start, front, first] = at;
+    if (!rises(first, moves, frame)) {
+        in.note(Severity::warning, "program.cycle",
+                code_text(cycle.code) + ": the profile has pockets, roughing it is not carried out", column);
+        return;
+    }
+    // Out again to the height of the start.
+    Vec2 out = moves.back().end;
+    if ((start[frame.depth] - out[frame.depth]) * frame.outwards > coincident) {
+        out[frame.depth] = start[frame.depth];
+        moves.push_back({out});
+    }
+    const double whole = start[frame.depth] - first[frame.depth];
+    if (std::abs(whole) / cycle.step > most_cuts) in.fail("too many cuts: I is too small", column);
+    go_in_zx(in, start);
+    go_in_zx(in, front);
+    for (int cut = 0; cut * cycle.step < std::abs(whole) - coincident; ++cut) {
+        const double part = cut * cycle.step / std::abs(whole);
+        const Vec2 entry = front + part * (first - front);
+        const std::optional<double> end = reach(first, moves, frame, entry[frame.depth]);
+        if (!end) continue;
+        go_in_zx(in, entry);
+        Vec2 to = entry;
+        to[frame.feed] = *end;
+        go_in_zx(in, to, MotionKind::feed);
+        const double off = std::min(cycle.retract, 0.5 * std::abs(*end - entry[frame.feed]));
+        to[frame.feed] -= frame.onwards * off;
+        to[frame.depth] += frame.outwards * off;
+        go_in_zx(in, to);
+        to[frame.feed] = entry[frame.feed] + frame.onwards * off;
+        go_in_zx(in, to);
+        go_in_zx(in, entry);
+    }
+    go_in_zx(in, first);
+    follow(in, moves);
+}
+
+}  // namespace
+
+void lathe_cycle(Interpreter& in, int code, const Block& words, std::size_t column) {
+    if (in.state_.plane_axis != 1) in.fail(code_text(code) + " needs the XZ plane (G18)", column);
+    if (!words.words.given('Q')) in.fail(code_text(code) + " needs its profile's subprogram (Q)", column);
+    const LatheCycle cycle = lathe_words(in, words, code, column);
+    const Vec3 called_from = target_of(in, words, false);
     std::vector<CompensatedMove> profile;
-    const Vec2 begin = record_profile(fmt::format("{}", std::lround(words.words.of('Q'))), profile);
+    const Vec2 begin = record_profile(in, fmt::format("{}", std::lround(words.words.of('Q'))), profile);
 
     LatheFrame frame;
     if (code >= 720) std::swap(frame.feed, frame.depth);
@@ -196,80 +260,22 @@ void Interpreter::lathe_cycle(int code, const Block& words, std::size_t column) 
     const auto contour = [&](double off, Vec2& first) {
         std::string error;
         std::vector<CompensatedMove> moves = beside(begin, profile, left, off, first, error);
-        if (!error.empty()) fail(error, column);
+        if (!error.empty()) in.fail(error, column);
         return moves;
     };
     Vec2 first;
     if (code != 700) {
         std::vector<CompensatedMove> moves = contour(cycle.distance, first);
-        rough(cycle, frame, {start, front, first}, moves, column);
+        rough(in, cycle, frame, {start, front, first}, moves, column);
         return;
     }
-    go_in_zx(start);
+    go_in_zx(in, start);
     for (int pass = cycle.passes - 1; pass >= 0; --pass) {
         const std::vector<CompensatedMove> moves = contour(cycle.distance * pass / cycle.passes, first);
-        go_in_zx(front);
-        go_in_zx(first);
-        follow(moves);
+        go_in_zx(in, front);
+        go_in_zx(in, first);
+        follow(in, moves);
     }
-}
-
-LatheCycle Interpreter::lathe_words(const Block& words, int code, std::size_t column) const {
-    const auto word = [&](char letter, double otherwise) {
-        return words.words.given(letter) ? words.words.of(letter) : otherwise;
-    };
-    const LatheCycle cycle{.code = code,
-                           .distance = word('D', 0) * state_.unit_mm,
-                           .step = word('I', 1) * state_.unit_mm,
-                           .retract = word('R', 0.5) * state_.unit_mm,
-                           .passes = static_cast<int>(std::clamp(word('P', 1), 1.0, 1e4))};
-    if (!(cycle.distance >= 0)) fail("D of a lathe cycle must not be negative", column);
-    if (code != 700 && !(cycle.step > 0)) fail("I of a roughing cycle must be greater than 0", column);
-    return cycle;
-}
-
-void Interpreter::go_in_zx(const Vec2& to, MotionKind kind) {
-    straight(kind, Vec3(to.y(), state_.position.y(), to.x()), state_.rotary);
-}
-
-/// Cuts along the feed, one below the other, then one along the contour `moves`.
-void Interpreter::rough(const LatheCycle& cycle, const LatheFrame& frame, const RoughingStart& at,
-                        std::vector<CompensatedMove>& moves, std::size_t column) {
-    const auto& [start, front, first] = at;
-    if (!rises(first, moves, frame)) {
-        note(Severity::warning, "program.cycle",
-             code_text(cycle.code) + ": the profile has pockets, roughing it is not carried out", column);
-        return;
-    }
-    // Out again to the height of the start.
-    Vec2 out = moves.back().end;
-    if ((start[frame.depth] - out[frame.depth]) * frame.outwards > coincident) {
-        out[frame.depth] = start[frame.depth];
-        moves.push_back({out});
-    }
-    const double whole = start[frame.depth] - first[frame.depth];
-    if (std::abs(whole) / cycle.step > most_cuts) fail("too many cuts: I is too small", column);
-    go_in_zx(start);
-    go_in_zx(front);
-    for (int cut = 0; cut * cycle.step < std::abs(whole) - coincident; ++cut) {
-        const double part = cut * cycle.step / std::abs(whole);
-        const Vec2 entry = front + part * (first - front);
-        const std::optional<double> end = reach(first, moves, frame, entry[frame.depth]);
-        if (!end) continue;
-        go_in_zx(entry);
-        Vec2 to = entry;
-        to[frame.feed] = *end;
-        go_in_zx(to, MotionKind::feed);
-        const double off = std::min(cycle.retract, 0.5 * std::abs(*end - entry[frame.feed]));
-        to[frame.feed] -= frame.onwards * off;
-        to[frame.depth] += frame.outwards * off;
-        go_in_zx(to);
-        to[frame.feed] = entry[frame.feed] + frame.onwards * off;
-        go_in_zx(to);
-        go_in_zx(entry);
-    }
-    go_in_zx(first);
-    follow(moves);
 }
 
 }  // namespace clsurf

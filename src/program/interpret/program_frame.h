@@ -31,7 +31,7 @@ public:
         return ProgramFrame(factors.asDiagonal(), centre - centre.cwiseProduct(factors));
     }
     /// Counter-clockwise about an axis through `centre` [deg].
-    static ProgramFrame turned(const Vec3& axis, double degrees, const Vec3& centre) {
+    static ProgramFrame turned(const Vec3& axis, double degrees, const Vec3& centre = Vec3::Zero()) {
         Eigen::Matrix3d turn = Eigen::AngleAxisd(degrees * rad_per_deg, axis.normalized()).toRotationMatrix();
         // Quarter turns exactly, so that an axis that is not known yet does not spoil the others.
         constexpr double rounding = 1e-15;

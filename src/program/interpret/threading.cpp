@@ -1,10 +1,16 @@
 // Threads: G76 as motions. Rules: LinuxCNC, "G76 Threading Cycle".
 
+#include "program/interpret/threading.h"
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "program/interpret/axis_words.h"
+#include "program/interpret/feeds.h"
 #include "program/interpret/interpreter_state.h"
 
 namespace clsurf {
@@ -54,17 +60,17 @@ Pass pass_at(const Thread& thread, double depth) {
 
 }  // namespace
 
-void Interpreter::thread_cycle(const Block& block) {
+void thread_cycle(Interpreter& in, const Block& block) {
     const Words& w = block.words;
-    if (state_.plane_axis != 1) fail("G76 needs the XZ plane (G18)");
+    if (in.state_.plane_axis != 1) in.fail("G76 needs the XZ plane (G18)");
     for (const char letter : {'P', 'Z', 'I', 'J', 'K'}) {
-        if (!w.given(letter)) fail(fmt::format("G76 needs P, Z, I, J and K: {} is missing", letter));
+        if (!w.given(letter)) in.fail(fmt::format("G76 needs P, Z, I, J and K: {} is missing", letter));
     }
-    const double across = state_.unit_mm * (state_.diameter ? 0.5 : 1.0);  // I, J, K are diameters under G7
+    const double across = in.state_.unit_mm * (in.state_.diameter ? 0.5 : 1.0);  // I, J, K are diameters under G7
     const auto word = [&](char letter, double otherwise) { return w.given(letter) ? w.of(letter) : otherwise; };
     Thread thread;
-    thread.begin = state_.position;
-    thread.end = target(block, false);
+    thread.begin = in.state_.position;
+    thread.end = target_of(in, block, false);
     thread.crest = w.of('I') * across;
     thread.depth = w.of('K') * across;
     const double first_cut = w.of('J') * across;
@@ -72,45 +78,44 @@ void Interpreter::thread_cycle(const Block& block) {
     const double angle = word('Q', 0);
     const double springs = word('H', 0);
     const int tapers = static_cast<int>(std::clamp(word('L', 0), -1.0, 4.0));
-    thread.taper = word('E', 0) * state_.unit_mm;
-    if (!(w.of('P') > 0)) fail("the pitch (P) of G76 must be greater than 0");
-    if (thread.crest == 0) fail("I of G76 must not be 0");
-    if (!(first_cut > 0 && first_cut <= thread.depth)) fail("J of G76 must be greater than 0 and at most K");
-    if (!(degression >= 1)) fail("R of G76 must be at least 1");
-    if (!(std::abs(angle) <= steepest_slide)) fail("Q of G76 must be between -80 and 80");
-    if (!(springs >= 0 && springs <= most_passes)) fail("H of G76 counts spring passes");
-    if (tapers < 0 || tapers > 3) fail("L of G76 is 0 … 3");
+    thread.taper = word('E', 0) * in.state_.unit_mm;
+    if (!(w.of('P') > 0)) in.fail("the pitch (P) of G76 must be greater than 0");
+    if (thread.crest == 0) in.fail("I of G76 must not be 0");
+    if (!(first_cut > 0 && first_cut <= thread.depth)) in.fail("J of G76 must be greater than 0 and at most K");
+    if (!(degression >= 1)) in.fail("R of G76 must be at least 1");
+    if (!(std::abs(angle) <= steepest_slide)) in.fail("Q of G76 must be between -80 and 80");
+    if (!(springs >= 0 && springs <= most_passes)) in.fail("H of G76 counts spring passes");
+    if (tapers < 0 || tapers > 3) in.fail("L of G76 is 0 … 3");
     const double both = tapers == 3 ? 2 : 1;
     if (tapers != 0 && both * thread.taper > std::abs(thread.end.z() - thread.begin.z()))
-        fail("the tapers (E) of G76 are longer than the thread");
+        in.fail("the tapers (E) of G76 are longer than the thread");
     thread.entry_taper = (tapers & 1) != 0;
     thread.exit_taper = (tapers & 2) != 0;
     thread.slide = std::tan(angle * rad_per_deg);
 
-    const FeedMode feed_mode = state_.feed_mode;
-    const double feed = state_.feed, feed_unit = state_.feed_unit_mm;
-    state_.feed_mode = FeedMode::per_revolution;
-    take_feed(w.of('P'));
+    const FeedMode feed_mode = in.state_.feed_mode;
+    const double feed = in.state_.feed, feed_unit = in.state_.feed_unit_mm;
+    in.state_.feed_mode = FeedMode::per_revolution;
+    take_feed(in.state_, in.rules_->motion, w.of('P'));
     const auto carry_out = [&](double depth) {
-        for (const auto& [kind, end] : pass_at(thread, depth).moves) straight(kind, end, state_.rotary);
+        for (const auto& [kind, end] : pass_at(thread, depth).moves) in.straight(kind, end, in.state_.rotary);
     };
     int passes = 0;
     for (double depth = first_cut; depth < thread.depth; depth = first_cut * std::pow(passes + 1, 1 / degression)) {
-        if (++passes > most_passes) fail("G76 has too many passes: J is too small");
+        if (++passes > most_passes) in.fail("G76 has too many passes: J is too small");
         carry_out(depth);
     }
     for (int k = 0; k <= static_cast<int>(springs); ++k) carry_out(thread.depth);
-    straight(MotionKind::rapid, Vec3(thread.begin.x(), thread.begin.y(), thread.end.z()), state_.rotary);
-    state_.feed_mode = feed_mode;
-    state_.feed = feed;
-    state_.feed_unit_mm = feed_unit;
+    in.straight(MotionKind::rapid, Vec3(thread.begin.x(), thread.begin.y(), thread.end.z()), in.state_.rotary);
+    in.state_.feed_mode = feed_mode;
+    in.state_.feed = feed;
+    in.state_.feed_unit_mm = feed_unit;
 }
 
-/// G33.1: down to the end with the spindle, and back the same way.
-void Interpreter::tap(const Vec3& end, const Vec3& rotary) {
-    const Vec3 begin = state_.position;
-    straight(MotionKind::feed, end, rotary);
-    straight(MotionKind::feed, begin, rotary);
+void tap(Interpreter& in, const Vec3& end, const Vec3& rotary) {
+    const Vec3 begin = in.state_.position;
+    in.straight(MotionKind::feed, end, rotary);
+    in.straight(MotionKind::feed, begin, rotary);
 }
 
 }  // namespace clsurf

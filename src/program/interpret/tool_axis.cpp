@@ -5,30 +5,32 @@
 // 840D sl programming manual Job planning, "3- to 5-axis transformation (TRAORI)"; Heidenhain, iTNC 530
 // user's manual, M128 and M129.
 
+#include "program/interpret/tool_axis.h"
+
 #include <array>
-#include <cmath>
+#include <limits>
+#include <optional>
 
 #include "program/interpret/interpreter_state.h"
 
 namespace clsurf {
 
-void Interpreter::control_tool_centre_point(bool on, const std::string& text) {
-    if (!on && !five_axis_.tool_centre_point) return;
-    five_axis_.tool_centre_point = on;
-    five_axis_.switched_on_by = text;
-    five_axis_.axis_words = on && text == "G43.5";
-    state_.tool_axis.setConstant(std::numeric_limits<double>::quiet_NaN());
-    event("tool-centre-point", text);
+void control_tool_centre_point(Interpreter& in, bool on, const std::string& text) {
+    if (!on && !in.five_axis_.tool_centre_point) return;
+    in.five_axis_.tool_centre_point = on;
+    in.five_axis_.switched_on_by = text;
+    in.five_axis_.axis_words = on && text == "G43.5";
+    in.state_.tool_axis.setConstant(std::numeric_limits<double>::quiet_NaN());
+    in.event("tool-centre-point", text);
 }
 
-/// True: the block gives a tool axis as a vector, in the axes of the program.
-bool Interpreter::take_tool_axis(const Block& block) {
-    if (!five_axis_.tool_centre_point && !five_axis_.tilted) return false;
-    const bool straight = state_.motion == MotionMode::rapid || state_.motion == MotionMode::feed;
+bool take_tool_axis(Interpreter& in, const Block& block) {
+    if (!in.five_axis_.tool_centre_point && !in.five_axis_.tilted) return false;
+    const bool straight = in.state_.motion == MotionMode::rapid || in.state_.motion == MotionMode::feed;
     Vec3 axis = Vec3::Zero();
     bool given = false;
     for (int k = 0; k < 3; ++k) {
-        if (five_axis_.axis_words && straight && block.words.given("IJK"[k])) {
+        if (in.five_axis_.axis_words && straight && block.words.given("IJK"[k])) {
             axis[k] = block.words.of("IJK"[k]);
             given = true;
         }
@@ -40,11 +42,11 @@ bool Interpreter::take_tool_axis(const Block& block) {
     }
     constexpr std::uint32_t angles = Words::bit('A') | Words::bit('B') | Words::bit('C');
     if (!given) {
-        if ((block.words.has & angles) != 0) state_.tool_axis.setConstant(std::numeric_limits<double>::quiet_NaN());
+        if ((block.words.has & angles) != 0) in.state_.tool_axis.setConstant(std::numeric_limits<double>::quiet_NaN());
         return false;
     }
-    if (!(axis.norm() > 0)) fail("the tool axis is a vector of length zero");
-    state_.tool_axis = state_.frame.direction_to_work(axis.normalized());
+    if (!(axis.norm() > 0)) in.fail("the tool axis is a vector of length zero");
+    in.state_.tool_axis = in.state_.frame.direction_to_work(axis.normalized());
     return true;
 }
 

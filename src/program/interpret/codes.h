@@ -1,0 +1,27 @@
+#pragma once
+// What G codes mean for several dialects, and words that are refused.
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "program/dialects/dialect_rules.h"
+#include "program/text/block.h"
+
+namespace clsurf {
+
+class Interpreter;
+
+/// Handlers that several dialects have: all numbers are inches, or millimetres.
+bool count_in_inches(Interpreter& in, const CodeWord& w);
+bool count_in_mm(Interpreter& in, const CodeWord& w);
+
+/// The rows of a dialect, sorted by code.
+[[nodiscard]] std::vector<CodeRule> by_code(std::span<const CodeRule> rules);
+
+/// A word whose motion would be read as another one, or not at all.
+[[noreturn]] void refuse_motion(const Interpreter& in, const std::string& word, const Block& block, std::size_t column,
+                                const std::string& hint = {});
+
+}  // namespace clsurf

@@ -1,0 +1,38 @@
+#pragma once
+// Blocks of splines: G5, G5.1, G5.2, G6.2, ASPLINE, BSPLINE, CSPLINE, POLY.
+
+#include "core/geometry.h"
+#include "core/point.h"
+#include "numeric/bezier_curve.h"
+#include "program/text/block.h"
+
+namespace clsurf {
+
+class Interpreter;
+
+/// What no spline here moves, and where none may stand.
+void refuse_beside_spline(Interpreter& in, const Block& block);
+/// A span that begins where the tool stands, in the work system.
+void push_curve(Interpreter& in, BezierCurve curve, LineNumber line, double feed);
+/// A block of G5 or G5.1.
+void plane_spline(Interpreter& in, const Block& block);
+/// A point of G5.2 with its weight. The first one is where the tool stands; its weight is the P of a block
+/// without X and Y.
+void nurbs_point(Interpreter& in, const Block& block);
+/// G5.3: the spline of G5.2 ends.
+void nurbs_end(Interpreter& in);
+/// A block of G6.2: a point with weight R and knot K; behind the last point as many blocks with K alone as the order.
+void knotted_point(Interpreter& in, const Block& block);
+/// A block of ASPLINE, BSPLINE and CSPLINE.
+void spline_point(Interpreter& in, const Block& block);
+/// The spline that is open ends here. `end_tangent`: where the motion behind it goes; NaN: there is none.
+void close_spline(Interpreter& in, const Vec3& end_tangent);
+/// A straight motion to `next` follows it.
+void close_spline_before(Interpreter& in, const Vec3& next);
+/// A block in another mode may not stand inside a spline that has an end of its own.
+void settle_spline(Interpreter& in, const Block& block);
+/// POLY: Σ aᵢ pⁱ over p from 0 to PL, an axis each; a₀ is where it stands, a₁ follows from the end. PO[] is a common
+/// denominator with b₀ = 1, given in the same way. An axis without PO moves evenly over p.
+void polynomial_span(Interpreter& in, const Block& block);
+
+}  // namespace clsurf

@@ -1,0 +1,19 @@
+#pragma once
+// Canned cycles G73 … G89 as motions.
+
+#include "core/geometry.h"
+#include "program/motion.h"
+#include "program/text/block.h"
+
+namespace clsurf {
+
+class Interpreter;
+
+/// A block while a canned cycle is in force: as many holes as it says.
+void drilling_cycle(Interpreter& in, const Block& block);
+/// Along the drilling axis to a height of the program.
+void go_to_level(Interpreter& in, MotionKind kind, double height, const Vec3& rotary);
+/// At rapid, in the program's coordinates.
+void step_aside(Interpreter& in, const Vec3& by, const Vec3& rotary);
+
+}  // namespace clsurf

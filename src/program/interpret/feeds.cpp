@@ -1,0 +1,43 @@
+// What F counts, and the feed of a motion.
+
+#include "program/interpret/feeds.h"
+
+#include "core/units.h"
+#include "program/feed_mode_cursor.h"
+#include "program/interpret/interpreter_state.h"
+
+namespace clsurf {
+
+void count_in(ModalState& state, const MotionRules& rules, double unit) {
+    state.unit_mm = unit;
+    if (!rules.feed_keeps_unit) state.feed_unit_mm = unit;
+}
+
+void take_feed(ModalState& state, const MotionRules& rules, double value) {
+    state.feed = value;
+    if (rules.feed_keeps_unit) state.feed_unit_mm = state.unit_mm;
+}
+
+void select_feed_mode(Interpreter& in, FeedMode mode) {
+    if (mode == in.state_.feed_mode) return;
+    in.state_.feed_mode = mode;
+    const bool per_minute = mode == FeedMode::per_minute;
+    in.event(std::string(feed_mode_event), per_minute                       ? std::string(feed_per_minute)
+                                           : mode == FeedMode::inverse_time ? std::string(feed_inverse_time)
+                                                                            : "G95");
+}
+
+float feed_for(const ModalState& state, double length, double unit) {
+    switch (state.feed_mode) {
+        case FeedMode::inverse_time:
+            // What moves nothing takes no time: any feed will do, but none.
+            if (length > 0) return static_cast<float>(length * state.feed / seconds_per_minute);
+            [[fallthrough]];
+        case FeedMode::per_minute: return static_cast<float>(state.feed * unit / seconds_per_minute);
+        case FeedMode::per_revolution:
+            return static_cast<float>(state.feed * unit * state.spindle / seconds_per_minute);
+    }
+    return 0;
+}
+
+}  // namespace clsurf

@@ -1,0 +1,23 @@
+#include "program/interpret/modal_state.h"
+
+namespace clsurf {
+
+WorkFrame ModalState::work_frame() const {
+    const WorkOffset offset = work_offset();
+    WorkFrame now;
+    now.local = Eigen::Translation3d(offset.shift) * Eigen::AngleAxisd(offset.rotation * rad_per_deg, Vec3::UnitZ()) *
+                Eigen::Translation3d(shift);
+    if (offset.rotation == 0) now.local.linear().setIdentity();
+    now.tool = tool_offset - assumed_tool;
+    now.rotary = rotary_offset() * rad_per_deg;
+    now.held = held;
+    now.words = frame;
+    now.absolute = absolute;
+    if (work_system == 0) return now;  // G500 of Siemens
+    constexpr unsigned whole = WorkFrame::all_axes | WorkFrame::rotation;
+    now.free = static_cast<std::uint8_t>(offset.set == 0 ? whole : WorkFrame::all_axes & ~unsigned{offset.set});
+    if (now.free != 0) now.system = offset.measured_from != 0 ? offset.measured_from : work_system;
+    return now;
+}
+
+}  // namespace clsurf

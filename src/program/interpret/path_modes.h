@@ -1,0 +1,21 @@
+#pragma once
+// How corners are passed: exact stops, tolerances.
+
+#include <string>
+
+#include "program/dialects/dialect_rules.h"
+#include "program/program.h"
+
+namespace clsurf {
+
+class Interpreter;
+
+/// `once`: for this block alone.
+void set_path_mode(Interpreter& in, const std::string& name, const std::string& value, const PathMode& mode,
+                   bool once = false);
+/// A G code that sets the mode, with its P and Q.
+bool path_mode_word(Interpreter& in, const CodeWord& word, const PathMode& mode, bool once = false);
+/// G64 P Q: P is the tolerance, as far off as the speed takes without it; blocks merge within Q, without it within P.
+bool rounded_corners(Interpreter& in, const CodeWord& word);
+
+}  // namespace clsurf
