@@ -6,6 +6,7 @@
 // it. Handlers speak to the interpreter in the words of interpreter_state.h.
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,6 +21,18 @@
 namespace clsurf {
 
 class Interpreter;
+
+/// What one dialect keeps from block to block besides what all have: its rules make it, and its handlers know its type.
+struct DialectState {
+    DialectState() = default;
+    DialectState(const DialectState&) = delete;
+    DialectState& operator=(const DialectState&) = delete;
+    virtual ~DialectState() = default;
+};
+template <typename State>
+[[nodiscard]] std::unique_ptr<DialectState> make_state() {
+    return std::make_unique<State>();
+}
 
 /// A G code as blocks keep it, in tenths: 54.1_g is 541.
 consteval int operator""_g(long double code) { return static_cast<int>(code * 10 + 0.5L); }
@@ -125,6 +138,8 @@ struct DialectRules {
     PlainResult (*plain)(std::string_view line, Words&) = read_plain;
 
     // Where a dialect needs more than a table. nullptr: nothing.
+    /// What it keeps from block to block.
+    std::unique_ptr<DialectState> (*make_state)() = nullptr;
     /// Before the first line: where the machine stands, what is known.
     void (*begin)(Interpreter&) = nullptr;
     /// `%` and the title after it (TextRules::named_titles).
@@ -158,5 +173,8 @@ struct DialectRules {
         return unit_mm != 1 && arc_tolerance_inch ? *arc_tolerance_inch : arc_tolerance;
     }
 };
+
+/// A hint for a code (in tenths) that a dialect does not know: which of clsurf's dialects has it. Empty: no hint.
+[[nodiscard]] std::string where_code_is_known(int code);
 
 }  // namespace clsurf

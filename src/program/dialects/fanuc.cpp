@@ -175,24 +175,24 @@ bool start_nurbs(Interpreter& in, const CodeWord&) {
 }
 bool set_data(Interpreter& in, const CodeWord& w) {
     const Words& words = w.block.words;
-    if (words.given('L') && words.of('L') >= 50) in.data_entry_ = true;
+    if (words.given('L') && words.of('L') >= 50) state_of(in).data_entry = true;
     const int level = words.given('L') ? static_cast<int>(std::clamp(words.of('L'), -1e6, 1e6)) : 0;
     in.this_block_.motion_suppressed = true;
     if (!set_offsets(in, level, w.block)) set_offsets(in, w.block);
     return true;
 }
 bool end_data(Interpreter& in, const CodeWord&) {
-    in.data_entry_ = false;
+    state_of(in).data_entry = false;
     return true;
 }
 bool end_polar(Interpreter& in, const CodeWord&) {
-    in.frames_.polar.on = false;
+    in.polar_.on = false;
     return true;
 }
 bool start_polar(Interpreter& in, const CodeWord&) {
-    in.frames_.polar.on = true;
-    in.frames_.polar.radius = in.frames_.polar.angle = 0;
-    in.frames_.polar.pole = Vec3::Zero();
+    in.polar_.on = true;
+    in.polar_.radius = in.polar_.angle = 0;
+    in.polar_.pole = Vec3::Zero();
     in.event("polar", "G16");
     return true;
 }
@@ -201,8 +201,8 @@ bool mirror(Interpreter& in, const CodeWord& w) {
     return true;
 }
 bool end_scaling(Interpreter& in, const CodeWord& w) {
-    in.frames_.fanuc.scaling = {};
-    in.state_.frame = in.frames_.fanuc.all();
+    state_of(in).frame.scaling = {};
+    in.state_.frame = state_of(in).frame.all();
     in.event("scaling", "G50" + words_text(w.block, "S"));
     return true;
 }
@@ -254,7 +254,7 @@ bool turn_to_plane(Interpreter& in, const CodeWord& w) {
         in.note(Severity::warning, "program.rotation",
                 code_text(w.code) + " without a tilted plane (G68.2) does nothing", w.column);
     else
-        turn_to_plane(in, in.frames_.fanuc.rotation.direction_to_work(Vec3::UnitZ()), w.code == 53.6_g,
+        turn_to_plane(in, state_of(in).frame.rotation.direction_to_work(Vec3::UnitZ()), w.code == 53.6_g,
                       code_text(w.code));
     return true;
 }
@@ -265,9 +265,9 @@ bool tilt_otherwise(Interpreter& in, const CodeWord& w) {
     return true;
 }
 bool end_rotation(Interpreter& in, const CodeWord& w) {
-    in.frames_.fanuc.rotation = {};
-    in.frames_.fanuc.angle = 0;
-    in.state_.frame = in.frames_.fanuc.all();
+    state_of(in).frame.rotation = {};
+    state_of(in).frame.angle = 0;
+    in.state_.frame = state_of(in).frame.all();
     in.event("rotation", code_text(w.code));
     end_tilted_plane(in, code_text(w.code));
     return true;
@@ -367,7 +367,7 @@ constexpr auto refused_at_arcs = std::to_array<RefusedLetter>(
 
 /// G11 ends data; between G10 L50 and G11 nothing else is carried out. G65 takes its whole block.
 bool begin_block(Interpreter& in, Block& block) {
-    if (in.data_entry_ && !is_data_end(in, block)) return true;
+    if (state_of(in).data_entry && !is_data_end(in, block)) return true;
     if (!block.words.has_g(65_g)) return false;
     macro_call(in, block);
     return true;
@@ -388,13 +388,13 @@ void move_about_pole(Interpreter& in, const Block& block, Vec3& end) {
     const char radius = "XYZ"[(state.plane_axis + 1) % 3];
     const char angle = "XYZ"[(state.plane_axis + 2) % 3];
     if (!block.words.given(radius) && !block.words.given(angle)) return;
-    PolarState& polar = in.frames_.polar;
+    PolarState& polar = in.polar_;
     if (block.words.given(radius)) {
         polar.radius = block.words.of(radius) * state.unit_mm;
         polar.pole = state.incremental ? from : Vec3(Vec3::Zero());
     }
     if (block.words.given(angle)) polar.angle = block.words.of(angle) + (state.incremental ? polar.angle : 0.0);
-    put_at_pole(in.frames_.polar, in.state_.plane_axis, end);
+    put_at_pole(in.polar_, in.state_.plane_axis, end);
 }
 
 constexpr auto code_signs = std::to_array<CodeSign>({{5_g, 8, "P", "IJQXYZ"},
@@ -445,6 +445,7 @@ const DialectRules fanuc_rules{
     // Parameter 3410 is each machine's own.
     .arc_tolerance = {.absolute = 0.03, .relative = 1e-3, .most = 0.5, .reach = 0.005, .relative_reach = 1e-3},
     .signs = {.codes = fanuc::code_signs, .marks = fanuc::mark_signs},
+    .make_state = make_state<fanuc::State>,
     .begin_block = fanuc::begin_block,
     .modal_call = fanuc::call_modal_macro,
     .parameter = [](Interpreter& in, int number) { return fanuc::parameter(in, number); },

@@ -69,7 +69,7 @@ void rotate_frame(Interpreter& in, const Block& block, std::size_t column) {
     if (!w.given('R')) in.fail("G68 needs the angle (R)", column);
     double angle = w.of('R');
     if (std::abs(angle) > full_turn) angle /= 1000;
-    const ProgramFrame inner = in.frames_.fanuc.scaling.around(in.frames_.fanuc.mirror);
+    const ProgramFrame inner = state_of(in).frame.scaling.around(state_of(in).frame.mirror);
     const Vec3 centre = inner.to_work(frame_centre(in, block, in.state_.programmed()));
     Vec3 axis = Vec3::Unit(in.state_.plane_axis);
     const bool about_an_axis = w.given('I') || w.given('J') || w.given('K');
@@ -77,9 +77,9 @@ void rotate_frame(Interpreter& in, const Block& block, std::size_t column) {
         for (int k = 0; k < 3; ++k) axis[k] = w.given("IJK"[k]) ? w.of("IJK"[k]) : 0.0;
         if (axis.isZero()) in.fail("G68: I J K give no direction", column);
     }
-    in.frames_.fanuc.angle = in.state_.incremental && !about_an_axis ? in.frames_.fanuc.angle + angle : angle;
-    in.frames_.fanuc.rotation = ProgramFrame::turned(axis, in.frames_.fanuc.angle, centre);
-    in.state_.frame = in.frames_.fanuc.all();
+    state_of(in).frame.angle = in.state_.incremental && !about_an_axis ? state_of(in).frame.angle + angle : angle;
+    state_of(in).frame.rotation = ProgramFrame::turned(axis, state_of(in).frame.angle, centre);
+    in.state_.frame = state_of(in).frame.all();
     in.event("rotation", "G68" + words_text(block, "XYZIJKR"));
 }
 
@@ -92,9 +92,9 @@ void scale_frame(Interpreter& in, const Block& block) {
         for (int k = 0; k < 3; ++k) factors[k] = w.given("IJK"[k]) ? factor_of(w.of("IJK"[k])) : 1.0;
     }
     if ((factors.array() == 0).any()) in.fail("G51: a factor of 0");
-    const Vec3 centre = frame_centre(in, block, in.frames_.fanuc.mirror.to_work(in.state_.programmed()));
-    in.frames_.fanuc.scaling = ProgramFrame::scaled(factors, centre);
-    in.state_.frame = in.frames_.fanuc.all();
+    const Vec3 centre = frame_centre(in, block, state_of(in).frame.mirror.to_work(in.state_.programmed()));
+    state_of(in).frame.scaling = ProgramFrame::scaled(factors, centre);
+    in.state_.frame = state_of(in).frame.all();
     in.event("scaling", "G51" + words_text(block, "XYZIJKP"));
 }
 
@@ -105,15 +105,15 @@ void mirror_frame(Interpreter& in, int code, const Block& block) {
     const bool all = !on && (block.words.has & Words::xyz) == 0;
     for (int k = 0; k < 3; ++k) {
         if (!all && !block.words.given("XYZ"[k])) continue;
-        in.frames_.mirrored[k] = on;
-        if (on) in.frames_.mirror_at[k] = block.words.of("XYZ"[k]) * in.state_.unit_mm;
+        state_of(in).mirrored[k] = on;
+        if (on) state_of(in).mirror_at[k] = block.words.of("XYZ"[k]) * in.state_.unit_mm;
     }
     Vec3 factors = Vec3::Ones();
     for (int k = 0; k < 3; ++k) {
-        if (in.frames_.mirrored[k]) factors[k] = -1;
+        if (state_of(in).mirrored[k]) factors[k] = -1;
     }
-    in.frames_.fanuc.mirror = ProgramFrame::scaled(factors, in.frames_.mirror_at);
-    in.state_.frame = in.frames_.fanuc.all();
+    state_of(in).frame.mirror = ProgramFrame::scaled(factors, state_of(in).mirror_at);
+    in.state_.frame = state_of(in).frame.all();
     in.event("mirror", code_text(code) + words_text(block, "XYZ"));
 }
 
@@ -123,10 +123,10 @@ void count_from_local_zero(Interpreter& in, const Block& block) {
     for (int k = 0; k < 3; ++k) {
         if (!block.words.given("XYZ"[k])) continue;
         const double value = block.words.of("XYZ"[k]) * in.state_.unit_mm;
-        in.frames_.local_zero[k] = in.state_.incremental ? in.frames_.local_zero[k] + value : value;
+        state_of(in).local_zero[k] = in.state_.incremental ? state_of(in).local_zero[k] + value : value;
     }
-    in.frames_.fanuc.local = ProgramFrame::moved(in.frames_.local_zero);
-    in.state_.frame = in.frames_.fanuc.all();
+    state_of(in).frame.local = ProgramFrame::moved(state_of(in).local_zero);
+    in.state_.frame = state_of(in).frame.all();
     in.event("local-zero", "G52" + words_text(block, "XYZ"));
 }
 
@@ -319,9 +319,9 @@ void tilt_plane(Interpreter& in, const Block& block, std::size_t column) {
             in.fail(fmt::format("G68.2 P1: Q{} is not a permutation of 1, 2 and 3", order), column);
         for (const int axis : axes) turn = turned_about(axis, angles[axis]).around(turn);
     }
-    in.frames_.fanuc.rotation = ProgramFrame::moved(in.state_.unit_mm * words("XYZ")).around(turn);
-    in.frames_.fanuc.angle = 0;
-    in.state_.frame = in.frames_.fanuc.all();
+    state_of(in).frame.rotation = ProgramFrame::moved(in.state_.unit_mm * words("XYZ")).around(turn);
+    state_of(in).frame.angle = 0;
+    in.state_.frame = state_of(in).frame.all();
     const std::string text = "G68.2" + words_text(block, "PQXYZIJK");
     in.event("rotation", text);
     begin_tilted_plane(in, text);

@@ -1,9 +1,27 @@
 #pragma once
 // What words of Fanuc and HNC do: frames, macro calls, offsets, system variables. Handlers in fanuc.cpp call them.
 
+#include <array>
+
 #include "program/interpret/interpreter_state.h"
 
 namespace clsurf::fanuc {
+
+/// Frames one inside the other: local zero, then rotation, then scaling, then mirroring.
+struct NestedFrame {
+    ProgramFrame local, rotation, scaling, mirror;
+    double angle = 0;  ///< of the rotation [deg]
+
+    [[nodiscard]] ProgramFrame all() const { return local.around(rotation.around(scaling.around(mirror))); }
+};
+
+struct State final : DialectState {
+    NestedFrame frame;
+    Vec3 local_zero = Vec3::Zero(), mirror_at = Vec3::Zero();  ///< G52, G51.1 [mm]
+    std::array<bool, 3> mirrored{};
+    bool data_entry = false;  ///< G10 L50 … G11: lines are parameters of the control
+};
+[[nodiscard]] inline State& state_of(Interpreter& in) { return static_cast<State&>(*in.dialect_state_); }
 
 /// G68. Throws as Interpreter::fail() does; so do the next ones.
 void rotate_frame(Interpreter& in, const Block& block, std::size_t column);

@@ -38,8 +38,8 @@ bool tool_centre_point(Interpreter& in, int code, const Block&) {
     return true;
 }
 
-void set_frame_part(Interpreter& in, HeidenhainFrames::Part part, const ProgramFrame& frame) {
-    HeidenhainFrames& f = in.frames_.heidenhain;
+void set_frame_part(Interpreter& in, OrderedFrames::Part part, const ProgramFrame& frame) {
+    OrderedFrames& f = heidenhain_state(in).frames;
     f.frame[part] = frame;
     std::erase(f.order, part);
     if (frame.active()) f.order.push_back(part);
@@ -61,7 +61,7 @@ bool arc_about_pole(Interpreter& in, const Block& block, ArcWords& words) {
     }
     in.arcs_.last_clockwise = words.clockwise;
     if (block.words.given('R') && !in.arcs_.polar_line) return false;
-    words.centre = in.frames_.polar.pole;
+    words.centre = in.polar_.pole;
     words.centre[words.axis] = words.begin[words.axis];
     return true;
 }
@@ -102,7 +102,7 @@ void take_pole(Interpreter& in, const Block& block) {
     for (int k = 0; k < 3; ++k) {
         if (!block.words.given("IJK"[k])) continue;
         const double value = block.words.of("IJK"[k]) * in.state_.unit_mm;
-        in.frames_.polar.pole[k] = in.state_.incremental ? (std::isnan(here[k]) ? 0.0 : here[k]) + value : value;
+        in.polar_.pole[k] = in.state_.incremental ? (std::isnan(here[k]) ? 0.0 : here[k]) + value : value;
     }
     const bool alone =
         (block.words.has & (Words::xyz | Words::bit('H') | Words::bit('R'))) == 0 && block.words.g_count == 0;
@@ -187,7 +187,7 @@ bool polar_arc(Interpreter& in, const CodeWord& w) {
 }
 bool take_position_as_pole(Interpreter& in, const CodeWord&) {
     const Vec3 here = in.state_.programmed();
-    in.frames_.polar.pole = here.array().isNaN().select(0.0, here);
+    in.polar_.pole = here.array().isNaN().select(0.0, here);
     in.this_block_.motion_suppressed = true;
     in.event("pole", "G29");
     return true;
@@ -204,7 +204,7 @@ bool mirror_axes(Interpreter& in, const CodeWord& w) {
     for (int k = 0; k < 3; ++k) {
         if (w.block.words.given("XYZ"[k]) || take_mention("XYZ"[k], w.block)) factors[k] = -1;
     }
-    set_frame_part(in, HeidenhainFrames::mirror, ProgramFrame::scaled(factors, Vec3::Zero()));
+    set_frame_part(in, OrderedFrames::mirror, ProgramFrame::scaled(factors, Vec3::Zero()));
     in.event("mirror", "G28");
     return true;
 }
@@ -212,25 +212,25 @@ bool shift_datum(Interpreter& in, const CodeWord& w) {
     for (int k = 0; k < 3; ++k) {
         if (!w.block.words.given("XYZ"[k])) continue;
         const double value = w.block.words.of("XYZ"[k]) * in.state_.unit_mm;
-        in.frames_.datum[k] = in.state_.incremental ? in.frames_.datum[k] + value : value;
+        heidenhain_state(in).datum[k] = in.state_.incremental ? heidenhain_state(in).datum[k] + value : value;
     }
-    set_frame_part(in, HeidenhainFrames::datum, ProgramFrame::moved(in.frames_.datum));
+    set_frame_part(in, OrderedFrames::datum, ProgramFrame::moved(heidenhain_state(in).datum));
     in.event("datum-shift", "G54" + words_text(w.block, "XYZ"));
     return true;
 }
 bool scale_all(Interpreter& in, const CodeWord& w) {
     const Words& words = w.block.words;
     if (!words.given('F') || words.of('F') == 0) in.fail("G72 needs its factor (F)", w.column);
-    set_frame_part(in, HeidenhainFrames::scaling, ProgramFrame::scaled(Vec3::Constant(words.of('F')), Vec3::Zero()));
+    set_frame_part(in, OrderedFrames::scaling, ProgramFrame::scaled(Vec3::Constant(words.of('F')), Vec3::Zero()));
     in.event("scaling", "G72" + words_text(w.block, "F"));
     return true;
 }
 bool rotate(Interpreter& in, const CodeWord& w) {
     const Words& words = w.block.words;
     if (!words.given('H')) in.fail("G73 needs its angle (H)", w.column);
-    in.frames_.turned_by = in.state_.incremental ? in.frames_.turned_by + words.of('H') : words.of('H');
-    set_frame_part(in, HeidenhainFrames::rotation,
-                   ProgramFrame::turned(Vec3::Unit(in.state_.plane_axis), in.frames_.turned_by, Vec3::Zero()));
+    heidenhain_state(in).turned_by = in.state_.incremental ? heidenhain_state(in).turned_by + words.of('H') : words.of('H');
+    set_frame_part(in, OrderedFrames::rotation,
+                   ProgramFrame::turned(Vec3::Unit(in.state_.plane_axis), heidenhain_state(in).turned_by, Vec3::Zero()));
     in.event("rotation", "G73" + words_text(w.block, "H"));
     return true;
 }
@@ -327,9 +327,9 @@ bool set_tolerance(Interpreter& in, std::string_view text) {
         if (letter == 'T') tolerance = value * in.state_.unit_mm;
         if (tolerance < 0) throw ReadError{"a tolerance below 0", column, {}};
     }
-    in.contour_tolerance_ = tolerance > 0 ? tolerance : std::numeric_limits<double>::quiet_NaN();
+    heidenhain_state(in).contour_tolerance = tolerance > 0 ? tolerance : std::numeric_limits<double>::quiet_NaN();
     set_path_mode(in, "path-mode", std::string(text.substr(text.find_first_not_of(' '))),
-                  {BlockEnd::rounded, in.contour_tolerance_});
+                  {BlockEnd::rounded, heidenhain_state(in).contour_tolerance});
     return true;
 }
 
@@ -392,6 +392,7 @@ const DialectRules heidenhain_iso_rules{
     .calls = {.by_sub = true, .subs_run_through = true, .file_from_top = true},
     .arc_tolerance = heidenhain_arc_tolerance,
     .signs = {.codes = heidenhain::code_signs, .endings = heidenhain::ending_signs, .marks = heidenhain::mark_signs},
+    .make_state = make_state<HeidenhainState>,
     .begin = heidenhain::begin,
     .title = heidenhain::begin_or_call,
     .statement =
@@ -407,7 +408,7 @@ const DialectRules heidenhain_iso_rules{
                 return block.words.given(letter) ? std::optional(block.words.of(letter)) : std::nullopt;
             };
             straight_to_pole_plane(in.state_, block, end.array().isNaN().select(0.0, end), end);
-            put_about_pole(in.frames_.polar, in.state_, word('R'), word('H'), false, in.state_.incremental, end);
+            put_about_pole(in.polar_, in.state_, word('R'), word('H'), false, in.state_.incremental, end);
         },
 };
 

@@ -1,9 +1,31 @@
 #pragma once
 // What words of HEIDENHAIN's DIN/ISO do: M functions, frames and arcs, which Klartext has as well, and Q functions.
 
+#include <array>
+#include <limits>
+#include <vector>
+
 #include "program/interpret/interpreter_state.h"
 
 namespace clsurf {
+
+/// Frames in the order in which they came: the first one is outermost.
+struct OrderedFrames {
+    enum Part : std::size_t { datum, mirror, rotation, scaling, tilt, parts };
+    std::array<ProgramFrame, parts> frame;
+    std::vector<std::size_t> order;
+};
+
+/// What both of HEIDENHAIN's languages keep from block to block.
+struct HeidenhainState : DialectState {
+    OrderedFrames frames;
+    Vec3 datum = Vec3::Zero();  ///< G54, cycle 7 [mm]
+    double turned_by = 0;       ///< G73, cycle 10 [deg]
+    double contour_tolerance = std::numeric_limits<double>::quiet_NaN();  ///< G62, cycle 32 [mm]; NaN: the machine's
+};
+[[nodiscard]] inline HeidenhainState& heidenhain_state(Interpreter& in) {
+    return static_cast<HeidenhainState&>(*in.dialect_state_);
+}
 
 /// M91, M92: the positions of the block are those of the machine.
 bool machine_position(Interpreter& in, int code, const Block& block);
@@ -11,7 +33,7 @@ bool machine_position(Interpreter& in, int code, const Block& block);
 bool tool_centre_point(Interpreter& in, int code, const Block& block);
 
 /// G54, G28, G73, G72: each replaces its own earlier one; the one that was first stays outermost.
-void set_frame_part(Interpreter& in, HeidenhainFrames::Part part, const ProgramFrame& frame);
+void set_frame_part(Interpreter& in, OrderedFrames::Part part, const ProgramFrame& frame);
 /// Inch programs give the feed in tenths of an inch.
 void set_inches(Interpreter& in, bool inches);
 /// An arc about the pole, or along the tangent. False: its radius is given.

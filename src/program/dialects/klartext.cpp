@@ -94,7 +94,7 @@ void call_tool(Line& line) {
             ++line.c.at;
             const double value = line.value();
             if (letter == 'S') block.words.set('S', value, column);
-            if (letter == 'F') in.state_.feed = in.klartext_.tool_feed = value;
+            if (letter == 'F') in.state_.feed = state_of(in).tool_feed = value;
         } else {
             throw ReadError{"expected Z, S, F, DL or DR of TOOL CALL", column, {}};
         }
@@ -123,12 +123,12 @@ void set_pole(Line& line) {
     const KlartextWords words = words_of(line);
     const Vec3 programmed = in.state_.programmed();
     const Vec3 here = programmed.array().isNaN().select(0.0, programmed);
-    if (words.values.empty()) in.frames_.polar.pole = here;
+    if (words.values.empty()) in.polar_.pole = here;
     for (const auto& [name, word] : words.values) {
         if (name.size() != 1 || name[0] < 'X' || name[0] > 'Z')
             throw ReadError{"CC takes X, Y and Z only", word.column, {}};
         const int k = name[0] - 'X';
-        in.frames_.polar.pole[k] = (word.incremental ? here[k] : 0.0) + word.value * in.state_.unit_mm;
+        in.polar_.pole[k] = (word.incremental ? here[k] : 0.0) + word.value * in.state_.unit_mm;
     }
 }
 
@@ -368,11 +368,12 @@ const DialectRules klartext_rules{
     .arc_tolerance = heidenhain_arc_tolerance,
     .signs = {.words = klartext::word_signs, .endings = klartext::ending_signs, .marks = klartext::mark_signs},
     .plain = read_plain_klartext,
+    .make_state = make_state<klartext::State>,
     .statement = klartext::carry_out,
     .arc = arc_about_pole,
     .about_pole =
         [](Interpreter& in, const Block& block, Vec3& end) {
-            put_about_pole(in.frames_.polar, in.state_, block.polar_radius, block.polar_angle,
+            put_about_pole(in.polar_, in.state_, block.polar_radius, block.polar_angle,
                            block.polar_radius_incremental, block.polar_angle_incremental, end);
         },
 };

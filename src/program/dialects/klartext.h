@@ -5,11 +5,18 @@
 #include <string>
 #include <string_view>
 
+#include "program/dialects/heidenhain_codes.h"
 #include "program/dialects/klartext_words.h"
 #include "program/dialects/known_dialects.h"
 #include "program/interpret/interpreter_state.h"
 
 namespace clsurf::klartext {
+
+struct State final : HeidenhainState {
+    double tool_feed = 0;  ///< F of TOOL CALL, which F AUTO takes
+    KlartextSide side = KlartextSide::none;
+};
+[[nodiscard]] inline State& state_of(Interpreter& in) { return static_cast<State&>(*in.dialect_state_); }
 
 /// A statement: the cursor stands after its first words.
 struct Line {

@@ -17,7 +17,7 @@
 namespace clsurf::klartext {
 namespace {
 
-using Part = HeidenhainFrames::Part;
+using Part = OrderedFrames::Part;
 
 constexpr double least_vector = 1e-9;  ///< of the base vector, across the normal
 
@@ -53,13 +53,13 @@ void shift_datum(Line& line) {
         const int k = axis_at(line.c, adds);
         if (k < 0) throw ReadError{"expected X, Y or Z of the datum", line.c.column(), {}};
         const double value = line.value() * in.state_.unit_mm;
-        in.frames_.datum[k] = adds ? in.frames_.datum[k] + value : value;
+        heidenhain_state(in).datum[k] = adds ? heidenhain_state(in).datum[k] + value : value;
         any = true;
     }
     if (!any) return;
-    set_frame_part(in, Part::datum, ProgramFrame::moved(in.frames_.datum));
-    in.event("datum-shift", fmt::format("CYCL DEF 7 X{:g} Y{:g} Z{:g}", in.frames_.datum.x(), in.frames_.datum.y(),
-                                        in.frames_.datum.z()));
+    set_frame_part(in, Part::datum, ProgramFrame::moved(heidenhain_state(in).datum));
+    in.event("datum-shift", fmt::format("CYCL DEF 7 X{:g} Y{:g} Z{:g}", heidenhain_state(in).datum.x(), heidenhain_state(in).datum.y(),
+                                        heidenhain_state(in).datum.z()));
 }
 
 void mirror(Line& line) {
@@ -84,10 +84,10 @@ void rotate(Line& line) {
     line.c.at += 3;
     const double angle = line.value();
     expect_end(line);
-    in.frames_.turned_by = adds ? in.frames_.turned_by + angle : angle;
+    heidenhain_state(in).turned_by = adds ? heidenhain_state(in).turned_by + angle : angle;
     set_frame_part(in, Part::rotation,
-                   ProgramFrame::turned(Vec3::Unit(in.state_.plane_axis), in.frames_.turned_by, Vec3::Zero()));
-    in.event("rotation", fmt::format("CYCL DEF 10 ROT{:+g}", in.frames_.turned_by));
+                   ProgramFrame::turned(Vec3::Unit(in.state_.plane_axis), heidenhain_state(in).turned_by, Vec3::Zero()));
+    in.event("rotation", fmt::format("CYCL DEF 10 ROT{:+g}", heidenhain_state(in).turned_by));
 }
 
 void scale(Line& line) {
@@ -133,20 +133,20 @@ void set_tolerance(Line& line, int step) {
     Interpreter& in = line.in;
     const std::string words(line.c.text.substr(line.c.at));
     if (step == 1) {
-        in.contour_tolerance_ = std::numeric_limits<double>::quiet_NaN();
+        heidenhain_state(in).contour_tolerance = std::numeric_limits<double>::quiet_NaN();
         if (line.c.peek() == 'T' || line.c.peek() == 't') {
             const std::size_t column = line.c.column();
             ++line.c.at;
             const double tolerance = line.value() * in.state_.unit_mm;
             if (tolerance < 0) throw ReadError{"a tolerance below 0", column, {}};
-            if (tolerance > 0) in.contour_tolerance_ = tolerance;
+            if (tolerance > 0) heidenhain_state(in).contour_tolerance = tolerance;
         }
         expect_end(line);
     } else if (!line.c.text.substr(line.c.at).starts_with("HSC-MODE") && line.c.peek() != 'T') {
         throw ReadError{"expected HSC-MODE or TA", line.c.column(), {}};
     }
     set_path_mode(in, "path-mode", fmt::format("CYCL DEF 32.{} {}", step, words),
-                  {BlockEnd::rounded, in.contour_tolerance_});
+                  {BlockEnd::rounded, heidenhain_state(in).contour_tolerance});
 }
 
 void refuse_working_plane(Line& line) {
@@ -287,7 +287,7 @@ void shift_datum_by_axis(Line& line) {
                 line.c.column());
         return;
     }
-    in.frames_.datum = Vec3::Zero();
+    heidenhain_state(in).datum = Vec3::Zero();
     set_frame_part(in, Part::datum, {});
     in.event("datum-shift", "TRANS DATUM RESET");
 }

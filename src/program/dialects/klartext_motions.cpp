@@ -100,10 +100,10 @@ void fill(Line& line, const KlartextWords& words, Block& block) {
         }
     }
     if (words.feed == KlartextFeed::number) in.state_.feed = words.feed_value;
-    if (words.feed == KlartextFeed::automatic) in.state_.feed = in.klartext_.tool_feed;
+    if (words.feed == KlartextFeed::automatic) in.state_.feed = state_of(in).tool_feed;
     for (const int m : words.m) (void)add_m(block.words, m);
-    if (words.side == KlartextSide::unchanged || words.side == in.klartext_.side) return;
-    in.klartext_.side = words.side;
+    if (words.side == KlartextSide::unchanged || words.side == state_of(in).side) return;
+    state_of(in).side = words.side;
     (void)add_g(block.words,
                 words.side == KlartextSide::none   ? 40
                 : words.side == KlartextSide::left ? 41

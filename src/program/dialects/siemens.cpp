@@ -177,13 +177,13 @@ bool stop_exactly(Interpreter& in, const CodeWord& w) {
     return path_mode_word(in, w, {BlockEnd::exact_stop, 0}, w.code == 9_g);
 }
 bool round_within_tolerance(Interpreter& in, const CodeWord& w) {
-    return path_mode_word(in, w, {BlockEnd::rounded, in.contour_tolerance_});
+    return path_mode_word(in, w, {BlockEnd::rounded, state_of(in).contour_tolerance});
 }
 /// G64: as far off as the speed takes, unless CTOL or CYCLE832 gave a tolerance.
 bool round_corners(Interpreter& in, const CodeWord& w) {
     constexpr double unlimited = std::numeric_limits<double>::infinity();
     return path_mode_word(in, w,
-                          {BlockEnd::rounded, std::isnan(in.contour_tolerance_) ? unlimited : in.contour_tolerance_});
+                          {BlockEnd::rounded, std::isnan(state_of(in).contour_tolerance) ? unlimited : state_of(in).contour_tolerance});
 }
 
 constexpr auto codes = std::to_array<CodeRule>({
@@ -392,6 +392,7 @@ const DialectRules siemens_rules{
               .codes = siemens::code_signs,
               .endings = siemens::ending_signs,
               .marks = siemens::mark_signs},
+    .make_state = make_state<siemens::State>,
     .begin = siemens::begin,
     .statement = siemens::statement,
     .begin_block = siemens::begin_block,
@@ -401,7 +402,7 @@ const DialectRules siemens_rules{
     .named_parameter = siemens::named_parameter,
     .about_pole =
         [](Interpreter& in, const Block& block, Vec3& end) {
-            put_about_pole(in.frames_.polar, in.state_, block.polar_radius, block.polar_angle,
+            put_about_pole(in.polar_, in.state_, block.polar_radius, block.polar_angle,
                            block.polar_radius_incremental, block.polar_angle_incremental, end);
         },
     .work_system_name = siemens::work_system_name,

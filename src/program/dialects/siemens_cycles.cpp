@@ -298,7 +298,7 @@ void swivel(Interpreter& in, const Keyword& keyword) {
     const bool given = keyword.arguments.find_first_not_of(" \t") != std::string::npos;
     const bool deselects = keyword.arguments.find("\"0\"") != std::string::npos;
     if (!given || deselects) {
-        in.frames_.swivel = {};
+        state_of(in).swivel = {};
         in.state_.frame = {};
         end_tilted_plane(in, text);
         return;
@@ -327,13 +327,13 @@ void swivel(Interpreter& in, const Keyword& keyword) {
     }
     frame = frame.around(ProgramFrame::moved(in.state_.unit_mm * vector(10)));
     const bool additive = std::fmod(value(2), 10) >= 1;
-    in.frames_.swivel = additive ? in.state_.frame.around(frame) : frame;
-    in.state_.frame = in.frames_.swivel;
+    state_of(in).swivel = additive ? in.state_.frame.around(frame) : frame;
+    in.state_.frame = state_of(in).swivel;
     begin_tilted_plane(in, text);
     // DIR 0: the plane is set, and the program turns the axes itself.
     const bool tracks_tip = std::fmod(std::floor(value(2) / 10), 10) >= 1;
     if (value(13) != 0)
-        turn_to_plane(in, in.frames_.swivel.direction_to_work(Vec3::UnitZ()).normalized(), tracks_tip, text);
+        turn_to_plane(in, state_of(in).swivel.direction_to_work(Vec3::UnitZ()).normalized(), tracks_tip, text);
 }
 
 }  // namespace clsurf::siemens

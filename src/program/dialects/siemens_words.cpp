@@ -62,8 +62,8 @@ void high_speed_settings(Interpreter& in, const Keyword& keyword) {
     const double tolerance = values.empty() ? 0 : values[0].value_or(0) * in.state_.unit_mm;
     const double kind = values.size() > 1 ? values[1].value_or(1) : 1;
     const bool off = !(tolerance > 0) || std::fmod(std::round(kind), 10) == 0;
-    in.contour_tolerance_ = off ? std::numeric_limits<double>::quiet_NaN() : tolerance;
-    set_path_mode(in, "high-speed", "CYCLE832(" + keyword.arguments + ")", {BlockEnd::rounded, in.contour_tolerance_});
+    state_of(in).contour_tolerance = off ? std::numeric_limits<double>::quiet_NaN() : tolerance;
+    set_path_mode(in, "high-speed", "CYCLE832(" + keyword.arguments + ")", {BlockEnd::rounded, state_of(in).contour_tolerance});
 }
 
 /// TRANS, ROT, SCALE and MIRROR replace the frame; with an A before it they add to it.
@@ -99,7 +99,7 @@ bool frame_keyword(Interpreter& in, const Keyword& keyword, Block& block) {
     } else {
         return false;
     }
-    in.state_.frame = adds ? in.state_.frame.around(frame) : in.frames_.swivel.around(frame);
+    in.state_.frame = adds ? in.state_.frame.around(frame) : state_of(in).swivel.around(frame);
     const std::optional<double> turned = block.value_of("RPL");
     in.event("frame",
              keyword.name + words_text(block, "XYZ") + (turned ? fmt::format(" RPL={:g}", *turned) : std::string()));
@@ -230,7 +230,7 @@ void move_pole(Interpreter& in, int code, const Block& block) {
     const Vec3 here = in.state_.programmed();
     Vec3 pole = code == 110_g   ? Vec3(here.array().isNaN().select(0.0, here))
                 : code == 111_g ? Vec3(Vec3::Zero())
-                                : in.frames_.polar.pole;
+                                : in.polar_.pole;
     if (block.polar_radius || block.polar_angle) {
         const double radius = block.polar_radius.value_or(0) * in.state_.unit_mm;
         const double angle = block.polar_angle.value_or(0) * rad_per_deg;
@@ -240,7 +240,7 @@ void move_pole(Interpreter& in, int code, const Block& block) {
     for (int k = 0; k < 3; ++k) {
         if (block.words.given("XYZ"[k])) pole[k] += block.words.of("XYZ"[k]) * in.state_.unit_mm;
     }
-    in.frames_.polar.pole = pole;
+    in.polar_.pole = pole;
     in.event("pole", fmt::format("{} {:g} {:g} {:g}", code_text(code), pole.x(), pole.y(), pole.z()));
 }
 
@@ -358,7 +358,7 @@ bool arc_of_words(Interpreter& in, const Block& block, ArcWords& words) {
         return true;
     }
     const bool about_pole = (block.polar_radius || block.polar_angle) && !centre_given && !block.words.given('R');
-    if (about_pole) words.centre = in.frames_.polar.pole;
+    if (about_pole) words.centre = in.polar_.pole;
     return about_pole;
 }
 
@@ -366,9 +366,9 @@ bool arc_of_words(Interpreter& in, const Block& block, ArcWords& words) {
 void set_contour_tolerance(Interpreter& in, const Block& block) {
     const std::optional<double> value = block.value_of("CTOL");
     if (!value) return;
-    in.contour_tolerance_ = *value >= 0 ? *value * in.state_.unit_mm : std::numeric_limits<double>::quiet_NaN();
+    state_of(in).contour_tolerance = *value >= 0 ? *value * in.state_.unit_mm : std::numeric_limits<double>::quiet_NaN();
     if (in.state_.path_mode.block_end == BlockEnd::rounded)
-        set_path_mode(in, "path-mode", fmt::format("CTOL={:g}", *value), {BlockEnd::rounded, in.contour_tolerance_});
+        set_path_mode(in, "path-mode", fmt::format("CTOL={:g}", *value), {BlockEnd::rounded, state_of(in).contour_tolerance});
 }
 
 /// DEF REAL a, b=5: names that exist from here on.

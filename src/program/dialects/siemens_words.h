@@ -2,9 +2,19 @@
 // What words of SINUMERIK do: frames, poles, words of several letters, calls, definitions, cycles. Handlers in siemens.cpp
 // call them. All throw as Interpreter::fail() does.
 
+#include <limits>
+#include <optional>
+#include <vector>
+
 #include "program/interpret/interpreter_state.h"
 
 namespace clsurf::siemens {
+
+struct State final : DialectState {
+    ProgramFrame swivel;  ///< of CYCLE800; TRANS, ROT … count in it
+    double contour_tolerance = std::numeric_limits<double>::quiet_NaN();  ///< CTOL, CYCLE832 [mm]; NaN: the machine's
+};
+[[nodiscard]] inline State& state_of(Interpreter& in) { return static_cast<State&>(*in.dialect_state_); }
 
 /// G110 from the present position, G111 from the zero, G112 from the last pole.
 void move_pole(Interpreter& in, int code, const Block& block);

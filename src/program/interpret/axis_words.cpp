@@ -73,12 +73,12 @@ Vec3 read_axes(Interpreter& in, const Block& block, bool machine) {
     Vec3 base = machine ? in.state_.to_machine(in.state_.position) : in.state_.programmed();
     constexpr unsigned all = WorkFrame::all_axes;
     const unsigned plane = all & ~(1u << in.state_.plane_axis);
-    const bool by_pole = in.frames_.polar.on || in.arcs_.polar_line || block.polar_radius || block.polar_angle ||
+    const bool by_pole = in.polar_.on || in.arcs_.polar_line || block.polar_radius || block.polar_angle ||
                          ends_by_angle(in.state_, block);
     // A frame's turn mixes the axes.
     const bool mixed = !machine && in.state_.frame.active() && axes_named(block.words) != 0;
     in.state_.place(mixed ? all : axes_named(block.words) | (by_pole && !machine ? plane : 0u), machine);
-    if ((in.frames_.polar.on || in.arcs_.polar_line) && !machine) {
+    if ((in.polar_.on || in.arcs_.polar_line) && !machine) {
         if (in.rules_->about_pole != nullptr) in.rules_->about_pole(in, block, base);
         return base;
     }

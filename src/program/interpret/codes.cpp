@@ -47,16 +47,6 @@ bool is_axis_without_value(std::string_view word) {
     return word.size() == 1 || (word.size() > 2 && is_letter(word[1]) && !is_letter(word[2]));
 }
 
-/// Where an unknown code is known.
-std::string hint_of_code(int code) {
-    if (code >= 5_g && code <= 5.3_g)
-        return fmt::format("{} is a spline of linuxcnc: --dialect linuxcnc", code_text(code));
-    if (code == 6.2_g) return "G6.2 is a NURBS of fanuc and linuxcnc: --dialect";
-    if (code >= 6.1_g && code <= 6.3_g)
-        return "splines by G6.1 and G6.3 are not supported: let the CAM system write lines";
-    return {};
-}
-
 /// The order in which the codes of one block work (RS274/NGC, table 8).
 constexpr int order_of_modes = 7, order_of_offsets = 9, usual_order = 8;
 constexpr auto orders = std::to_array<std::pair<int, int>>({
@@ -287,7 +277,7 @@ void apply_common(Interpreter& in, int code, Block& block, std::size_t column) {
         return;
     }
     if ((in.rules_->motion.refuses_curve_codes && is_curve_elsewhere(code)) || names_axes(block))
-        refuse_motion(in, code_text(code), block, column, hint_of_code(code));
+        refuse_motion(in, code_text(code), block, column, where_code_is_known(code));
     in.note(Severity::warning, "program.unknown-word", code_text(code) + " is not known", column);
 }
 

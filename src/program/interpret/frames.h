@@ -1,51 +1,22 @@
 #pragma once
-// Frames: what turns, moves, scales and mirrors the program's coordinates before the work system counts them.
+// What the program's coordinates count in: a pole, the tool's tip, the frames of motions that are known.
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <string>
-#include <vector>
 
 #include "core/geometry.h"
 #include "program/interpret/program_frame.h"
 
 namespace clsurf {
 
-/// Polar coordinates of Fanuc's G16, Siemens' RP= AP= and Heidenhain's G10 … G13.
+/// Polar coordinates: the pole, and where the last words led.
 struct PolarState {
     bool on = false;           ///< G16
     Vec3 pole = Vec3::Zero();  ///< [mm], programmed coordinates
     double radius = 0;         ///< [mm]
     double angle = 0;          ///< [deg]
-};
-
-/// Fanuc's parts of the frame: local zero, then rotation, then scaling, then mirroring.
-struct FanucFrame {
-    ProgramFrame local, rotation, scaling, mirror;
-    double angle = 0;  ///< of the rotation [deg]
-
-    /// All of them, as they are nested.
-    [[nodiscard]] ProgramFrame all() const { return local.around(rotation.around(scaling.around(mirror))); }
-};
-
-/// Heidenhain's parts of the frame, and in which order they came.
-struct HeidenhainFrames {
-    enum Part : std::size_t { datum, mirror, rotation, scaling, tilt, parts };
-    std::array<ProgramFrame, parts> frame;
-    std::vector<std::size_t> order;
-};
-
-struct Frames {
-    PolarState polar;
-    FanucFrame fanuc;
-    Vec3 local_zero = Vec3::Zero(), mirror_at = Vec3::Zero();  ///< G52, G51.1 [mm]
-    std::array<bool, 3> mirrored{};
-    HeidenhainFrames heidenhain;
-    Vec3 datum = Vec3::Zero();  ///< Heidenhain's G54 and cycle 7 [mm]
-    double turned_by = 0;       ///< its G73 and cycle 10 [deg]
-    ProgramFrame swivel;        ///< of CYCLE800; TRANS, ROT … count in it
 };
 
 /// What positions and the tool axis mean on five axes.

@@ -56,6 +56,7 @@ Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
     texts_.indexes.resize(1);
     texts_.indexed.resize(1);
     if (options.tools) tools_.table = *options.tools;
+    if (rules_->make_state != nullptr) dialect_state_ = rules_->make_state();
     if (rules_->begin != nullptr) rules_->begin(*this);
     const std::string_view bytes = program_.main().text();
     if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) {
@@ -172,7 +173,7 @@ bool Interpreter::run_plain(const Words& words) {
         return false;
     }
     const bool ordinary = (mode == MotionMode::rapid || mode == MotionMode::feed) && !state_.incremental &&
-                          state_.feed_mode == FeedMode::per_minute && !modal_call_.active && !frames_.polar.on &&
+                          state_.feed_mode == FeedMode::per_minute && !modal_call_.active && !polar_.on &&
                           !state_.frame.active() && !curves_.is_open() && !state_.diameter &&
                           !compensation_.path.on() && !corner_.pending;
     if (!ordinary) return false;

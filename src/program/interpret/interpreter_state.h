@@ -4,13 +4,12 @@
 // motions.h, curves.h, cycles.h, flow.h …). What only one dialect has is in its files. Not for other rooms.
 
 #include <cstdint>
-#include <limits>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "program/dialects/dialect_rules.h"
-#include "program/dialects/klartext_words.h"
 #include "program/frame_placement.h"
 #include "program/interpret/block_state.h"
 #include "program/interpret/call_stack.h"
@@ -22,12 +21,6 @@
 #include "program/text/variables.h"
 
 namespace clsurf {
-
-/// What Klartext keeps from block to block.
-struct KlartextState {
-    double tool_feed = 0;  ///< F of TOOL CALL, which F AUTO takes
-    KlartextSide side = KlartextSide::none;
-};
 
 class Interpreter {
 public:
@@ -86,8 +79,7 @@ public:
     BlockFlags this_block_;
 
     ModalState state_;
-    double contour_tolerance_ = std::numeric_limits<double>::quiet_NaN();  ///< CTOL, CYCLE832 [mm]; NaN: the machine's
-    Frames frames_;
+    PolarState polar_;
     FiveAxisModes five_axis_;
     KnownWorkFrames work_frames_;
     ToolState tools_;
@@ -96,10 +88,9 @@ public:
     ArcState arcs_;
     CurveState curves_;
     Corner corner_;
-    KlartextState klartext_;
+    std::unique_ptr<DialectState> dialect_state_;  ///< nullptr: the dialect keeps nothing
 
     bool feed_missed_ = false;  ///< a cutting motion without feed has been reported
-    bool data_entry_ = false;   ///< G10 L50 … G11: lines are parameters of the control
     bool tape_began_ = false;
     bool ended_ = false;
 

@@ -14,7 +14,7 @@ struct ToolState {
     ToolTable table;
     int next = 0;  ///< of the T word
     Tool in_spindle;
-    int length_row = 0, radius_row = 0;  ///< Fanuc's H and D
+    int length_row = 0, radius_row = 0;  ///< that H and D named last
 };
 
 struct CompensationState {
