@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/options.h"
-#include "program/dialects/dialect.h"
+#include "program/dialect.h"
 #include "scan/cut_program.h"
 
 namespace clsurf::cli {

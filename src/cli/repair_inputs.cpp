@@ -14,7 +14,7 @@
 #include "io/readers/machine_file.h"
 #include "io/readers/program_file.h"
 #include "pipeline/placement.h"
-#include "program/dialects/dialect_rules.h"
+#include "program/interpret/dialect_rules.h"
 
 namespace clsurf::cli {
 

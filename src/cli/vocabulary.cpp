@@ -7,7 +7,7 @@
 #include "history/history_quantity.h"
 #include "io/formats/log_format.h"
 #include "log/channel.h"
-#include "program/dialects/dialect.h"
+#include "program/dialect.h"
 #include "viz/colour_map.h"
 
 namespace clsurf::cli {

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "program/dialects/dialect_rules.h"
 #include "program/interpret/arc.h"
+#include "program/interpret/dialect_rules.h"
 
 namespace clsurf {
 namespace {

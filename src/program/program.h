@@ -13,7 +13,7 @@
 #include "core/column.h"
 #include "core/diagnostic.h"
 #include "core/point.h"
-#include "program/dialects/dialect.h"
+#include "program/dialect.h"
 #include "program/motion.h"
 
 namespace clsurf {

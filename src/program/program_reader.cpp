@@ -3,11 +3,12 @@
 #include <utility>
 
 #include "program/interpret/interpreter_state.h"
+#include "program/make_interpreter.h"
 
 namespace clsurf {
 
 ProgramReader::ProgramReader(const SourceText& text, const InterpreterOptions& options, std::int64_t piece)
-    : interpreter_(std::make_unique<Interpreter>(text, options)), piece_(piece) {
+    : interpreter_(make_interpreter(text, options)), piece_(piece) {
     read_piece();
     if (interpreter_->ended()) {
         first_is_read_ = true;
@@ -16,7 +17,7 @@ ProgramReader::ProgramReader(const SourceText& text, const InterpreterOptions& o
     while (size_ > 0) read_piece();
     InterpreterOptions again = options;
     again.dialect = program().dialect;
-    interpreter_ = std::make_unique<Interpreter>(text, again);
+    interpreter_ = make_interpreter(text, again);
 }
 
 ProgramReader::~ProgramReader() = default;

@@ -7,9 +7,9 @@
 
 #include "core/decimal_text.h"
 #include "core/units.h"
-#include "program/dialects/dialect_rules.h"
 #include "program/feed_mode_cursor.h"
 #include "program/frame_placement.h"
+#include "program/interpret/dialect_rules.h"
 #include "program/text/lexer.h"
 #include "program/text/nc_text.h"
 #include "repair/spline_lines.h"

@@ -6,7 +6,7 @@
 
 #include "core/parallel.h"
 #include "core/units.h"
-#include "program/dialects/dialect_rules.h"
+#include "program/interpret/dialect_rules.h"
 #include "repair/feeds/feed_equalisation.h"
 #include "repair/line_edit.h"
 

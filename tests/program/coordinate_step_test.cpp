@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/units.h"
-#include "program/dialects/dialect.h"
+#include "program/dialect.h"
 #include "program/interpreter.h"
 
 namespace clsurf::coordinate_step_test {

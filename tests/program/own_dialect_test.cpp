@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "program/dialects/dialect_rules.h"
+#include "program/interpret/dialect_rules.h"
 #include "program/interpret/interpreter_state.h"
 #include "program/motion_rows.h"
 

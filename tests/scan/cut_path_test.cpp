@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "io/readers/program_file.h"
-#include "program/dialects/dialect.h"
+#include "program/dialect.h"
 #include "scan/cut_program.h"
 #include "scan/read_back.h"
 #include "scan/scan_cut.h"

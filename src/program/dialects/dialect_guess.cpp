@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "program/dialects/dialect_rules.h"
+#include "program/interpret/dialect_rules.h"
 #include "program/text/lexer.h"
 
 namespace clsurf {

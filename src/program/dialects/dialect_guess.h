@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "program/dialects/dialect.h"
+#include "program/dialect.h"
 
 namespace clsurf {
 

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "program/dialects/dialect.h"
+#include "program/dialect.h"
 #include "program/dialects/known_dialects.h"
 #include "program/text/block.h"
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <span>
 
-#include "program/dialects/dialect_rules.h"
+#include "program/interpret/dialect_rules.h"
 
 namespace clsurf {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "program/dialects/dialect_rules.h"
+#include "program/interpret/dialect_rules.h"
 #include "program/text/block.h"
 
 namespace clsurf {

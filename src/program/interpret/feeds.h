@@ -1,7 +1,7 @@
 #pragma once
 // What F counts, and the feed of a motion.
 
-#include "program/dialects/dialect_rules.h"
+#include "program/interpret/dialect_rules.h"
 #include "program/interpret/modal_state.h"
 
 namespace clsurf {

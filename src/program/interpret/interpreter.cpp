@@ -9,7 +9,6 @@
 #include "core/error.h"
 #include "core/not_finite.h"
 #include "core/printable_text.h"
-#include "program/dialects/dialect_guess.h"
 #include "program/interpret/codes.h"
 #include "program/interpret/control_statements.h"
 #include "program/interpret/curves.h"
@@ -27,7 +26,7 @@ constexpr std::size_t shown_text_bytes = 400;   ///< of a message, which may nam
 
 }  // namespace
 
-Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
+Interpreter::Interpreter(SourceText text, const InterpreterOptions& options, std::string guessed_from)
     : options_(options),
       variables_(
           [this](int number) {
@@ -39,13 +38,8 @@ Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
           [this](int number, double value) {
               return rules_->write_parameter != nullptr && rules_->write_parameter(*this, number, value);
           }) {
-    if (options.dialect != nullptr) {
-        program_.dialect = options.dialect;
-    } else {
-        const DialectGuess guess = guess_dialect(text.text(), text.name());
-        program_.dialect = guess.dialect;
-        program_.dialect_guessed_from = guess.reason;
-    }
+    program_.dialect = options.dialect;
+    program_.dialect_guessed_from = std::move(guessed_from);
     rules_ = program_.dialect->rules;
     code_rules_ = by_code(rules_->codes);
     program_.files.push_back(std::move(text));
@@ -257,10 +251,6 @@ void Interpreter::note(Severity severity, const char* code, const std::string& t
 void Interpreter::event(const std::string& name, const std::string& value) {
     if (curves_.is_open()) curves_.open.events.push_back(curves_.open.points.size());
     program_.events.push_back({program_.motions.size(), place_.line, name, value, {}});
-}
-
-Program parse_program(SourceText text, const InterpreterOptions& options) {
-    return Interpreter(std::move(text), options).run();
 }
 
 }  // namespace clsurf

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "program/dialects/dialect_rules.h"
 #include "program/frame_placement.h"
 #include "program/interpret/block_state.h"
 #include "program/interpret/call_stack.h"
+#include "program/interpret/dialect_rules.h"
 #include "program/interpret/frames.h"
 #include "program/interpret/modal_state.h"
 #include "program/interpret/tool_state.h"
@@ -24,8 +24,9 @@ namespace clsurf {
 
 class Interpreter {
 public:
-    /// Throws InputError (UTF-16).
-    Interpreter(SourceText text, const InterpreterOptions& options);
+    /// The dialect of the options is not null. `guessed_from`: why it is that one, where nobody gave it. Throws InputError
+    /// (UTF-16).
+    Interpreter(SourceText text, const InterpreterOptions& options, std::string guessed_from = {});
     /// All of the program.
     Program run();
 

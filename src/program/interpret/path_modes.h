@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "program/dialects/dialect_rules.h"
+#include "program/interpret/dialect_rules.h"
 #include "program/program.h"
 
 namespace clsurf {

@@ -1,9 +1,10 @@
 #pragma once
 // Dialect: which controller's language a program is written in. The same word means different things
 // (G5, G5.1, G8 are splines and lathe radius in LinuxCNC, high-speed modes in Fanuc): what, say its rules
-// (dialect_rules.h), one file a dialect.
+// (interpret/dialect_rules.h).
 
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace clsurf {
@@ -21,5 +22,8 @@ struct Dialect {
 
 /// The dialect of that name, or nullptr.
 [[nodiscard]] const Dialect* find_dialect(std::string_view name);
+
+/// A hint for a code (in tenths) that a dialect does not know: which of the others has it. Empty: no hint.
+[[nodiscard]] std::string where_code_is_known(int code);
 
 }  // namespace clsurf

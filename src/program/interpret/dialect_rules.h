@@ -1,8 +1,8 @@
 #pragma once
-// DialectRules: what a dialect means by its lines, words and codes. A value: one constant a dialect, each in its file
-// in this folder. The interpreter asks these rules and never which dialect it reads.
+// DialectRules: what a dialect means by its lines, words and codes. A value: one constant a dialect (folder
+// dialects). The interpreter asks these rules and never which dialect it reads.
 //
-// What all dialects share (G0 … G3, planes, G90, drilling cycles) is in interpret/codes.cpp; a row here comes before
+// What all dialects share (G0 … G3, planes, G90, drilling cycles) is in codes.cpp; a row here comes before
 // it. Handlers speak to the interpreter in the words of interpreter_state.h.
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 #include <string>
 #include <string_view>
 
-#include "program/dialects/dialect.h"
-#include "program/dialects/dialect_signs.h"
+#include "program/dialect.h"
 #include "program/interpret/arc.h"
+#include "program/interpret/dialect_signs.h"
 #include "program/text/block.h"
 #include "program/text/text_rules.h"
 
@@ -173,8 +173,5 @@ struct DialectRules {
         return unit_mm != 1 && arc_tolerance_inch ? *arc_tolerance_inch : arc_tolerance;
     }
 };
-
-/// A hint for a code (in tenths) that a dialect does not know: which of clsurf's dialects has it. Empty: no hint.
-[[nodiscard]] std::string where_code_is_known(int code);
 
 }  // namespace clsurf

@@ -1,0 +1,15 @@
+#pragma once
+// The interpreter of a text. For the readers of programs in this folder.
+
+#include <memory>
+
+#include "program/interpreter.h"
+
+namespace clsurf {
+
+class Interpreter;
+
+/// In the dialect of the options, or in the one that the text looks like. Throws InputError.
+[[nodiscard]] std::unique_ptr<Interpreter> make_interpreter(SourceText text, const InterpreterOptions& options);
+
+}  // namespace clsurf
