@@ -1,8 +1,9 @@
 #include "io/readers/part_file.h"
 
-#include <charconv>
+#include <algorithm>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -36,10 +37,10 @@ std::optional<CuttingTool> tool_of_table(const std::string& path, const Program&
     const ToolTable table = read_tool_table(open_source(path));
     std::optional<CuttingTool> known;
     for (const ProgramEvent& event : program.events) {
-        if (event.name != "tool" || !event.value.starts_with("T")) continue;
-        int number = 0;
-        const char* end = event.value.data() + event.value.size();
-        if (std::from_chars(event.value.data() + 1, end, number).ec != std::errc()) return std::nullopt;
+        const auto* word = std::get_if<ToolWord>(&event.meaning);
+        if (word == nullptr) continue;
+        if (!word->number) return std::nullopt;
+        const int number = static_cast<int>(std::clamp(*word->number, -1e9, 1e9));
         if (number == 0) continue;
         const Tool* row = table.find(number);
         const std::optional<CuttingTool> tool =

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
-#include <unordered_map>
+#include <variant>
 #include <vector>
 
 #include "core/block.h"
@@ -91,11 +90,13 @@ void LineMap::index_lines(const Program& program) {
 
 /// A tool that is named twice in front of one motion is changed once: the next one is made ready.
 void LineMap::index_tools(const Program& program) {
-    std::unordered_map<std::string, std::uint32_t> numbers;
+    std::vector<ToolWord> known;
     for (const ProgramEvent& event : program.events) {
-        if (event.name != "tool") continue;
-        const auto tool =
-            numbers.try_emplace(event.value, static_cast<std::uint32_t>(numbers.size() + 1)).first->second;
+        const auto* word = std::get_if<ToolWord>(&event.meaning);
+        if (word == nullptr) continue;
+        const auto found = std::find(known.begin(), known.end(), *word);
+        const auto tool = static_cast<std::uint32_t>(found - known.begin() + 1);
+        if (found == known.end()) known.push_back(*word);
         if (!tools_.empty() && tools_.back().motion == event.motion) tools_.pop_back();
         if (tools_.empty() || tools_.back().tool != tool) tools_.push_back({event.motion, tool});
     }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "core/column.h"
@@ -53,13 +54,36 @@ struct PathMode {
     double merging_tolerance = 0;  ///< [mm] of short blocks that become one before corners are rounded (Q of G64)
 };
 
+/// What F counts: lengths per minute or per revolution of the spindle, or the inverse of the time that a motion takes.
+enum class FeedMode : std::uint8_t { per_minute, per_revolution, inverse_time };
+
+/// Whether positions are those of the tool's tip in the workpiece (G43.4, TRAORI, M128, a tilted plane) or of the
+/// machine's axes.
+struct ToolCentrePointControl {
+    bool on = false;
+};
+
+/// The tool that a program calls or makes ready: T5, T="DRILL".
+struct ToolWord {
+    std::optional<double> number;  ///< as programmed; nullopt: the tool has a name
+    std::string name;
+
+    bool operator==(const ToolWord&) const = default;
+};
+
+/// What an event means to those who follow the motions; nothing: it is there to be shown.
+using EventMeaning = std::variant<std::monostate, PathMode, FeedMode, ToolCentrePointControl, ToolWord>;
+
 /// Something besides motion that the program asks for, in order: modes, spindle, tool.
 struct ProgramEvent {
     std::int64_t motion = 0;  ///< takes effect before this motion
     LineNumber line = 0;
-    std::string name;                   ///< "path-mode", "high-speed", "spindle", "tool", "end", …
-    std::string value;                  ///< "G64 P0.005 Q0", "CYCLE832(0.02,1,1)", "S12000 M3"
-    std::optional<PathMode> path_mode;  ///< of those that set it, whatever their name
+    std::string name;   ///< "path-mode", "high-speed", "spindle", "tool", "end", …; for display only, as is `value`
+    std::string value;  ///< "G64 P0.005 Q0", "CYCLE832(0.02,1,1)", "S12000 M3"
+    EventMeaning meaning;
+
+    /// nullptr: it sets no path mode.
+    [[nodiscard]] const PathMode* path_mode() const { return std::get_if<PathMode>(&meaning); }
 };
 
 struct Program {

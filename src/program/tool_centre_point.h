@@ -4,15 +4,12 @@
 // M129, G69).
 
 #include <cstdint>
-#include <string_view>
+#include <variant>
 
 #include "program/event_cursor.h"
 #include "program/program.h"
 
 namespace clsurf {
-
-/// How the event of a plane that is tilted begins.
-inline constexpr std::string_view tilted_plane = "tilted plane ";
 
 /// Goes along the events of a program. Programs begin with it off.
 class ToolCentrePoint {
@@ -22,10 +19,7 @@ public:
     /// Whether it is on at a motion; motions must not go back.
     [[nodiscard]] bool on(std::int64_t motion) {
         cursor_.pass(program_->events, motion, [&](const ProgramEvent& event) {
-            if (event.name != "tool-centre-point") return;
-            on_ = event.value.starts_with(tilted_plane) || event.value.starts_with("TRAORI") ||
-                  event.value.starts_with("G43.4") || event.value.starts_with("G43.5") ||
-                  event.value.starts_with("M128");
+            if (const auto* control = std::get_if<ToolCentrePointControl>(&event.meaning)) on_ = control->on;
         });
         return on_;
     }

@@ -4,6 +4,8 @@
 #include "mapping/line_map.h"
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,8 +13,11 @@
 #include "io/formats/log_format.h"
 #include "io/readers/program_file.h"
 #include "mapping/alignment.h"
+#include "mapping/allowed_motions.h"
 #include "mapping/map_lines.h"
+#include "program/feed_mode_cursor.h"
 #include "program/interpreter.h"
+#include "program/tool_centre_point.h"
 
 namespace clsurf::line_map_test {
 namespace {
@@ -161,6 +166,40 @@ TEST(LineMap, GoesOnBehindAWayThatIsNoneOfTheProgramsOwn) {
         EXPECT_EQ(lines.line_at((begin + end) / 2), static_cast<LineNumber>(line));
         begin = end;
     }
+}
+
+/// What follows the motions of a program sees of its events: tip control, feed mode, path mode, tool, one motion after
+/// the other.
+std::vector<std::string> seen_of_events(const Program& program) {
+    const auto motions = static_cast<std::size_t>(program.motions.size());
+    const LineMap map(Column<std::uint32_t>(motions, 0), Column<std::uint8_t>(motions, 0), program);
+    ToolCentrePoint tip(program);
+    FeedModeCursor feed(program);
+    std::vector<std::string> seen;
+    for (std::int64_t m = 0; m < program.motions.size(); ++m) {
+        seen.push_back(fmt::format("{} {} {} {}", tip.on(m), feed.per_minute(m), feed.inverse_time(m), map.tool_of(m)));
+    }
+    seen.push_back(fmt::format("{:.3f} {}", corner_tolerance(program), map.one_tool()));
+    return seen;
+}
+
+TEST(Events, MeanWhatTheyAreNotWhatTheirTextSays) {
+    Program program = parse_program(SourceText("part.nc",
+                                               "G21 G90 T1 M6\nG0 X0 Y0 Z0\nG43.4 H1\nG1 X1 F100\nG49\nG93 X2 F5\n"
+                                               "G94 G64 P0.02\nT2 M6\nX3 F100\nG43.5 H2\nX4\nG68.2 X0 Y0 Z0\nX5\nM30\n",
+                                               nullptr),
+                                    {.dialect = find_dialect("fanuc")});
+    const std::vector<std::string> before = seen_of_events(program);
+    EXPECT_EQ(before.front(), "false true false 1");
+    EXPECT_EQ(before.at(1), "true true false 1");
+    EXPECT_EQ(before.at(2), "false false true 1");
+    EXPECT_EQ(before.at(3), "false true false 2");
+    EXPECT_EQ(before.at(4), "true true false 2");
+    for (ProgramEvent& event : program.events) {
+        event.name = event.name == "tool" ? "tool-centre-point" : "tool";
+        event.value = "G43.4";
+    }
+    EXPECT_EQ(seen_of_events(program), before);
 }
 
 }  // namespace

@@ -148,7 +148,7 @@ TEST(Klartext, TakesTheToleranceOfCycle32) {
         "CYCL DEF 32.1\nL X+1 F1\n");
     std::vector<PathMode> modes;
     for (const ProgramEvent& e : p.events) {
-        if (e.path_mode) modes.push_back(*e.path_mode);
+        if (e.path_mode()) modes.push_back(*e.path_mode());
     }
     ASSERT_EQ(modes.size(), 3U);
     EXPECT_EQ(modes[1].block_end, BlockEnd::rounded);
@@ -156,8 +156,8 @@ TEST(Klartext, TakesTheToleranceOfCycle32) {
     EXPECT_TRUE(std::isnan(modes[2].tolerance));
     // DIN/ISO writes cycle 32 as G62.
     const Program iso = parse("%T G71 *\nN10 G62 T0.05 P01 0 P02 5*\nN20 G00 G90 X+1*\n", "heidenhain-iso");
-    ASSERT_TRUE(iso.events.at(1).path_mode.has_value());
-    EXPECT_DOUBLE_EQ(iso.events.at(1).path_mode->tolerance, 0.05);
+    ASSERT_TRUE(iso.events.at(1).path_mode() != nullptr);
+    EXPECT_DOUBLE_EQ(iso.events.at(1).path_mode()->tolerance, 0.05);
     EXPECT_EQ(iso.diagnostics.count("program.unknown-word"), 0U);
 }
 

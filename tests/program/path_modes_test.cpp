@@ -14,14 +14,14 @@ namespace {
 Rows modes(const std::string& text, const char* dialect) {
     Rows all;
     for (const ProgramEvent& event : parse(text, dialect).events) {
-        if (!event.path_mode) continue;
+        if (!event.path_mode()) continue;
         static constexpr const char* ends[] = {"rounded", "path", "stop"};
-        const double t = event.path_mode->tolerance;
+        const double t = event.path_mode()->tolerance;
         const std::string tolerance = std::isnan(t)   ? "own"
                                       : std::isinf(t) ? "free"
                                                       : std::to_string(std::lround(t * 1e6));
-        all.push_back(std::to_string(event.motion) + " " + ends[static_cast<int>(event.path_mode->block_end)] + " " +
-                      (event.path_mode->block_end == BlockEnd::rounded ? tolerance : "-"));
+        all.push_back(std::to_string(event.motion) + " " + ends[static_cast<int>(event.path_mode()->block_end)] + " " +
+                      (event.path_mode()->block_end == BlockEnd::rounded ? tolerance : "-"));
     }
     return all;
 }

@@ -174,7 +174,7 @@ TEST(Probing, IsAMotionToTheProgrammedPoint) {
     // It comes to rest; then corners are rounded again.
     std::vector<std::pair<std::int64_t, BlockEnd>> modes;
     for (const ProgramEvent& e : p.events) {
-        if (e.path_mode) modes.emplace_back(e.motion, e.path_mode->block_end);
+        if (e.path_mode()) modes.emplace_back(e.motion, e.path_mode()->block_end);
     }
     EXPECT_EQ(modes, (decltype(modes){{0, BlockEnd::rounded}, {0, BlockEnd::exact_stop}, {1, BlockEnd::rounded}}));
 }

@@ -129,8 +129,8 @@ std::string parts_of_limits(const SimulationSummary& s, const Machine& machine) 
 double greatest_tolerance(const Program& program, const Machine& machine) {
     double greatest = machine.controller.tolerance;
     for (const ProgramEvent& event : program.events) {
-        if (event.path_mode && std::isfinite(event.path_mode->tolerance))
-            greatest = std::max(greatest, event.path_mode->tolerance);
+        if (event.path_mode() && std::isfinite(event.path_mode()->tolerance))
+            greatest = std::max(greatest, event.path_mode()->tolerance);
     }
     return greatest;
 }

@@ -228,9 +228,11 @@ bool scale_all(Interpreter& in, const CodeWord& w) {
 bool rotate(Interpreter& in, const CodeWord& w) {
     const Words& words = w.block.words;
     if (!words.given('H')) in.fail("G73 needs its angle (H)", w.column);
-    heidenhain_state(in).turned_by = in.state_.incremental ? heidenhain_state(in).turned_by + words.of('H') : words.of('H');
-    set_frame_part(in, OrderedFrames::rotation,
-                   ProgramFrame::turned(Vec3::Unit(in.state_.plane_axis), heidenhain_state(in).turned_by, Vec3::Zero()));
+    heidenhain_state(in).turned_by =
+        in.state_.incremental ? heidenhain_state(in).turned_by + words.of('H') : words.of('H');
+    set_frame_part(
+        in, OrderedFrames::rotation,
+        ProgramFrame::turned(Vec3::Unit(in.state_.plane_axis), heidenhain_state(in).turned_by, Vec3::Zero()));
     in.event("rotation", "G73" + words_text(w.block, "H"));
     return true;
 }

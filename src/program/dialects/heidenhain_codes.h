@@ -19,8 +19,8 @@ struct OrderedFrames {
 /// What both of HEIDENHAIN's languages keep from block to block.
 struct HeidenhainState : DialectState {
     OrderedFrames frames;
-    Vec3 datum = Vec3::Zero();  ///< G54, cycle 7 [mm]
-    double turned_by = 0;       ///< G73, cycle 10 [deg]
+    Vec3 datum = Vec3::Zero();                                            ///< G54, cycle 7 [mm]
+    double turned_by = 0;                                                 ///< G73, cycle 10 [deg]
     double contour_tolerance = std::numeric_limits<double>::quiet_NaN();  ///< G62, cycle 32 [mm]; NaN: the machine's
 };
 [[nodiscard]] inline HeidenhainState& heidenhain_state(Interpreter& in) {

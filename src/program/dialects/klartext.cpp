@@ -69,7 +69,8 @@ void call_tool(Line& line) {
     double longer = 0;
     double wider = 0;
     if (line.c.peek() == '"') {
-        in.event("tool", "T=" + line.quoted());
+        const std::string name = line.quoted();
+        in.event("tool", "T=" + name, ToolWord{{}, name});
     } else if (is_digit(line.c.peek()) || upper(line.c.peek()) == 'Q') {
         block.words.set('T', line.value(), line.c.column());
     }
@@ -373,8 +374,8 @@ const DialectRules klartext_rules{
     .arc = arc_about_pole,
     .about_pole =
         [](Interpreter& in, const Block& block, Vec3& end) {
-            put_about_pole(in.polar_, in.state_, block.polar_radius, block.polar_angle,
-                           block.polar_radius_incremental, block.polar_angle_incremental, end);
+            put_about_pole(in.polar_, in.state_, block.polar_radius, block.polar_angle, block.polar_radius_incremental,
+                           block.polar_angle_incremental, end);
         },
 };
 

@@ -58,8 +58,8 @@ void shift_datum(Line& line) {
     }
     if (!any) return;
     set_frame_part(in, Part::datum, ProgramFrame::moved(heidenhain_state(in).datum));
-    in.event("datum-shift", fmt::format("CYCL DEF 7 X{:g} Y{:g} Z{:g}", heidenhain_state(in).datum.x(), heidenhain_state(in).datum.y(),
-                                        heidenhain_state(in).datum.z()));
+    in.event("datum-shift", fmt::format("CYCL DEF 7 X{:g} Y{:g} Z{:g}", heidenhain_state(in).datum.x(),
+                                        heidenhain_state(in).datum.y(), heidenhain_state(in).datum.z()));
 }
 
 void mirror(Line& line) {
@@ -85,8 +85,9 @@ void rotate(Line& line) {
     const double angle = line.value();
     expect_end(line);
     heidenhain_state(in).turned_by = adds ? heidenhain_state(in).turned_by + angle : angle;
-    set_frame_part(in, Part::rotation,
-                   ProgramFrame::turned(Vec3::Unit(in.state_.plane_axis), heidenhain_state(in).turned_by, Vec3::Zero()));
+    set_frame_part(
+        in, Part::rotation,
+        ProgramFrame::turned(Vec3::Unit(in.state_.plane_axis), heidenhain_state(in).turned_by, Vec3::Zero()));
     in.event("rotation", fmt::format("CYCL DEF 10 ROT{:+g}", heidenhain_state(in).turned_by));
 }
 

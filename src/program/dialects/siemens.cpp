@@ -182,8 +182,9 @@ bool round_within_tolerance(Interpreter& in, const CodeWord& w) {
 /// G64: as far off as the speed takes, unless CTOL or CYCLE832 gave a tolerance.
 bool round_corners(Interpreter& in, const CodeWord& w) {
     constexpr double unlimited = std::numeric_limits<double>::infinity();
-    return path_mode_word(in, w,
-                          {BlockEnd::rounded, std::isnan(state_of(in).contour_tolerance) ? unlimited : state_of(in).contour_tolerance});
+    return path_mode_word(
+        in, w,
+        {BlockEnd::rounded, std::isnan(state_of(in).contour_tolerance) ? unlimited : state_of(in).contour_tolerance});
 }
 
 constexpr auto codes = std::to_array<CodeRule>({
@@ -402,8 +403,8 @@ const DialectRules siemens_rules{
     .named_parameter = siemens::named_parameter,
     .about_pole =
         [](Interpreter& in, const Block& block, Vec3& end) {
-            put_about_pole(in.polar_, in.state_, block.polar_radius, block.polar_angle,
-                           block.polar_radius_incremental, block.polar_angle_incremental, end);
+            put_about_pole(in.polar_, in.state_, block.polar_radius, block.polar_angle, block.polar_radius_incremental,
+                           block.polar_angle_incremental, end);
         },
     .work_system_name = siemens::work_system_name,
 };

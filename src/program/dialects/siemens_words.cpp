@@ -63,7 +63,8 @@ void high_speed_settings(Interpreter& in, const Keyword& keyword) {
     const double kind = values.size() > 1 ? values[1].value_or(1) : 1;
     const bool off = !(tolerance > 0) || std::fmod(std::round(kind), 10) == 0;
     state_of(in).contour_tolerance = off ? std::numeric_limits<double>::quiet_NaN() : tolerance;
-    set_path_mode(in, "high-speed", "CYCLE832(" + keyword.arguments + ")", {BlockEnd::rounded, state_of(in).contour_tolerance});
+    set_path_mode(in, "high-speed", "CYCLE832(" + keyword.arguments + ")",
+                  {BlockEnd::rounded, state_of(in).contour_tolerance});
 }
 
 /// TRANS, ROT, SCALE and MIRROR replace the frame; with an A before it they add to it.
@@ -163,7 +164,7 @@ bool mode_keyword(Interpreter& in, const Keyword& keyword) {
     } else if (name == "CYCLE832") {
         high_speed_settings(in, keyword);
     } else if (name == "T=") {
-        in.event("tool", "T=\"" + keyword.arguments + "\"");
+        in.event("tool", "T=\"" + keyword.arguments + "\"", ToolWord{{}, keyword.arguments});
     } else if (name == "DIAMON" || name == "DIAMOF" || name == "DIAM90") {
         in.state_.diameter = name == "DIAMON";
         if (name == "DIAM90")
@@ -366,9 +367,11 @@ bool arc_of_words(Interpreter& in, const Block& block, ArcWords& words) {
 void set_contour_tolerance(Interpreter& in, const Block& block) {
     const std::optional<double> value = block.value_of("CTOL");
     if (!value) return;
-    state_of(in).contour_tolerance = *value >= 0 ? *value * in.state_.unit_mm : std::numeric_limits<double>::quiet_NaN();
+    state_of(in).contour_tolerance =
+        *value >= 0 ? *value * in.state_.unit_mm : std::numeric_limits<double>::quiet_NaN();
     if (in.state_.path_mode.block_end == BlockEnd::rounded)
-        set_path_mode(in, "path-mode", fmt::format("CTOL={:g}", *value), {BlockEnd::rounded, state_of(in).contour_tolerance});
+        set_path_mode(in, "path-mode", fmt::format("CTOL={:g}", *value),
+                      {BlockEnd::rounded, state_of(in).contour_tolerance});
 }
 
 /// DEF REAL a, b=5: names that exist from here on.

@@ -11,7 +11,7 @@
 namespace clsurf::siemens {
 
 struct State final : DialectState {
-    ProgramFrame swivel;  ///< of CYCLE800; TRANS, ROT … count in it
+    ProgramFrame swivel;                                                  ///< of CYCLE800; TRANS, ROT … count in it
     double contour_tolerance = std::numeric_limits<double>::quiet_NaN();  ///< CTOL, CYCLE832 [mm]; NaN: the machine's
 };
 [[nodiscard]] inline State& state_of(Interpreter& in) { return static_cast<State&>(*in.dialect_state_); }

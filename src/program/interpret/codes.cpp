@@ -449,7 +449,7 @@ void Interpreter::execute(Block& block) {
         state_.spindle = block.words.of('S');
         event("spindle", fmt::format("S{:g}", state_.spindle));
     }
-    if (is(block, 'T')) event("tool", fmt::format("T{:g}", block.words.of('T')));
+    if (is(block, 'T')) event("tool", fmt::format("T{:g}", block.words.of('T')), ToolWord{block.words.of('T'), {}});
     const auto apply_m_codes = [&](bool that_stop) {
         for (int i = 0; i < block.words.m_count; ++i) {
             const int code = block.words.m[static_cast<std::size_t>(i)];

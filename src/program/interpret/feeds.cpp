@@ -3,7 +3,6 @@
 #include "program/interpret/feeds.h"
 
 #include "core/units.h"
-#include "program/feed_mode_cursor.h"
 #include "program/interpret/interpreter_state.h"
 
 namespace clsurf {
@@ -21,10 +20,8 @@ void take_feed(ModalState& state, const MotionRules& rules, double value) {
 void select_feed_mode(Interpreter& in, FeedMode mode) {
     if (mode == in.state_.feed_mode) return;
     in.state_.feed_mode = mode;
-    const bool per_minute = mode == FeedMode::per_minute;
-    in.event(std::string(feed_mode_event), per_minute                       ? std::string(feed_per_minute)
-                                           : mode == FeedMode::inverse_time ? std::string(feed_inverse_time)
-                                                                            : "G95");
+    const char* const code = mode == FeedMode::per_minute ? "G94" : mode == FeedMode::inverse_time ? "G93" : "G95";
+    in.event("feed-mode", code, mode);
 }
 
 float feed_for(const ModalState& state, double length, double unit) {

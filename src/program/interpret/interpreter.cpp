@@ -248,9 +248,9 @@ void Interpreter::note(Severity severity, const char* code, const std::string& t
     program_.diagnostics.add({severity, code, std::move(place), printable(text.substr(0, shown_text_bytes)), {}});
 }
 
-void Interpreter::event(const std::string& name, const std::string& value) {
+void Interpreter::event(const std::string& name, const std::string& value, EventMeaning meaning) {
     if (curves_.is_open()) curves_.open.events.push_back(curves_.open.points.size());
-    program_.events.push_back({program_.motions.size(), place_.line, name, value, {}});
+    program_.events.push_back({program_.motions.size(), place_.line, name, value, std::move(meaning)});
 }
 
 }  // namespace clsurf

@@ -47,7 +47,7 @@ public:
     void go_to(std::size_t file, LineNumber line);  ///< the next line read is `line`
     [[noreturn]] void fail(const std::string& what, std::size_t column = 0, const std::string& hint = {}) const;
     void note(Severity severity, const char* code, const std::string& text, std::size_t column = 0);
-    void event(const std::string& name, const std::string& value);
+    void event(const std::string& name, const std::string& value, EventMeaning meaning = {});
 
     // codes.cpp
     void execute(Block& block);

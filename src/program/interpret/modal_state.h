@@ -35,8 +35,6 @@ enum class MotionMode : std::uint8_t {
     cycle,
 };
 
-enum class FeedMode : std::uint8_t { per_minute, per_revolution, inverse_time };
-
 inline constexpr int plain_work_systems = 6;  ///< G54 … G59
 
 struct WorkOffset {

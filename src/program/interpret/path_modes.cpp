@@ -10,8 +10,7 @@ namespace clsurf {
 
 void set_path_mode(Interpreter& in, const std::string& name, const std::string& value, const PathMode& mode,
                    bool once) {
-    in.event(name, value);
-    in.program_.events.back().path_mode = mode;
+    in.event(name, value, mode);
     if (once)
         in.this_block_.path_mode_returns = true;
     else

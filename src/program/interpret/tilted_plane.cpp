@@ -11,30 +11,30 @@
 
 #include "program/interpret/compensated_motions.h"
 #include "program/interpret/interpreter_state.h"
-#include "program/tool_centre_point.h"
 
 namespace clsurf {
 
 void begin_tilted_plane(Interpreter& in, const std::string& text) {
     in.five_axis_.tilted = true;
     in.state_.tool_axis.setConstant(std::numeric_limits<double>::quiet_NaN());
-    in.event("tool-centre-point", std::string(tilted_plane) + text);
+    in.event("tool-centre-point", "tilted plane " + text, ToolCentrePointControl{true});
 }
 
 void end_tilted_plane(Interpreter& in, const std::string& text) {
     if (!in.five_axis_.tilted) return;
     in.five_axis_.tilted = false;
     in.state_.tool_axis.setConstant(std::numeric_limits<double>::quiet_NaN());
-    in.event("tool-centre-point", in.five_axis_.tool_centre_point ? in.five_axis_.switched_on_by : text);
+    in.event("tool-centre-point", in.five_axis_.tool_centre_point ? in.five_axis_.switched_on_by : text,
+             ToolCentrePointControl{in.five_axis_.tool_centre_point});
 }
 
 void turn_to_plane(Interpreter& in, const Vec3& axis, bool keeps_tip, const std::string& text) {
     in.state_.tool_axis = axis;
     if (in.state_.position.array().isNaN().any()) return;  // the first motion turns them
-    if (!keeps_tip) in.event("tool-centre-point", text);
+    if (!keeps_tip) in.event("tool-centre-point", text, ToolCentrePointControl{false});
     in.push(MotionKind::rapid, tool_position(in.compensation_, in.state_), in.state_.rotary,
             std::numeric_limits<float>::quiet_NaN());
-    if (!keeps_tip) in.event("tool-centre-point", std::string(tilted_plane) + text);
+    if (!keeps_tip) in.event("tool-centre-point", "tilted plane " + text, ToolCentrePointControl{true});
 }
 
 }  // namespace clsurf

@@ -21,7 +21,7 @@ void control_tool_centre_point(Interpreter& in, bool on, const std::string& text
     in.five_axis_.switched_on_by = text;
     in.five_axis_.axis_words = on && text == "G43.5";
     in.state_.tool_axis.setConstant(std::numeric_limits<double>::quiet_NaN());
-    in.event("tool-centre-point", text);
+    in.event("tool-centre-point", text, ToolCentrePointControl{on});
 }
 
 bool take_tool_axis(Interpreter& in, const Block& block) {
