@@ -183,6 +183,16 @@ std::vector<std::string> seen_of_events(const Program& program) {
     return seen;
 }
 
+TEST(Events, LongToolNumbersAreDifferentTools) {
+    const Program program = parse_program(
+        SourceText("part.nc", "G21 G90 T1234567 M6\nG1 X1 F100\nT1234568 M6\nX2\nT1234567 M6\nX3\nM30\n", nullptr),
+        {.dialect = find_dialect("fanuc")});
+    const LineMap map(Column<std::uint32_t>(3, 0), Column<std::uint8_t>(3, 0), program);
+    EXPECT_EQ(map.tool_of(0), 1U);
+    EXPECT_EQ(map.tool_of(1), 2U);
+    EXPECT_EQ(map.tool_of(2), 1U);
+}
+
 TEST(Events, MeanWhatTheyAreNotWhatTheirTextSays) {
     Program program = parse_program(SourceText("part.nc",
                                                "G21 G90 T1 M6\nG0 X0 Y0 Z0\nG43.4 H1\nG1 X1 F100\nG49\nG93 X2 F5\n"

@@ -1,5 +1,3 @@
-// Where the axis words of a block lead: X Y Z, A B C, polar words, ANG=.
-
 #include "program/interpret/axis_words.h"
 
 #include <cmath>

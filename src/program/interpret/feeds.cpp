@@ -1,5 +1,3 @@
-// What F counts, and the feed of a motion.
-
 #include "program/interpret/feeds.h"
 
 #include "core/units.h"

@@ -1,5 +1,3 @@
-// M70 … M73 of LinuxCNC: modes are kept and come back.
-
 #include "program/interpret/kept_modes.h"
 
 #include <optional>

@@ -1,9 +1,6 @@
-// Tilted planes: CYCLE800 of Siemens, G68.2 with G53.1 of Fanuc. The program then counts in a plane of the
-// workpiece that the tool stands on upright: a frame turns its positions, they are those of the tip, and the tool
-// axis is a vector, the plane's normal. Which angles give that is for the machine's kinematics to say.
-//
-// Facts: Siemens, SINUMERIK 840D sl, programming manual "Job Planning", CYCLE800; Fanuc, operator's manual of the
-// series 30i (B-63944EN), "Tilted working plane indexing".
+// Tilted planes (CYCLE800, G68.2, PLANE). The program then counts in a plane of the workpiece that the tool stands on
+// upright: a frame turns its positions, they are those of the tip, and the tool axis is a vector, the plane's normal.
+// Which angles give that is for the machine's kinematics to say.
 
 #include "program/interpret/tilted_plane.h"
 

@@ -1,5 +1,3 @@
-// Tools: the one in the spindle, their lengths, lines of the tool table.
-
 #include "program/interpret/tools.h"
 
 #include <algorithm>

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "program/dialects/heidenhain_codes.h"
-#include "program/dialects/klartext.h"
+#include "program/dialects/heidenhain/heidenhain_codes.h"
+#include "program/dialects/klartext/klartext.h"
 #include "program/interpret/path_modes.h"
 #include "program/interpret/tilted_plane.h"
 #include "program/interpret/tool_axis.h"

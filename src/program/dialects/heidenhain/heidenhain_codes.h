@@ -1,13 +1,20 @@
 #pragma once
-// What words of HEIDENHAIN's DIN/ISO do: M functions, frames and arcs, which Klartext has as well, and Q functions.
+// What both of HEIDENHAIN's languages share, and what words of DIN/ISO do: M functions, frames and arcs, which Klartext has as well, and Q functions.
 
 #include <array>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "program/interpret/interpreter_state.h"
 
 namespace clsurf {
+
+/// Functions of formulas in both of HEIDENHAIN's languages.
+[[nodiscard]] std::span<const FunctionRow> heidenhain_functions();
+/// The greatest value of MP7431 and of circleDeviation.
+inline constexpr ArcTolerance heidenhain_arc_tolerance{
+    .absolute = 0.016, .most = std::numeric_limits<double>::infinity(), .reach = 0.005, .relative_reach = 1e-3};
 
 /// Frames in the order in which they came: the first one is outermost.
 struct OrderedFrames {

@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 #include "core/not_finite.h"
-#include "program/dialects/heidenhain_codes.h"
+#include "program/dialects/heidenhain/heidenhain_codes.h"
 #include "program/dialects/known_dialects.h"
 #include "program/interpret/axis_words.h"
 #include "program/interpret/flow.h"

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "program/dialects/klartext.h"
+#include "program/dialects/klartext/klartext.h"
 #include "program/interpret/axis_words.h"
 #include "program/interpret/tilted_plane.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "program/dialects/heidenhain_codes.h"
-#include "program/dialects/klartext_words.h"
+#include "program/dialects/heidenhain/heidenhain_codes.h"
+#include "program/dialects/klartext/klartext_words.h"
 #include "program/dialects/known_dialects.h"
 #include "program/interpret/interpreter_state.h"
 

@@ -1,6 +1,6 @@
 // Facts: Fanuc, operator's manual of the series 30i (B-63944EN).
 
-#include "program/dialects/fanuc_words.h"
+#include "program/dialects/fanuc/fanuc_words.h"
 
 #include <algorithm>
 #include <array>

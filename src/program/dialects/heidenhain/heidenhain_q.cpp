@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "program/dialects/heidenhain_codes.h"
+#include "program/dialects/heidenhain/heidenhain_codes.h"
 #include "program/interpret/flow.h"
 
 namespace clsurf {

@@ -2,7 +2,7 @@
 // Facts: HEIDENHAIN, TNC 620 and iTNC 530, User's Manuals "Klartext Programming" and "Cycle Programming". Cycles, frames
 // and planes: klartext_cycles.cpp; Q parameters: klartext_q.cpp; words: klartext_words.cpp.
 
-#include "program/dialects/klartext.h"
+#include "program/dialects/klartext/klartext.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "program/dialects/heidenhain_codes.h"
+#include "program/dialects/heidenhain/heidenhain_codes.h"
 #include "program/interpret/axis_words.h"
 #include "program/interpret/flow.h"
 #include "program/interpret/interpreter_state.h"

@@ -1,4 +1,4 @@
-#include "program/dialects/klartext_words.h"
+#include "program/dialects/klartext/klartext_words.h"
 
 #include <algorithm>
 #include <array>

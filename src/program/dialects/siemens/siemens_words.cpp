@@ -1,6 +1,6 @@
 // Facts: Siemens, SINUMERIK 840D sl, Programming Manual "Fundamentals" and "Job Planning".
 
-#include "program/dialects/siemens_words.h"
+#include "program/dialects/siemens/siemens_words.h"
 
 #include <algorithm>
 #include <array>

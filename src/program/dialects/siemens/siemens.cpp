@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "program/dialects/known_dialects.h"
-#include "program/dialects/siemens_words.h"
+#include "program/dialects/siemens/siemens_words.h"
 #include "program/interpret/axis_words.h"
 #include "program/interpret/codes.h"
 #include "program/interpret/flow.h"

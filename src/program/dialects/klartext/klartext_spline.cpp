@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "program/dialects/klartext.h"
+#include "program/dialects/klartext/klartext.h"
 #include "program/interpret/curves.h"
 
 namespace clsurf::klartext {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/not_finite.h"
-#include "program/dialects/fanuc_words.h"
+#include "program/dialects/fanuc/fanuc_words.h"
 #include "program/dialects/known_dialects.h"
 #include "program/interpret/axis_words.h"
 #include "program/interpret/codes.h"

@@ -1,5 +1,6 @@
-// Drilling cycles and hole patterns of SINUMERIK as motions.
-// Facts: Siemens, SINUMERIK 840D/840Di/810D, Programming Guide "Cycles", chapters 2 and 3.
+// Drilling cycles and hole patterns of SINUMERIK as motions, and CYCLE800.
+// Facts: Siemens, SINUMERIK 840D/840Di/810D, Programming Guide "Cycles", chapters 2 and 3; SINUMERIK 840D sl, Programming
+// Manual "Job Planning", CYCLE800.
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "program/dialects/siemens_words.h"
+#include "program/dialects/siemens/siemens_words.h"
 #include "program/interpret/cycles.h"
 #include "program/interpret/threading.h"
 #include "program/interpret/tilted_plane.h"
