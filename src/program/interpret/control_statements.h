@@ -1,7 +1,7 @@
 #pragma once
 // Control statements: conditions, loops, calls and labels, whatever the dialect writes for them.
 
-#include "program/text/control.h"
+#include "program/text/block.h"
 
 namespace clsurf {
 
