@@ -1,5 +1,6 @@
 #pragma once
-// What both of HEIDENHAIN's languages share, and what words of DIN/ISO do: M functions, frames and arcs, which Klartext has as well, and Q functions.
+// What both of HEIDENHAIN's languages share, and what words of DIN/ISO do: M functions, frames and arcs, which Klartext
+// has as well, and Q functions.
 
 #include <array>
 #include <limits>
