@@ -1,13 +1,14 @@
 #pragma once
-// ToolAxes: the direction of the tool at each point of a log, and the angles of single rotary axes.
+// ToolAxes: the direction of the tool at each point of a log.
 
 #include <array>
 #include <memory>
 #include <span>
+#include <utility>
 
 #include "core/column.h"
 #include "core/geometry.h"
-#include "toolpath/trajectory.h"
+#include "core/point.h"
 
 namespace clsurf {
 
@@ -26,13 +27,5 @@ public:
 private:
     std::shared_ptr<const Columns> columns_;
 };
-
-/// The tool axes of a role, brought into the workpiece as `like` was, which has kinematics, or those that `like` has stated.
-/// Throws InputError where the log lacks the angles. O(points), parallel; 24 bytes a point.
-[[nodiscard]] ToolAxes tool_axes(const Log& log, Role role, const Trajectory& like);
-
-/// The angle of a rotary axis as the control counts it [rad]: a view of the log's column, which must outlive it. Throws
-/// InputError where the log does not have it.
-[[nodiscard]] ChannelView axis_angles(const Log& log, Role role, char letter);
 
 }  // namespace clsurf

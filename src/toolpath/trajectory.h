@@ -70,6 +70,14 @@ struct Trajectory {
 /// Another role of the same log, by the same way into the workpiece.
 [[nodiscard]] Trajectory reconstruct_like(const Log& log, Role role, const Trajectory& like);
 
+/// The tool axes of a role, brought into the workpiece as `like` was, which has kinematics, or those that `like` has stated.
+/// Throws InputError where the log lacks the angles. O(points), parallel; 24 bytes a point.
+[[nodiscard]] ToolAxes tool_axes(const Log& log, Role role, const Trajectory& like);
+
+/// The angle of a rotary axis as the control counts it [rad]: a view of the log's column, which must outlive it. Throws
+/// InputError where the log does not have it.
+[[nodiscard]] ChannelView axis_angles(const Log& log, Role role, char letter);
+
 /// Notes where the tool axis passes its pole: within 2° of it the rotation axis turns by more than
 /// 45°. Adds `path.pole`. O(points).
 void note_poles(const Log& log, Role role, const Kinematics& kinematics, Diagnostics& diagnostics);
