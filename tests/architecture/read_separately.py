@@ -3,10 +3,10 @@
 an error. Then reads all headers together: a type that two of them define is an error there. Everywhere else it would be
 undefined behaviour without a message.
 
-    read_separately.py ROOT BUILD [quarter]
+    read_separately.py ROOT BUILD [eighth]
 
 ROOT: the project; BUILD: a folder configured without unity builds and precompiled headers, with its compile_commands.json;
-quarter: of the sources only those that the last commit changed, and a quarter of the others, another one for each commit.
+eighth: of the sources only those that the last commit changed, and an eighth of the others, another one for each commit.
 Exit code 1: a file is refused; the compiler has said why.
 
 Most of the time goes to headers that many files share. Files that include the same of SHARED, directly or through other
@@ -87,14 +87,14 @@ class Project:
         return tuple(words)
 
 
-def quarter_of(sources, root):
+def eighth_of(sources, root):
     def git(*words):
         return subprocess.run(["git", "-C", root, *words], check=True, capture_output=True, text=True).stdout.split()
 
     changed = {root / name for name in git("show", "--format=", "--name-only", "HEAD")}
-    turn = int(git("rev-list", "--count", "HEAD")[0]) % 4
+    turn = int(git("rev-list", "--count", "HEAD")[0]) % 8
     return [each for each in sources
-            if each in changed or zlib.crc32(str(each.relative_to(root)).encode()) % 4 == turn]
+            if each in changed or zlib.crc32(str(each.relative_to(root)).encode()) % 8 == turn]
 
 
 def accepted(words, folder):
@@ -103,13 +103,13 @@ def accepted(words, folder):
     return done.returncode == 0
 
 
-def main(root, build, quarter):
+def main(root, build, eighth):
     project = Project(root, build)
     made = build / "read_separately"
     made.mkdir(exist_ok=True)
 
     groups = collections.defaultdict(list)  # (words, shared headers) → files
-    for source in quarter_of(project.words, root) if quarter else project.words:
+    for source in eighth_of(project.words, root) if eighth else project.words:
         groups[project.words[source], project.shared(source)].append(source)
     headers = project.headers()
     for header in headers:
@@ -142,4 +142,4 @@ def main(root, build, quarter):
 
 
 if __name__ == "__main__":
-    sys.exit(main(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve(), sys.argv[3:] == ["quarter"]))
+    sys.exit(main(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve(), sys.argv[3:] == ["eighth"]))
