@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "cli/command_line.h"
 #include "cli/option_rows.h"
 #include "field/field_table.h"
 #include "io/formats/log_format.h"

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -183,10 +184,14 @@ std::vector<std::string> seen_of_events(const Program& program) {
     return seen;
 }
 
+Program fanuc_program(std::string_view text) {
+    InterpreterOptions options;
+    options.dialect = find_dialect("fanuc");
+    return parse_program(SourceText("part.nc", text, nullptr), options);
+}
+
 TEST(Events, LongToolNumbersAreDifferentTools) {
-    const Program program = parse_program(
-        SourceText("part.nc", "G21 G90 T1234567 M6\nG1 X1 F100\nT1234568 M6\nX2\nT1234567 M6\nX3\nM30\n", nullptr),
-        {.dialect = find_dialect("fanuc")});
+    const Program program = fanuc_program("G21 G90 T1234567 M6\nG1 X1 F100\nT1234568 M6\nX2\nT1234567 M6\nX3\nM30\n");
     const LineMap map(Column<std::uint32_t>(3, 0), Column<std::uint8_t>(3, 0), program);
     EXPECT_EQ(map.tool_of(0), 1U);
     EXPECT_EQ(map.tool_of(1), 2U);
@@ -194,11 +199,9 @@ TEST(Events, LongToolNumbersAreDifferentTools) {
 }
 
 TEST(Events, MeanWhatTheyAreNotWhatTheirTextSays) {
-    Program program = parse_program(SourceText("part.nc",
-                                               "G21 G90 T1 M6\nG0 X0 Y0 Z0\nG43.4 H1\nG1 X1 F100\nG49\nG93 X2 F5\n"
-                                               "G94 G64 P0.02\nT2 M6\nX3 F100\nG43.5 H2\nX4\nG68.2 X0 Y0 Z0\nX5\nM30\n",
-                                               nullptr),
-                                    {.dialect = find_dialect("fanuc")});
+    Program program = fanuc_program(
+        "G21 G90 T1 M6\nG0 X0 Y0 Z0\nG43.4 H1\nG1 X1 F100\nG49\nG93 X2 F5\n"
+        "G94 G64 P0.02\nT2 M6\nX3 F100\nG43.5 H2\nX4\nG68.2 X0 Y0 Z0\nX5\nM30\n");
     const std::vector<std::string> before = seen_of_events(program);
     EXPECT_EQ(before.front(), "false true false 1");
     EXPECT_EQ(before.at(1), "true true false 1");
