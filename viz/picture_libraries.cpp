@@ -6,7 +6,6 @@
 namespace clsurf::viz {
 
 PictureLibrariesPreload::PictureLibrariesPreload()
-    : image_(std::async(std::launch::async, [] { (void)image_library(); })),
-      vtk_(std::async(std::launch::async, [] { (void)vtk_library(); })) {}
+    : image_(std::async(std::launch::async, image_library)), vtk_(std::async(std::launch::async, vtk_library)) {}
 
 }  // namespace clsurf::viz

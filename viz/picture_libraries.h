@@ -5,6 +5,9 @@
 
 namespace clsurf::viz {
 
+struct ImageLibrary;
+struct VtkLibrary;
+
 /// Begins to load VTK and OpenImageIO in the background, and ends when they are loaded. A program must not end while a library is
 /// being loaded: the constructors of its static objects would run beside the destructors that exit() calls.
 class PictureLibrariesPreload {
@@ -13,7 +16,8 @@ public:
 
 private:
     // Whoever draws is told if one cannot be loaded.
-    std::future<void> image_, vtk_;
+    std::future<const ImageLibrary&> image_;
+    std::future<const VtkLibrary&> vtk_;
 };
 
 }  // namespace clsurf::viz

@@ -300,7 +300,7 @@ clsurf_cli_test(NAME profile_without_a_tool ARGS plot ${part} ${run} --tool none
 clsurf_cli_test(NAME profile_and_fields ARGS plot ${part} ${run} --profile 0,0,1,1 --tool ball:6 --fields speed -o cut.png EXIT 2 STDERR "--fields does not apply to --profile")
 clsurf_cli_test(NAME profile_where_nothing_was_cut ARGS plot ${part} ${run} --profile 900,900,901,900 --tool ball:6 -o cut.png EXIT 2 STDERR "nothing was cut")
 clsurf_cli_test(NAME check_wrong_tool ARGS check ${part} ${run} --tool cone:6 EXIT 2 STDERR "cone:6.*not a ball, bull or flat tool")
-clsurf_cli_test(NAME check_two_formats ARGS check ${part} ${run} --json --format csv EXIT 2 STDERR "--json and --format")
+clsurf_cli_test(NAME check_two_formats ARGS check ${part} ${run} --json --format csv EXIT 2 STDERR "use either --json or --format")
 clsurf_cli_test(NAME check_of_the_commanded_path ARGS check ${part} ${run} --surface commanded STDOUT "no measured positions")
 
 # ---- machine files ----

@@ -63,7 +63,7 @@ clsurf_cli_test(NAME plot_defect_of_a_region ARGS plot ${bottle} --tool none --d
 clsurf_cli_test(NAME plot_defect_wraps_its_sentence
   SETUP "$CLSURF plot @DATA@/programs/bottle_zigzag.nc @LOGS@/bottle_zigzag.biip --defect 1 -o card.svg -q && python3 ${CMAKE_CURRENT_LIST_DIR}/../read_svg.py card.svg images 1 '^Axes lag, forward against backward: .* Z differ .Z trails X by [0-9.]* ms. · contact X' ' · bottle_zigzag.nc · bottle_zigzag.biip$' && ! grep -q '…' card.svg"
   ARGS --version)
-clsurf_cli_test(NAME plot_defect_that_is_none ARGS plot ${bottle} --tool none --defect 99 -o card.png EXIT 2 STDERR "`clsurf check` finds 15 of them")
+clsurf_cli_test(NAME plot_defect_that_is_none ARGS plot ${bottle} --tool none --defect 99 -o card.png EXIT 2 STDERR "there are only 15 defects")
 clsurf_cli_test(NAME plot_defect_is_no_curve ARGS plot ${bottle} --defect 1 --fields speed -o card.png EXIT 2 STDERR "--fields does not apply to --defect")
 clsurf_cli_test(NAME plot_defect_needs_the_program ARGS plot @LOGS@/bottle_uneven.biip --defect 1 -o card.png EXIT 2 STDERR "--defect needs the program")
 
