@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.h"
 #include "core/units.h"
 #include "io/reports/json_text.h"
 #include "io/reports/quality_words.h"
