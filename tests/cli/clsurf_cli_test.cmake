@@ -53,7 +53,7 @@ function(clsurf_cli_test)
   add_test(NAME cli.${TEST_NAME}
     COMMAND bash ${PROJECT_SOURCE_DIR}/tests/cli/run_cli_test
       ${PROJECT_BINARY_DIR}/tests/cli/${folder} $<TARGET_FILE:clsurf> ${words} -- ${TEST_ARGS})
-  set_tests_properties(cli.${TEST_NAME} PROPERTIES TIMEOUT 300)
+  set_tests_properties(cli.${TEST_NAME} PROPERTIES TIMEOUT 120)
   if(fixtures)
     set_tests_properties(cli.${TEST_NAME} PROPERTIES FIXTURES_REQUIRED "${fixtures}")
   endif()
