@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <variant>
 #include <vector>
 
@@ -90,13 +91,12 @@ void LineMap::index_lines(const Program& program) {
 
 /// A tool that is named twice in front of one motion is changed once: the next one is made ready.
 void LineMap::index_tools(const Program& program) {
-    std::vector<ToolWord> known;
+    std::map<ToolWord, std::uint32_t> numbers;
     for (const ProgramEvent& event : program.events) {
         const auto* word = std::get_if<ToolWord>(&event.meaning);
         if (word == nullptr) continue;
-        const auto found = std::find(known.begin(), known.end(), *word);
-        const auto tool = static_cast<std::uint32_t>(found - known.begin() + 1);
-        if (found == known.end()) known.push_back(*word);
+        const std::uint32_t tool =
+            numbers.try_emplace(*word, static_cast<std::uint32_t>(numbers.size() + 1)).first->second;
         if (!tools_.empty() && tools_.back().motion == event.motion) tools_.pop_back();
         if (tools_.empty() || tools_.back().tool != tool) tools_.push_back({event.motion, tool});
     }

@@ -2,6 +2,7 @@
 // Program: the text of an NC program, its lines and its motions. A value: built whole by
 // parse_program(), not changed afterwards.
 
+#include <compare>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -68,7 +69,7 @@ struct ToolWord {
     std::optional<double> number;  ///< as programmed; nullopt: the tool has a name
     std::string name;
 
-    bool operator==(const ToolWord&) const = default;
+    auto operator<=>(const ToolWord&) const = default;
 };
 
 /// What an event means to those who follow the motions; nothing: it is there to be shown.
