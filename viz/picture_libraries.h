@@ -15,7 +15,7 @@ public:
     PictureLibrariesPreload();
 
 private:
-    // Whoever draws is told if one cannot be loaded.
+    // Nobody reads these. A library that cannot be loaded is an error in the code that draws.
     std::future<const ImageLibrary&> image_;
     std::future<const VtkLibrary&> vtk_;
 };

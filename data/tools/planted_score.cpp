@@ -52,8 +52,8 @@ private:
 
 std::vector<PointIndex> points_of(const clsurf::Defect& defect) {
     std::vector<PointIndex> points;
-    for (const DefectSection& run : defect.sections) {
-        for (PointIndex i = run.points.first; i <= run.points.last; ++i) points.push_back(i);
+    for (const DefectSection& section : defect.sections) {
+        for (PointIndex i = section.points.first; i <= section.points.last; ++i) points.push_back(i);
     }
     return points;
 }
@@ -109,10 +109,11 @@ bool lines_match(const PlantedLog& log, const std::vector<PointIndex>& truth, co
             ++end;
         const auto first = static_cast<long long>(log.line[static_cast<std::size_t>(truth[k])]);
         const auto last = static_cast<long long>(log.line[static_cast<std::size_t>(truth[end - 1])]);
-        const bool matched = std::any_of(defect.sections.begin(), defect.sections.end(), [&](const DefectSection& run) {
-            return std::abs(static_cast<long long>(run.first_line) - first) <= 1 &&
-                   std::abs(static_cast<long long>(run.last_line) - last) <= 1;
-        });
+        const bool matched =
+            std::any_of(defect.sections.begin(), defect.sections.end(), [&](const DefectSection& section) {
+                return std::abs(static_cast<long long>(section.first_line) - first) <= 1 &&
+                       std::abs(static_cast<long long>(section.last_line) - last) <= 1;
+            });
         if (matched) return true;
         k = end;
     }

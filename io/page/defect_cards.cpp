@@ -55,12 +55,13 @@ std::string code_html(const Program& program, const DefectSection& section) {
     return text + "</pre>\n";
 }
 
-std::string list_of_lines(const std::vector<DefectSection>& runs) {
-    constexpr std::size_t most_runs = 6;
+std::string list_of_lines(const std::vector<DefectSection>& sections) {
+    constexpr std::size_t most_listed_sections = 6;
     std::string text;
-    for (std::size_t k = 0; k < std::min(most_runs, runs.size()); ++k)
-        text += fmt::format("{}{} (pass {})", k > 0 ? ", " : "", lines_text(runs[k]), runs[k].pass);
-    if (runs.size() > most_runs) text += fmt::format(" and {} more", runs.size() - most_runs);
+    for (std::size_t k = 0; k < std::min(most_listed_sections, sections.size()); ++k)
+        text += fmt::format("{}{} (pass {})", k > 0 ? ", " : "", lines_text(sections[k]), sections[k].pass);
+    if (sections.size() > most_listed_sections)
+        text += fmt::format(" and {} more", sections.size() - most_listed_sections);
     return text;
 }
 
@@ -81,13 +82,13 @@ std::string lines_text(const DefectSection& section) {
 
 std::string defect_card_html(const ReportPage& page, std::size_t defect) {
     const Defect& d = page.quality.report->defects[defect];
-    const std::vector<DefectSection> runs = strongest_first(d);
+    const std::vector<DefectSection> sections = strongest_first(d);
     std::string text = "<article class=\"defect-card\">\n" + picture_html(*page.defects[defect].picture);
-    text += fmt::format("<p>Lines {}", html(list_of_lines(runs)));
+    text += fmt::format("<p>Lines {}", html(list_of_lines(sections)));
     if (!d.neighbours.empty()) text += fmt::format("; adjacent: {}", html(list_of_lines(d.neighbours)));
     text += ".</p>\n";
     if (!page.defects[defect].slow.empty()) text += "<p>Slow: " + html(page.defects[defect].slow) + ".</p>\n";
-    if (!runs.empty()) text += code_html(*page.quality.program, runs.front());
+    if (!sections.empty()) text += code_html(*page.quality.program, sections.front());
     return text + "</article>\n";
 }
 

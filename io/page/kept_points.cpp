@@ -43,9 +43,9 @@ void mark_extremes(Marks& marks, const Column<float>& values, PointIndex first, 
 
 /// take(range) for the points of a defect and of the adjacent passes.
 template <typename Take>
-void for_each_run(const Defect& defect, const Take& take) {
-    for (const std::vector<DefectSection>* runs : {&defect.sections, &defect.neighbours}) {
-        for (const DefectSection& section : *runs) take(section.points);
+void for_each_section(const Defect& defect, const Take& take) {
+    for (const std::vector<DefectSection>* sections : {&defect.sections, &defect.neighbours}) {
+        for (const DefectSection& section : *sections) take(section.points);
     }
 }
 
@@ -54,12 +54,12 @@ std::size_t mark_whole_defects(Marks& marks, std::span<const Defect> defects, Po
     std::size_t whole = 0;
     for (const Defect& defect : defects) {
         PointIndex needed = 0;
-        for_each_run(defect, [&](PointRange run) {
+        for_each_section(defect, [&](PointRange run) {
             const auto first = marks.begin() + run.first;
             needed += std::count(first, first + (run.last - run.first + 1), std::uint8_t{0});
         });
         if (needed > room) continue;
-        for_each_run(defect, [&](PointRange run) {
+        for_each_section(defect, [&](PointRange run) {
             for (PointIndex i = run.first; i <= run.last; ++i) mark(marks, i);
         });
         room -= needed;
@@ -77,7 +77,7 @@ Marks lasting_marks(const ClSurface& surface, std::span<const Field> fields, std
         mark(marks, pass.last);
     }
     for (const Defect& defect : defects) {
-        for_each_run(defect, [&](PointRange run) {
+        for_each_section(defect, [&](PointRange run) {
             mark(marks, run.first);
             mark(marks, run.last);
         });

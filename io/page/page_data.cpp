@@ -271,9 +271,9 @@ Json fields_json(const ReportPage& page) {
     return all;
 }
 
-Json runs_json(const std::vector<DefectSection>& runs) {
+Json sections_json(const std::vector<DefectSection>& sections) {
     Json all = Json::array();
-    for (const DefectSection& section : runs) {
+    for (const DefectSection& section : sections) {
         all.push_back({{"pass", section.pass},
                        {"points", {section.points.first, section.points.last}},
                        {"lines", {section.first_line, section.last_line}}});
@@ -314,8 +314,8 @@ Json defects_json(const ReportPage& page) {
                        {"length_mm", number(d.length)},
                        {"shape", shape_of(d)},
                        {"point", d.point},
-                       {"runs", runs_json(strongest_first(d))},
-                       {"neighbours", runs_json(d.neighbours)},
+                       {"runs", sections_json(strongest_first(d))},
+                       {"neighbours", sections_json(d.neighbours)},
                        {"outlines", lines_json(page.defects[i].outlines)}});
         add_place(all.back(), d.place);
         if (page.change) {

@@ -64,9 +64,10 @@ std::string metadata_text(const Log& log, const char* name) {
 std::string defect_lines(const Defect& d) {
     std::string text;
     constexpr std::size_t shown = 4;
-    const std::vector<DefectSection> runs = strongest_first(d);
-    for (std::size_t k = 0; k < std::min(shown, runs.size()); ++k) text += (k > 0 ? ", " : "") + lines_text(runs[k]);
-    if (runs.size() > shown) text += fmt::format(" and {} more", runs.size() - shown);
+    const std::vector<DefectSection> sections = strongest_first(d);
+    for (std::size_t k = 0; k < std::min(shown, sections.size()); ++k)
+        text += (k > 0 ? ", " : "") + lines_text(sections[k]);
+    if (sections.size() > shown) text += fmt::format(" and {} more", sections.size() - shown);
     return text;
 }
 

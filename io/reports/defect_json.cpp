@@ -8,14 +8,14 @@
 namespace clsurf::io {
 namespace {
 
-/// "passes", "lines" and "points" of runs, side by side, and "subprograms" where one runs in a file of its own.
-void add_runs(Json& json, const std::vector<DefectSection>& runs) {
+/// "passes", "lines" and "points" of sections, side by side, and "subprograms" where one runs in a file of its own.
+void add_sections(Json& json, const std::vector<DefectSection>& sections) {
     Json passes = Json::array();
     Json lines = Json::array();
     Json points = Json::array();
     Json subprograms = Json::array();
     bool in_subprogram = false;
-    for (const DefectSection& section : runs) {
+    for (const DefectSection& section : sections) {
         passes.push_back(section.pass);
         lines.push_back(Json::array({section.first_line, section.last_line}));
         points.push_back(Json::array({section.points.first, section.points.last}));
@@ -62,9 +62,9 @@ Json defect_json(const Defect& d, std::size_t id, double scallop) {
               {"point", d.point}};
     if (d.systematic) add_systematic(json, d);
     add_place(json, d.place);
-    add_runs(json, d.sections);
+    add_sections(json, d.sections);
     Json beside;
-    add_runs(beside, d.neighbours);
+    add_sections(beside, d.neighbours);
     json["neighbours"] = std::move(beside);
     return json;
 }

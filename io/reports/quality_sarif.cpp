@@ -74,16 +74,16 @@ Json rule_json(const RuleText& rule) {
             {"help", {{"text", rule.help}, {"markdown", rule.help}}}};
 }
 
-/// `runs`: strongest_first(d).
-Json related_locations(const Program& program, const Defect& d, std::span<const DefectSection> runs) {
+/// `sections`: strongest_first(d).
+Json related_locations(const Program& program, const Defect& d, std::span<const DefectSection> sections) {
     Json related = Json::array();
-    if (!runs.empty() && !runs.front().file.empty()) {
-        const DefectSection& section = runs.front();
+    if (!sections.empty() && !sections.front().file.empty()) {
+        const DefectSection& section = sections.front();
         related.push_back(sarif_location(sarif_uri(program.main().name()), section.first_line, section.last_line,
                                          fmt::format("Calls {}.", section.file)));
     }
-    for (std::size_t k = 1; k < std::min(runs.size(), most_related); ++k)
-        related.push_back(location(program, runs[k], fmt::format("The same defect on pass {}.", runs[k].pass)));
+    for (std::size_t k = 1; k < std::min(sections.size(), most_related); ++k)
+        related.push_back(location(program, sections[k], fmt::format("The same defect on pass {}.", sections[k].pass)));
     for (std::size_t k = 0; k < std::min(d.neighbours.size(), most_related); ++k)
         related.push_back(
             location(program, d.neighbours[k], fmt::format("Neighbouring pass {}.", d.neighbours[k].pass)));
@@ -123,14 +123,15 @@ std::string quality_sarif(const ReportedQuality& q) {
     Json results = Json::array();
     for (std::size_t i = 0; i < defects.size(); ++i) {
         const Defect& d = defects[i];
-        const std::vector<DefectSection> runs = strongest_first(d);
+        const std::vector<DefectSection> sections = strongest_first(d);
         const std::string_view rule = rule_of(d).id;
         Json result{
             {"ruleId", rule},
             {"ruleIndex", index_of_rule.at(rule)},
             {"level", level_of(d.severity)},
             {"message", {{"text", message_of(d)}, {"markdown", markdown_of(d)}}},
-            {"locations", Json::array({location(*q.program, runs.empty() ? DefectSection{} : runs.front(), "")})},
+            {"locations",
+             Json::array({location(*q.program, sections.empty() ? DefectSection{} : sections.front(), "")})},
             {"rank", number(100.0 * static_cast<double>(defects.size() - i) / static_cast<double>(defects.size()), 1)},
             {"partialFingerprints", {{"clsurfDefect/v1", fingerprints[i]}}},
             {"properties",
@@ -148,7 +149,7 @@ std::string quality_sarif(const ReportedQuality& q) {
         result["properties"].update(
             {{"cause", name_of(d.cause)}, {"systematic", d.systematic}, {"lines", std::move(lines)}});
         if (q.baseline != nullptr) result["baselineState"] = baseline_state(q.baseline->states[i]);
-        Json related = related_locations(*q.program, d, runs);
+        Json related = related_locations(*q.program, d, sections);
         if (!related.empty()) result["relatedLocations"] = std::move(related);
         if (q.acceptance != nullptr && q.acceptance->accepts(i))
             result["suppressions"] = suppressions_of(*q.acceptance, i);

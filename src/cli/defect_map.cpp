@@ -28,9 +28,10 @@ viz::DefectKind kind_of(Quantity quantity) {
 
 /// Where it is strongest, on the section that io::lines_label() names.
 PointIndex named_point(const Defect& d) {
-    const DefectSection* run = strongest_section(d);
-    if (run == nullptr) return d.point;
-    return std::clamp(d.point, run->points.first, run->points.last) == d.point ? d.point : run->points.first;
+    const DefectSection* section = strongest_section(d);
+    if (section == nullptr) return d.point;
+    return std::clamp(d.point, section->points.first, section->points.last) == d.point ? d.point
+                                                                                       : section->points.first;
 }
 
 }  // namespace

@@ -79,10 +79,8 @@ std::span<const ExitCodeRow> exit_codes() {
 
 std::string overview_text() {
     std::vector<Entry> commands;
-    for (const Subcommand& subcommand : subcommands()) {
-        if (subcommand.hidden) continue;
-        commands.push_back({std::string(subcommand.name), std::string(subcommand.summary)});
-    }
+    for (const Subcommand* subcommand : shown_subcommands())
+        commands.push_back({std::string(subcommand->name), std::string(subcommand->summary)});
     std::vector<Entry> lists;
     for (const Vocabulary& vocabulary : vocabularies()) {
         lists.push_back({fmt::format("help {}", vocabulary.name), std::string(vocabulary.summary)});

@@ -27,8 +27,9 @@ PathTolerance::PathTolerance(const Trajectory& path, const Program& program, con
     tolerances_.reserve(static_cast<std::size_t>(program.motions.size()));
     for (std::int64_t motion = 0; motion < program.motions.size(); ++motion) {
         for (; event != program.events.end() && event->motion <= motion; ++event) {
-            if (!event->path_mode()) continue;
-            tolerance = event->path_mode()->block_end == BlockEnd::rounded ? event->path_mode()->tolerance : infinite;
+            const PathMode* const mode = event->path_mode();
+            if (mode == nullptr) continue;
+            tolerance = mode->block_end == BlockEnd::rounded ? mode->tolerance : infinite;
             if (std::isnan(tolerance)) tolerance = machines_own;
         }
         const double held = cuts(motion) ? tolerance : infinite;

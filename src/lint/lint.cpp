@@ -20,8 +20,9 @@ std::size_t LintReport::warnings() const {
 double programmed_tolerance(const Program& program) {
     double least = 0;
     for (const ProgramEvent& event : program.events) {
-        if (!event.path_mode() || event.path_mode()->block_end != BlockEnd::rounded) continue;
-        const double tolerance = event.path_mode()->tolerance;
+        const PathMode* const mode = event.path_mode();
+        if (mode == nullptr || mode->block_end != BlockEnd::rounded) continue;
+        const double tolerance = mode->tolerance;
         if (std::isfinite(tolerance) && (least == 0 || tolerance < least)) least = tolerance;
     }
     return least;

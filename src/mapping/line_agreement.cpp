@@ -43,9 +43,10 @@ double off_confidence(double distance) {
 double corner_tolerance(const Program& program) {
     double allowed = agreeing_distance;
     for (const ProgramEvent& event : program.events) {
-        if (!event.path_mode() || event.path_mode()->block_end != BlockEnd::rounded) continue;
+        const PathMode* const mode = event.path_mode();
+        if (mode == nullptr || mode->block_end != BlockEnd::rounded) continue;
         // What a corner may lose, and what merging short blocks may add.
-        const double tolerance = event.path_mode()->tolerance + event.path_mode()->merging_tolerance;
+        const double tolerance = mode->tolerance + mode->merging_tolerance;
         if (!std::isnan(tolerance)) allowed = std::max(allowed, std::min(tolerance, blending_distance));
     }
     return allowed;

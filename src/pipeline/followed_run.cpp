@@ -20,8 +20,8 @@ PartRules without_refusal(PartRules rules) {
 
 bool overlap(const PointRange& a, const PointRange& b) { return a.first <= b.last && b.first <= a.last; }
 
-void shift_runs(std::vector<DefectSection>& runs, PointIndex points, std::int64_t passes) {
-    for (DefectSection& section : runs) {
+void shift_sections(std::vector<DefectSection>& sections, PointIndex points, std::int64_t passes) {
+    for (DefectSection& section : sections) {
         section.points = {section.points.first + points, section.points.last + points};
         section.pass += passes;
     }
@@ -30,8 +30,8 @@ void shift_runs(std::vector<DefectSection>& runs, PointIndex points, std::int64_
 /// Makes the points and passes of a window's defect those of the log.
 void shift(Defect& defect, PointIndex points, std::int64_t passes) {
     defect.point += points;
-    shift_runs(defect.sections, points, passes);
-    shift_runs(defect.neighbours, points, passes);
+    shift_sections(defect.sections, points, passes);
+    shift_sections(defect.neighbours, points, passes);
 }
 
 bool is_motion(const Defect& defect) {

@@ -83,9 +83,9 @@ std::string_view description_of(Cause cause) {
     return "";
 }
 
-double CauseFinder::spacing(std::span<const DefectSection> runs) const {
+double CauseFinder::spacing(std::span<const DefectSection> sections) const {
     std::vector<double> steps;
-    for (const DefectSection& section : runs) {
+    for (const DefectSection& section : sections) {
         if (section.first_line == 0) continue;
         const LineNumber last = std::min(section.last_line, section.first_line + most_lines);
         for (LineNumber line = section.first_line; line <= last; ++line) {
@@ -172,13 +172,13 @@ Cause CauseFinder::cause_of(const Defect& defect, std::span<const DefectCandidat
     if (defect.quantity == Quantity::relief && leaves_program(defect, sites)) return Cause::path_tolerance;
     if (defect.quantity == Quantity::relief || (defect.quantity != Quantity::lag && spaced_otherwise(defect)))
         return Cause::point_spacing;
-    const auto most_runs = [&](auto&& test) {
-        const auto runs = std::count_if(defect.sections.begin(), defect.sections.end(), test);
-        return 2 * runs > static_cast<std::ptrdiff_t>(defect.sections.size());
+    const auto most_sections = [&](auto&& test) {
+        const auto count = std::count_if(defect.sections.begin(), defect.sections.end(), test);
+        return 2 * count > static_cast<std::ptrdiff_t>(defect.sections.size());
     };
-    if (most_runs([&](const DefectSection& section) { return turns(section); })) return Cause::corner;
+    if (most_sections([&](const DefectSection& section) { return turns(section); })) return Cause::corner;
     if (defect.quantity == Quantity::lag) {
-        if (most_runs([&](const DefectSection& section) { return begins_with_reversal(section); }))
+        if (most_sections([&](const DefectSection& section) { return begins_with_reversal(section); }))
             return Cause::reversal;
         return Cause::lag_step;
     }

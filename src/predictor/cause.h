@@ -22,7 +22,7 @@ public:
           toolpath_(program.motions, Vec3::Zero()),
           arc_length_(arc_length) {}
 
-    /// `sites`: those of the defect's runs, in order; its neighbours are known.
+    /// `sites`: those of the defect's sections, in order; its neighbours are known.
     [[nodiscard]] Cause cause_of(const Defect& defect, std::span<const DefectCandidate* const> sites) const;
 
 private:
@@ -31,7 +31,7 @@ private:
     [[nodiscard]] double off_program(PointIndex point) const;
     [[nodiscard]] bool turns(const DefectSection& section) const;
     [[nodiscard]] bool begins_with_reversal(const DefectSection& section) const;
-    [[nodiscard]] double spacing(std::span<const DefectSection> runs) const;
+    [[nodiscard]] double spacing(std::span<const DefectSection> sections) const;
 
     const ClSurface& surface_;
     const Signals& signals_;

@@ -65,7 +65,7 @@ struct Defect {
     double speed_jump = 0;          ///< [mm/s] signed, against the neighbours
     double speed_mismatch = 0;      ///< the same relative to the neighbours' speed, ≥ −1
     double acceleration_jump = 0;   ///< [mm/s²] ≥ 0
-    std::vector<DefectSection> sections;    ///< of the passes at fault, in the order of their points
+    std::vector<DefectSection> sections;    ///< on the passes at fault, sorted by their points
     std::vector<DefectSection> neighbours;  ///< the clean passes beside them
 };
 

@@ -29,8 +29,8 @@ constexpr float strong_alone = 1.5F;       ///< … and of the acceleration's ow
 constexpr std::size_t fewest_sites = 2;
 constexpr int of_stops = 3;   ///< severity of a motion by its speed alone, from which on it may be of any length …
 constexpr int of_spikes = 4;  ///< … and that of a height
-constexpr std::size_t most_systematic_runs = 300;  ///< that are listed: the longest
-constexpr double systematic_depth = 0.99;          ///< quantile of the steps of a systematic lag
+constexpr std::size_t most_systematic_sections = 300;  ///< that are listed: the longest
+constexpr double systematic_depth = 0.99;              ///< quantile of the steps of a systematic lag
 
 /// The largest of values; NaN are left out.
 double largest_of(const std::vector<double>& values) {
@@ -147,7 +147,7 @@ public:
             defect.score = score_of(other);
         }
         for (const CandidateSpan run : runs_of(core, arc_length_, joined_))
-            defect.sections.push_back(run_of(run.front()->pass, {run.front()->point, run.back()->point}));
+            defect.sections.push_back(section_of(run.front()->pass, {run.front()->point, run.back()->point}));
         measure(core, defect);
         defect.neighbours = neighbours_of(core, defect.sections);
         defect.cause = causes_.cause_of(defect, core);
@@ -191,27 +191,27 @@ public:
             while (end < lag.sites.size() && lag.sites[end].pass == lag.sites[k].pass &&
                    !arc_length_.at_least(lag.sites[end - 1].point, lag.sites[end].point, joined_))
                 ++end;
-            defect.sections.push_back(run_of(lag.sites[k].pass, {lag.sites[k].point, lag.sites[end - 1].point}));
+            defect.sections.push_back(section_of(lag.sites[k].pass, {lag.sites[k].point, lag.sites[end - 1].point}));
             k = end;
         }
-        const double arc_length = add_up_runs(defect);
+        const double arc_length = add_up_sections(defect);
         defect.share = arc_length / cut_arc_length(surface_, arc_length_);
-        keep_longest(most_systematic_runs, defect.sections);
+        keep_longest(most_systematic_sections, defect.sections);
         defect.severity = severity_of({defect.depth, defect.score, false, true}, rules_.severity);
         return defect;
     }
 
 private:
-    [[nodiscard]] DefectSection run_of(std::size_t pass, PointRange points) const {
-        DefectSection run{numbers_[pass], points, 0, 0};
+    [[nodiscard]] DefectSection section_of(std::size_t pass, PointRange points) const {
+        DefectSection section{numbers_[pass], points, 0, 0};
         std::vector<LineNumber> lines(static_cast<std::size_t>(points.size()));
         lines_.read(points.first, lines);
         for (const LineNumber line : lines) {
             if (line == 0) continue;
-            run.first_line = run.first_line == 0 ? line : std::min(run.first_line, line);
-            run.last_line = std::max(run.last_line, line);
+            section.first_line = section.first_line == 0 ? line : std::min(section.first_line, line);
+            section.last_line = std::max(section.last_line, line);
         }
-        return run;
+        return section;
     }
 
     void measure(CandidateSpan core, Defect& defect) const {
@@ -237,27 +237,27 @@ private:
         defect.speed_jump = plateau(speeds, side);
         defect.speed_mismatch = plateau(mismatches, side);
         defect.acceleration_jump = plateau(accelerations, 1);
-        (void)add_up_runs(defect);
+        (void)add_up_sections(defect);
     }
 
     /// In the order of their points.
-    void keep_longest(std::size_t most, std::vector<DefectSection>& runs) const {
-        if (runs.size() <= most) return;
+    void keep_longest(std::size_t most, std::vector<DefectSection>& sections) const {
+        if (sections.size() <= most) return;
         const auto length = [&](const DefectSection& section) {
             return arc_length_.to(section.points.last) - arc_length_.to(section.points.first);
         };
-        std::nth_element(runs.begin(), runs.begin() + static_cast<std::ptrdiff_t>(most), runs.end(),
+        std::nth_element(sections.begin(), sections.begin() + static_cast<std::ptrdiff_t>(most), sections.end(),
                          [&](const DefectSection& a, const DefectSection& b) {
                              const double in_a = length(a), in_b = length(b);
                              return in_a != in_b ? in_a > in_b : a.points.first < b.points.first;
                          });
-        runs.resize(most);
-        std::sort(runs.begin(), runs.end(),
+        sections.resize(most);
+        std::sort(sections.begin(), sections.end(),
                   [](const DefectSection& a, const DefectSection& b) { return a.points.first < b.points.first; });
     }
 
-    /// Length and area of a defect from its runs. Returns the length of all runs [mm].
-    double add_up_runs(Defect& defect) const {
+    /// Length and area of a defect from its sections. Returns the length of all of them [mm].
+    double add_up_sections(Defect& defect) const {
         double arc_length = 0;
         for (const DefectSection& section : defect.sections) {
             const double length = arc_length_.to(section.points.last) - arc_length_.to(section.points.first);
@@ -268,9 +268,9 @@ private:
         return arc_length;
     }
 
-    /// The sections beside `runs` on passes that are not at fault.
+    /// The sections beside `sections` on passes that are not at fault.
     [[nodiscard]] std::vector<DefectSection> neighbours_of(CandidateSpan core,
-                                                           const std::vector<DefectSection>& runs) const {
+                                                           const std::vector<DefectSection>& sections) const {
         std::map<std::size_t, PointRange> found;  // by pass
         for (const DefectCandidate* s : core) {
             for (const PathLocation& at : {s->comparison.beside_left, s->comparison.beside_right}) {
@@ -284,9 +284,9 @@ private:
         std::vector<DefectSection> clean;
         for (const auto& [pass, points] : found) {
             const bool at_fault =
-                std::any_of(runs.begin(), runs.end(),
+                std::any_of(sections.begin(), sections.end(),
                             [&, number = numbers_[pass]](const DefectSection& r) { return r.pass == number; });
-            if (!at_fault) clean.push_back(run_of(pass, points));
+            if (!at_fault) clean.push_back(section_of(pass, points));
         }
         std::sort(clean.begin(), clean.end(),
                   [](const DefectSection& a, const DefectSection& b) { return a.points.first < b.points.first; });
@@ -411,12 +411,12 @@ const DefectSection* strongest_section(const Defect& defect) {
 }
 
 std::vector<DefectSection> strongest_first(const Defect& defect) {
-    std::vector<DefectSection> runs = defect.sections;
+    std::vector<DefectSection> sections = defect.sections;
     const DefectSection* strongest = strongest_section(defect);
-    if (strongest == nullptr) return runs;
-    const auto at = runs.begin() + (strongest - defect.sections.data());
-    std::rotate(runs.begin(), at, at + 1);
-    return runs;
+    if (strongest == nullptr) return sections;
+    const auto at = sections.begin() + (strongest - defect.sections.data());
+    std::rotate(sections.begin(), at, at + 1);
+    return sections;
 }
 
 std::vector<PointRange> QualityReport::sections() const {

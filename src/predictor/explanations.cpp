@@ -16,17 +16,17 @@ constexpr int severe = 3;                 ///< a motion of this severity has it 
 /// Sections that explain what lies in them.
 class Explanations {
 public:
-    /// `room`: points round a run that are its own too.
+    /// `room`: points around a section that are its own too.
     explicit Explanations(PointIndex room) : room_(room) {}
 
-    void add(const std::vector<DefectSection>& runs) {
-        for (const DefectSection& section : runs)
+    void add(const std::vector<DefectSection>& sections) {
+        for (const DefectSection& section : sections)
             sections_.push_back({section.points.first - room_, section.points.last + room_, 0});
         sorted_ = false;
     }
 
     /// At least half of the sites, in the order of their points, lie in sections of what was added: of one thing or of several.
-    /// O(sites log runs), and at the first call O(runs log runs).
+    /// O(sites log sections), and at the first call O(sections log sections).
     [[nodiscard]] bool explain(CandidateSpan sites) {
         sort();
         if (lies_elsewhere(sites)) return false;

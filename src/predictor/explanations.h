@@ -23,7 +23,7 @@ struct BuiltDefect {
 ///   to 20 ms beside its own. Several motions may do so together, as where every level of a tower has a link of its own.
 /// - A height that the program has is never explained, unless by an expected motion. It explains the motions and lags at its place
 ///   whose severity is no higher, and from severity 3 on also their score: a shallow offset is no reason for a deep drop of the speed.
-/// O(sites log runs), with one comparison for each height of the program and each other defect.
+/// O(sites log sections), with one comparison for each height of the program and each other defect.
 [[nodiscard]] std::vector<BuiltDefect> unexplained(std::span<std::vector<BuiltDefect>> of_family, double period);
 
 }  // namespace clsurf

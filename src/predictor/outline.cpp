@@ -11,13 +11,13 @@ namespace clsurf {
 namespace {
 
 constexpr float sample_arc_length = 0.25F;  ///< step-overs between corners along a pass
-constexpr float joined_arc_length = 2.0F;   ///< step-overs: runs of one pass that lie closer are drawn as one
+constexpr float joined_arc_length = 2.0F;   ///< step-overs: sections of one pass that lie closer are drawn as one
 
 /// The points of a defect, and of the clean passes between two of its own.
 class Region {
 public:
-    Region(const std::vector<DefectSection>& runs, const ClSurface& surface) : surface_(surface) {
-        for (const DefectSection& section : runs) ranges_.push_back(section.points);
+    Region(const std::vector<DefectSection>& sections, const ClSurface& surface) : surface_(surface) {
+        for (const DefectSection& section : sections) ranges_.push_back(section.points);
         join_near();
         std::vector<PointIndex> between;
         for (const PointRange& range : ranges_) {

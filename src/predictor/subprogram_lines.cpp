@@ -8,9 +8,9 @@ namespace clsurf {
 namespace {
 
 /// Names the lines of subprograms that are in files of their own.
-void name_subprograms(const Program& program, const LineMap& lines, std::vector<DefectSection>& runs) {
+void name_subprograms(const Program& program, const LineMap& lines, std::vector<DefectSection>& sections) {
     const Motions& motions = program.motions;
-    for (DefectSection& section : runs) {
+    for (DefectSection& section : sections) {
         std::uint16_t file = 0;  // of the first point in one
         for (PointIndex i = section.points.first; i <= section.points.last; ++i) {
             const std::int64_t motion = lines.motion_at(i);

@@ -107,7 +107,7 @@ void write_poly(const std::string& path, vtkPolyData& poly) {
     // Not raw: VTK 9.1 and ParaView 5.11 cannot read that with expat 2.6, or 2.5.0-1+deb12u2 of Debian 12
     // (gitlab.kitware.com/vtk/vtk/-/issues/19258; they read base64 behind some room). Not inline: that writer crashes on a full disk.
     writer->EncodeAppendedDataOn();
-    // A full disk is told by the error code alone, with a page of text on standard error.
+    // VTK reports a full disk by its error code alone, and prints a page of text to standard error.
     const int warnings = vtkObject::GetGlobalWarningDisplay();
     vtkObject::GlobalWarningDisplayOff();
     const bool written = writer->Write() != 0 && writer->GetErrorCode() == vtkErrorCode::NoError;

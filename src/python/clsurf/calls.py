@@ -187,10 +187,11 @@ def optimize(
     repair.feeds = feeds
     repair.tradeoff = tradeoff
     repair.weight = weight
-    return _optimize(options, repair)
+    return _repaired(options, repair)
 
 
-def _optimize(options: _clsurf.PartOptions, repair: _clsurf.RepairOptions) -> OptimizedProgram:
+def _repaired(options: _clsurf.PartOptions, repair: _clsurf.RepairOptions) -> OptimizedProgram:
+    """Runs the repair; its report as dictionaries."""
     made = _clsurf.optimize(options, repair)
     report = json.loads(made.report)
     if made.front:

@@ -53,7 +53,7 @@ void BlockStream::take(const PathMode& mode) {
 
 void BlockStream::follow_events(std::int64_t motion) {
     events_.pass(source_->program().events, motion, [&](const ProgramEvent& event) {
-        if (event.path_mode()) take(*event.path_mode());
+        if (const PathMode* mode = event.path_mode()) take(*mode);
     });
 }
 
