@@ -1,7 +1,7 @@
 #pragma once
 // LogFormat: one row per readable log format. The registry picks by content, not by file name.
-// To add one of ours: io/formats/<format>.cpp with its row, declared in known_formats.h and listed in log_formats.cpp. Others
-// come with LogOptions::more_formats.
+// To add one of ours: io/formats/<format>.cpp with its row, named in log_formats.def. Others come with
+// LogOptions::more_formats.
 
 #include <optional>
 #include <span>

@@ -33,10 +33,11 @@ constexpr std::size_t probed_bytes = 65536;
 }  // namespace
 
 std::span<const LogFormat> log_formats() {
-    // Later ones win only with a better score.
-    static const auto table =
-        std::to_array<LogFormat>({biip_format, layout_format, halsampler_format, halscope_format, twincat_format,
-                                  edge_format, sinumerik_xml_format, delimited_format});
+    static const auto table = std::to_array<LogFormat>({
+#define LOG_FORMAT(name, source) name##_format,
+#include "io/formats/log_formats.def"
+#undef LOG_FORMAT
+    });
     return table;
 }
 
