@@ -5,10 +5,10 @@
 #include <string_view>
 #include <utility>
 
-#include "cli/config.h"
-#include "cli/option_rows.h"
-#include "cli/option_value.h"
-#include "cli/used_config.h"
+#include "cli/options/config.h"
+#include "cli/options/option_rows.h"
+#include "cli/options/option_value.h"
+#include "cli/options/used_config.h"
 #include "core/spelling.h"
 
 namespace clsurf::cli {

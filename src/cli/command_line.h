@@ -13,9 +13,8 @@ namespace clsurf::cli {
 /// Throws UsageError where there is no subcommand.
 [[nodiscard]] std::vector<std::string> subcommand_first(std::vector<std::string> words);
 
-/// The values of the words after the subcommand's name, and of the configuration (cli/config.h). Throws InputError of
-/// the latter, UsageError, and po::error where
-/// Boost cannot cut them; to_usage_error() says that in our words.
+/// The values of the words after the subcommand's name, and of the configuration (cli/options/config.h). Throws InputError
+/// of the latter, UsageError, and po::error where Boost cannot cut them; to_usage_error() says that in our words.
 [[nodiscard]] po::variables_map parse_words(const Subcommand& subcommand, const std::vector<std::string>& given_words);
 
 [[nodiscard]] UsageError to_usage_error(const po::error& error);

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "cli/command_line.h"
-#include "cli/help_text.h"
-#include "cli/options.h"
+#include "cli/manual/help_text.h"
+#include "cli/options/options.h"
+#include "cli/options/used_config.h"
 #include "cli/subcommand.h"
 #include "cli/terminal.h"
-#include "cli/used_config.h"
 #include "cli/version_text.h"
 #include "core/error.h"
 #include "core/parallel.h"

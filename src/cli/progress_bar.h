@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "cli/options.h"
+#include "cli/options/options.h"
 #include "core/progress.h"
 
 namespace clsurf::cli {

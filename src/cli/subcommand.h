@@ -3,7 +3,7 @@
 //
 // What an option's value is called says what it may be: "auto|always|never" are all the words there
 // are (others are refused before run() is called), "iso|top|AZ,EL" some of them, "DIALECT" those of
-// a vocabulary (cli/vocabulary.h), "FILE" and "FOLDER" names that the shell can complete.
+// a vocabulary (cli/options/vocabulary.h), "FILE" and "FOLDER" names that the shell can complete.
 
 #include <span>
 #include <string>
@@ -40,7 +40,7 @@ struct Subcommand {
 /// The subcommand of that name. Throws UsageError with the nearest one.
 [[nodiscard]] const Subcommand& find_subcommand(std::string_view name);
 
-// One function a subcommand, each in the file of its name.
+// One function a subcommand, each in the file of its name in subcommands/.
 [[nodiscard]] Subcommand align_subcommand();
 [[nodiscard]] Subcommand check_subcommand();
 [[nodiscard]] Subcommand compare_subcommand();

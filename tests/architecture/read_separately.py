@@ -27,7 +27,7 @@ import zlib
 
 # The costly headers that many files reach. One that includes another stands behind it.
 SHARED = ["gtest/gtest.h", "fmt/format.h", "boost/program_options.hpp", "nlohmann/json.hpp", "core/geometry.h",
-          "program/program.h", "surface/cl_surface.h", "machine/machine.h", "predictor/signals.h", "cli/options.h"]
+          "program/program.h", "surface/cl_surface.h", "machine/machine.h", "predictor/signals.h", "cli/options/options.h"]
 FEWEST = 4  # files that make a precompiled one worth its cost
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]', re.MULTILINE)
@@ -77,7 +77,7 @@ class Project:
 
     def words_of_all(self):
         """The words of one source, and the folders of headers of all."""
-        words = list(self.words[self.root / "src" / "cli" / "simulate.cpp"])
+        words = list(self.words[self.root / "src" / "cli" / "subcommands" / "simulate.cpp"])
         for other in self.words.values():
             for k, word in enumerate(other):
                 if word == "-isystem" and other[k + 1] not in words:

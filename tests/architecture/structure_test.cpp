@@ -143,9 +143,9 @@ TEST(Lengths, ALongFileAndALongFunctionAreFound) {
     EXPECT_EQ(check_lengths({"a.cpp", "int flow() {" + body(60)}), Complaints{"a.cpp: flow is not closed"});
     EXPECT_EQ(check_lengths({"a.cpp", "int control() {" + body(60) + "}\n"}).size(), 1U) << "of another room";
     const std::string subcommand = "Subcommand a_subcommand() {\n}\n";
-    EXPECT_TRUE(check_lengths({"src/cli/a.cpp", body(148) + subcommand}).empty());
-    EXPECT_EQ(check_lengths({"src/cli/a.cpp", body(149) + subcommand}),
-              Complaints{"src/cli/a.cpp has 151 lines, a subcommand"});
+    EXPECT_TRUE(check_lengths({"src/cli/subcommands/a.cpp", body(148) + subcommand}).empty());
+    EXPECT_EQ(check_lengths({"src/cli/subcommands/a.cpp", body(149) + subcommand}),
+              Complaints{"src/cli/subcommands/a.cpp has 151 lines, a subcommand"});
 }
 
 TEST(Lengths, FunctionsAreToldFromTypesAndValues) {

@@ -1,4 +1,4 @@
-#include "cli/vocabulary.h"
+#include "cli/options/vocabulary.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <set>
 
 #include "cli/command_line.h"
-#include "cli/option_rows.h"
+#include "cli/options/option_rows.h"
 #include "field/field_table.h"
 #include "io/formats/log_format.h"
 #include "predictor/quality_fields.h"

@@ -1,0 +1,47 @@
+#pragma once
+// The options of `render`.
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/options/look.h"
+#include "cli/options/part.h"
+
+namespace clsurf::cli {
+
+/// Numbers from `first` to `last`; what is not said has no end.
+struct NumberRange {
+    std::int64_t first = 0;
+    std::int64_t last = std::numeric_limits<std::int64_t>::max();
+};
+
+/// What of a part is shown: what all of them have in common.
+struct Selection {
+    std::optional<NumberRange> points, lines, passes;
+    [[nodiscard]] bool is_all() const { return !points && !lines && !passes; }
+    std::string words;  ///< "points 100..300, passes 2..5"
+};
+
+struct RenderOptions {
+    PartOptions part;  ///< without a log the program is simulated, or shown as programmed
+    Selection selection;
+    std::string before;  ///< log of the other panel; empty: one panel
+    std::string output;
+    bool defect_map = false;  ///< of `defects`: sections and names on a grey relief, not outlines on a field
+    std::string field;        ///< empty: feed_share, or speed where no feed is known
+    LookOptions shown;
+    std::vector<PointIndex> points;
+    std::vector<LineNumber> lines;
+    bool defects = false;
+    bool programmed = false;    ///< the path of the program is drawn, too
+    std::optional<Role> swept;  ///< its positions; none: the most truthful
+};
+
+void declare_render(po::options_description& options);
+/// Throws UsageError.
+[[nodiscard]] RenderOptions read_render_options(const po::variables_map& values);
+
+}  // namespace clsurf::cli

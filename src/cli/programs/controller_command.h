@@ -1,0 +1,46 @@
+#pragma once
+// --controller: the user's own controller, as a command that runs a program and writes its log.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "cli/options/options.h"
+
+namespace clsurf::cli {
+
+/// --controller, --timeout.
+void declare_controller(po::options_description& options);
+
+class ControllerCommand {
+public:
+    /// `words`: a command line of the shell with {program} and {log}. Throws UsageError: one of them is missing.
+    ControllerCommand(std::string words, double timeout);
+
+    /// Runs it; both names are quoted for the shell. Returns how it failed, as a clause with the last line that it printed;
+    /// empty: it ended with exit code 0 in time and wrote the log. A command that takes too long is killed with all that
+    /// it started. Throws SystemError: nothing can be started.
+    [[nodiscard]] std::string run(const std::filesystem::path& program, const std::filesystem::path& log) const;
+
+private:
+    std::string words_;
+    double timeout_;  ///< [s]
+};
+
+/// The command of the options. Throws UsageError: --timeout without --controller, or not above 0.
+[[nodiscard]] std::optional<ControllerCommand> read_controller(const po::variables_map& values);
+
+/// A folder for the files of runs, gone with the object. Throws SystemError.
+class RunFolder {
+public:
+    RunFolder();
+    RunFolder(const RunFolder&) = delete;
+    RunFolder& operator=(const RunFolder&) = delete;
+    ~RunFolder();
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+}  // namespace clsurf::cli

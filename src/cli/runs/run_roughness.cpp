@@ -1,0 +1,34 @@
+#include "cli/runs/run_roughness.h"
+
+#include <memory>
+
+#include "mapping/map_lines.h"
+#include "surface/stitch.h"
+
+namespace clsurf::cli {
+namespace {
+
+/// What the points of a run belong to, as far as that tells which passes cut: --program may be the program of the reference
+/// only.
+std::unique_ptr<LineMap> lines_that_cut(LoadedRun& run, const Trajectory& path, const RunOptions& options) {
+    RunOptions any = options;
+    any.force = true;
+    Diagnostics said_of_reference;
+    std::unique_ptr<LineMap> lines = lines_of(run, path, any, said_of_reference);
+    if (!run.simulated && !lines->match().foreign.empty())
+        lines = std::make_unique<LineMap>(lines_without_program(run.log, path.count));
+    return lines;
+}
+
+}  // namespace
+
+std::optional<RoughnessChange> roughness_change_of(const GaugedRun& reference, LoadedRun& run, const ComparedRun& b,
+                                                   const CuttingTool& tool, const RunOptions& options) {
+    const std::unique_ptr<LineMap> lines = lines_that_cut(run, b.path, options);
+    const ClSurface surface = stitch(gather(b.path), *lines);
+    Trajectory path = b.path;
+    state_tool_axes(path, run, *lines, nullptr);
+    return roughness_change(reference, {run.log, path, *lines, surface}, tool);
+}
+
+}  // namespace clsurf::cli
