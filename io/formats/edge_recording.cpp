@@ -12,7 +12,7 @@
 namespace clsurf::io {
 namespace {
 
-constexpr std::size_t deepest = 32;  ///< levels; recordings have six
+constexpr std::size_t most_levels = 32;  ///< levels; recordings have six
 
 Place place_of(const Source& source, std::size_t byte) {
     const std::string_view before = source.text().substr(0, byte);
@@ -24,9 +24,9 @@ Place place_of(const Source& source, std::size_t byte) {
 }
 
 /// The parser's events, told apart by the keys above them: "Payload/HFData" is a list of rows.
-class Reader : public nlohmann::json_sax<Json> {
+class RecordingReader : public nlohmann::json_sax<Json> {
 public:
-    explicit Reader(const Source& source) : source_(source) {}
+    explicit RecordingReader(const Source& source) : source_(source) {}
 
     EdgeRecording read() {
         Json::sax_parse(source_.text(), this);
@@ -139,8 +139,9 @@ private:
     [[nodiscard]] bool inside(std::string_view key) const { return keys_.size() > 1 && keys_[keys_.size() - 2] == key; }
 
     bool push() {
-        if (keys_.size() == deepest)
-            throw InputError(Place::of_file(source_.name), fmt::format("JSON nested deeper than {} levels", deepest));
+        if (keys_.size() == most_levels)
+            throw InputError(Place::of_file(source_.name),
+                             fmt::format("JSON nested deeper than {} levels", most_levels));
         keys_.emplace_back();
         return true;
     }
@@ -208,6 +209,6 @@ private:
 
 }  // namespace
 
-EdgeRecording read_edge_recording(const Source& source) { return Reader(source).read(); }
+EdgeRecording read_edge_recording(const Source& source) { return RecordingReader(source).read(); }
 
 }  // namespace clsurf::io

@@ -30,7 +30,7 @@ constexpr double least_file_time = 1e15;  ///< more milliseconds than a recordin
 constexpr double file_time_per_millisecond = 1e4;
 constexpr double seconds_per_millisecond = 1e-3;
 
-struct Header {
+struct ScopeHeader {
     TextPlan plan;
     std::vector<std::size_t> time_column;  ///< of each column; its own number: a column of times
     double sample_time = 0;                ///< [ms] the shortest; 0: not given
@@ -95,8 +95,8 @@ SourceColumn read_column(const std::vector<std::vector<std::string>>& rows, std:
     return column;
 }
 
-Header read_header(const Source& source, const Mapping* mapping) {
-    Header header;
+ScopeHeader read_header(const Source& source, const Mapping* mapping) {
+    ScopeHeader header;
     const auto [rows, name_line] = read_rows(source, header.plan);
     std::vector<SourceColumn> columns;
     std::size_t time = 0;
@@ -187,7 +187,7 @@ struct TimeColumns {
     std::size_t fastest = 0;  ///< gives the records: the one with the smallest first step
 };
 
-TimeColumns read_times(const Source& source, const Header& header, const Log& read) {
+TimeColumns read_times(const Source& source, const ScopeHeader& header, const Log& read) {
     TimeColumns times;
     times.of.resize(header.plan.columns.size());
     bool found = false;
@@ -223,7 +223,7 @@ int probe_twincat(std::span<const std::byte> head, const LogOptions&) {
 Log open_twincat(const Source& source, const LogOptions& options) {
     const std::optional<Mapping> mapping = mapping_of(options);
     const Mapping* map = mapping ? &*mapping : nullptr;
-    Header header = read_header(source, map);
+    ScopeHeader header = read_header(source, map);
     header.plan.data_end = end_of_records(source.text());
     const Log read = read_table(source, header.plan, "twincat");
 
