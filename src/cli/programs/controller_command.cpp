@@ -2,9 +2,11 @@
 
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -19,34 +21,46 @@
 namespace clsurf::cli {
 namespace {
 
-constexpr double usual_timeout = 3600;  // s
+constexpr double usual_timeout = 3600;               // s
+constexpr std::uintmax_t most_output = 100'000'000;  // bytes that a command may print: the disk is not filled
 
 void replace_all(std::string& text, std::string_view word, const std::string& by) {
     for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + by.size()))
         text.replace(at, word.size(), by);
 }
 
-/// The child's status; nullopt: it took too long and was killed.
-std::optional<int> wait_for(pid_t child, double timeout) {
+void stop(pid_t child) {
+    ::kill(-child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+}
+
+/// Waits for the child, whose output is in a file. Why it was stopped; empty: it ended with that status.
+std::string wait_for(pid_t child, const std::filesystem::path& output, double timeout, int& status) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point end =
         Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout));
-    int status = 0;
     while (::waitpid(child, &status, WNOHANG) == 0) {
-        if (Clock::now() < end) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(20));
-            continue;
+        std::error_code none;
+        const std::uintmax_t printed = std::filesystem::file_size(output, none);
+        std::string reason;
+        if (!none && printed > most_output)
+            reason = fmt::format("it printed more than {} MB and was stopped", most_output / 1'000'000);
+        else if (Clock::now() >= end)
+            reason = fmt::format("it took longer than {} s and was stopped", timeout);
+        if (!reason.empty()) {
+            stop(child);
+            return reason;
         }
-        ::kill(-child, SIGKILL);
-        ::waitpid(child, &status, 0);
-        return std::nullopt;
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
-    return status;
+    return {};
 }
 
 /// The last line that is not empty.
 std::string last_line(const std::filesystem::path& path) {
-    std::ifstream file(path);
+    constexpr std::streamoff most_read = 65536;
+    std::ifstream file(path, std::ios::ate);
+    file.seekg(std::max<std::streamoff>(0, static_cast<std::streamoff>(file.tellg()) - most_read));
     std::string last;
     for (std::string line; std::getline(file, line);) {
         if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
@@ -93,14 +107,17 @@ std::string ControllerCommand::run(const std::filesystem::path& program, const s
     const pid_t child =
         start_child({.file = "/bin/sh", .words = {"sh", "-c", command}, .output = output.string(), .own_group = true},
                     "the controller");
-    const std::optional<int> status = wait_for(child, timeout_);
+    int status = 0;
+    const std::string stopped = wait_for(child, output, timeout_, status);
     const std::string printed = last_line(output);
     std::filesystem::remove(output, none);
     const std::string words = printed.empty() ? std::string() : fmt::format(" (\"{}\")", printed);
-    if (!status) return fmt::format("it took longer than {} s and was stopped{}", timeout_, words);
-    if (WIFSIGNALED(*status)) return fmt::format("it was ended by signal {}{}", WTERMSIG(*status), words);
-    if (WEXITSTATUS(*status) != 0) return fmt::format("it ended with exit code {}{}", WEXITSTATUS(*status), words);
+    if (!stopped.empty()) return stopped + words;
+    if (WIFSIGNALED(status)) return fmt::format("it was ended by signal {}{}", WTERMSIG(status), words);
+    if (WEXITSTATUS(status) != 0) return fmt::format("it ended with exit code {}{}", WEXITSTATUS(status), words);
     if (!std::filesystem::exists(log)) return "it ended with exit code 0 but wrote no log" + words;
+    // A pipe or a device may never end.
+    if (!std::filesystem::is_regular_file(log)) return "its log is not a file" + words;
     return {};
 }
 

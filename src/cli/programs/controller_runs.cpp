@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "cli/options/output_format.h"
+#include "cli/options/part.h"
+#include "cli/stage_clock.h"
 #include "core/error.h"
 #include "core/file_name.h"
 #include "io/files/atomic_file.h"
@@ -61,12 +63,21 @@ ExitCode record_on_controller(const ControllerCommand& command, const std::strin
     io::AtomicFile file(output);
     if (const std::string failure = command.run(program, recorded); !failure.empty())
         throw InputError(Place::of_file(program), "the controller did not run it: " + failure);
-    const io::Source bytes = io::map_file(recorded);
-    const Log log = io::open_log(recorded, {});
+    io::Source bytes = io::map_file(recorded);
+    bytes.name = output;
+    PartOptions options;
+    options.program = program;
+    options.log = output;
+    options.program_options = read_program_options(values);
+    options.log_source = bytes;
+    options.accept_unknown_tips = true;
+    StageClock clock(read_common(values), 3);
+    const Part part = load_part(options, clock);
     file.write(bytes.text());
     file.commit();
-    write_answer(fmt::format("{} records, {:.3f} s, from the controller\n", log.records,
-                             static_cast<double>(log.records) * log.period),
+    print(part.diagnostics, values);
+    write_answer(fmt::format("{} records, {:.3f} s, from the controller\n", part.log.records,
+                             static_cast<double>(part.log.records) * part.log.period),
                  values);
     return ExitCode::done;
 }

@@ -25,7 +25,8 @@ private:
 };
 
 /// `simulate --controller`: runs a program file on the controller instead of a simulated one, and keeps its log. Throws
-/// UsageError: options of the simulation; InputError: the run failed, or wrote no log that can be read.
+/// UsageError: options of the simulation; InputError: the run failed, or wrote no log of this program. Warns of a log that does
+/// not have all of the program's motions.
 ExitCode record_on_controller(const ControllerCommand& command, const std::string& program, const std::string& output,
                               const po::variables_map& values);
 

@@ -42,6 +42,21 @@ clsurf_cli_test(NAME simulate_on_a_controller SETUP "${other}"
   ARGS simulate ${dome} --controller "$CLSURF simulate {program} --machine other.toml -o {log} -q" -o run.biip FILE run.biip STDOUT "[0-9]+ records, [0-9.]+ s, from the controller")
 clsurf_cli_test(NAME simulate_controller_fails EXIT 3
   ARGS simulate ${dome} --controller "false {program} {log}" -o run.biip NO_FILE run.biip STDERR "it ended with exit code 1")
+clsurf_cli_test(NAME simulate_controller_runs_another_program EXIT 3
+  ARGS simulate ${dome} --controller "cp @LOGS@/bottle_uneven.biip {log} # {program}" -o run.biip NO_FILE run.biip STDERR "run.biip: error: does not belong to")
+clsurf_cli_test(NAME simulate_controller_stops_early SETUP "${other}"
+  ARGS simulate ${dome} --controller "$CLSURF simulate {program} --machine other.toml -o {log} -q; truncate -s -200000 {log}" -o run.biip FILE run.biip STDERR "run.biip: .*warning: the log ends at line [0-9]+: [0-9]+ % of the program's motions are missing after it")
+# What never ends is not read.
+clsurf_cli_test(NAME simulate_controller_writes_a_device EXIT 3
+  ARGS simulate ${dome} --controller "ln -s /dev/zero {log} # {program}" -o run.biip NO_FILE run.biip STDERR "its log is not a file")
+clsurf_cli_test(NAME simulate_controller_writes_a_pipe EXIT 3
+  ARGS simulate ${dome} --controller "mkfifo {log} # {program}" -o run.biip NO_FILE run.biip STDERR "its log is not a file")
+clsurf_cli_test(NAME simulate_controller_prints_without_end EXIT 3
+  ARGS simulate ${dome} --controller "yes {program} {log}" -o run.biip NO_FILE run.biip STDERR "it printed more than 100 MB and was stopped")
+clsurf_cli_test(NAME optimize_controller_stops_candidates_early EXIT 1
+  SETUP "${other_mill}; printf '#!/bin/sh\n\"$CLSURF\" simulate \"$1\" --machine other.toml -o \"$2\" -q\ngrep -q optimize \"$1\" && truncate -s -20000 \"$2\" || true\n' > controller; chmod +x controller"
+  ARGS optimize part.nc --machine ${mill} --controller "./controller {program} {log}" --runs 2 -o better.nc NO_FILE better.nc
+  STDOUT "run 2, candidate 1: failed: the log lacks [0-9.]+ % of the program" "refused")
 # With a log and without a machine file, the machine is that of the log.
 clsurf_cli_test(NAME optimize_fits_the_machine_to_the_log SETUP "${crowded_part}; $CLSURF simulate part.nc --machine ${mill} -o run.biip -q"
   ARGS optimize part.nc --log run.biip -o better.nc
