@@ -208,11 +208,12 @@ void read_travel(const TomlFile& file, const toml::table& table, double factor, 
 }
 
 void read_servo(const TomlFile& file, const toml::table& table, double period, double factor, ServoModel& servo) {
-    file.allow(table, {"position_gain", "velocity_feedforward", "velocity_time_constant", "dead_time", "quantum",
-                       "noise", "backlash", "friction"});
+    file.allow(table, {"position_gain", "velocity_feedforward", "velocity_time_constant", "velocity_integral_time",
+                       "dead_time", "quantum", "noise", "backlash", "friction"});
     take(file, table, "position_gain", servo.position_gain, Low::above_zero, 1.0, 1 / period);
     take(file, table, "velocity_feedforward", servo.velocity_feedforward, Low::zero, 1.0, 2.0);
     take(file, table, "velocity_time_constant", servo.velocity_time_constant, Low::zero);
+    take(file, table, "velocity_integral_time", servo.velocity_integral_time, Low::zero);
     take(file, table, "dead_time", servo.dead_time, Low::zero, 1.0, most_dead_periods * period);
     take(file, table, "quantum", servo.quantum, Low::zero, factor);
     take(file, table, "noise", servo.noise, Low::zero, factor);
@@ -224,6 +225,11 @@ void read_servo(const TomlFile& file, const toml::table& table, double period, d
             table,
             fmt::format("the loop does not settle: position_gain {} · velocity_time_constant {} must be less than 1",
                         servo.position_gain, servo.velocity_time_constant));
+    }
+    if (servo.velocity_integral_time > 0 && servo.velocity_integral_time < period) {
+        file.fail(*table.get("velocity_integral_time"),
+                  fmt::format("'velocity_integral_time' is {}: it must be 0, or at least the period of {} s",
+                              servo.velocity_integral_time, period));
     }
 }
 
@@ -263,6 +269,8 @@ std::string axis_text(std::string_view name, const MachineAxis& a, double factor
     text += fmt::format("position_gain = {}            # 1/s\n", a.servo.position_gain);
     text += fmt::format("velocity_feedforward = {}    # 1: no lag at constant speed\n", a.servo.velocity_feedforward);
     text += fmt::format("velocity_time_constant = {}\n", a.servo.velocity_time_constant);
+    text += fmt::format("velocity_integral_time = {}      # of the velocity loop's PI controller; 0: none\n",
+                        a.servo.velocity_integral_time);
     text += fmt::format("dead_time = {}               # from the command to the loop\n", a.servo.dead_time);
     text += fmt::format("quantum = {}               # encoder step; 0: none\n", whole(a.servo.quantum));
     text += fmt::format("noise = {}                    # rms\n", whole(a.servo.noise));

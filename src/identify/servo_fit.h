@@ -27,8 +27,8 @@ struct ServoFit {
     [[nodiscard]] bool knows(ServoTerm term) const;
 };
 
-/// Friction, backlash and dead time are kept where the
-/// information criterion falls with them. Standard errors hold for correlated residuals (sums of scores over groups of
+/// Friction, backlash, dead time and the integral of the velocity loop are kept where the information criterion falls with
+/// them. Standard errors hold for correlated residuals (sums of scores over groups of
 /// records). O(records), at most 10^6 of them, evenly spaced.
 [[nodiscard]] ServoFit fit_servo(std::span<const AxisRecord> records, double period);
 

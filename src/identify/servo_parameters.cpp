@@ -55,7 +55,8 @@ ServoModel* servo_of(Machine& machine, char letter) {
 }
 
 constexpr std::array loop_keys{
-    "position_gain", "velocity_feedforward", "velocity_time_constant", "friction", "backlash", "dead_time"};
+    "position_gain", "velocity_feedforward", "velocity_time_constant", "velocity_integral_time", "friction", "backlash",
+    "dead_time"};
 
 /// Names every value of a loop that cannot be known for one reason.
 void miss_loop(const AxisData& axis, const std::string& reason, Identification& result) {
@@ -72,7 +73,10 @@ public:
         const bool gain = fit.knows(ServoTerm::log_gain);
         const std::string separate =
             fmt::format("only the lag at constant speed is known, {:.4g} ± {:.1g} s", fit.lag, fit.lag_error);
-        const std::string no_dynamics = "too few or too gentle changes of speed";
+        const std::string no_dynamics =
+            another_form() ? fmt::format("the model explains the axis only to {:.2g} {} rms: its loop has another form",
+                                         fit.residual, axis_.unit())
+                           : "too few or too gentle changes of speed";
         const bool lag = !gain && fit.lag_error < 0.1 * std::abs(fit.lag);
         put("position_gain", gain, error(ServoTerm::log_gain) * model_.position_gain, model_.position_gain, "1/s",
             target.position_gain, 1, lag ? separate : no_dynamics);
@@ -81,6 +85,7 @@ public:
             lag ? separate : no_dynamics);
         put("velocity_time_constant", gain && fit.knows(ServoTerm::velocity_step), fit.time_constant_error(period_),
             model_.velocity_time_constant, "s", target.velocity_time_constant, 1, no_dynamics);
+        put_term(ServoTerm::integral_step, "velocity_integral_time", "s", target.velocity_integral_time, 1);
         if (lag || gain)
             result_.parameters.push_back({"lag",
                                           axis_.name(),
@@ -93,10 +98,9 @@ public:
         // Together the values of the fit give the lag and the residual, of each alone too little is known.
         if (gain && !fit.knows(ServoTerm::feedforward))
             target.velocity_feedforward = rounded_to(std::max(0.0, model_.velocity_feedforward), 1e-6);
-        put_term(ServoTerm::friction, "friction", seconds_per_minute, axis_.unit("/min"), target.friction,
-                 angle / seconds_per_minute);
-        put_term(ServoTerm::backlash, "backlash", 1, axis_.unit(), target.backlash, angle);
-        put_term(ServoTerm::dead_time, "dead_time", period_, "s", target.dead_time, 1);
+        put_term(ServoTerm::friction, "friction", axis_.unit("/min"), target.friction, angle / seconds_per_minute);
+        put_term(ServoTerm::backlash, "backlash", axis_.unit(), target.backlash, angle);
+        put_term(ServoTerm::dead_time, "dead_time", "s", target.dead_time, 1);
         put_resolution(target, angle);
     }
 
@@ -115,9 +119,24 @@ private:
         result_.parameters.push_back({name, axis_.name(), settled, unit, standard_error, {}, note});
     }
 
+    /// The value of an optional term in the unit that is reported.
+    [[nodiscard]] double reported(ServoTerm term, double value) const {
+        switch (term) {
+            case ServoTerm::friction: return value * seconds_per_minute;
+            case ServoTerm::dead_time: return value * period_;
+            case ServoTerm::integral_step: return period_ / value;
+            default: return value;
+        }
+    }
+
+    /// Its standard error in this unit.
+    [[nodiscard]] double reported_error(ServoTerm term) const {
+        const double value = axis_.fit.parameters[term];
+        return term == ServoTerm::integral_step ? period_ * error(term) / (value * value) : reported(term, error(term));
+    }
+
     /// A term that is in the loop only with evidence.
-    void put_term(ServoTerm term, const char* name, double factor, const std::string& unit, double& target,
-                  double to_machine) {
+    void put_term(ServoTerm term, const char* name, const std::string& unit, double& target, double to_machine) {
         const ServoFit& fit = axis_.fit;
         const auto found = std::find_if(fit.evidence.begin(), fit.evidence.end(),
                                         [&](const TermEvidence& e) { return e.term == term; });
@@ -125,12 +144,14 @@ private:
         if (fit.parameters.has(term) && !fit.knows(term) && fit.knows(ServoTerm::log_gain)) {
             result_.unidentified.push_back(
                 {name, axis_.name(), "the motion shows that there is some, but not how much"});
-            target = rounded_to(fit.parameters[term] * factor, 1e-5 * fit.parameters[term] * factor) * to_machine;
+            const double value = reported(term, fit.parameters[term]);
+            target = rounded_to(value, 1e-5 * value) * to_machine;
             return;
         }
         if (fit.parameters.has(term)) {
             const std::string note = tried ? fmt::format("BIC falls by {:.0f}", found->gain) : "";
-            put(name, true, error(term) * factor, fit.parameters[term] * factor, unit, target, to_machine, {}, note);
+            put(name, true, reported_error(term), reported(term, fit.parameters[term]), unit, target, to_machine, {},
+                note);
             return;
         }
         if (!fit.knows(ServoTerm::log_gain)) {
@@ -138,9 +159,11 @@ private:
             return;
         }
         target = 0;
-        const std::string note = tried ? fmt::format("no evidence: {:.2g} {} changes BIC by {:+.0f}",
-                                                     found->value * factor, unit, -found->gain)
-                                       : "no evidence";
+        const double value = tried ? reported(term, found->value) : 0;
+        const std::string note =
+            tried && std::isfinite(value)
+                ? fmt::format("no evidence: {:.2g} {} changes BIC by {:+.0f}", value, unit, -found->gain)
+                : "no evidence";
         result_.parameters.push_back({name, axis_.name(), 0, unit, std::nullopt, {}, note});
     }
 
@@ -172,11 +195,15 @@ private:
         state_residual();
     }
 
-    /// A loop that leaves more than quantum and noise is not the axis' own.
+    /// The loop leaves more than quantum and noise do.
+    [[nodiscard]] bool another_form() const {
+        constexpr double most = 2;  // times what quantum and noise leave
+        return axis_.fit.residual > most * axis_.fit.explained;
+    }
+
     void state_residual() {
         const ServoFit& fit = axis_.fit;
-        constexpr double most = 2;  // times what quantum and noise leave
-        if (!fit.knows(ServoTerm::log_gain) || fit.residual <= most * fit.explained) return;
+        if (!fit.knows(ServoTerm::log_gain) || !another_form()) return;
         result_.unidentified.push_back(
             {"servo", axis_.name(),
              fmt::format(

@@ -21,6 +21,7 @@ double size_of_step(const ServoParameters& p, ServoTerm term, double width) {
     const double share = std::max(1e-2 * width, 1e-4);
     switch (term) {
         case ServoTerm::friction:
+        case ServoTerm::integral_step:
         case ServoTerm::backlash: return std::max(share * p[term], least);
         case ServoTerm::dead_time: return std::max(1e-3 * width, 1e-5);
         default: return smooth;
@@ -35,6 +36,7 @@ double difference_step(const ServoParameters& p, ServoTerm term, double width) {
         case ServoTerm::velocity_step: return p[term] + step > 1 ? -step : step;
         case ServoTerm::friction:
         case ServoTerm::backlash:
+        case ServoTerm::integral_step:
         case ServoTerm::dead_time: return p[term] + step < 0 ? -step : step;
         default: return step;
     }
@@ -117,6 +119,8 @@ ServoModel model_of(const ServoParameters& parameters, double period) {
     model.velocity_feedforward = parameters[ServoTerm::feedforward];
     const double step = parameters[ServoTerm::velocity_step];
     model.velocity_time_constant = step < 1 ? -period / std::log1p(-step) : 0;
+    const double integral = parameters[ServoTerm::integral_step];
+    model.velocity_integral_time = integral > 0 ? period / integral : 0;
     model.friction = parameters[ServoTerm::friction];
     model.backlash = parameters[ServoTerm::backlash];
     model.dead_time = parameters[ServoTerm::dead_time] * period;
@@ -131,6 +135,7 @@ ServoParameters parameters_of(const ServoModel& model, double period) {
     p[ServoTerm::feedforward] = model.velocity_feedforward;
     p[ServoTerm::velocity_step] =
         model.velocity_time_constant > 0 ? -std::expm1(-period / model.velocity_time_constant) : 1.0;
+    p[ServoTerm::integral_step] = model.velocity_integral_time > 0 ? period / model.velocity_integral_time : 0;
     p[ServoTerm::friction] = model.friction;
     p[ServoTerm::backlash] = model.backlash;
     p[ServoTerm::dead_time] = model.dead_time / period;

@@ -15,15 +15,25 @@
 
 namespace clsurf {
 
-/// The unknowns. The velocity loop's time constant is searched as its step 1 − exp(−T/T_v), the gain as its logarithm.
-enum class ServoTerm : unsigned char { log_gain, feedforward, velocity_step, friction, backlash, dead_time, offset };
-inline constexpr std::size_t servo_terms = 7;
+/// The unknowns. The gain is searched as its logarithm, the velocity loop's time constant as the step 1 − exp(−T/T_v) that the
+/// loop would make without an integral, the integral time as its inverse T/T_n.
+enum class ServoTerm : unsigned char {
+    log_gain,
+    feedforward,
+    velocity_step,
+    friction,
+    backlash,
+    dead_time,
+    integral_step,
+    offset
+};
+inline constexpr std::size_t servo_terms = 8;
 [[nodiscard]] constexpr std::size_t index_of(ServoTerm term) { return static_cast<std::size_t>(term); }
 
 /// Friction [unit/s], backlash and offset [unit], dead time [periods].
 struct ServoParameters {
     std::array<double, servo_terms> value{};
-    std::array<bool, servo_terms> active{true, true, true, false, false, false, true};
+    std::array<bool, servo_terms> active{true, true, true, false, false, false, false, true};
 
     double& operator[](ServoTerm term) { return value[index_of(term)]; }
     double operator[](ServoTerm term) const { return value[index_of(term)]; }

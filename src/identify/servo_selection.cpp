@@ -10,7 +10,9 @@ namespace clsurf {
 namespace {
 
 constexpr double needless = 10;  ///< a term of no certain value must lower the criterion by more
-constexpr std::array optional_terms{ServoTerm::friction, ServoTerm::backlash, ServoTerm::dead_time};
+// The integral comes last: it is tried only where no loop without it explains the records.
+constexpr std::array optional_terms{ServoTerm::friction, ServoTerm::backlash, ServoTerm::dead_time,
+                                    ServoTerm::integral_step};
 constexpr unsigned all_terms = (1U << optional_terms.size()) - 1;
 
 constexpr PointIndex search_records = 12'000;
@@ -33,6 +35,7 @@ ServoParameters with_terms(ServoParameters p, unsigned set) {
 /// Values that a term may begin with, next to a loop that leaves a residual of `apart` rms.
 std::vector<double> first_values(ServoTerm term, const ServoParameters& loop, double apart) {
     if (term == ServoTerm::dead_time) return {0.3, 1, 2, 4};
+    if (term == ServoTerm::integral_step) return {0.03, 0.1, 0.3};
     const double scale = term == ServoTerm::friction ? std::exp(loop[ServoTerm::log_gain]) * apart : 2 * apart;
     return {0.1 * scale, 0.3 * scale, scale, 3 * scale};
 }
@@ -46,15 +49,15 @@ class RoughSearch {
 public:
     RoughSearch(const ServoProblem& problem, std::span<const ServoStart> regressions, double rounding)
         : problem_(problem), regressions_(regressions), rounding_(rounding), lags_(lags_of(problem)) {
-        for (const int count : {0, 1, 2, 3}) {
-            for (unsigned set = 0; set <= all_terms; ++set) {
-                if (std::popcount(set) != count) continue;
-                found_[set] = search(set);
-                if (found_[set]) found_[set]->rounding = rounding;
-            }
-            // Noise that one loop leaves no other one explains.
-            if (explained()) break;
-        }
+        search_all();
+        if (is_white()) return;
+        considered_ = optional_terms.size();
+        search_all();
+    }
+
+    /// Those that any combination has.
+    [[nodiscard]] std::span<const ServoTerm> considered() const {
+        return std::span<const ServoTerm>(optional_terms).first(considered_);
     }
 
     /// The combinations that were searched, the best first.
@@ -69,6 +72,27 @@ public:
     [[nodiscard]] const std::optional<ServoSolution>& of(unsigned set) const { return found_[set]; }
 
 private:
+    /// Combinations of the considered terms that have not been searched, those of few terms first.
+    void search_all() {
+        for (std::size_t count = 0; count <= considered_; ++count) {
+            for (unsigned set = 0; set < bit_of(considered_); ++set) {
+                if (found_[set] || static_cast<std::size_t>(std::popcount(set)) != count) continue;
+                found_[set] = search(set);
+                if (found_[set]) found_[set]->rounding = rounding_;
+            }
+            // Noise that one loop leaves no other one explains.
+            if (explained()) break;
+        }
+    }
+
+    /// Whether some loop leaves residuals that are independent of each other: those of quantum and noise.
+    [[nodiscard]] bool is_white() const {
+        constexpr double nearly = 1.1;  // less is below a third of the noise
+        return std::any_of(found_.begin(), found_.end(), [&](const auto& each) {
+            return each && each->sums.mean_square() <= nearly * each->unexplainable();
+        });
+    }
+
     [[nodiscard]] bool explained() const {
         constexpr double nearly = 1.02;
         return std::any_of(found_.begin(), found_.end(),
@@ -123,6 +147,32 @@ private:
         }
     }
 
+    /// The same with an integrating velocity loop, of which the lag at constant speed says only the feed-forward: usual time
+    /// constants and integral times.
+    void add_integrating(unsigned set, std::vector<ServoParameters>& all) const {
+        constexpr double gain_ratio = 1.4, least_gain = 5;
+        const bool delays = (set & bit_of(2)) != 0;
+        for (double gain = least_gain; gain * problem_.period() < 0.9; gain *= gain_ratio) {
+            for (const double dead : {0.0, 1.0, 2.0, 4.0}) {
+                if (!delays && dead > 0) break;
+                ServoParameters p = with_terms(lags_, set);
+                p[ServoTerm::log_gain] = std::log(gain);
+                p[ServoTerm::feedforward] = 1 - (lags_[ServoTerm::feedforward] - dead * problem_.period()) * gain;
+                if (!(p[ServoTerm::feedforward] > -0.1 && p[ServoTerm::feedforward] < 1.5)) continue;
+                if (delays) p[ServoTerm::dead_time] = dead;
+                if ((set & bit_of(0)) != 0) p[ServoTerm::friction] = lags_[ServoTerm::friction] * gain;
+                if ((set & bit_of(1)) != 0) p[ServoTerm::backlash] = lags_[ServoTerm::friction];
+                for (const double step : {0.1, 0.2, 0.4, 0.7}) {
+                    for (const double integral : first_values(ServoTerm::integral_step, p, 0)) {
+                        p[ServoTerm::velocity_step] = step;
+                        p[ServoTerm::integral_step] = integral;
+                        all.push_back(p);
+                    }
+                }
+            }
+        }
+    }
+
     /// From the regression, from a usual loop, and from the combinations with one term less.
     [[nodiscard]] std::vector<ServoParameters> starts(unsigned set) const {
         std::vector<ServoParameters> all;
@@ -137,7 +187,10 @@ private:
             if (delays && !late) p[ServoTerm::dead_time] = 0.3;
             add_with_backlash(p, all);
         }
-        add_with_lags(set, all);
+        if ((set & bit_of(3)) != 0)
+            add_integrating(set, all);
+        else
+            add_with_lags(set, all);
         const ServoParameters usual = parameters_of(ServoModel{}, problem_.period());
         if (set == 0) all.push_back(with_terms(usual, set));
         for (std::size_t k = 0; k < optional_terms.size(); ++k) {
@@ -175,6 +228,7 @@ private:
     std::span<const ServoStart> regressions_;
     double rounding_;
     ServoParameters lags_;
+    std::size_t considered_ = optional_terms.size() - 1;  ///< of optional_terms
     std::array<std::optional<ServoSolution>, all_terms + 1> found_;
 };
 
@@ -182,7 +236,7 @@ private:
 class Selection {
 public:
     Selection(const ServoProblem& problem, const RoughSearch& search, double rounding)
-        : problem_(problem), search_(search), rounding_(rounding) {}
+        : problem_(problem), search_(search), terms_(search.considered()), rounding_(rounding) {}
 
     SelectedLoop run() {
         constexpr std::size_t compared = 2;
@@ -202,13 +256,12 @@ public:
             if (other.sums.squares < found_[now]->sums.squares) std::swap(*found_[now], other);
         SelectedLoop selected{solution_of(now), {}, standard_errors(solution_of(now))};
         for (const ServoSolution& other : delayed) widen(solution_of(now), other, selected.standard_error);
-        for (std::size_t k = 0; k < optional_terms.size(); ++k) {
+        for (std::size_t k = 0; k < terms_.size(); ++k) {
             const unsigned other = now ^ bit_of(k);
             const bool kept = (now & bit_of(k)) != 0;
             const ServoSolution &with = solution_of(kept ? now : other), &without = solution_of(kept ? other : now);
-            selected.evidence.push_back({optional_terms[k], with.parameters[optional_terms[k]],
-                                         without.criterion() - with.criterion(),
-                                         kept && is_certain(with, optional_terms[k])});
+            selected.evidence.push_back({terms_[k], with.parameters[terms_[k]], without.criterion() - with.criterion(),
+                                         kept && is_certain(with, terms_[k])});
             widen(solution_of(now), solution_of(other), selected.standard_error);
         }
         return selected;
@@ -231,20 +284,20 @@ private:
 
     /// A combination with a term more or less that is better; `now`: none is.
     unsigned better_than(unsigned now) {
-        for (std::size_t k = 0; k < optional_terms.size(); ++k) {
+        for (std::size_t k = 0; k < terms_.size(); ++k) {
             if ((now & bit_of(k)) == 0) continue;
             const double rise = solution_of(now ^ bit_of(k)).criterion() - solution_of(now).criterion();
-            if (rise <= (is_certain(solution_of(now), optional_terms[k]) ? 0 : needless)) return now ^ bit_of(k);
+            if (rise <= (is_certain(solution_of(now), terms_[k]) ? 0 : needless)) return now ^ bit_of(k);
         }
         std::optional<unsigned> best;
         bool any_certain = false;
-        for (std::size_t k = 0; k < optional_terms.size(); ++k) {
+        for (std::size_t k = 0; k < terms_.size(); ++k) {
             if ((now & bit_of(k)) != 0) continue;
             const unsigned with = now | bit_of(k);
             if (!(solution_of(with).criterion() < solution_of(now).criterion() - needless)) continue;
             // A term of no certain value that explains more than every other one is added, too: without it another would
             // stand for it.
-            any_certain |= is_certain(solution_of(with), optional_terms[k]);
+            any_certain |= is_certain(solution_of(with), terms_[k]);
             if (!best || solution_of(with).criterion() < solution_of(*best).criterion()) best = with;
         }
         return best && any_certain ? *best : now;
@@ -255,13 +308,13 @@ private:
         if (found_[set]) return *found_[set];
         std::vector<ServoParameters> starts;
         if (search_.of(set)) starts.push_back(search_.of(set)->parameters);
-        for (std::size_t k = 0; k < optional_terms.size(); ++k) {
+        for (std::size_t k = 0; k < terms_.size(); ++k) {
             const std::optional<ServoSolution>& beside = found_[set ^ bit_of(k)];
             if (!beside) continue;
             ServoParameters p = with_terms(beside->parameters, set);
-            if (p.has(optional_terms[k])) {
+            if (p.has(terms_[k])) {
                 const double apart = std::sqrt(beside->sums.mean_square());
-                p[optional_terms[k]] = first_values(optional_terms[k], p, apart).front();
+                p[terms_[k]] = first_values(terms_[k], p, apart).front();
             }
             if (settles(p, problem_.period())) starts.push_back(p);
         }
@@ -307,7 +360,7 @@ private:
     /// The least squares of the combinations with one term less that have been solved.
     [[nodiscard]] double least_of_fewer(unsigned set) const {
         double least = INFINITY;
-        for (std::size_t k = 0; k < optional_terms.size(); ++k) {
+        for (std::size_t k = 0; k < terms_.size(); ++k) {
             const std::optional<ServoSolution>& fewer = found_[set & ~bit_of(k)];
             if ((set & bit_of(k)) != 0 && fewer) least = std::min(least, fewer->sums.squares);
         }
@@ -316,6 +369,7 @@ private:
 
     const ServoProblem& problem_;
     const RoughSearch& search_;
+    std::span<const ServoTerm> terms_;
     double rounding_;
     std::array<std::optional<ServoSolution>, all_terms + 1> found_;
 };

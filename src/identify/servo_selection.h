@@ -1,5 +1,5 @@
 #pragma once
-// Which of friction, backlash and dead time an axis has.
+// Which of friction, backlash, dead time and an integrating velocity loop an axis has.
 
 #include <array>
 #include <span>

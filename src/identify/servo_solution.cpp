@@ -19,6 +19,7 @@ Bounds bounds_of(ServoTerm term, double period) {
         case ServoTerm::feedforward: return {-0.5, 2};  // below 0 on the way only: a bound would hinder the search
         case ServoTerm::velocity_step: return {0.002, 1};
         case ServoTerm::dead_time: return {0, 99};
+        case ServoTerm::integral_step: return {0, 1};
         case ServoTerm::offset: return {-INFINITY, INFINITY};
         default: return {0, INFINITY};
     }
@@ -40,7 +41,7 @@ LoopLags lags_without_dead_time(const ServoParameters& p, double period) {
 /// dead time d periods of T, the friction f and the backlash b,
 ///     α = A − d T = (1 − c)/K,   β = B + α d T + (d T)²/2 = (T (1/s − 1) − α)/K,   C = f/K + b/2
 /// (steady motion of the difference equation of ServoLoop; half a period of α in B is left out). They stand in the places
-/// of c, s and f.
+/// of c, s and f. With an integral these are coordinates like others: then β says nothing of s at low frequencies.
 class ServoLags {
 public:
     ServoLags(const ServoParameters& p, double period)
@@ -80,7 +81,9 @@ public:
             const Bounds bounds = bounds_of(term, period_);
             p[term] = std::clamp(p[term], bounds.low, bounds.high);
         };
-        for (const ServoTerm term : {ServoTerm::log_gain, ServoTerm::dead_time, ServoTerm::backlash}) clamp(term);
+        for (const ServoTerm term :
+             {ServoTerm::log_gain, ServoTerm::dead_time, ServoTerm::backlash, ServoTerm::integral_step})
+            clamp(term);
         p = loop_of_lags(p, period_);
         for (const ServoTerm term : {ServoTerm::feedforward, ServoTerm::velocity_step, ServoTerm::friction})
             clamp(term);
@@ -114,7 +117,7 @@ struct ScaledNormal {
 };
 
 constexpr std::array bounded_below{ServoTerm::feedforward, ServoTerm::friction, ServoTerm::backlash,
-                                   ServoTerm::dead_time};
+                                   ServoTerm::dead_time, ServoTerm::integral_step};
 
 /// The parameters after a step. A term at its bound that the step would take beyond it stays there; one that would cross its
 /// bound stops the whole step at it.

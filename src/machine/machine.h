@@ -15,11 +15,12 @@
 
 namespace clsurf {
 
-/// Position loop of one axis with a first-order velocity loop in it.
+/// Position loop of one axis around a velocity loop: of first order, or with a PI controller.
 struct ServoModel {
     double position_gain = 100;             ///< Kv [1/s]
     double velocity_feedforward = 0.96;     ///< 1: no lag at constant speed
     double velocity_time_constant = 0.002;  ///< [s]; 0: the velocity loop is ideal
+    double velocity_integral_time = 0;      ///< of the velocity loop's PI controller [s]; 0: it does not integrate
     double dead_time = 0;                   ///< from the command to the loop [s]
     double quantum = 0.0001;                ///< encoder step [mm]; 0: none
     double noise = 0;                       ///< rms [mm]

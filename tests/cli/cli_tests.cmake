@@ -320,6 +320,8 @@ clsurf_cli_test(NAME machine_unknown_corner SETUP "printf '[controller]\\ncorner
   EXIT 3 STDERR "m.toml:2" "'stpo', which is not known" "did you mean 'stop'")
 clsurf_cli_test(NAME machine_loop_does_not_settle SETUP "printf '[[axis]]\\nname = \"x\"\\n[axis.servo]\\nposition_gain = 300\\nvelocity_time_constant = 0.004\\n' > m.toml"
   ARGS machine --check m.toml EXIT 3 STDERR "m.toml:3" "does not settle")
+clsurf_cli_test(NAME machine_integral_time_below_the_period SETUP "printf '[[axis]]\\nname = \"x\"\\n[axis.servo]\\nvelocity_integral_time = 0.0005\\n' > m.toml"
+  ARGS machine --check m.toml EXIT 3 STDERR "m.toml:4" "it must be 0, or at least the period of 0.001 s")
 clsurf_cli_test(NAME machine_gain_of_its_own_does_not_settle SETUP "printf '[controller]\\nperiod = 0.05\\n' > m.toml" ARGS machine --check m.toml EXIT 3 STDERR "axis 'x': with a position_gain of 100 1/s and a period of 0.05 s the loop does not settle" "at most 20")
 clsurf_cli_test(NAME machine_missing_file ARGS machine --check nowhere.toml EXIT 3 STDERR "nowhere.toml: error: cannot open")
 clsurf_cli_test(NAME machine_needs_one ARGS machine EXIT 2 STDERR "one of --defaults and FILE")

@@ -99,6 +99,7 @@ TEST(ServoFit, RecordsThatWereComputedElsewhere) {
         truth.position_gain = row.number();
         truth.velocity_feedforward = row.number();
         truth.velocity_time_constant = row.number();
+        truth.velocity_integral_time = row.number();
         truth.friction = row.number();
         truth.backlash = row.number();
         truth.dead_time = row.number() * period;
@@ -114,6 +115,8 @@ TEST(ServoFit, RecordsThatWereComputedElsewhere) {
         expect_term(fit, ServoTerm::friction, truth.friction, row.name + " friction");
         expect_term(fit, ServoTerm::backlash, truth.backlash, row.name + " backlash");
         expect_term(fit, ServoTerm::dead_time, truth.dead_time / period, row.name + " dead time");
+        expect_term(fit, ServoTerm::integral_step, parameters_of(truth, period)[ServoTerm::integral_step],
+                    row.name + " integral");
         EXPECT_NEAR(fit.quantum, truth.quantum, 1e-9) << row.name;
     }
 }

@@ -104,9 +104,9 @@ Subcommand identify_subcommand() {
         .summary = "a machine file from recorded runs: servo loops, limits and planner rules, with the evidence",
         .description =
             "Fits the servo loop of each axis to the commanded and the fed-back positions of one or more runs: position gain, velocity\n"
-            "feed-forward, time constant of the velocity loop, dead time, friction, backlash and resolution. The loop is that of simulate.\n"
-            "Each value has a standard error. Friction, backlash and dead time are in the file only if an information criterion (BIC) falls\n"
-            "with them. The limits of speed, acceleration and jerk come from the commanded positions: a limit is reached where the motion\n"
+            "feed-forward, time constant and integral time of the velocity loop, dead time, friction, backlash and resolution. The loop is that of simulate.\n"
+            "Each value has a standard error. Integral time, friction, backlash and dead time are in the file only if an information criterion\n"
+            "(BIC) falls with them. The limits of speed, acceleration and jerk come from the commanded positions: a limit is reached where the motion\n"
             "stays at it in several places. Accelerations and jerks that the motion hides come from simulations: the value that explains the\n"
             "speeds best is taken if a lower and a higher one explain them less well. Any other limit is a lower bound; the file then keeps the\n"
             "limit of --machine, or the default, if that is greater. Values that the runs do not determine are listed with the reason.\n"

@@ -188,7 +188,8 @@ double lag_power(const Machine& machine) {
     const bool alike = std::all_of(machine.axes.begin(), machine.axes.begin() + 3, [&](const MachineAxis& axis) {
         return axis.servo.position_gain == x.position_gain &&
                axis.servo.velocity_feedforward == x.velocity_feedforward &&
-               axis.servo.velocity_time_constant == x.velocity_time_constant;
+               axis.servo.velocity_time_constant == x.velocity_time_constant &&
+               axis.servo.velocity_integral_time == x.velocity_integral_time;
     });
     return alike ? 3 : 1;
 }

@@ -22,18 +22,39 @@ double noise_of_one(std::uint64_t& state) {
     return sum;
 }
 
+bool integrates(const ServoModel& model) {
+    return model.velocity_integral_time > 0 && model.velocity_time_constant > 0;
+}
+
 }  // namespace
+
+VelocityStep velocity_step_of(const ServoModel& model, double period) {
+    if (!(model.velocity_time_constant > 0)) return {};
+    if (!integrates(model)) return {.by_error = 1 - std::exp(-period / model.velocity_time_constant)};
+    // exp(A T) of (v − v_ref)′ = (w − (v − v_ref))/T_v, w′ = (v_ref − v)/T_n, by the half trace of A and the root
+    // of its characteristic polynomial: e^{h T} (cosh(r T) + (A − h) sinh(r T)/r), where r may be imaginary.
+    const double fast = 1 / model.velocity_time_constant, slow = 1 / model.velocity_integral_time;
+    const double half = -fast / 2, squared = half * half - fast * slow;
+    const double root = std::sqrt(std::abs(squared)), angle = root * period, decay = std::exp(half * period);
+    const double even = decay * (squared < 0 ? std::cos(angle) : std::cosh(angle));
+    double odd = decay * period;  // at a double root
+    if (angle > 0) odd *= (squared < 0 ? std::sin(angle) : std::sinh(angle)) / angle;
+    return {.by_error = 1 - (even + (-fast - half) * odd),
+            .by_integral = fast * odd,
+            .integral_by_error = slow * odd,
+            .integral_kept = even - half * odd};
+}
 
 ServoLoop::ServoLoop(const ServoModel& model, double period, double start, std::uint64_t seed)
     : gain_(model.position_gain),
       feedforward_(model.velocity_feedforward),
-      // Exact for a reference that is constant over the period.
-      velocity_step_(model.velocity_time_constant > 0 ? 1 - std::exp(-period / model.velocity_time_constant) : 1.0),
       quantum_(model.quantum),
       noise_(model.noise),
       period_(period),
       play_(0.5 * model.backlash),
       friction_(model.friction),
+      step_(velocity_step_of(model, period)),
+      integral_per_period_(integrates(model) ? period / model.velocity_integral_time : 0),
       commanded_(start),
       position_(start),
       table_(start),

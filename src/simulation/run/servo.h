@@ -1,14 +1,17 @@
 #pragma once
 // ServoLoop: the position of an axis for a given set point: a discrete position loop with velocity
-// feed-forward around a first-order velocity loop.
+// feed-forward around a velocity loop, the usual cascade of machine tools
+// (doi:10.1007/s00170-021-07160-w).
 //
-//     v_ref = Kv (cmd − x) + c_ff · cmd′,    T_v v′ + v = v_ref,    x′ = v
+//     v_ref = Kv (cmd − x) + c_ff · cmd′,    T_v v′ = v_ref − v + w,    T_n w′ = v_ref − v,    x′ = v
 //
+// w is what a PI controller of the velocity has integrated, 0 without an integral time T_n.
 // At constant speed v the lag is v (1 − c_ff)/Kv. The loop compares position and command of one record. A dead time
 // delays the whole command; between records it is linear. Coulomb friction subtracts f from v_ref in the direction of
 // motion and holds an axis at rest while |v_ref| ≤ f: the lag grows by f/Kv, and after a reversal the axis
 // rests until the loop has built up enough error. The loop closes on the drive; the encoder is on the table,
-// which follows with the lost motion of the backlash.
+// which follows with the lost motion of the backlash. An integrating velocity loop makes up for friction within
+// some T_n: then only reversals show it.
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +21,13 @@
 #include "machine/machine.h"
 
 namespace clsurf {
+
+/// What the velocity loop makes of an error v_ref − v and of w in a period in which v_ref is constant (exact).
+struct VelocityStep {
+    double by_error = 1, by_integral = 0;             ///< change of the speed
+    double integral_by_error = 0, integral_kept = 1;  ///< w at the period's end
+};
+[[nodiscard]] VelocityStep velocity_step_of(const ServoModel& model, double period);
 
 class ServoLoop {
 public:
@@ -29,9 +39,10 @@ public:
         if (!delay_line_.empty()) commanded = delayed(commanded);
         const double reference = gain_ * (commanded_ - position_) + feedforward_ * (commanded - commanded_) / period_;
         const double before = velocity_;
-        velocity_ += velocity_step_ * (less_friction(reference) - velocity_);
+        velocity_ = integral_per_period_ > 0 ? integrated(reference)
+                                             : velocity_ + step_.by_error * (less_friction(reference) - velocity_);
         // Friction stops an axis, it does not drive it back.
-        if (friction_ > 0 && before * velocity_ < 0 && std::abs(reference) <= friction_) velocity_ = 0;
+        if (friction_ > 0 && before * velocity_ < 0 && std::abs(reference + integral_) <= friction_) velocity_ = 0;
         position_ += velocity_ * period_;
         commanded_ = commanded;
         table_ = std::clamp(table_, position_ - play_, position_ + play_);
@@ -45,6 +56,19 @@ private:
         if (velocity_ == 0 && std::abs(reference) <= friction_) return 0;
         return reference - std::copysign(friction_, direction);
     }
+    /// The speed after a period, of a velocity loop that integrates. w acts against the friction, whose direction is that of the
+    /// period's beginning.
+    double integrated(double reference) {
+        const double push = reference + integral_;
+        if (friction_ > 0 && velocity_ == 0 && std::abs(push) <= friction_) {
+            integral_ += reference * integral_per_period_;
+            return 0;
+        }
+        const double friction = std::copysign(friction_, velocity_ != 0 ? velocity_ : push);
+        const double error = reference - velocity_, rest = integral_ - friction;
+        integral_ = step_.integral_by_error * error + step_.integral_kept * rest + friction;
+        return velocity_ + step_.by_error * error + step_.by_integral * rest;
+    }
     /// std::round() without a call: where there is something behind the point, by a whole number.
     [[nodiscard]] static double rounded(double x) {
         constexpr double nearly_half = 0x1.fffffffffffffp-2;  // 0.5 would take the number before 0.5 to 1
@@ -55,8 +79,11 @@ private:
     /// The command of the dead time ago.
     double delayed(double commanded);
 
-    double gain_, feedforward_, velocity_step_, quantum_, noise_, period_, play_, friction_;
+    double gain_, feedforward_, quantum_, noise_, period_, play_, friction_;
+    VelocityStep step_;
+    double integral_per_period_;  ///< T/T_n; 0: the velocity loop does not integrate
     double commanded_, position_, table_, velocity_ = 0;
+    double integral_ = 0;  ///< w
     std::uint64_t random_;
     std::vector<double> delay_line_;  ///< the last commands, a ring; empty: no dead time
     std::size_t newest_ = 0;          ///< in the ring
