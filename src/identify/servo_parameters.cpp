@@ -141,7 +141,12 @@ private:
         const auto found = std::find_if(fit.evidence.begin(), fit.evidence.end(),
                                         [&](const TermEvidence& e) { return e.term == term; });
         const bool tried = found != fit.evidence.end();
-        if (fit.parameters.has(term) && !fit.knows(term) && fit.knows(ServoTerm::log_gain)) {
+        // What a loop has that does not fit says nothing of the axis.
+        if (!fit.knows(ServoTerm::log_gain)) {
+            result_.unidentified.push_back({name, axis_.name(), "the loop is not identified"});
+            return;
+        }
+        if (fit.parameters.has(term) && !fit.knows(term)) {
             result_.unidentified.push_back(
                 {name, axis_.name(), "the motion shows that there is some, but not how much"});
             const double value = reported(term, fit.parameters[term]);
@@ -152,10 +157,6 @@ private:
             const std::string note = tried ? fmt::format("BIC falls by {:.0f}", found->gain) : "";
             put(name, true, reported_error(term), reported(term, fit.parameters[term]), unit, target, to_machine, {},
                 note);
-            return;
-        }
-        if (!fit.knows(ServoTerm::log_gain)) {
-            result_.unidentified.push_back({name, axis_.name(), "the loop is not identified"});
             return;
         }
         target = 0;

@@ -23,6 +23,12 @@ constexpr ServoEffort physical{.free_feedforward = false};
 
 unsigned bit_of(std::size_t k) { return 1U << k; }
 
+/// Whether a combination has an optional term.
+bool includes(unsigned set, ServoTerm term) {
+    const auto* const found = std::find(optional_terms.begin(), optional_terms.end(), term);
+    return (set & bit_of(static_cast<std::size_t>(found - optional_terms.begin()))) != 0;
+}
+
 ServoParameters with_terms(ServoParameters p, unsigned set) {
     for (std::size_t k = 0; k < optional_terms.size(); ++k) {
         const bool has = (set & bit_of(k)) != 0;
@@ -129,7 +135,8 @@ private:
     /// Loops of usual gains that have the lags of the records.
     void add_with_lags(unsigned set, std::vector<ServoParameters>& all) const {
         constexpr double gain_ratio = 1.4, least_gain = 5;
-        const bool sticks = (set & bit_of(0)) != 0, plays = (set & bit_of(1)) != 0, delays = (set & bit_of(2)) != 0;
+        const bool sticks = includes(set, ServoTerm::friction), plays = includes(set, ServoTerm::backlash),
+                   delays = includes(set, ServoTerm::dead_time);
         for (double gain = least_gain; gain * problem_.period() < 0.9; gain *= gain_ratio) {
             for (double dead = 0; dead <= (delays ? 8.0 : 0.0); dead += 0.5) {
                 // Of what hinders a reversal the play may have any share.
@@ -151,7 +158,7 @@ private:
     /// constants and integral times.
     void add_integrating(unsigned set, std::vector<ServoParameters>& all) const {
         constexpr double gain_ratio = 1.4, least_gain = 5;
-        const bool delays = (set & bit_of(2)) != 0;
+        const bool delays = includes(set, ServoTerm::dead_time);
         for (double gain = least_gain; gain * problem_.period() < 0.9; gain *= gain_ratio) {
             for (const double dead : {0.0, 1.0, 2.0, 4.0}) {
                 if (!delays && dead > 0) break;
@@ -160,8 +167,8 @@ private:
                 p[ServoTerm::feedforward] = 1 - (lags_[ServoTerm::feedforward] - dead * problem_.period()) * gain;
                 if (!(p[ServoTerm::feedforward] > -0.1 && p[ServoTerm::feedforward] < 1.5)) continue;
                 if (delays) p[ServoTerm::dead_time] = dead;
-                if ((set & bit_of(0)) != 0) p[ServoTerm::friction] = lags_[ServoTerm::friction] * gain;
-                if ((set & bit_of(1)) != 0) p[ServoTerm::backlash] = lags_[ServoTerm::friction];
+                if (p.has(ServoTerm::friction)) p[ServoTerm::friction] = lags_[ServoTerm::friction] * gain;
+                if (p.has(ServoTerm::backlash)) p[ServoTerm::backlash] = lags_[ServoTerm::friction];
                 for (const double step : {0.1, 0.2, 0.4, 0.7}) {
                     for (const double integral : first_values(ServoTerm::integral_step, p, 0)) {
                         p[ServoTerm::velocity_step] = step;
@@ -176,7 +183,7 @@ private:
     /// From the regression, from a usual loop, and from the combinations with one term less.
     [[nodiscard]] std::vector<ServoParameters> starts(unsigned set) const {
         std::vector<ServoParameters> all;
-        const bool delays = (set & bit_of(2)) != 0;
+        const bool delays = includes(set, ServoTerm::dead_time);
         std::size_t taken = 0;
         for (const ServoStart& regression : regressions_) {
             ServoParameters p = with_terms(regression.parameters, set);
@@ -187,7 +194,7 @@ private:
             if (delays && !late) p[ServoTerm::dead_time] = 0.3;
             add_with_backlash(p, all);
         }
-        if ((set & bit_of(3)) != 0)
+        if (includes(set, ServoTerm::integral_step))
             add_integrating(set, all);
         else
             add_with_lags(set, all);
