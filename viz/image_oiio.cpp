@@ -133,6 +133,4 @@ constexpr ImageLibrary library{encode, write_pdf, read, compare};
 }  // namespace
 }  // namespace clsurf::viz
 
-extern "C" __attribute__((visibility("default"))) const clsurf::viz::ImageLibrary* clsurf_image_library() {
-    return &clsurf::viz::library;
-}
+extern "C" __attribute__((visibility("default"))) const void* clsurf_image_library() { return &clsurf::viz::library; }

@@ -159,7 +159,7 @@ protected:
 
     const TemporaryFolder folder;
     const std::string path = folder.write("log.csv", csv_of(50));
-    const LogOptions options;
+    const LogOptions options{};
     GrowingLog log{path, options};
 };
 

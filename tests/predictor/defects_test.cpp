@@ -329,8 +329,9 @@ TEST(Defects, AreListedByHowFarTheyStandOut) {
 
 TEST(Defects, NearTheBorderAreOfThePassesAtFault) {
     // Passes 0 to 23 of the zigzag: one, or two side by side, 30 % slower; numbers of passes count from 1.
-    for (const auto& [first, last] : {std::pair(1, 1), std::pair(2, 2), std::pair(2, 3), std::pair(3, 4),
-                                      std::pair(21, 21), std::pair(22, 22), std::pair(20, 21)}) {
+    for (const std::pair<int, int>& slow : {std::pair(1, 1), std::pair(2, 2), std::pair(2, 3), std::pair(3, 4),
+                                            std::pair(21, 21), std::pair(22, 22), std::pair(20, 21)}) {
+        const int first = slow.first, last = slow.second;
         const planted::PlantedLog log = plane_zigzag(
             [&](int k, double x, double) { return k >= first && k <= last && x > 8 && x < 12 ? 35.0 : 50.0; });
         const QualityReport report = planted::judge(log);
