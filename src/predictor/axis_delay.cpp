@@ -9,8 +9,7 @@ namespace clsurf {
 namespace {
 
 constexpr PointIndex most_samples = 20'000;
-constexpr double least_motion =
-    0.01;  ///< of the squared speed: an axis that moves less has no delay that could be known
+constexpr double least_motion = 0.01;  ///< of the squared speed: the delay of an axis that moves less is not determined
 constexpr double least_explained = 0.5;  ///< of the variance of the lag
 constexpr double same_order = 0.5;       ///< of the largest effect that a pair of axes has
 
@@ -19,7 +18,7 @@ struct MovedAxis {
     double delay = 0;
 };
 
-/// Where an axis was to be, how fast, and how far off it was.
+/// Velocity and position error of the axes at a point, and its lag.
 struct FollowedPoint {
     Vec3 velocity, error, normal;
     double lag = 0;
@@ -74,7 +73,8 @@ double explained(const std::vector<FollowedPoint>& points, const std::vector<Mov
     return all > 0 ? 1 - left / all : 0;
 }
 
-/// The axes of all pairs whose difference moves the tool off its path by about as much as that of the strongest pair.
+/// The delays of the axes of all pairs whose difference moves the tool off its path about as much as that of the strongest
+/// pair.
 std::vector<AxisDelay> differing(const std::vector<FollowedPoint>& points, const std::vector<MovedAxis>& moved) {
     constexpr std::array<char, 3> letters{'x', 'y', 'z'};
     const auto effect = [&](const MovedAxis& a, const MovedAxis& b) {

@@ -8,32 +8,32 @@
 namespace clsurf {
 namespace {
 
-constexpr float bend_cosine = 0.906F;  ///< cos 25°: the path bends where it turns more than that …
+constexpr float bend_cosine = 0.906F;  ///< cos 25°: the path bends if it turns by more than this …
 constexpr float net_reach =
-    2;  ///< … and still does so many step-overs away on both sides: no step-over move to and fro
-constexpr float slight_cosine = 0.996F;  ///< cos 5°: enough where the adjacent passes do not …
-constexpr float own_share = 0.7F;        ///< … turn by more than this share of its turn
-constexpr float beside_every = 0.5F;     ///< step-overs between the places that are looked at on them
+    2;  ///< … and is still turned so many step-overs away on both sides, unlike at a step-over move
+constexpr float slight_cosine = 0.996F;  ///< cos 5°: enough if the adjacent passes …
+constexpr float own_share = 0.7F;        ///< … turn by less than this share of its turn
+constexpr float beside_every = 0.5F;     ///< step-overs between the places where these are examined
 constexpr float turn_reach = 1;          ///< step-overs on either side, over which a turn is measured
-/// Step-overs on either side, within which a link leads to the next pass. A long slanting link shows over the longest; in a
-/// curve the runs turn against each other over that length, and a short link shows over a shorter one.
+/// Step-overs on either side, within which a link leads to the next pass. A long slanting link is detected over the longest. In
+/// a curve the runs turn against each other over that length, so a short link is detected over a shorter one.
 constexpr std::array link_reaches{5.0F, 3.0F, 2.0F};
-constexpr float link_cosine = 0.94F;      ///< cos 20°: the runs that it joins are hardly turned against each other …
-constexpr float link_aside = 0.6F;        ///< … and lie so many step-overs apart
+constexpr float link_cosine = 0.94F;      ///< cos 20°: the runs that a link joins turn less against each other …
+constexpr float link_aside = 0.6F;        ///< … and are so many step-overs apart
 constexpr float link_sine = 0.24F;        ///< sin 14°: of the link against these runs
 constexpr float closing_reach = 5;        ///< step-overs on either side, within which a loop closes …
-constexpr float closing_nearest = 0.5F;   ///< … where the distance to the pass beside it falls below this …
-constexpr float closing_farthest = 0.8F;  ///< … and is more than this before or after it [step-overs]
-constexpr float long_link = 20;           ///< step-overs: a link is shorter …
-constexpr float link_nearest = 0.65F;     ///< … comes as near to one of the passes beside it [step-overs] …
-constexpr float own_turn = 0.035F;        ///< … and turns otherwise than the passes beside it by 2° at either corner
-constexpr float beside_reach = 1.5F;      ///< step-overs along the feed within which a pass beside has its bend
-constexpr float look_every = 0.1F;        ///< step-overs
-constexpr float accelerates = 0.35F;  ///< of the usual acceleration, at least: jerk limits and windows take the rest
-constexpr float link_accelerates = 0.15F;  ///< the same at a link: both of its corners share the turn
-constexpr float ramp_share = 0.2F;         ///< the same along the path, between the bend and its ramp's end
+constexpr float closing_nearest = 0.5F;   ///< … if the distance to the adjacent pass falls below this …
+constexpr float closing_farthest = 0.8F;  ///< … and exceeds this before or after it [step-overs]
+constexpr float long_link = 20;           ///< step-overs: longest link …
+constexpr float link_nearest = 0.65F;     ///< … which comes this near to one of the adjacent passes [step-overs] …
+constexpr float own_turn = 0.035F;    ///< … and turns at either corner by 2° more or less than the adjacent passes
+constexpr float beside_reach = 1.5F;  ///< step-overs along the feed, within which an adjacent pass has its bend
+constexpr float look_every = 0.1F;    ///< step-overs between examined points
+constexpr float accelerates = 0.35F;  ///< of the usual acceleration, at least: jerk limits and windows reduce it
+constexpr float link_accelerates = 0.15F;  ///< the same at a link, whose two corners share the turn
+constexpr float ramp_share = 0.2F;         ///< the same along the path, between the bend and the end of its ramp
 constexpr float accelerates_more = 1.35F;  ///< a bend that is taken 16 % faster
-constexpr float rises_again = 1.03F;       ///< of the least speed: beyond, it was another slow place
+constexpr float rises_again = 1.03F;       ///< of the least speed: beyond a higher one, another slow place begins
 /// [s] No mill needs longer to brake for a bend. This limits the search in logs with hardly any acceleration.
 constexpr float longest_braking = 0.5F;
 constexpr float hardly_slower = 0.5F;  ///< of the threshold
@@ -51,7 +51,7 @@ bool Bends::explain(PointIndex point, const Comparison& comparison) const {
     const float residual = comparison.residual[q], slight = hardly_slower * thresholds_.of[q];
     const std::array<PathLocation, 2> sides{comparison.beside_left, comparison.beside_right};
     if (residual < -slight) return slows_for_bend(point);
-    if (!(residual > slight)) {  // the accelerations differ alone
+    if (!(residual > slight)) {  // only the accelerations differ
         return slows_for_bend(point) || std::any_of(sides.begin(), sides.end(), [&](const PathLocation& at) {
                    return at.exists() && slows_for_bend(at.nearest());
                });
@@ -72,7 +72,7 @@ PointIndex Bends::stride_at(PointIndex point) const {
     return record > 0 ? std::clamp<PointIndex>(std::lround(look_every * step_over_ / record), 1, 512) : 1;
 }
 
-/// The point of its pass so far along, or the last one before its end.
+/// The point of the pass at a distance [mm], or the last one before the end of the pass.
 PointIndex Bends::at_distance(PointIndex from, int direction, float distance) const {
     const PointIndex stride = stride_at(from);
     float arc_length = 0;
@@ -82,7 +82,7 @@ PointIndex Bends::at_distance(PointIndex from, int direction, float distance) co
         if (next < 0 || next >= signals_.size() || !(signals_[next].speed > 0)) break;
         const float step = (surface_.positions[next] - surface_.positions[at]).norm();
         if (!(step >= 0)) break;
-        arc_length += step + look_every * look_every * step_over_;  // a tool that stands still does not hold the search
+        arc_length += step + look_every * look_every * step_over_;  // so that the search ends if the tool rests
         at = next;
     }
     return at;
@@ -90,7 +90,7 @@ PointIndex Bends::at_distance(PointIndex from, int direction, float distance) co
 
 Bends::Turn Bends::turn_at(PointIndex point) const {
     Eigen::Vector3f normal = signals_.normal(point);
-    if (!normal.allFinite()) normal.setZero();  // a tip may have no pass beside it: its turn is taken in space
+    if (!normal.allFinite()) normal.setZero();  // a tip may have no adjacent pass: its turn is measured in space
     const auto along_surface = [&](PointIndex i) {
         const Eigen::Vector3f feed = signals_.feed(i);
         return Eigen::Vector3f((feed - feed.dot(normal) * normal).normalized());
@@ -114,7 +114,7 @@ Bends::Turn Bends::turn_at(PointIndex point) const {
     return turn;
 }
 
-/// A pass beside it takes a bend like it, and takes it faster.
+/// Whether an adjacent pass takes a similar bend, and takes it faster.
 bool Bends::taken_faster_beside(PointIndex bend, const Turn& turn) const {
     for (const Side side : {Side::left, Side::right}) {
         const PathLocation at = beside(surface_, {bend, 0}, signals_.feed(bend), side);
@@ -132,7 +132,7 @@ bool Bends::taken_faster_beside(PointIndex bend, const Turn& turn) const {
     return false;
 }
 
-/// The passes beside it hardly turn there: the bend is its own, as at either end of a long link.
+/// Whether the adjacent passes hardly turn there: only this pass has the bend, as at either end of a long link.
 bool Bends::turns_alone(PointIndex bend, const Turn& turn) const {
     const float slight = std::acos(turn.cosine) * own_share;
     bool beside_any = false;
@@ -163,7 +163,7 @@ bool Bends::leads_aside(PointIndex point, float reach) const {
     const Eigen::Vector3f aside = chord - chord.dot(along) * along;
     if (!(aside.norm() > link_aside * step_over_)) return false;
     const Eigen::Vector3f sideways = aside.normalized();
-    float steepest = 0;  // against a path that turns evenly from one run to the other
+    float steepest = 0;  // compared with a path that turns evenly from one run to the other
     for (PointIndex i = before; i <= after; ++i) {
         const float share = static_cast<float>(i - before) / static_cast<float>(after - before);
         const float even = (in + share * (out - in)).dot(sideways);
@@ -198,7 +198,7 @@ float Bends::turn_of_its_own(PointIndex point) const {
     for (const Side side : {Side::left, Side::right}) {
         const PathLocation at = beside(surface_, {point, 0}, signals_.feed(point), side);
         if (!at.exists()) continue;
-        // A pass that runs the other way turns the other way, too: the difference of its feeds is the same.
+        // A pass in the opposite direction also turns in the opposite direction: the difference of its feeds is the same.
         const float other = (own - turn(at.nearest())).norm();
         if (other == other) least = std::min(least, other);
     }
@@ -234,7 +234,7 @@ bool Bends::is_bend(PointIndex point) const {
     return turn.cosine < slight_cosine && turns_alone(point, turn);
 }
 
-/// Where the speed, falling all the way, is least; none where the tool speeds up after it less than its acceleration lets it.
+/// The point up to which the speed falls continuously; nullopt if the speed changes by less than the usual acceleration allows.
 std::optional<PointIndex> Bends::slowest_ahead(PointIndex point, int direction) const {
     const float a = 2 * accelerates * thresholds_.usual_acceleration;
     const float speed = signals_[point].speed;

@@ -1,12 +1,11 @@
 #pragma once
 // Bends: differences of speed that the layout of the passes explains.
 //
-// Where contour-parallel loops round two borders meet, their tips lie side by side with passes that run straight on. A tip turns
-// sharply, so the tool slows down for it, and the adjacent passes have no reason to. The planner's look-ahead explains such a
-// difference: it is expected. It explains no more than that: the tool must take the bend about as fast as the machine's
-// acceleration lets it, brake for it and speed up after it at once, and no slower than a pass beside it takes a bend like it.
-// Both corners of a link that leads from a loop to the next one are bends, too, and so is a slight bend that the adjacent passes
-// do not have.
+// Where contour-parallel loops around two borders meet, their tips are next to passes that run straight on. A tip turns
+// sharply, so the tool slows down for it, while the adjacent passes need not. The look-ahead of the controller explains such a
+// difference, so it is expected. A bend explains a difference only if the tool takes it about as fast as the acceleration of
+// the machine allows, brakes for it and speeds up right after it, and is no slower than an adjacent pass in a similar bend. The
+// two corners of a link between loops are bends too, and so is a slight bend that the adjacent passes do not have.
 
 #include <optional>
 
@@ -19,35 +18,38 @@ public:
     /// All must outlive it.
     Bends(const ClSurface& surface, const Signals& signals, const Thresholds& thresholds);
 
-    /// The slower side of the comparison, the point or the passes next to it, slows down for a bend of its own path.
+    /// Whether the slower side of the comparison (the point or the passes next to it) slows down for a bend of its own path.
     /// O(points within the braking distance).
     [[nodiscard]] bool explain(PointIndex point, const Comparison& comparison) const;
 
 private:
-    /// How the path turns about a point.
+    /// How the path turns around a point.
     struct Turn {
-        float cosine = 1;        ///< between the feed a step-over before it and a step-over after it, on the surface
-        float acceleration = 0;  ///< [mm/s²] that it takes at the speed that is there
+        float cosine = 1;        ///< of the angle between the feeds one step-over before and after it, on the surface
+        float acceleration = 0;  ///< [mm/s²] that the turn takes at the speed there
     };
 
     [[nodiscard]] bool slows_for_bend(PointIndex point) const;
     [[nodiscard]] bool is_bend(PointIndex point) const;
-    /// There the path leads on and sideways, from a closed loop to the next one.
+    /// Whether the path continues with a sideways step there, from a closed loop to the next one.
     [[nodiscard]] bool is_link(PointIndex point) const;
-    /// The same within `reach` [mm] on either side.
+    /// The same within `reach` [mm] before and after the point.
     [[nodiscard]] bool leads_aside(PointIndex point, float reach) const;
-    /// A closed loop ends there and a link leads to the next one: the path comes to where it has already run, and leaves again.
-    /// This holds in tight curves and for links that slant by a few degrees, where the path alone does not show the link.
+    /// Whether a closed loop ends there and a link leads to the next one: the path reaches a place where it has already been,
+    /// and leaves it again. This detects links in tight curves and links that slant by a few degrees, which the path alone does
+    /// not show.
     [[nodiscard]] bool closes_loop(PointIndex point) const;
-    /// Either corner of a long link that slants by a few degrees: the path turns otherwise than the passes beside it, and between
-    /// its corners it leads over the place where the loop began, so that the distance to the pass beside it grows from nothing to
-    /// a step-over.
+    /// Whether the point is a corner of a long link that slants by a few degrees. The path turns differently from the adjacent
+    /// passes. Between its corners, the link crosses the place where the loop began, so that the distance to the adjacent pass
+    /// grows from zero to one step-over.
     [[nodiscard]] bool is_corner_of_long_link(PointIndex point) const;
-    /// Between two points of the path the distance to the pass beside it is below so many step-overs, and about one elsewhere.
+    /// Whether, between two points of the path, the distance to the adjacent pass falls below `below` step-overs and is about
+    /// one step-over elsewhere.
     [[nodiscard]] bool distance_falls(PointIndex first, PointIndex last, float below) const;
-    /// How much more or otherwise the path turns there than the passes beside it, as difference of unit feeds; 0: there is none.
+    /// How much the turn of the path differs there from that of the adjacent passes, as difference of unit feeds. 0: it does
+    /// not, or there is no adjacent pass.
     [[nodiscard]] float turn_of_its_own(PointIndex point) const;
-    /// [mm] to the nearer one of the neighbours, straight across; infinite: there is none.
+    /// Distance [mm] to the nearer neighbour, straight across; infinite: there is none.
     [[nodiscard]] float distance_beside(PointIndex point) const;
     [[nodiscard]] bool turns_alone(PointIndex bend, const Turn& turn) const;
     [[nodiscard]] bool taken_faster_beside(PointIndex bend, const Turn& turn) const;

@@ -1,5 +1,5 @@
 #pragma once
-// Budget: limits with names, and the comparison of a report with the ones that are set.
+// Budget: named limits, and the comparison of a report with those that are set.
 
 #include <algorithm>
 #include <optional>
@@ -9,13 +9,13 @@
 
 namespace clsurf {
 
-/// One limit of a budget, by its name in the file.
+/// One limit of a budget, with its name in the file.
 template <typename Report, typename Budget>
 struct BudgetLimit {
     std::string_view name;
     std::optional<double> Budget::*limit;
-    double (*measure)(const Report& report);  ///< NaN: not known, which holds no limit
-    bool at_least = false;                    ///< the measure must reach the limit; else it must not pass it
+    double (*measure)(const Report& report);  ///< NaN: not known, so that no limit is met
+    bool at_least = false;                    ///< the measure must reach the limit; false: it must not exceed it
 };
 
 struct BudgetLine {
@@ -24,7 +24,7 @@ struct BudgetLine {
     bool held = false;
 };
 
-/// Every limit that the budget sets, in the order of `limits`.
+/// The comparison with each limit that the budget sets, in the order of `limits`.
 template <typename Report, typename Budget>
 [[nodiscard]] std::vector<BudgetLine> hold(std::span<const BudgetLimit<Report, Budget>> limits, const Report& report,
                                            const Budget& budget) {

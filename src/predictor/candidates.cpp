@@ -15,13 +15,13 @@
 namespace clsurf {
 namespace {
 
-constexpr int fewest_alike = 2;  ///< passes of the same way on each side, where two ways cannot be told from a fault
+constexpr int fewest_alike = 2;          ///< passes of one direction on each side, to distinguish a zigzag from a fault
 constexpr float candidate_share = 0.5F;  ///< of a threshold
-constexpr double ends_apart = 1;   ///< step-overs along the feed between ends of passes that do not end side by side
-constexpr double ramp_room = 1.5;  ///< times what the steeper one of both ramps makes of that way
-constexpr float joined_beside = 1.0F;  ///< step-overs along the feed between candidates of two passes
+constexpr double ends_apart = 1;         ///< step-overs along the feed: closer ends of passes are side by side
+constexpr double ramp_room = 1.5;        ///< times the change of speed of the steeper ramp over that distance
+constexpr float joined_beside = 1.0F;    ///< step-overs along the feed between candidates of two passes
 
-/// How far residual and step pass the thresholds, together.
+/// Sets share and score of a candidate.
 void measure(DefectCandidate& candidate, const Thresholds& thresholds) {
     candidate.share.fill(0);
     candidate.score.fill(0);
@@ -36,14 +36,14 @@ void measure(DefectCandidate& candidate, const Thresholds& thresholds) {
     }
 }
 
-/// Sets of candidates that were joined, from any number of threads: roots are hung below lower ones only,
-/// so that the sets do not depend on who joins first.
+/// Disjoint sets of candidates, joined by any number of threads. Roots are attached to lower roots only, so the result does not
+/// depend on the order of joins.
 class Groups {
 public:
     explicit Groups(std::size_t count) : parent_(count) {
         for (std::size_t i = 0; i < count; ++i) parent_[i].store(i, std::memory_order_relaxed);
     }
-    /// The lowest of a set.
+    /// The lowest index of a set.
     std::size_t root(std::size_t i) {
         for (;;) {
             std::size_t parent = parent_[i].load(std::memory_order_relaxed);
@@ -68,8 +68,8 @@ private:
     std::vector<std::atomic<std::size_t>> parent_;
 };
 
-/// Index of the first of `points`, which ascend, that is not below `point`: steps that double away
-/// from `hint`, since what is looked up one after the other lies side by side.
+/// Index of the first of `points`, which ascend, that is not below `point`. The search starts at `hint` and doubles its steps,
+/// because consecutive queries are close to each other.
 std::size_t lower_bound_near(const std::vector<PointIndex>& points, std::size_t hint, PointIndex point) {
     std::size_t low = std::min(hint, points.size());
     std::size_t high = low;
@@ -122,8 +122,8 @@ public:
 
     FoundCandidates find(const std::vector<PointIndex>& sites, const ForgetBlocks& forget = {}) {
         forget_ = forget;
-        std::ptrdiff_t in_order = 0;  // candidates that were found first
-        // Of each portion, whatever lies beside its candidates, before the next one is read.
+        std::ptrdiff_t in_order = 0;  // candidates of the first portion, which are found in order
+        // The sites next to candidates of a portion are examined before the next portion is read.
         in_portions(sites, [&](std::span<const PointIndex> portion) {
             std::vector<PointIndex> frontier = judge(portion);
             if (in_order == 0) in_order = static_cast<std::ptrdiff_t>(frontier.size());
@@ -139,7 +139,7 @@ public:
         return std::move(found_);
     }
 
-    /// Sites among `points` whose step to an adjacent pass is half a threshold or more.
+    /// Sites among `points` whose step to an adjacent pass is at least half a threshold.
     [[nodiscard]] std::vector<PointIndex> sites_with_step(const PointRange& points) const {
         std::vector<std::vector<PointIndex>> of_block(
             static_cast<std::size_t>((points.last + block_points) / block_points));
@@ -159,7 +159,7 @@ public:
     }
 
 private:
-    /// The sites on both sides of candidates.
+    /// The sites next to candidates, on both sides.
     [[nodiscard]] std::vector<PointIndex> beside_all(const std::vector<PointIndex>& points) const {
         std::vector<PointIndex> sites;
         in_portions(points, [&](std::span<const PointIndex> portion) {
@@ -174,7 +174,8 @@ private:
         return sites;
     }
 
-    /// A pass and the one beside it do not end side by side: one goes on, or its ramp lies farther on and so makes the difference.
+    /// Whether a pass and the adjacent one end at different places: one goes on, or a ramp that is farther on causes the
+    /// difference.
     [[nodiscard]] bool ends_elsewhere(PointIndex point, const PathLocation& beside) const {
         const PointIndex other = beside.nearest();
         if (signals_[other].zone == Zone::inner) return true;
@@ -184,13 +185,13 @@ private:
         return std::abs(faster) <= ramp_room * std::abs(farther) * std::max(ramp_at(point), ramp_at(other));
     }
 
-    /// How much the speed changes along the pass [1/s].
+    /// Relative change of the speed along the pass [1/s].
     [[nodiscard]] double ramp_at(PointIndex point) const {
         const double along = signals_.acceleration(point).dot(signals_.feed(point));
         return std::abs(along) / std::max(signals_[point].speed, thresholds_.least_speed);
     }
 
-    /// [mm] to the nearer end of what is judged of the pass there.
+    /// [mm] to the nearer end of the judged section of the pass.
     [[nodiscard]] double arc_length_to_end(PointIndex point) const {
         const std::vector<PointRange>& pieces = signals_.pieces;
         const auto piece = range_at(pieces, point);
@@ -199,9 +200,9 @@ private:
         return std::min(here - arc_length_.to(piece->first), arc_length_.to(piece->last) - here);
     }
 
-    /// Compares where passes begin or end. Beside one that goes on, and where there is no pass on one side, a
-    /// difference is no surprise. Where all begin or end, the two ways of a zigzag differ by nature: there
-    /// a candidate is what differs from passes of its own way.
+    /// Compares places where passes begin or end. A difference is expected next to a pass that goes on, and where one side has
+    /// no pass. Where all passes begin or end, the two directions of a zigzag differ anyway, so a candidate must differ from
+    /// passes of its own direction.
     void compare_at_end(const PathLocation& place, DefectCandidate& candidate) const {
         const Comparison& c = candidate.comparison;
         candidate.border = c.left == 0 || c.right == 0;
@@ -211,7 +212,7 @@ private:
                            ends_elsewhere(candidate.point, c.beside_left) ||
                            ends_elsewhere(candidate.point, c.beside_right);
         if (candidate.border) {
-            // A ramp makes its pass the slower one. Where it is the faster one, something else is the matter.
+            // A ramp makes its pass the slower one. If it is the faster one, there is another cause.
             constexpr std::size_t q = index_of(Quantity::speed);
             const bool ramps = signals_[candidate.point].zone == Zone::ramp;
             candidate.border = candidate.share[q] < candidate_share || (c.residual[q] < 0) == ramps;
@@ -224,7 +225,7 @@ private:
         measure(candidate, thresholds_);
     }
 
-    /// Where one of the passes turns, the chord over it does not lie straight across: its height is no relief.
+    /// If one of the passes turns, the chord over it is not straight across, so the height above it is no relief.
     void forget_relief_in_corner(DefectCandidate& candidate) const {
         constexpr std::size_t q = index_of(Quantity::relief);
         if (candidate.share[q] < candidate_share) return;
@@ -242,7 +243,7 @@ private:
                         candidate.share[index_of(Quantity::acceleration)]) >= candidate_share;
     }
 
-    /// Looks at those that were not looked at yet. Returns the candidates among them.
+    /// Examines sites that were not examined before. Returns the candidates among them.
     std::vector<PointIndex> judge(std::span<const PointIndex> sites) {
         std::vector<PointIndex> fresh;
         for (const PointIndex site : sites) {
@@ -255,7 +256,7 @@ private:
         return found;
     }
 
-    /// f(portion) for portions of points between which signals are forgotten.
+    /// Calls f(portion) for portions of points; signals are forgotten between them.
     template <typename F>
     void in_portions(const std::vector<PointIndex>& points, F&& f) const {
         for_each_portion(
@@ -263,7 +264,7 @@ private:
             [&](std::size_t first, std::size_t end) { f(std::span(points).subspan(first, end - first)); });
     }
 
-    /// Looks at sites that were not looked at yet. Appends the candidates among them to `found`.
+    /// Examines new sites. Appends the candidates among them to `found`.
     void judge_fresh(std::span<const PointIndex> fresh, std::vector<PointIndex>& found) {
         const auto count = static_cast<std::int64_t>(fresh.size());
         const std::int64_t grain = std::clamp<std::int64_t>(count / 64, 16, 1024);
@@ -360,12 +361,12 @@ double joined_along(const ClSurface& surface, double record) {
 
 std::vector<DefectCandidates> group_candidates(const DefectCandidates& candidates, const ClSurface& surface,
                                                const ArcLength& arc_length, double along, const ForgetBlocks& forget) {
-    std::vector<PointIndex> points;  // side by side, to be searched
+    std::vector<PointIndex> points;  // contiguous, for the search
     points.reserve(candidates.size());
     for (const DefectCandidate* s : candidates) points.push_back(s->point);
     Groups groups(candidates.size());
     const float beside = joined_beside * static_cast<float>(surface.step_over);
-    /// Joins a candidate with those of another pass round a point of it. `hint`: where the last one was.
+    /// Joins a candidate with those of another pass near a point of that pass. `hint`: index of the previous result.
     const auto join_near = [&](std::size_t k, PointIndex point, std::size_t& hint) {
         const std::size_t after = hint = lower_bound_near(points, hint, point);
         const Eigen::Vector3f place = surface.positions[point];
@@ -374,7 +375,7 @@ std::vector<DefectCandidates> group_candidates(const DefectCandidates& candidate
             groups.join(k, found);
         }
     };
-    using Hints = std::array<std::array<std::size_t, 3>, 2>;  // by side: beside, and over that pass
+    using Hints = std::array<std::array<std::size_t, 3>, 2>;  // per side: the adjacent pass, and the two beyond it
     const auto join = [&](std::size_t k, Hints& hints) {
         const PointIndex point = points[k];
         if (k > 0 && !arc_length.at_least(points[k - 1], point, along)) groups.join(k - 1, k);
@@ -383,7 +384,7 @@ std::vector<DefectCandidates> group_candidates(const DefectCandidates& candidate
             const PointIndex adjacent = surface.neighbours.neighbour(side, point);
             std::array<std::size_t, 3>& near = hints[static_cast<std::size_t>(side)];
             join_near(k, adjacent, near[2]);
-            // Over one clean pass.
+            // Across one clean pass.
             for (const Side other : {Side::left, Side::right}) {
                 if (!surface.neighbours.has(other, adjacent)) continue;
                 const PointIndex next = surface.neighbours.neighbour(other, adjacent);

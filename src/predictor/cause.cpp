@@ -12,20 +12,20 @@ namespace clsurf {
 namespace {
 
 constexpr double uneven_spacing = 1.5;       ///< ratio of the programmed steps
-constexpr LineNumber most_lines = 10'000;    ///< of a run that are looked at
+constexpr LineNumber most_lines = 10'000;    ///< of a run that are examined
 constexpr double corner_arc_length = 0.3;    ///< [mm] in which a corner turns
 constexpr float corner_cosine = 0.906F;      ///< cos 25°
-constexpr double reversal_arc_length = 0.3;  ///< [mm] before the run begins
+constexpr double reversal_arc_length = 0.3;  ///< [mm] around the beginning of the run
 constexpr float axis_moves = 0.01F;          ///< of the feed; less is noise
-constexpr float lobe = 0.4F;                 ///< of the peak: a swing counts
+constexpr float lobe = 0.4F;                 ///< of the peak: a half-wave that counts
 constexpr int lobes_of_oscillation = 3;
-constexpr double share_of_control = 0.5;  ///< of a relief: deviations from the program make so much of it
-constexpr double share_of_peak = 0.9;     ///< of the depth: the places where a height is largest
-constexpr std::size_t looked_at = 16;     ///< of these places, about
+constexpr double share_of_control = 0.5;  ///< of a relief: its share by deviations from the program
+constexpr double share_of_peak = 0.9;     ///< of the depth: the places that count as highest
+constexpr std::size_t looked_at = 16;     ///< of these places that are examined, about
 constexpr std::int64_t merged =
-    110;  ///< motions before and after that of a point: a controller may make one of so many
+    110;  ///< motions searched before and after that of a point: a controller may merge so many into one
 
-/// How often the speed goes to the other side of that of the neighbours, within one run.
+/// The largest number of half-waves of the speed about that of the neighbours, within one run.
 int count_lobes(std::span<const DefectCandidate* const> sites) {
     float peak = 0;
     for (const DefectCandidate* s : sites) {
@@ -102,7 +102,7 @@ bool CauseFinder::spaced_otherwise(const Defect& defect) const {
     return own > 0 && beside > 0 && (own > uneven_spacing * beside || beside > uneven_spacing * own);
 }
 
-/// How far the path lies above the programmed one at a point, along the normal [mm]; NaN: its motion is not known.
+/// Height of the path above the programmed one at a point, along the normal [mm]; NaN: its motion is not known.
 double CauseFinder::off_program(PointIndex point) const {
     const std::int64_t motion = lines_.motion_at(point);
     if (motion < 0) return missing<double>;
@@ -120,9 +120,9 @@ double CauseFinder::off_program(PointIndex point) const {
     return signals_.normal(point).cast<double>().dot(at - nearest);
 }
 
-/// Whether most of a relief is not in the program. A relief is the height above the mean of both adjacent passes, and so are the
-/// deviations from the program compared: a controller that rounds off a peak of the program lies below it, and above it at its foot.
-/// The places count where the relief is largest.
+/// Whether most of a relief is not in the program. A relief is the height above the mean of both adjacent passes, so the
+/// deviations from the program are compared in the same way: a controller that rounds off a programmed peak is below it at the
+/// top, and above it at the bottom. Only the places with the largest relief count.
 bool CauseFinder::leaves_program(const Defect& defect, std::span<const DefectCandidate* const> sites) const {
     const auto height = [](const DefectCandidate* s) {
         return static_cast<double>(s->comparison.residual[index_of(Quantity::relief)]);

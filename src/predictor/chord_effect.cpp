@@ -11,7 +11,8 @@ namespace clsurf {
 namespace {
 
 constexpr std::size_t of_relief = index_of(Quantity::relief);
-/// Of the stronger relief: −h/2 beside h, with room for noise. A pass that is off by −p itself has (p + h/2) of (h + p/2).
+/// Of the stronger relief: −h/2 next to h, with some margin for noise.
+/// A pass that is itself off by −p has (p + h/2) of (h + p/2).
 constexpr float most_of_chord = 0.6F;
 
 class ChordEffects {
@@ -53,7 +54,7 @@ void take_chord_effects(const Passes& passes, const ArcLength& arc_length, doubl
     const std::vector<DefectCandidate*> all = found.with_share_of(Quantity::relief);
     const DefectCandidates reliefs(all.begin(), all.end());
     const ChordEffects effects(reliefs, passes, arc_length, along);
-    std::vector<DefectCandidate*> taken;  // first all are looked at: what is taken from one must not change another
+    std::vector<DefectCandidate*> taken;  // removed after the search, so that one removal does not change the others
     for_each_portion(
         all.size(), forget, [&](std::size_t k) { return all[k]->point; },
         [&](std::size_t first, std::size_t end) {

@@ -1,5 +1,5 @@
 #pragma once
-// Compared: the quantities that adjacent passes are compared by, at a location on a pass.
+// Compared: the quantities by which adjacent passes are compared, at a location on a pass.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,15 +15,15 @@ inline constexpr std::size_t quantities = 4;
 [[nodiscard]] constexpr std::size_t index_of(Quantity q) { return static_cast<std::size_t>(q); }
 [[nodiscard]] std::string_view name_of(Quantity quantity);  ///< "speed"
 
-/// What is compared, at a place.
+/// The compared quantities at one place.
 struct Compared {
     float speed, lag, relief;
     Eigen::Vector3f acceleration;
 };
 
-/// Points of cut passes.
+/// Numbers of points of cut passes.
 struct ComparedPoints {
-    PointIndex away_from_ends = 0;  ///< of their passes, as far as those are judged
+    PointIndex away_from_ends = 0;  ///< away from the ends of their passes, so that they are judged
     PointIndex compared = 0;        ///< of these, with a neighbour on both sides
 
     ComparedPoints& operator+=(const ComparedPoints& other) {
@@ -33,8 +33,8 @@ struct ComparedPoints {
     }
 };
 
-/// The signals at a location, linear between the points. Heights are counted along `normal`: normals of
-/// walls that lean by less than 0.75° turn round with the feed.
+/// The signals at a location, interpolated linearly between the points. Heights count along `normal`, because normals of walls
+/// that lean by less than 0.75° reverse with the feed.
 [[nodiscard]] Compared compared_at(const Signals& signals, const PathLocation& at, const Eigen::Vector3f& normal);
 
 }  // namespace clsurf

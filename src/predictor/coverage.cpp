@@ -7,7 +7,7 @@
 namespace clsurf {
 namespace {
 
-/// Refuses a verdict where too little could be compared.
+/// Refuses a verdict if too little could be compared.
 void judge_passes(QualityReport& report) {
     if (report.not_finishing_share() > 1 - least_coverage) {
         report.judgement.refuse(fmt::format(
@@ -20,7 +20,7 @@ void judge_passes(QualityReport& report) {
     } else if (report.step_over <= 0) {
         report.judgement.refuse("No pass has an adjacent pass, so nothing could be compared.");
     } else if (report.coverage() < least_coverage) {
-        const double percent = std::floor(1000 * report.coverage()) / 10;  // never rounded up to what is enough
+        const double percent = std::floor(1000 * report.coverage()) / 10;  // never rounded up to the limit
         const auto share = [&](PointIndex points) {
             return 100.0 * static_cast<double>(points) / static_cast<double>(report.points);
         };
@@ -33,7 +33,7 @@ void judge_passes(QualityReport& report) {
     }
 }
 
-/// Says so where it is the records that are too few to tell passes apart. `record` [mm]: arc length of one.
+/// Adds the reason if records are too far apart to distinguish passes. `record` [mm]: arc length of one record.
 void judge_records(double record, QualityReport& report) {
     if (report.step_over <= 0 || report.coverage() >= least_coverage || !(record > report.step_over)) return;
     report.judgement.refuse(fmt::format(
@@ -41,8 +41,8 @@ void judge_records(double record, QualityReport& report) {
         record, report.step_over));
 }
 
-/// Refuses a verdict where the heights of adjacent passes differ by as much as the passes lie apart, all over the part. A
-/// surface of one operation has no such heights: a semi-finish and a finish with one tool, above each other, do.
+/// Refuses a verdict if the heights of adjacent passes differ by as much as the step-over all over the part. The surface of one
+/// operation has no such heights; a semi-finish and a finish with one tool, one above the other, have.
 void judge_heights(QualityReport& report) {
     constexpr double most_of_step_over = 0.5;
     const double height = report.thresholds.of[index_of(Quantity::relief)];

@@ -5,8 +5,8 @@
 
 namespace clsurf {
 
-/// Refuses a verdict in `report` where too little could be compared, and says why. `record` [mm]: the length of one record at the
-/// usual speed.
+/// Refuses a verdict in `report` if too little could be compared, and gives the reason. `record` [mm]: the length of one record
+/// at the usual speed.
 void judge_coverage(double record, QualityReport& report);
 
 }  // namespace clsurf

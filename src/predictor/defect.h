@@ -1,5 +1,5 @@
 #pragma once
-// Defect: a place where a pass differs from its neighbours enough to leave a mark; and the report of all of a part.
+// Defect: a place where a pass differs from its neighbours enough to leave a mark. Also the report of all defects of a part.
 
 #include <optional>
 #include <string>
@@ -16,11 +16,11 @@ namespace clsurf {
 
 enum class Cause : std::uint8_t {
     feed_drop,       ///< slower (or faster) than its neighbours over a section
-    oscillation,     ///< the speed swings about that of the neighbours
+    oscillation,     ///< the speed oscillates about that of the neighbours
     lag_step,        ///< the axes deviate from the commanded path differently from adjacent passes
     point_spacing,   ///< the program's own points differ from those of adjacent passes
     corner,          ///< the programmed path turns there
-    reversal,        ///< an axis turns back there
+    reversal,        ///< an axis reverses there
     pass_end,        ///< the pass begins or ends there
     path_tolerance,  ///< the controller deviates from the programmed path differently from adjacent passes
 };
@@ -33,7 +33,7 @@ struct DefectSection {
     std::int64_t pass = 0;  ///< number of the cut pass, from 1
     PointRange points;
     LineNumber first_line = 0, last_line = 0;  ///< of these points, in the main program; 0: no line
-    /// Where a subprogram in a file of its own runs: the file and its lines. first_line and last_line call it.
+    /// Set if a subprogram in its own file runs there: the file and its lines. first_line and last_line then call it.
     std::string file = {};
     LineNumber file_first_line = 0, file_last_line = 0;
 };
@@ -47,19 +47,19 @@ struct AxisDelay {
 struct Defect {
     int severity = 1;  ///< 1 to 4 (severity.h)
     Cause cause = Cause::feed_drop;
-    Quantity quantity = Quantity::speed;  ///< that shows it best
-    float score = 0;                      ///< peak over threshold: how far it stands out of what the part is like
+    Quantity quantity = Quantity::speed;  ///< in which the defect is strongest
+    float score = 0;                      ///< peak over threshold
     bool systematic = false;              ///< lag that alternates with the direction of travel (systematic_lag.h)
-    double share = 0;                     ///< of a systematic one: of the path of all cut passes, 0 … 1
+    double share = 0;                     ///< of a systematic one: share of the path of all cut passes, 0 … 1
     std::vector<AxisDelay> delays;  ///< of a systematic one: the axes that differ, slowest first; empty: not known
-    CutterPlace place;              ///< where it is strongest; the contact where the tool is known
+    CutterPlace place;              ///< where it is strongest; the contact point if the tool is known
     PointIndex point = 0;           ///< there
     Box3 bounds;                    ///< [mm] of tips
     Box3 contact_bounds;            ///< [mm] of contact points; empty: not known
     double area = 0;                ///< [mm²]
     double length = 0;              ///< [mm] along the feed, of the longest run
     double depth = 0;               ///< [mm] ≥ 0, predicted step against the neighbours along the normal
-    bool pit = false;               ///< below its neighbours; else a bulge, which they cut down again
+    bool pit = false;               ///< below its neighbours; else a bulge, which the neighbours cut down again
     double speed = 0;               ///< [mm/s] where it is strongest
     double adjacent_speed = 0;      ///< [mm/s] of the adjacent passes, there
     double speed_jump = 0;          ///< [mm/s] signed, against the neighbours
@@ -69,53 +69,53 @@ struct Defect {
     std::vector<DefectSection> neighbours;  ///< the clean passes beside them
 };
 
-/// The section of a defect that is strongest. Of many sections only the longest are kept: the first one where that is none
-/// of them. nullptr: there is no section.
+/// The section where a defect is strongest. Of a defect with many sections only the longest are stored; if none of these
+/// contains that place, the first one is returned. nullptr: there is no section.
 [[nodiscard]] const DefectSection* strongest_section(const Defect& defect);
-/// All sections as a reader wants them: the strongest first, the others in the order of their points.
+/// All sections in the order for readers: the strongest first, then the others in the order of their points.
 [[nodiscard]] std::vector<DefectSection> strongest_first(const Defect& defect);
 
 /// How a mark differs from the adjacent passes: a pit is deep, a bulge is high.
 [[nodiscard]] constexpr std::string_view deep_or_high(bool pit) { return pit ? "deep" : "high"; }
 
-/// What was found in the shards of a log before the defects are built.
+/// What was found in the shards of a log before defects are built.
 struct FoundInShards {
     ComparedPoints points;           ///< count_compared() of all points
     std::vector<PointIndex> starts;  ///< find_starts() of all points, in order
     std::vector<double> scallops;    ///< [mm] scallop_heights() of all points (machined/as_machined_report.h)
-    ForgetBlocks forget;             ///< positions and signals that are derived when they are read
+    ForgetBlocks forget;             ///< forgets positions and signals that are derived when they are read
 };
 
 struct QualityRules {
     ThresholdRule thresholds;
-    std::optional<Thresholds> fixed;  ///< those that another run was judged by, instead of the run's own
+    std::optional<Thresholds> fixed;  ///< thresholds of another run, used instead of the run's own
     SeverityRule severity;
-    std::optional<FoundInShards> found;  ///< of the whole log; nothing: it is looked for
+    std::optional<FoundInShards> found;  ///< of the whole log; nullopt: it is computed
 };
 
 struct QualityReport {
     std::vector<Defect> defects;   ///< in falling order of score
-    std::vector<Defect> expected;  ///< at outermost passes: what a part's border always shows
+    std::vector<Defect> expected;  ///< at the outermost passes: differences that the border of a part always shows
     Thresholds thresholds;
     PointIndex points = 0;          ///< of cut passes
     PointIndex away_from_ends = 0;  ///< of them, away from the ends of their passes
     PointIndex compared = 0;        ///< of these, with a neighbour on both sides
-    PointIndex not_finishing = 0;   ///< cutting points of pockets, drilling, single contours: left out
+    PointIndex not_finishing = 0;   ///< cutting points of pockets, drilling, single contours: not compared
     std::int64_t passes = 0;        ///< cut passes
     double step_over = 0;           ///< [mm]
-    bool has_lag = false;           ///< measured positions were there
+    bool has_lag = false;           ///< measured positions were given
     Judgement judgement;            ///< whether the data allow a verdict
     std::string note;               ///< the windows
 
     [[nodiscard]] double coverage() const {
         return points > 0 ? static_cast<double>(compared) / static_cast<double>(points) : 0;
     }  ///< 0 … 1
-    /// Of all cutting points, those that belong to no finishing pass, 0 … 1.
+    /// Share of the cutting points that belong to no finishing pass, 0 … 1.
     [[nodiscard]] double not_finishing_share() const {
         return not_finishing > 0 ? static_cast<double>(not_finishing) / static_cast<double>(points + not_finishing) : 0;
     }
     [[nodiscard]] int worst_severity() const;  ///< 0: no defects
-    /// All sections of passes at fault, defect by defect.
+    /// The sections at fault of all defects, defect by defect.
     [[nodiscard]] std::vector<PointRange> sections() const;
 };
 

@@ -7,9 +7,9 @@ namespace clsurf {
 namespace {
 
 constexpr float weak_peak = 0.25F;  ///< of the strongest of its group
-constexpr float dip_share = 0.5F;   ///< of the lower of its two peaks, to which a dip falls
+constexpr float dip_share = 0.5F;   ///< of the lower of its two peaks: a deeper dip separates them
 constexpr float peak_of_its_own =
-    3.0;  ///< share of the threshold that a second peak reaches; weaker ones follow strong ones
+    3.0;  ///< share of the threshold that a second peak must reach; weaker ones are after-effects of strong ones
 
 float peak_of(CandidateSpan sites, Quantity quantity) {
     float peak = 0;
@@ -44,7 +44,7 @@ private:
         return !arc_length_.at_least(a->point, b->point, joined_);
     }
 
-    /// The shares of a run with dips shorter than joined_ filled: a morphological closing.
+    /// The shares of a run, with dips shorter than joined_ filled (a morphological closing).
     [[nodiscard]] std::vector<float> filled(CandidateSpan run) const {
         std::vector<float> shares;
         shares.reserve(run.size());
@@ -58,7 +58,8 @@ private:
         return shares;
     }
 
-    /// A run, cut at the bottom of each dip between two peaks of the motion. Heights swing after what made them.
+    /// A run of a motion, cut at the bottom of each dip between two peaks. Heights are not cut, because they oscillate after
+    /// their cause.
     [[nodiscard]] std::vector<CandidateSpan> bumps_of(CandidateSpan run) const {
         if (quantity_ == Quantity::lag || quantity_ == Quantity::relief) return {run};
         const std::vector<float> shares = filled(run);
@@ -99,13 +100,13 @@ private:
     double joined_;  ///< [mm]
 };
 
-/// The sites of a run from its strongest one away, one way.
+/// The sites of a run on one side of its strongest one.
 class Flank {
 public:
     Flank(Quantity quantity, const ArcLength& arc_length, double joined)
         : quantity_(quantity), arc_length_(arc_length), joined_(joined) {}
 
-    /// The arc length [mm] between `from` and the last of the sites `next`, which lead away from it, up to `enough`.
+    /// The arc length [mm] from `from` to the last of the sites `next` that belongs to the flank, up to `enough`.
     template <class Iterator>
     [[nodiscard]] double length(const DefectCandidate* from, Iterator next, Iterator end, float peak,
                                 double enough) const {

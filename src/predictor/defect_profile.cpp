@@ -17,7 +17,7 @@ constexpr double room_of_step_over = 6;  ///< … and at least so many step-over
 constexpr PointIndex most_places = 4000;
 constexpr int most_across = 5;  ///< passes to each side of the strongest place
 
-/// The points of the same pass round a section.
+/// A section, extended by `room` [mm] on both sides within its pass.
 PointRange with_room(const PointRange& section, const ClSurface& surface, double room) {
     const auto pass = std::find_if(surface.passes.begin(), surface.passes.end(),
                                    [&](const Pass& p) { return section.first >= p.first && section.first <= p.last; });
@@ -31,7 +31,7 @@ PointRange with_room(const PointRange& section, const ClSurface& surface, double
     return wide;
 }
 
-/// Places on the passes beside a point on one side, the nearest first.
+/// Places on the passes on one side of a point, the nearest first.
 std::vector<PathLocation> places_beside(const ClSurface& surface, const Signals& signals, PointIndex i, Side side,
                                         int most) {
     std::vector<PathLocation> places;
@@ -50,7 +50,7 @@ float median_known(std::vector<float> values) {
 
 using HeightOf = DefectProfile::HeightOf;
 
-/// How high a place lies along a normal [mm]; `there`: compared_at() of it.
+/// Height of a place along a normal [mm]; `there`: compared_at() of it.
 float height_at(HeightOf of, const PathLocation& at, const Compared& there, const Eigen::Vector3f& normal,
                 const ProgrammedMarks& marks) {
     if (of == HeightOf::relief) return there.relief;
@@ -60,7 +60,7 @@ float height_at(HeightOf of, const PathLocation& at, const Compared& there, cons
     return of == HeightOf::measured ? there.lag + above : above;
 }
 
-/// Sections of passes at fault, with room: what lies on them is no comparison.
+/// The sections of passes at fault, extended: places on them are no reference.
 class Faults {
 public:
     Faults(const Defect& defect, const ClSurface& surface, double room) {
@@ -76,7 +76,8 @@ private:
     std::vector<PointRange> ranges_;
 };
 
-/// The nearest places on passes that are not at fault, up to `most` on each side; all the nearest ones where there are none.
+/// The nearest places on passes that are not at fault, up to `most` on each side. If there are none, the nearest places of all
+/// passes.
 std::vector<PathLocation> comparable_beside(const ClSurface& surface, const Signals& signals, PointIndex i, int most,
                                             const Faults& faults) {
     constexpr int farthest = 8;  // passes on each side
@@ -93,11 +94,11 @@ std::vector<PathLocation> comparable_beside(const ClSurface& surface, const Sign
     return clean.empty() ? nearest : clean;
 }
 
-/// What height is usual at a point; `height` gives that of a place.
+/// The usual height at a point; `height` returns that of a place.
 template <typename Height>
 float usual_height_at(const ClSurface& surface, const Signals& signals, PointIndex point, HeightPeers peers,
                       const Faults& faults, const Height& height) {
-    constexpr int aside_of_direction = 4;  // of a zigzag two passes on each side run the same way
+    constexpr int aside_of_direction = 4;  // in a zigzag, two of them on each side have the same direction
     const bool all = peers == HeightPeers::nearest;
     std::vector<float> heights;
     const int most = all ? DefectProfile::aside : aside_of_direction;
@@ -135,7 +136,7 @@ void add_across(DefectProfile& profile, const ClSurface& surface, const Signals&
 }  // namespace
 
 HeightPeers height_peers_of(const Defect& defect, const QualityReport& report) {
-    // A relief is one of the commanded positions, which have no lag.
+    // A relief belongs to the commanded positions, which have no lag.
     if (defect.systematic || defect.quantity == Quantity::relief) return HeightPeers::nearest;
     const bool alternates =
         std::any_of(report.defects.begin(), report.defects.end(), [](const Defect& other) { return other.systematic; });

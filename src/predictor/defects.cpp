@@ -22,12 +22,12 @@
 namespace clsurf {
 namespace {
 
-constexpr double shown_share = 0.9;        ///< of a plateau: its height without the noise's own peak
+constexpr double shown_share = 0.9;        ///< quantile that is the height of a plateau, without peaks of noise
 constexpr double smallest_area = 1.0;      ///< squared step-overs
-constexpr float least_speed_share = 0.6F;  ///< of its threshold, for what only the acceleration shows …
-constexpr float strong_alone = 1.5F;       ///< … and of the acceleration's own
+constexpr float least_speed_share = 0.6F;  ///< share of the speed that a defect of the acceleration needs …
+constexpr float strong_alone = 1.5F;       ///< … and its score of the acceleration
 constexpr std::size_t fewest_sites = 2;
-constexpr int of_stops = 3;   ///< severity of a motion by its speed alone, from which on it may be of any length …
+constexpr int of_stops = 3;   ///< severity by speed alone from which on a motion may have any length …
 constexpr int of_spikes = 4;  ///< … and that of a height
 constexpr std::size_t most_systematic_sections = 300;  ///< that are listed: the longest
 constexpr double systematic_depth = 0.99;              ///< quantile of the steps of a systematic lag
@@ -62,8 +62,8 @@ float largest(const std::array<float, quantities>& values, Family family) {
     return most;
 }
 
-/// The quantity that shows a group best: the first of its family that is there at all. Accelerations
-/// are the edges of something else, and speak only where nothing else does.
+/// The quantity in which a group is strongest: the first of its family with a sufficient share. Accelerations only mark the
+/// edges of other differences, so they count if no other quantity does.
 Quantity main_quantity(CandidateSpan group, Family family) {
     for (const Quantity q : family) {
         const bool there = std::any_of(group.begin(), group.end(),
@@ -91,7 +91,7 @@ public:
         for (const Pass& pass : surface.passes) numbers_.push_back(pass.kind == PassKind::cut ? ++number : 0);
     }
 
-    /// Sets of sites that each make a defect: what hangs together and differs in one direction.
+    /// Splits sites into sets that form one defect each: connected, and different in one direction.
     [[nodiscard]] std::vector<DefectCandidates> parts_of(const DefectCandidates& sites, Quantity quantity) const {
         std::vector<DefectCandidates> parts;
         for (DefectCandidates& core : regroup(sites)) {
@@ -112,7 +112,7 @@ public:
     [[nodiscard]] CoreSites core_of(CandidateSpan group, Quantity quantity) const {
         return clsurf::core_of(group, quantity, arc_length_, joined_);
     }
-    /// Nobody else may be reading.
+    /// No other thread may be reading.
     void forget() const {
         if (forget_) forget_();
     }
@@ -121,7 +121,7 @@ public:
         return numbers_.empty() ? 0 : *std::max_element(numbers_.begin(), numbers_.end());
     }
 
-    /// The defect that the sites of a core make, in the order of their points.
+    /// The defect of the sites of a core, in the order of their points.
     [[nodiscard]] Defect build(CandidateSpan core, Quantity quantity, Family family) const {
         Defect defect;
         defect.quantity = quantity;
@@ -140,7 +140,7 @@ public:
         };
         defect.score = score_of(quantity);
         for (const Quantity other : family) {
-            // What the main quantity does not show by itself, the other one of its family does.
+            // If the main quantity alone is too weak, the other one of its family counts.
             if (defect.score >= 1) break;
             if (score_of(other) <= defect.score) continue;
             defect.quantity = other;
@@ -156,8 +156,9 @@ public:
         return defect;
     }
 
-    /// Whether a defect is large enough to be listed: its core covers `area` [mm²], or does so as far as it exceeds the threshold.
-    /// Where the tool nearly stops, or is far off the surface, it leaves a mark of any length. `sites`: those of its family.
+    /// Whether a defect is large enough to be listed: its core, or the section where it exceeds the threshold, covers `area`
+    /// [mm²]. A place where the tool nearly stops, or is far off the surface, is listed at any length. `sites`: those of its
+    /// family.
     [[nodiscard]] bool is_large(const Defect& defect, CandidateSpan core, CandidateSpan sites, double area) const {
         if (core.size() < fewest_sites || defect.length <= 0) return false;
         if (defect.area >= area) return true;
@@ -168,7 +169,7 @@ public:
         return length_above_threshold(core, sites, defect.quantity, arc_length_, joined_, enough) >= enough;
     }
 
-    /// The one defect that systematic lag is.
+    /// The one defect of a systematic lag.
     [[nodiscard]] Defect build(const SystematicLag& lag) const {
         Defect defect;
         defect.quantity = Quantity::lag;
@@ -221,7 +222,7 @@ private:
         std::vector<double> accelerations;
         for (const DefectCandidate* s : core) {
             const Comparison& c = s->comparison;
-            // Measured and commanded relief differ by the lag; where nothing was measured the relief is all.
+            // Measured and commanded relief differ by the lag. Without measured positions only the relief is known.
             const bool by_relief = defect.quantity == Quantity::relief || !signals_.measured;
             heights.push_back(c.residual[index_of(by_relief ? Quantity::relief : Quantity::lag)]);
             speeds.push_back(c.speed_jump);
@@ -232,7 +233,7 @@ private:
         const double height = plateau(heights, largest_of(heights));
         defect.depth = std::abs(height);
         defect.pit = height < 0;
-        // Both of the side on which it differs most from the neighbours: a loss of 80 % is no gain of 400 %.
+        // Both on the side with the largest difference to the neighbours: a loss of 80 % is no gain of 400 %.
         const double side = largest_of(mismatches);
         defect.speed_jump = plateau(speeds, side);
         defect.speed_mismatch = plateau(mismatches, side);
@@ -240,7 +241,7 @@ private:
         (void)add_up_sections(defect);
     }
 
-    /// In the order of their points.
+    /// Keeps the `most` longest sections, in the order of their points.
     void keep_longest(std::size_t most, std::vector<DefectSection>& sections) const {
         if (sections.size() <= most) return;
         const auto length = [&](const DefectSection& section) {
@@ -256,7 +257,7 @@ private:
                   [](const DefectSection& a, const DefectSection& b) { return a.points.first < b.points.first; });
     }
 
-    /// Length and area of a defect from its sections. Returns the length of all of them [mm].
+    /// Sets length and area of a defect from its sections. Returns their total length [mm].
     double add_up_sections(Defect& defect) const {
         double arc_length = 0;
         for (const DefectSection& section : defect.sections) {
@@ -268,7 +269,7 @@ private:
         return arc_length;
     }
 
-    /// The sections beside `sections` on passes that are not at fault.
+    /// The sections adjacent to `sections` on passes that are not at fault.
     [[nodiscard]] std::vector<DefectSection> neighbours_of(CandidateSpan core,
                                                            const std::vector<DefectSection>& sections) const {
         std::map<std::size_t, PointRange> found;  // by pass
@@ -300,9 +301,9 @@ private:
     const ArcLength& arc_length_;
     const Thresholds& thresholds_;
     const QualityRules& rules_;
-    double joined_;  ///< [mm] of arc length between sites that hang together
+    double joined_;  ///< [mm] largest arc length between connected sites
     const ForgetBlocks& forget_;
-    std::vector<std::int64_t> numbers_;  ///< of the cut passes, by index
+    std::vector<std::int64_t> numbers_;  ///< of the cut passes, by index into surface.passes
 };
 
 bool worse(const Defect& a, const Defect& b) {
@@ -311,8 +312,8 @@ bool worse(const Defect& a, const Defect& b) {
     return a.point < b.point;
 }
 
-/// A start: where a score reaches 1. In the motion, accelerations start a defect only where they are
-/// strong and change the speed by something: noise of the second derivative leaves no mark.
+/// Whether a score reaches 1. In the motion, accelerations start a defect only if they are strong and also change the speed:
+/// noise of the second derivative leaves no mark.
 bool starts_defect(CandidateSpan sites, Family family) {
     const auto any = [&](auto&& test) { return std::any_of(sites.begin(), sites.end(), test); };
     if (family.size() == 1)
@@ -322,8 +323,8 @@ bool starts_defect(CandidateSpan sites, Family family) {
             any([](const DefectCandidate* s) { return s->share[index_of(Quantity::speed)] >= least_speed_share; }));
 }
 
-/// Builds the defects of one family of quantities, of an area of `smallest` [mm²] or more, at the border of the part or away
-/// from it: what is expected there must not swallow what lies beside it.
+/// Builds the defects of one family of quantities with an area of at least `smallest` [mm²], either at the border of the part
+/// or away from it. Both are separate, so that an expected difference at the border does not absorb a defect next to it.
 class FamilyBuilder {
 public:
     FamilyBuilder(Family family, bool at_border, double smallest, const Border& border, const Builder& builder)
@@ -339,7 +340,7 @@ public:
             const DefectCandidates group = std::move(groups[g]);
             if (!starts_defect(group, family_)) continue;
             const Quantity quantity = main_quantity(group, family_);
-            // Cut back, a group may fall apart: weak candidates had joined several defects.
+            // A reduced group may fall apart, because weak candidates had joined several defects.
             const CoreSites sites = builder_.core_of(group, quantity);
             if (sites.rest.size() < group.size()) {
                 for (DefectCandidates& left : builder_.regroup(sites.rest)) groups.push_back(std::move(left));
@@ -356,7 +357,7 @@ private:
         if (at_border_) return keep(core, quantity, !border_.stands_out(core, quantity));
         const DefectCandidate* flank = border_.flank_of(core, quantity);
         if (!flank) return keep(core, quantity, false);
-        // A flank ends. What goes on beyond it is something of its own.
+        // A flank has an end; sites beyond it form a separate defect.
         const double reach = border_.flank_reach(core, quantity);
         const auto beyond = std::stable_partition(core.begin(), core.end(), [&](const DefectCandidate* s) {
             return border_.on_flank(*s, *flank, reach, quantity);
@@ -371,7 +372,7 @@ private:
     void keep(const DefectCandidates& core, Quantity quantity, bool expected) {
         if (core.empty()) return;
         Defect defect = builder_.build(core, quantity, family_);
-        // An expected motion explains the heights that it makes, however short it is.
+        // An expected motion explains the heights that it causes, however short it is.
         const bool large = builder_.is_large(defect, core, mine_, smallest_);
         if (large || expected) built_.push_back({std::move(defect), core, expected, large});
     }
@@ -385,7 +386,7 @@ private:
     std::vector<BuiltDefect> built_;
 };
 
-/// Forgets the arc lengths together with the signals of a log that was judged in shards.
+/// Forgets the arc lengths together with the signals, for a log that was judged in shards.
 ForgetBlocks forget_with(ArcLength& arc_length, const std::optional<FoundInShards>& found) {
     if (!found || !found->forget) return {};
     return [&arc_length, &signals = found->forget] {
@@ -460,7 +461,7 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
     const std::array<Family, 3> families{motion_family, lag_family, relief_family};
     const Border border(surface, signals, arc_length, candidates, joined, report.thresholds);
     std::array<std::vector<BuiltDefect>, 2 * families.size()> of_family;  // away from the border and at it
-    // What is forgotten nobody else may be reading.
+    // No other thread may be reading when signals are forgotten.
     for_each_alone_or_at_once(of_family.size(), forget, [&](std::size_t k) {
         of_family[k] = FamilyBuilder(families[k / 2], k % 2 == 1, smallest, border, builder).build(candidates);
     });

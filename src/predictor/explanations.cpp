@@ -10,13 +10,13 @@
 namespace clsurf {
 namespace {
 
-constexpr double effect_seconds = 0.020;  ///< by which an effect may outlast what makes it
-constexpr int severe = 3;                 ///< a motion of this severity has it by its speed alone
+constexpr double effect_seconds = 0.020;  ///< an effect may last so much longer than its cause
+constexpr int severe = 3;                 ///< a motion reaches this severity by its speed alone
 
-/// Sections that explain what lies in them.
+/// Sections that explain the sites inside them.
 class Explanations {
 public:
-    /// `room`: points around a section that are its own too.
+    /// `room`: points by which each section is extended.
     explicit Explanations(PointIndex room) : room_(room) {}
 
     void add(const std::vector<DefectSection>& sections) {
@@ -25,8 +25,8 @@ public:
         sorted_ = false;
     }
 
-    /// At least half of the sites, in the order of their points, lie in sections of what was added: of one thing or of several.
-    /// O(sites log sections), and at the first call O(sections log sections).
+    /// Whether at least half of the sites, in the order of their points, are inside of added sections, of one defect or of
+    /// several. O(sites log sections), and at the first call O(sections log sections).
     [[nodiscard]] bool explain(CandidateSpan sites) {
         sort();
         if (lies_elsewhere(sites)) return false;
@@ -42,7 +42,7 @@ private:
         PointIndex first, last;
         PointIndex farthest;  ///< last of this one and all before
     };
-    /// Before all sections or behind them, as most things do.
+    /// Quick test: before all sections or after them, as most sites are.
     [[nodiscard]] bool lies_elsewhere(CandidateSpan sites) const {
         if (sites.empty()) return false;
         return sections_.empty() || sites.back()->point < sections_.front().first ||
@@ -63,13 +63,13 @@ private:
     bool sorted_ = true;
 };
 
-/// A height that the program has, not the controller.
+/// Whether a height is one of the program, not of the controller.
 bool is_programmed(const BuiltDefect& built) {
     return built.listed && !built.expected && built.defect.quantity == Quantity::relief &&
            built.defect.cause != Cause::path_tolerance;
 }
 
-/// Whether a height of the program may be the reason of a defect at its place.
+/// Whether a height of the program can explain a defect at its place.
 bool explains(const Defect& height, const Defect& other) {
     if (other.severity > height.severity) return false;
     return other.severity < severe || other.score <= height.score;

@@ -1,5 +1,5 @@
 #pragma once
-// The passes beside a place, as far as they can be compared with it.
+// The passes next to a place that can be compared with it.
 
 #include <cmath>
 
@@ -8,11 +8,11 @@
 
 namespace clsurf {
 
-inline constexpr float along_or_against = 0.866F;  ///< cos 30°: neighbours run along with the feed or against it
+inline constexpr float along_or_against = 0.866F;  ///< cos 30°: feeds of neighbours are parallel or opposite
 
-/// f(place, passes away: from 1) for at most `aside` passes on one side of a place, the adjacent one first. They end where a
-/// pass is not judged, or turns from the one before by the angle of `least_cosine` or more. Returns the place on the adjacent
-/// pass, judged or not.
+/// Calls f(place, number of passes away, from 1) for at most `aside` passes on one side of a place, the adjacent one first.
+/// Stops at a pass that is not judged, or whose direction differs from that of the pass before by the angle of `least_cosine`
+/// or more. Returns the place on the adjacent pass, judged or not.
 template <typename F>
 PathLocation for_each_judged_beside(const ClSurface& surface, const Signals& signals, const PathLocation& from,
                                     Side side, int aside, float least_cosine, F&& f) {

@@ -1,7 +1,6 @@
 #pragma once
-// Judgement: whether the data of a report allow a verdict. A report without defects means nothing where
-// nothing could be compared. Such a report is "not judged": it meets no budget, and `check` exits with its own
-// code.
+// Judgement: whether the data of a report allow a verdict. A report without defects means nothing if nothing could be compared.
+// Such a report is "not judged": it meets no budget, and `check` has a separate exit code for it.
 
 #include <algorithm>
 #include <string>
@@ -14,11 +13,11 @@ namespace clsurf {
 inline constexpr double least_coverage = 0.5;
 
 struct Judgement {
-    /// Why the report is not judged: whole sentences for people, with a full stop. Empty: it is judged.
+    /// Why the report is not judged: full sentences for users. Empty: it is judged.
     std::vector<std::string> reasons;
 
     [[nodiscard]] bool judged() const { return reasons.empty(); }
-    /// Adds a reason. A sentence that is already there is not repeated.
+    /// Adds a reason. A sentence that is already in the list is not repeated.
     void refuse(std::string reason) {
         if (std::find(reasons.begin(), reasons.end(), reason) == reasons.end()) reasons.push_back(std::move(reason));
     }

@@ -1,5 +1,5 @@
 #pragma once
-// The median over a few passes of a quantity that some of them may lack.
+// The median of a quantity over a few passes, some of which may have no value.
 
 #include <array>
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace clsurf {
 
-/// Of at most ten values; NaN are left out, and of an even number it is the mean of the middle two. NaN of
-/// fewer than `fewest`.
+/// Of at most ten values. NaN are left out; of an even number it is the mean of the middle two. NaN if there are fewer than
+/// `fewest`.
 template <typename T, typename Read>
 [[nodiscard]] float median_of(std::span<const T> places, std::size_t fewest, Read&& read) {
     std::array<float, 10> values;

@@ -19,11 +19,11 @@ namespace clsurf {
 namespace {
 
 constexpr std::size_t sampled_points = 50'000;
-constexpr float round_a_corner = 0.5F;    ///< cos 60°: straight across a corner they have turned more than that
-constexpr float slack_step_overs = 0.5F;  ///< along the feed between the ends of passes that end side by side
-constexpr float clear_of_scatter = 3;     ///< of the motions of the passes around a place near a border
+constexpr float round_a_corner = 0.5F;    ///< cos 60°: straight across a corner, passes turn by more than this
+constexpr float slack_step_overs = 0.5F;  ///< along the feed, between the ends of passes that end side by side
+constexpr float clear_of_scatter = 3;  ///< times the scatter of the motions of the passes around a place near a border
 
-/// What is compared, where there is nothing.
+/// The compared quantities of a missing pass.
 Compared no_pass() {
     return {missing<float>, missing<float>, missing<float>, Eigen::Vector3f::Constant(missing<float>)};
 }
@@ -34,8 +34,8 @@ bool runs_against(const Signals& signals, PointIndex point, const PathLocation& 
 
 float larger(float a, float b) { return !(a == a) || b > a ? b : a; }
 
-/// The step from a pass to the one beside it, less what goes on from there to the next: what changes evenly from pass to pass
-/// is no step. `next` NaN: there is none.
+/// The step from a pass to the adjacent one, minus the trend from there to the next: an even change from pass to pass is no
+/// step. `next` NaN: there is none.
 float step_beyond_trend(float own, float adjacent, float next) {
     const float step = own - adjacent, trend = adjacent - next;
     if (!(trend * step > 0)) return std::abs(step);
@@ -49,8 +49,8 @@ float step_beyond_trend(const Eigen::Vector3f& own, const Eigen::Vector3f& adjac
     return std::max(0.0F, length - along / length);
 }
 
-/// How much a signal changes over two periods at a point: commanded and measured positions of a
-/// record may be taken a period apart, on each of two passes.
+/// Change of a signal over two periods at a point: on each of two passes, commanded and measured positions of a record may be
+/// one period apart.
 float change_of_two_periods(const Signals& signals, float Sample::*signal, PointIndex point) {
     constexpr PointIndex reach = 3;
     if (point < reach || point + reach >= signals.size()) return 0;
@@ -62,8 +62,7 @@ float quantile(std::vector<float>& values, double share) {
     return values.empty() ? missing<float> : quantile_below(values, share);
 }
 
-/// f(points) for all points of a log, in portions between which signals are forgotten that are derived when they are
-/// read; of others all at once.
+/// Calls f(points) for all points of a log. If `forget` is set, in portions, and signals are forgotten between them.
 template <typename F>
 void in_portions(PointIndex count, const std::function<void()>& forget, F&& f) {
     constexpr PointIndex portion = 256 * block_points;
@@ -104,7 +103,7 @@ std::vector<PointIndex> sample_judged(const Signals& signals, const std::functio
     return points;
 }
 
-/// f(k) for every one of `points`, which rise; in parallel, and in portions.
+/// Calls f(k) for all of `points`, which ascend; in parallel, and in portions.
 template <typename F>
 void for_each_sample(const std::vector<PointIndex>& points, PointIndex count, const std::function<void()>& forget,
                      F&& f) {
@@ -118,7 +117,7 @@ void for_each_sample(const std::vector<PointIndex>& points, PointIndex count, co
     });
 }
 
-/// Those of values that are there.
+/// The values that are known.
 template <typename Value>
 std::vector<float> known(std::size_t count, Value&& value) {
     std::vector<float> values;
@@ -130,13 +129,13 @@ std::vector<float> known(std::size_t count, Value&& value) {
     return values;
 }
 
-/// The passes beside a place, the adjacent one first, on the left and on the right.
+/// The passes on the left and on the right of a place, the adjacent one first.
 struct PassesBeside {
     std::array<std::array<Compared, passes_around_border>, 2> of;
     std::array<int, 2> count{0, 0};
 };
 
-/// What `read` says of the passes on either side.
+/// The values of `read` for the passes on either side.
 class ReadBeside {
 public:
     template <typename Read>
@@ -149,7 +148,7 @@ public:
         return std::span(values_[s]).first(static_cast<std::size_t>(count_[s]));
     }
     [[nodiscard]] float usual(float own) const { return usual_beside(own, side(0), side(1)); }
-    /// The same of a motion: speeds change from pass to pass where passes become shorter or more curved.
+    /// The same for a motion: speeds change from pass to pass where passes become shorter or more curved.
     [[nodiscard]] float usual_motion(float own) const { return usual_beside(own, side(0), side(1), clear_of_scatter); }
 
 private:
@@ -157,21 +156,21 @@ private:
     std::array<std::array<float, passes_around_border>, 2> values_;
 };
 
-/// Fills in residuals against the adjacent passes, and the jump of the speed. Returns the speed that differences of the
-/// speed are relative to [mm/s].
+/// Sets residuals against the adjacent passes, and the jump of the speed. Returns the reference speed of relative differences
+/// [mm/s].
 float fill_residuals(const Compared& mine, const PassesBeside& others, float least_speed, Comparison& result) {
     const ReadBeside speeds(others, [](const Compared& v) { return v.speed; });
     const ReadBeside lags(others, [](const Compared& v) { return v.lag; });
     const ReadBeside reliefs(others, [](const Compared& v) { return v.relief; });
     const float usual = speeds.usual_motion(mine.speed);
-    // Differences to two passes are relative to the mean of both.
+    // The reference for two passes is the mean of both.
     const bool two = others.count[0] == 1 && others.count[1] == 1;
     const float of_two = two ? 0.5F * (others.of[0][0].speed + others.of[1][0].speed) : usual;
     const float reference = std::max(of_two == of_two ? of_two : mine.speed, least_speed);
     result.speed_jump = mine.speed - usual;
     result.residual[index_of(Quantity::speed)] = result.speed_jump / reference;
     result.residual[index_of(Quantity::lag)] = mine.lag - lags.usual(mine.lag);
-    // The curvature of a part changes over more passes than a motion does: no more than five count.
+    // The curvature of a part changes over more passes than a motion does, so at most five count.
     const auto nearest = [&](std::size_t s) {
         const std::span<const float> all = reliefs.side(s);
         return all.first(std::min<std::size_t>(all.size(), Comparer::passes_aside));
@@ -241,7 +240,7 @@ Comparison Comparer::compare_at_end(const PathLocation& here) const {
     Comparison result = compare_with(Peers::same_direction, here, passes_aside);
     const float reference = std::max(signals_[point].speed, least_speed_);
     result.slack = change_nearby(point, reference);
-    // What the others do not, it does by itself.
+    // A change that the other passes do not have is no slack.
     std::array<float, quantities> others{};
     for (const Side side : {Side::left, Side::right}) {
         for_each_judged_beside(surface_, signals_, here, side, passes_aside, along_or_against,
@@ -283,7 +282,7 @@ Comparison Comparer::compare_with(Peers peers, const PathLocation& here, int asi
     };
     constexpr std::array sides{Side::left, Side::right};
     for (const Side side : sides) collect(side, aside);
-    // Near a border there are few passes on one side: more of the other side outvote a fault or a band of them.
+    // Near a border one side has few passes: more passes of the other side outvote a fault or a band of them.
     if (aside == passes_aside && peers == Peers::all) {
         const std::array<int, 2> near_ones = count;
         for (std::size_t s = 0; s < 2; ++s) {
@@ -335,7 +334,8 @@ Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals, 
     const float least_speed_step = larger(rule.speed, signals.speed_noise / thresholds.usual_speed);
     const std::array<float, quantities> least{
         least_speed_step,
-        // A change of speed below its threshold is no defect by its acceleration, however sharp it is and however clean the log.
+        // A change of speed below its threshold is no defect by its acceleration either, however sharp the change and however
+        // clean the log.
         std::max({rule.acceleration * thresholds.usual_acceleration, signals.acceleration_noise,
                   least_speed_step * thresholds.usual_speed * signals.speed_step_response}),
         std::max(rule.height, rule.lag_quanta * signals.quantum),
@@ -356,7 +356,7 @@ Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals, 
         thresholds.spread[q] = spread;
         const float own =
             median + (q == index_of(Quantity::acceleration) ? rule.acceleration_spreads : rule.spreads) * spread;
-        // Facets of the program itself are texture, however high, where they are everywhere: no cap.
+        // Facets of the program are texture if they are everywhere, whatever their height: no upper limit.
         const float most =
             q == index_of(Quantity::relief) ? std::numeric_limits<float>::infinity() : rule.most * least[q];
         thresholds.of[q] = own == own ? std::max(least[q], std::min(own, most)) : least[q];

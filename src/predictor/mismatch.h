@@ -1,11 +1,11 @@
 #pragma once
 // Mismatch: how a place of a pass differs from the adjacent places on the adjacent passes.
 //
-// Each quantity has two measures. The *step* is the largest difference to the two adjacent passes, minus the
-// trend that continues to the passes beyond them: it is what shows on the part. The *residual* is the
-// difference to the median over up to five passes on each side: it tells which of the two passes causes the
-// step, and it is zero where all passes change together. Accelerations are compared as vectors in workpiece
-// coordinates: along the path, one pass of a zigzag brakes where the next one accelerates.
+// Each quantity has two measures. The *step* is the largest difference to the two adjacent passes, minus the trend that
+// continues to the passes beyond them. It shows on the part. The *residual* is the difference to the median over up to five
+// passes on each side. It shows which of two passes causes the step, and it is zero where all passes change together.
+// Accelerations are compared as vectors in workpiece coordinates, because along the path one pass of a zigzag brakes where the
+// next one accelerates.
 
 #include <array>
 #include <cstdint>
@@ -19,13 +19,13 @@ namespace clsurf {
 /// Speeds relative to that of the neighbours, accelerations [mm/s²], heights [mm].
 struct Comparison {
     std::array<float, quantities> step;           ///< ≥ 0; NaN: not known
-    std::array<float, quantities> lesser_step{};  ///< the smaller one of both sides: of a band's edge it is nothing
+    std::array<float, quantities> lesser_step{};  ///< the smaller one of both sides: zero at the edge of a band
     std::array<float, quantities> residual;       ///< signed; of the acceleration the length; NaN: not known
-    std::array<float, quantities> uncertainty{};  ///< of the step, where log and place agree to a period only
-    std::array<float, quantities> slack{};        ///< of step and residual, where passes begin and end a little apart
-    float speed_jump = 0;                         ///< residual of the speed [mm/s]
-    int left = 0, right = 0;                      ///< passes that were compared with
-    bool ramp = false;  ///< it lies in the ramp of its pass, of an adjacent one, or of the next with its direction
+    std::array<float, quantities> uncertainty{};  ///< of the step, because log and place may be one period apart
+    std::array<float, quantities> slack{};  ///< of step and residual, because passes end at slightly different places
+    float speed_jump = 0;                   ///< residual of the speed [mm/s]
+    int left = 0, right = 0;                ///< numbers of passes that it was compared with
+    bool ramp = false;  ///< in the ramp of its pass, of an adjacent one, or of the next with its direction
     PathLocation beside_left, beside_right;  ///< on the adjacent passes
 };
 
@@ -33,26 +33,26 @@ class Comparer {
 public:
     static constexpr int passes_aside = 5;
 
-    /// Both must outlive it. `least_speed` [mm/s]: speeds below it are not compared relative to themselves.
+    /// Both must outlive it. `least_speed` [mm/s]: differences of lower speeds are relative to it.
     Comparer(const ClSurface& surface, const Signals& signals, float least_speed)
         : surface_(surface), signals_(signals), least_speed_(least_speed) {}
 
     [[nodiscard]] const ClSurface& surface() const { return surface_; }
 
-    /// O(1): up to `aside` passes on each side. With one, the steps are the same, residuals mean little.
+    /// O(1): up to `aside` passes on each side. With one, steps are the same, but residuals mean little.
     [[nodiscard]] Comparison compare(const PathLocation& here, int aside = passes_aside) const;
 
-    /// Among passes with the direction of travel of the place, where all of them begin or end there. They do so a little
-    /// apart, and change fast: as much as all of them change within half a step-over is slack.
+    /// Comparison with the passes of the same direction of travel, for places where all passes begin or end. They end at
+    /// slightly different places, and change fast there: the change of all of them within half a step-over is slack.
     [[nodiscard]] Comparison compare_at_end(const PathLocation& here) const;
 
-    /// Where the passes round a place do one after the other what it does too, its motion is
-    /// compared along their obliquity (oblique_alignment.h), in corners its relief too: they differ by the lesser of both.
+    /// If the passes around a place do the same as it one after the other, its motion is also compared along their obliquity
+    /// (oblique_alignment.h), in corners its relief too. The lesser of both differences counts.
     void compare_obliquely_around(const PathLocation& here, Comparison& comparison) const;
 
 private:
-    /// What a place is compared with: all passes, or those only with the same direction of travel, of a zigzag every
-    /// second one.
+    /// What a place is compared with: all passes, or only those with the same direction of travel (in a zigzag every second
+    /// one).
     enum class Peers : std::uint8_t { all, same_direction };
 
     [[nodiscard]] Comparison compare_with(Peers peers, const PathLocation& here, int aside) const;
@@ -65,14 +65,14 @@ private:
     float least_speed_;
 };
 
-/// Above which step a place is a discontinuity, per quantity, and what it was found from.
+/// The step above which a place is a discontinuity, per quantity, and the statistics behind it.
 struct Thresholds {
     std::array<float, quantities> of{};
     std::array<float, quantities> median{};  ///< of the steps
     std::array<float, quantities> spread{};  ///< robust standard deviation of the steps
     std::array<float, quantities> p99{};     ///< 99th percentile of the steps
     float usual_speed = 0;                   ///< [mm/s] 95th percentile of the judged points
-    float least_speed = 0;                   ///< [mm/s] slower, differences are relative to this
+    float least_speed = 0;                   ///< [mm/s] differences of lower speeds are relative to this
     float usual_acceleration = 0;            ///< [mm/s²] 99th percentile
 };
 
@@ -84,14 +84,14 @@ struct ThresholdRule {
     float least_speed = 0.25F;   ///< of the usual speed, and no less than where rounding alone reaches the threshold
     float height = 0.0015F;      ///< least threshold [mm] …
     float lag_quanta = 1.5F;     ///< … and in steps of the positions: all of a pass may be rounded the same way,
-    float relief_quanta = 2.4F;  ///< and a relief hangs on three passes
-    float spreads = 6;           ///< above the median; a part's own scatter is no defect …
-    float acceleration_spreads = 9;  ///< (the length of a vector of noise reaches farther)
-    float most = 3;                  ///< … but at most so many times the least one: a bad part must not hide itself
+    float relief_quanta = 2.4F;  ///< and a relief depends on three passes
+    float spreads = 6;           ///< above the median; the usual scatter of a part is no defect …
+    float acceleration_spreads = 9;  ///< (the length of a noise vector has a longer tail)
+    float most = 3;  ///< … but at most this multiple of the least threshold, so that a bad part is detected
 };
 
-/// Thresholds from some 50,000 evenly spaced judged points. The same for any number of threads. `forget`: called now
-/// and then where signals are derived when they are read, to forget them; nothing: they stay.
+/// Thresholds from some 50,000 evenly spaced judged points. The same for any number of threads. `forget`: called from time to
+/// time to forget signals that are derived when they are read; nothing: signals stay in memory.
 [[nodiscard]] Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals, const ThresholdRule& rule,
                                             const std::function<void()>& forget = {});
 

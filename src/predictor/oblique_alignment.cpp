@@ -14,16 +14,16 @@ namespace {
 
 constexpr float steepest = 1.5F;                 ///< step-overs along the feed per pass: an edge at 34° to the feed
 constexpr float sampled_every = 0.25F;           ///< step-overs
-constexpr int tries = 24;                        ///< obliquities on either side of the straight one …
-constexpr int halvings = 3;                      ///< … and how often their distance is halved round the best
+constexpr int tries = 24;                        ///< obliquities on either side of zero …
+constexpr int halvings = 3;                      ///< … and how often their distance is halved around the best one
 constexpr int most_passes = 3;                   ///< on either side
-constexpr std::size_t fewest = 4;                ///< passes, with some on either side …
+constexpr std::size_t fewest = 4;                ///< passes, if both sides have some …
 constexpr std::size_t fewest_of_one_side = 3;    ///< … and at a border
 constexpr float oblique_corner_cosine = 0.906F;  ///< cos 25°
-constexpr float same_speed = 0.01F;              ///< of the speed: nothing that moves on from pass to pass
+constexpr float same_speed = 0.01F;              ///< of the speed: smaller differences need no oblique comparison
 constexpr float clearly_better = 0.5F;           ///< share of the disagreement straight across
 
-/// A pass round its location: speeds at even distances along the feed of the point that is looked at.
+/// A pass around a location: speeds at even distances along the feed of the examined point.
 class Profile {
 public:
     Profile(const ClSurface& surface, const Signals& signals, const Beside& place, const Eigen::Vector3f& feed)
@@ -36,7 +36,7 @@ public:
     }
 
     [[nodiscard]] int passes() const { return passes_; }
-    /// The location next to `distance` [mm] on along the feed; domain: speed() is there.
+    /// The location nearest to `distance` [mm] along the feed; domain: speed() is known there.
     [[nodiscard]] const PathLocation& at(float distance) const {
         const std::vector<PathLocation>& side = locations_[distance >= 0 ? 1 : 0];
         return side[std::min(side.size() - 1, static_cast<std::size_t>(std::lround(std::abs(distance) / spacing_)))];
@@ -50,7 +50,7 @@ public:
         return a + (place - static_cast<float>(k)) * (speed_at(signals, side[k + 1]) - a);
     }
 
-    /// What the pass does within the profile that is nearest to what the point does, each quantity on its own.
+    /// The values of the pass within the profile that are nearest to those of the point, each quantity by itself.
     [[nodiscard]] Compared nearest(const Signals& signals, const Compared& own, const Eigen::Vector3f& normal) const {
         Compared result = compared_at(signals, locations_[0].front(), normal);
         const auto take = [](float& best, float value, float wanted) {
@@ -60,7 +60,7 @@ public:
             Compared before = compared_at(signals, side.front(), normal);
             for (const PathLocation& at : side) {
                 const Compared there = compared_at(signals, at, normal);
-                // Between two locations it goes through all that lies between.
+                // Between two locations the pass takes all values between theirs.
                 const auto passes_through = [&](float Compared::*value) {
                     return std::clamp(own.*value, std::min(before.*value, there.*value),
                                       std::max(before.*value, there.*value));
@@ -82,7 +82,7 @@ private:
         return at.fraction == 0 ? a : a + at.fraction * (signals[at.point + 1].speed - a);
     }
 
-    /// Places `spacing_` apart from one on, as long as the pass is judged.
+    /// Places `spacing_` apart, from one on, as long as the pass is judged.
     void walk(const Positions& p, const Signals& signals, const PathLocation& from, int direction, std::size_t samples,
               std::vector<PathLocation>& out) const {
         out.push_back(from);
@@ -110,10 +110,10 @@ private:
 
     int passes_;
     float spacing_;
-    std::array<std::vector<PathLocation>, 2> locations_;  ///< against the feed and with it, from the location itself on
+    std::array<std::vector<PathLocation>, 2> locations_;  ///< against the feed and along it, from the location on
 };
 
-/// Speeds of the passes on an obliquity [mm along the feed per pass], and how far they are from their median.
+/// Median speed of the passes at an obliquity [mm along the feed per pass], and the sum of the deviations from it.
 struct Agreement {
     float speed = missing<float>;
     float disagreement = std::numeric_limits<float>::infinity();
@@ -132,7 +132,7 @@ Agreement agreement(const Signals& signals, std::span<const Profile> profiles, f
     return result;
 }
 
-/// Straight across the feed the passes hardly differ.
+/// Whether the passes hardly differ straight across the feed.
 bool agree_straight(const Signals& signals, std::span<const Beside> places) {
     const auto [low, high] = std::minmax_element(places.begin(), places.end(), [&](const Beside& a, const Beside& b) {
         return signals[a.at.nearest()].speed < signals[b.at.nearest()].speed;
@@ -141,7 +141,7 @@ bool agree_straight(const Signals& signals, std::span<const Beside> places) {
            same_speed * signals[high->at.nearest()].speed;
 }
 
-/// The passes' medians, and the steps to those next to the point. `value(profile)`: what a pass does.
+/// The medians of the passes, and the steps to those adjacent to the point. `value(profile)`: the values of a pass.
 template <typename F>
 ObliqueComparison summarise(const Compared& own, std::span<const Profile> profiles, F&& value) {
     std::array<Compared, 2 * most_passes> places;
@@ -205,7 +205,7 @@ std::optional<ObliqueComparison> compare_obliquely(const ClSurface& surface, con
     profiles.reserve(places.size());
     for (const Beside& place : places) profiles.emplace_back(surface, signals, place, feed);
     if (corner) {
-        // In a corner passes agree on no straight obliquity: across it some are on the straight, some in the bend.
+        // In a corner no obliquity fits: along any straight line across it, some passes are on the straight, some in the bend.
         ObliqueComparison result =
             summarise(own, profiles, [&](const Profile& profile) { return profile.nearest(signals, own, normal); });
         result.corner = true;

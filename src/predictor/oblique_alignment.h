@@ -1,10 +1,9 @@
 #pragma once
 // Oblique alignment: the displacement along the feed, from one pass to the next, of what the passes do.
 //
-// Passes that follow each other around a corner, or along an edge oblique to them, slow down one after the
-// other: next to the place where one is slowest, the next one is not yet slow or no longer. A plane normal to
-// the feed meets each of them at another moment of the same manoeuvre and shows differences where all do the
-// same. Along the oblique direction they agree.
+// Passes along a corner, or along an edge oblique to them, slow down one after the other: at the slowest place of one pass, the
+// next one is not slow yet, or no longer. A plane normal to the feed meets each of them at a different moment of the same
+// manoeuvre, and shows differences although all do the same. Along the oblique direction they agree.
 
 #include <array>
 #include <optional>
@@ -15,13 +14,13 @@
 
 namespace clsurf {
 
-/// The place beside a point on another pass.
+/// The adjacent place of a point on another pass.
 struct Beside {
     PathLocation at;
     int passes = 0;  ///< away: positive on the left, negative on the right
 };
 
-/// Motion and relief of the passes round a point, where the obliquity meets them.
+/// Motion and relief of the passes around a point, at their places along the obliquity.
 struct ObliqueComparison {
     float speed = 0;               ///< [mm/s] median of the passes
     Eigen::Vector3f acceleration;  ///< median by component
@@ -31,14 +30,14 @@ struct ObliqueComparison {
     float speed_step = 0, acceleration_step = 0, relief_step = 0;
 };
 
-/// Within 1.5 step-overs the path turns on the surface, about its normal, by more than 25°.
+/// Whether the path turns on the surface, about its normal, by more than 25° within 1.5 step-overs.
 [[nodiscard]] bool turns_on_surface(const ClSurface& surface, const Signals& signals, PointIndex point);
 
-/// The obliquity on which the passes adjacent to a point agree best among themselves, whatever the point itself
-/// does. Nothing where they agree straight across the feed about as well, or are fewer than four, or three on one side alone. Where
-/// the path turns on the surface by more than 25° within 1.5 step-overs: of each pass what is nearest to the point's
-/// own motion within 1.5 step-overs per pass.
-/// `places`: up to three on either side. O(points within some five step-overs of arc length).
+/// The comparison along the obliquity for which the passes around a point agree best with each other, whatever the point itself
+/// does. nullopt if they agree about as well straight across the feed, or are fewer than four, or three on one side only. If
+/// the path turns on the surface by more than 25° within 1.5 step-overs, the place of each pass is the one whose motion is
+/// nearest to that of the point, within 1.5 step-overs per pass. `places`: up to three on either side. O(points within some
+/// five step-overs of arc length).
 [[nodiscard]] std::optional<ObliqueComparison> compare_obliquely(const ClSurface& surface, const Signals& signals,
                                                                  const PathLocation& here,
                                                                  std::span<const Beside> places);

@@ -14,10 +14,10 @@ constexpr std::size_t fewest_alternating = 3;
 constexpr double alternating_share = 0.9;
 constexpr float clear_share = 0.5F;  ///< of the run's peak; a weaker site takes the sign of the one before it
 constexpr int changes_of_swing =
-    2;  ///< of sign of a height along one pass: three lobes; of a speed one: it falls and rises again
+    2;  ///< of sign of a height along one pass (three half-waves); of a speed one: it falls and rises again
 constexpr float stands_alone = 0.5F;  ///< of its residual, by which a pass differs from the passes on both sides
 
-/// Sites of one pass that hang together and have one sign.
+/// Connected sites of one pass with one sign.
 struct SignedRun {
     std::size_t first = 0, end = 0;  ///< indices into the core
     bool above = false;
@@ -72,7 +72,7 @@ private:
         return changes;
     }
 
-    /// One sign on the way forward, the other on the way back, on three runs or more: the lag of a zigzag.
+    /// Whether the sign alternates with the direction of travel, on three runs or more: the lag of a zigzag.
     [[nodiscard]] bool alternates() const {
         const auto forward = signals_.feed(core_[runs_.front().strongest]->point);
         std::size_t as_first = 0;
@@ -92,9 +92,10 @@ private:
         return peak;
     }
 
-    /// The runs of that sign are the other side of an edge: they lie beside the others and do not stand alone.
+    /// Whether the runs of that sign are the other side of an edge: each is adjacent to one of the opposite sign and agrees
+    /// with the pass on its other side.
     [[nodiscard]] bool is_edge(bool above) const {
-        std::vector<PointRange> others;  // rise, as the core does
+        std::vector<PointRange> others;  // ascending, as the core
         for (const SignedRun& run : runs_) {
             if (run.above != above) others.push_back({core_[run.first]->point, core_[run.end - 1]->point});
         }

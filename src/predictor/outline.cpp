@@ -11,9 +11,9 @@ namespace clsurf {
 namespace {
 
 constexpr float sample_arc_length = 0.25F;  ///< step-overs between corners along a pass
-constexpr float joined_arc_length = 2.0F;   ///< step-overs: sections of one pass that lie closer are drawn as one
+constexpr float joined_arc_length = 2.0F;   ///< step-overs: sections of one pass that are closer are drawn as one
 
-/// The points of a defect, and of the clean passes between two of its own.
+/// The points of a defect, and of clean passes between two passes of the defect.
 class Region {
 public:
     Region(const std::vector<DefectSection>& sections, const ClSurface& surface) : surface_(surface) {
@@ -31,7 +31,7 @@ public:
 
     [[nodiscard]] bool holds(PointIndex i) const { return any_has(ranges_, i); }
 
-    /// Points of a range, evenly spaced along it, the first and the last one among them.
+    /// Points of a range, evenly spaced, including the first and the last one.
     [[nodiscard]] std::vector<PointIndex> samples(const PointRange& range) const {
         std::vector<PointIndex> points{range.first};
         for (PointIndex i = range.first + 1; i < range.last; ++i) {
@@ -45,7 +45,7 @@ public:
     [[nodiscard]] float step_over() const { return static_cast<float>(surface_.step_over); }
 
 private:
-    /// A clean pass beside point `i` with one of the defect's own beyond it.
+    /// Adds the adjacent point on a clean pass if a point of the defect is beyond it.
     void note_clean_beside(PointIndex i, std::vector<PointIndex>& found) const {
         for (const Side side : {Side::left, Side::right}) {
             if (!has_surface(surface_, i, side)) continue;
@@ -87,7 +87,8 @@ private:
 
 using PlaceOf = std::function<Vec3(PointIndex)>;
 
-/// Half way to the pass on a side; by the other side where there is none, and the pass itself beside a gap of the surface.
+/// Half-way to the adjacent pass on a side. If there is none, extrapolated from the other side; next to a gap of the surface,
+/// the pass itself.
 Vec3 border(const ClSurface& surface, const PlaceOf& at, PointIndex i, Side side) {
     const Side other = side == Side::left ? Side::right : Side::left;
     if (surface.neighbours.has(side, i))
@@ -96,7 +97,7 @@ Vec3 border(const ClSurface& surface, const PlaceOf& at, PointIndex i, Side side
     return at(i);
 }
 
-/// The side's pieces beside which the region does not go on.
+/// Adds the pieces of one side where the region does not continue.
 void add_side(const Region& region, const ClSurface& surface, const PlaceOf& place_of,
               const std::vector<PointIndex>& samples, Side side, std::vector<std::vector<Vec3>>& lines) {
     std::vector<Vec3> piece;
@@ -104,7 +105,7 @@ void add_side(const Region& region, const ClSurface& surface, const PlaceOf& pla
         if (piece.size() > 1) lines.push_back(std::move(piece));
         piece.clear();
     };
-    // A piece reaches to where the region goes on, so that it meets the end of the pass there.
+    // A piece begins at the last point before it, so that it meets the end of the other pass there.
     std::optional<Vec3> before;
     for (const PointIndex i : samples) {
         const Vec3 at = border(surface, place_of, i, side);

@@ -11,9 +11,9 @@
 namespace clsurf {
 namespace {
 
-constexpr float room = 6;          ///< step-overs beside a defect in which the pass may still return to the others
-constexpr float returned = 3e-4F;  ///< [mm] that rounding leaves where it has
-constexpr int farthest_pass = 8;   ///< from a mark to the first pass that it is not on
+constexpr float room = 6;  ///< step-overs before and after a defect, within which the pass returns to the others
+constexpr float returned = 3e-4F;  ///< [mm] that rounding leaves after the return
+constexpr int farthest_pass = 8;   ///< from a mark to the first pass without it
 constexpr std::size_t clean_aside = 2;
 
 /// Whether the depth of a defect is that of the program.
@@ -22,7 +22,7 @@ bool is_programmed(const Defect& defect, const Signals& signals, const Threshold
     return !signals.measured && defect.depth > static_cast<double>(thresholds.of[index_of(Quantity::relief)]);
 }
 
-/// The points of a pass about a run of it.
+/// A run, extended on both sides within its pass.
 PointRange widened(const PointRange& run, const ClSurface& surface) {
     const Positions& p = surface.positions;
     const Pass& pass = surface.passes[pass_of(surface.passes, run.first)];
@@ -44,7 +44,7 @@ public:
     Offsets(const ClSurface& surface, const Signals& signals, const std::vector<PointRange>& at_fault)
         : surface_(surface), signals_(signals), at_fault_(at_fault) {}
 
-    /// Nothing where passes are missing beside the point.
+    /// nullopt if passes are missing on one side of the point.
     [[nodiscard]] std::optional<Eigen::Vector3f> at(PointIndex point) const {
         const Eigen::Vector3f feed = signals_.feed(point);
         const Eigen::Vector3f usual_normal = signals_.normal(point);
@@ -57,7 +57,7 @@ public:
         Eigen::Vector3f normal = across.cross(feed).normalized();
         if (normal.dot(usual_normal) < 0) normal = -normal;
         if (!normal.allFinite()) return std::nullopt;
-        // Lagrange's polynomial through the clean places, at the point's own place across the feed.
+        // Lagrange's polynomial through the clean places, evaluated at the point's position across the feed.
         std::vector<Eigen::Vector3f> places = left;
         places.insert(places.end(), right.begin(), right.end());
         const auto over = [&](std::size_t k) { return (places[k] - here).dot(across); };
@@ -76,7 +76,7 @@ public:
 private:
     [[nodiscard]] bool is_at_fault(PointIndex point) const { return any_has(at_fault_, point); }
 
-    /// Places on the nearest passes of one side that have no mark there, the nearest pass first.
+    /// Places on the nearest passes of one side without a mark there, the nearest pass first.
     [[nodiscard]] std::vector<Eigen::Vector3f> clean_places(PointIndex point, const Eigen::Vector3f& feed,
                                                             Side side) const {
         std::vector<Eigen::Vector3f> places;
@@ -98,7 +98,7 @@ private:
     const std::vector<PointRange>& at_fault_;
 };
 
-/// In order, and those that overlap joined.
+/// In ascending order, overlapping ranges joined.
 std::vector<PointRange> joined(std::vector<PointRange> ranges) {
     std::sort(ranges.begin(), ranges.end(), [](const PointRange& a, const PointRange& b) { return a.first < b.first; });
     std::vector<PointRange> result;
@@ -128,7 +128,7 @@ ProgrammedMarks::ProgrammedMarks(const ClSurface& surface, const Signals& signal
     const Offsets offsets(surface, signals, at_fault);
     auto mark = marks.begin();
     for (const PointRange& range : at_fault) {
-        // Beside the mark itself, as far as the pass has not returned to the others.
+        // From the mark itself, extended until the pass has returned to the others.
         PointRange points = *mark;
         while (mark != marks.end() && mark->last <= range.last) points.last = (mark++)->last;
         const auto is_off = [&](PointIndex i) {

@@ -1,7 +1,7 @@
 #pragma once
-// ProgrammedMarks: how far the programmed passes of defects lie from where the adjacent passes say. The form of a surface
-// follows the program (form.h), and a pass that is programmed too high or too low would be form, not a mark. Without
-// these offsets, the same surface gives the same numbers whether the program or the machine made the mark.
+// ProgrammedMarks: the offsets of the programmed passes of defects from the height that the adjacent passes give. The form of a
+// surface follows the program (form.h), so a pass that is programmed too high or too low would be form instead of a mark.
+// Without these offsets, a surface gives the same numbers whether the program or the machine caused the mark.
 
 #include <span>
 #include <vector>
@@ -16,14 +16,14 @@ class ProgrammedMarks {
 public:
     ProgrammedMarks() = default;
 
-    /// Of those defects of a report whose depth is that of the programmed positions. At each point of their passes the
-    /// height is interpolated across the feed from the two nearest passes on either side that no such defect is on; a
-    /// point without a pass on both sides has no offset. O(points of these defects).
+    /// Of the defects of a report whose depth is that of the programmed positions. At each point of their passes the height is
+    /// interpolated across the feed from the two nearest passes on either side without such a defect. A point without passes on
+    /// both sides has no offset. O(points of these defects).
     ProgrammedMarks(const ClSurface& surface, const Signals& signals, const QualityReport& report);
 
-    /// How far a point lies above the adjacent passes [mm], as a vector along the normal; zero where no mark is.
+    /// The offset of a point from the adjacent passes [mm], as a vector along the normal; zero outside of marks.
     [[nodiscard]] Vec3 at(PointIndex point) const;
-    /// Takes the offsets off one axis of positions [mm] from a point on.
+    /// Subtracts the offsets from one axis of positions [mm], which begin at point `first`.
     void take_off(PointIndex first, int axis, std::span<double> positions) const;
 
 private:

@@ -13,8 +13,8 @@
 namespace clsurf {
 namespace {
 
-// What a pass does differently from the median of up to five passes on each side: of two adjacent passes that differ, the
-// one that causes it stands out.
+// Difference of a pass to the median of up to five passes on each side. Of two adjacent passes that differ, it shows the one
+// that causes the difference.
 
 float speed_mismatch(const Comparer& comparer, const Signals&, PointIndex i) {
     const Comparison comparison = comparer.compare({i, 0});
@@ -25,7 +25,7 @@ float acceleration_mismatch(const Comparer& comparer, const Signals&, PointIndex
     return comparer.compare({i, 0}).residual[index_of(Quantity::acceleration)];
 }
 
-/// To the adjacent pass that differs most. Of two passes that differ, both have it.
+/// Difference to the adjacent pass that differs most. If two passes differ, both have it.
 float speed_difference(const ClSurface& surface, const Signals& signals, PointIndex i) {
     float most = missing<float>;
     for (const Side side : {Side::left, Side::right}) {
@@ -120,7 +120,7 @@ Field compute_row(const QualityFieldRow& row, const ClSurface& surface, const Si
     Field field;
     field.info = info_of(row);
     if (!signals.measured && !row.label_unmeasured.empty()) field.info.label = row.label_unmeasured;
-    // Two thresholds, of values that are signed to either side of 0.
+    // Two thresholds for values that are signed about 0.
     const double sides = row.scale == FieldScale::diverging ? 2 : 1;
     if (row.threshold != nullptr) field.info.threshold = row.threshold(thresholds, signals.measured);
     field.info.least_span = 2 * sides * field.info.threshold;

@@ -16,17 +16,17 @@ namespace clsurf {
 
 struct QualityFieldRow {
     std::string_view name, label;
-    std::string_view label_unmeasured;  ///< where no measured positions are known; empty: the same
+    std::string_view label_unmeasured;  ///< if measured positions are not known; empty: the same
     Unit unit;
     FieldScale scale = FieldScale::sequential;
-    std::string Signals::*windows = nullptr;  ///< says the windows of what is compared
-    /// Of a point that is compared; NaN where there is no neighbour on either side.
+    std::string Signals::*windows = nullptr;  ///< note with the smoothing windows of the compared quantities
+    /// Value of a point that is compared; NaN if there is no neighbour on either side.
     float (*value)(const Comparer& comparer, const Signals& signals, PointIndex point) = nullptr;
     // As in FieldInfo:
     std::string_view also;
     int report_rank = 0;
     bool percentiles = false;
-    /// Above which it is a discontinuity, inside units: a picture spans at least two of them.
+    /// Step above which it is a discontinuity, inside units. A picture spans at least two of them.
     float (*threshold)(const Thresholds& thresholds, bool measured) = nullptr;
     FieldPreference preference = FieldPreference::none;
 };
@@ -36,14 +36,14 @@ struct QualityFieldRow {
 
 class QualityFields : public FieldProvider {
 public:
-    /// `derive` gives the signals along the path of the surface, once, when the first field is asked for. The surface and
-    /// `table` must outlive it.
+    /// `derive` returns the signals along the path of the surface; it is called once, for the first field. The surface and
+    /// `table` must outlive this.
     QualityFields(const ClSurface& surface, std::function<Signals()> derive,
                   std::span<const QualityFieldRow> table = quality_field_table());
 
     [[nodiscard]] std::vector<FieldInfo> fields() const override;
-    /// NaN where there is no neighbour on either side. Of all points the note says how many of the cutting ones have a
-    /// value. O(points), parallel.
+    /// NaN if a point has no neighbour on either side. For all points, the note says how many of the cutting ones have a value.
+    /// O(points), parallel.
     [[nodiscard]] std::vector<Field> compute(std::span<const std::string_view> names, PointRange points) const override;
 
 private:
@@ -55,10 +55,9 @@ private:
     mutable Thresholds thresholds_;
 };
 
-/// The larger one of the differences in speed to both adjacent passes [mm/s], signed; NaN where there is none. O(points),
-/// parallel.
+/// The larger of the differences in speed to both adjacent passes [mm/s], signed; NaN if there is none. O(points), parallel.
 [[nodiscard]] Column<float> speed_differences(const ClSurface& surface, const Signals& signals);
-/// The same of some points.
+/// The same for some points.
 [[nodiscard]] Column<float> speed_differences(const ClSurface& surface, const Signals& signals,
                                               const PointRange& points);
 

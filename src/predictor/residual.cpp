@@ -13,12 +13,12 @@ namespace {
 
 constexpr std::size_t most_values = 10;   ///< around a place
 constexpr std::size_t fewest_values = 2;  ///< for a median
-constexpr std::size_t fewest_clean = 3;   ///< reliefs that outvote one of them that an adjacent fault has changed
-constexpr std::size_t beside_border = 2;  ///< passes on one side, of which the outermost has no relief
-constexpr float shape_left = 0.35F;       ///< share of a relief: if more remains in the sum, it is the part's own shape
-constexpr float shape_beside = 0.6F;      ///< share of the largest relief around: a smaller relief lies beside an edge
+constexpr std::size_t fewest_clean = 3;   ///< reliefs that outvote one that an adjacent fault has changed
+constexpr std::size_t beside_border = 2;  ///< passes on one side; the outermost one has no relief
+constexpr float shape_left = 0.35F;   ///< share of a relief: if more remains in the sum, it is the shape of the part
+constexpr float shape_beside = 0.6F;  ///< share of the largest relief around: a smaller one is next to an edge
 constexpr float nearer_to_border =
-    1.33F;  ///< times the opposite relief of the pass towards the border: up to that the fault is that one's
+    1.33F;  ///< times the opposite relief of the pass towards the border: up to this, the fault is on that pass
 
 float median_of_known(std::span<const float> values, std::size_t fewest = fewest_values) {
     return median_of(values, fewest, [](float v) { return v; });
@@ -31,7 +31,7 @@ std::size_t known(std::span<const float> values) {
 /// Passes on both sides that have a value, from the farthest left one to the farthest right one.
 struct KnownPasses {
     std::array<float, most_values> value{};
-    std::array<float, most_values> place{};  ///< passes away, left ones negative
+    std::array<float, most_values> place{};  ///< number of passes away, negative on the left
     std::size_t count = 0;
 
     KnownPasses(std::span<const float> left, std::span<const float> right) {
@@ -55,7 +55,7 @@ struct KnownPasses {
     }
 };
 
-/// A relief and those around it, less what the part has there.
+/// A relief and those around it, minus the relief of the part there.
 struct Reliefs {
     float own = 0;
     std::array<std::array<float, 2>, 2> beside{};  ///< of the nearest two on each side; 0: no chord
@@ -101,8 +101,8 @@ bool is_shape(float relief, std::span<const float> left, std::span<const float> 
     return !lies_off || r.is_beside_larger();
 }
 
-/// The median relief of the passes on one side. A pass that is off by d has the relief d, each of the adjacent passes -d/2. Where
-/// they cannot be outvoted, that part of the fault is taken off: a third of the difference.
+/// The median relief of the passes on one side. A pass that is off by d has the relief d, and each adjacent pass −d/2. If these
+/// cannot be outvoted, this share of the fault is subtracted: a third of the difference.
 float median_beside(float relief, std::span<const float> side) {
     if (side.size() >= fewest_clean && known(side) != fewest_values) return median_of_known(side);
     std::array<float, most_values> clean{};
@@ -111,9 +111,9 @@ float median_beside(float relief, std::span<const float> side) {
     return median_of_known(std::span(clean).first(side.size()));
 }
 
-/// How far a relief lies above the reliefs of the passes on its two sides, or below (−): by the distance from the interval between
-/// both medians. Where a flat face goes over into a fillet the curvature changes from one pass to the next. The relief is then that of one
-/// side or lies between both. A pass that lies off has its neighbours' reliefs on the other side of zero, and those beyond at zero.
+/// How far a relief is above or below (−) the interval between the medians of its two sides. At the transition from a flat face
+/// to a fillet the curvature changes from one pass to the next, and the relief is that of one side or between both. Next to a
+/// displaced pass, reliefs have the opposite sign, and those beyond are zero.
 float beyond_sides(float relief, std::span<const float> left, std::span<const float> right) {
     const float one = median_beside(relief, left), other = median_beside(relief, right);
     if (one == one && other == other) return relief - std::clamp(relief, std::min(one, other), std::max(one, other));
@@ -122,10 +122,9 @@ float beyond_sides(float relief, std::span<const float> left, std::span<const fl
     return relief - median_of_known(std::span(all.begin(), end));
 }
 
-/// The same next to the border, where the outermost pass has no chord: what relief it would have is not known. A relief is
-/// a mark if it and those farther in, `inner`, are what a fault of this pass makes
-/// (docs/design/predictor.md#at-the-border). `outer`: the relief of the pass between this one and the outermost one;
-/// NaN: there is none.
+/// The same next to the border, where the outermost pass has no chord, so that its relief is not known. A relief is a mark if
+/// it and the reliefs farther in, `inner`, have the pattern of a fault of this pass (docs/design/predictor.md#at-the-border).
+/// `outer`: the relief of the pass between this one and the outermost one; NaN: there is none.
 float mark_at_border(float relief, float outer, std::span<const float> inner) {
     const bool few = known(inner) < fewest_values;
     const float base = few ? (outer + inner[0] + relief) / 3 : median_beside(relief, inner);
@@ -140,11 +139,11 @@ float mark_at_border(float relief, float outer, std::span<const float> inner) {
             return beside * r.own < 0 && std::abs(r.own) < nearer_to_border * std::abs(beside);
         };
         const float three = towards + r.own + next;
-        // This pass; it and the next one farther in; it and the one towards the border.
+        // Displaced: this pass; it and the next one farther in; it and the one towards the border.
         lies_off = !of(towards) && !(few && of(next)) &&
                    (r.adds_up(three) || r.adds_up(three + beyond) || r.adds_up(three + next));
     } else {
-        // This pass; it and the outermost one; it and the next one farther in.
+        // Displaced: this pass; it and the outermost one; it and the next one farther in.
         lies_off = r.adds_up(r.own + 2 * next) || (r.adds_up(r.own + next) && r.adds_up(beyond)) ||
                    r.adds_up(r.own + next + 2 * beyond);
     }
@@ -163,7 +162,7 @@ float usual_beside(float own, std::span<const float> left, std::span<const float
     const float change = passes.even_change();
     for (std::size_t k = 0; k < passes.count; ++k) values[k] -= change * passes.place[k];
     const float middle = median_of_known(all);
-    if (left.empty() || right.empty()) return middle;  // nobody else tells a change from a fault
+    if (left.empty() || right.empty()) return middle;  // other passes cannot confirm that it is a change, not a fault
     for (float& value : all) value = std::abs(value - middle);
     return std::abs(own - middle) <= clear_of_scatter * median_of_known(all) ? own : middle;
 }

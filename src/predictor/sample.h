@@ -1,5 +1,5 @@
 #pragma once
-// Sample: what is compared of one logged point (signals.h).
+// Sample: the compared quantities of one logged point (signals.h).
 
 #include <cstdint>
 
@@ -7,22 +7,22 @@
 
 namespace clsurf {
 
-/// Where on a pass a point lies.
+/// Zone of a pass that a point is in.
 enum class Zone : std::uint8_t {
-    outside,   ///< not on a cut pass, or next to where a pass begins or ends: not compared
-    ramp,      ///< the tool still speeds up from the pass's beginning, or slows down to its end
-    near_end,  ///< as near to an end as ramps are found, but it does neither
+    outside,   ///< not on a cut pass, or next to the beginning or end of a pass: not compared
+    ramp,      ///< the tool still speeds up from the beginning of the pass, or slows down to its end
+    near_end,  ///< within the usual distance of a ramp from an end, but not in a ramp
     inner,     ///< the pass goes on
 };
 
-/// What is known of a point, side by side: whoever compares passes looks at all of it at once, on a
-/// dozen passes at a time, and pays for every cache line.
+/// All signals of a point in one structure: comparing passes reads all of them at once, on a dozen passes at a time, and each
+/// cache line costs time.
 struct Sample {
     float speed;   ///< [mm/s] of the surface's own positions
-    float lag;     ///< [mm] how far the measured path runs above (+) the commanded one, along the normal; NaN: none
-    float relief;  ///< [mm] how far the point lies above the chord between its neighbours, along the normal
+    float lag;     ///< [mm] height of the measured path above (+) the commanded one, along the normal; NaN: none
+    float relief;  ///< [mm] height of the point above the chord between its neighbours, along the normal
     float acceleration[3];  ///< [mm/s²]
-    float feed[3];          ///< unit vector; NaN where the tool stands
+    float feed[3];          ///< unit vector; NaN if the tool rests
     float normal[3];        ///< unit vector of the CL surface, feed × (left − right); NaN: no neighbour
     Zone zone;
 };

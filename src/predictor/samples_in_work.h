@@ -1,20 +1,20 @@
 #pragma once
-// SamplesInWork: the samples of a log while they are derived, all of them one step after the other, or a block when it
-// is first read (Signals::motion, zones, heights).
+// SamplesInWork: the samples of a log during their derivation. They are derived step by step for the whole log, or block by
+// block when a block is first read (Signals::motion, zones, heights).
 
 #include "core/block_fill.h"
 #include "predictor/sample.h"
 
 namespace clsurf {
 
-/// The samples of a log while they are derived. What is read of them is derived before. A value: it does not own them.
+/// Access to samples during their derivation: derives a value before it is read. It does not own the samples.
 class SamplesInWork {
 public:
     explicit SamplesInWork(Sample* samples) : samples_(samples) {}
     SamplesInWork(Sample* samples, BlockFill* motion, BlockFill* zones)
         : samples_(samples), motion_(motion), zones_(zones) {}
 
-    /// To be written.
+    /// For writing.
     [[nodiscard]] Sample& operator[](PointIndex i) const { return samples_[i]; }
     [[nodiscard]] float speed(PointIndex i) const { return with(motion_, i).speed; }
     [[nodiscard]] Eigen::Map<const Eigen::Vector3f> feed(PointIndex i) const {
@@ -29,7 +29,7 @@ private:
     }
 
     Sample* samples_;
-    BlockFill* motion_ = nullptr;  ///< nullptr: all of it is derived before it is read
+    BlockFill* motion_ = nullptr;  ///< nullptr: all samples are derived before they are read
     BlockFill* zones_ = nullptr;
 };
 

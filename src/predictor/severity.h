@@ -14,16 +14,16 @@ inline constexpr int severities = 4;
 [[nodiscard]] std::string_view meaning_of_severity(int severity);
 
 struct SeverityRule {
-    std::array<double, 3> depth{0.002, 0.005, 0.020};  ///< [mm] where 2, 3, 4 begin …
-    std::array<float, 3> stands_out{1, 1.5F, 6};       ///< … for a score of so much at least
-    std::array<float, 2> motion{2, 15};                ///< score of a motion where 2, 3 begin, whatever the depth
-    int most_systematic = 3;  ///< what all passes share is a machine to be tuned, no part to be rejected
+    std::array<double, 3> depth{0.002, 0.005, 0.020};  ///< [mm] from which on 2, 3, 4 apply …
+    std::array<float, 3> stands_out{1, 1.5F, 6};       ///< … if the score is at least this
+    std::array<float, 2> motion{2, 15};                ///< scores from which on a motion is 2 or 3, whatever its depth
+    int most_systematic = 3;  ///< a difference of all passes calls for tuning the machine, not for rejecting the part
 };
 
-/// What severity is made from.
+/// The input of the severity.
 struct SeverityEvidence {
     double depth = 0;         ///< [mm] ≥ 0
-    float score = 0;          ///< over its threshold
+    float score = 0;          ///< peak over threshold
     bool motion = false;      ///< a difference of speed or acceleration
     bool systematic = false;  ///< alternates over a large part of the surface
 };

@@ -25,27 +25,26 @@
 namespace clsurf {
 namespace {
 
-constexpr double speed_seconds = 0.010;  ///< longest window: an oscillation of 20 ms keeps four fifths of its height …
+constexpr double speed_seconds = 0.010;  ///< longest window: of an oscillation of 20 ms it keeps four fifths …
 constexpr double speed_arc_length =
-    0.4;  ///< [mm] … and of fast passes one of 0.8 mm, since marks are seen by their length
-constexpr double speed_steps = 150;  ///< steps of the positions, of arc length: rounding is then 1 % of the speed …
-constexpr double scatter_deviations = 6;    ///< by which two passes differ from scatter of the positions alone, at most
-constexpr double acceleration_windows = 2;  ///< … and accelerations of slow passes are taken over twice the way
-constexpr double height_window = 0.015;     ///< window of the mean that heights are smoothed with
-constexpr PointIndex relief_every = 3;      ///< points: normals and reliefs are those of every third
-constexpr double longest_lag = 0.1;         ///< [s] that the measured position may come after the commanded one
+    0.4;  ///< [mm] … and on fast passes, of one of 0.8 mm, because marks are seen by their length
+constexpr double speed_steps = 150;         ///< steps of the positions in the window: rounding is then 1 % of the speed
+constexpr double scatter_deviations = 6;    ///< by which two passes differ at most from scatter alone
+constexpr double acceleration_windows = 2;  ///< times the window of the speed, for accelerations of slow passes
+constexpr double height_window = 0.015;     ///< [s] window of the mean that smooths heights
+constexpr PointIndex relief_every = 3;      ///< normals and reliefs are computed at every third point
+constexpr double longest_lag = 0.1;         ///< [s] by which the measured position may follow the commanded one
 constexpr PointIndex shortest_reach = 64;   ///< points
-constexpr float least_upward =
-    0.013F;  ///< sin 0.75°: from a wall that leans less it cannot be told which side of it faces up
+constexpr float least_upward = 0.013F;      ///< sin 0.75°: on a steeper wall, the side that faces up is not determined
 constexpr float least_chord_share =
-    0.33F;  ///< of the chord between both neighbours, on either side of a point that has a relief
+    0.33F;  ///< of the chord between both neighbours: least distance of a point from either, for a relief
 constexpr PointIndex longest_reach = 4096;
-constexpr PointIndex lead = 16;       ///< points that it may come before: logs that were put together
-constexpr float farthest_lag = 2.0F;  ///< step-overs; farther, the paths have nothing to do with each other
-constexpr double end_step_overs = 2;  ///< that are not judged at the ends of passes, at least
+constexpr PointIndex lead = 16;       ///< points by which the measured position may precede it, in merged logs
+constexpr float farthest_lag = 2.0F;  ///< step-overs: paths that are farther apart are unrelated
+constexpr double end_step_overs = 2;  ///< least length at the ends of passes that is not judged
 constexpr float slowest = 1e-3F;      ///< [mm/s]; slower, the feed has no direction
 
-/// Standard deviation of a derivative for independent errors of the positions of 1 mm each [1/s^d].
+/// Standard deviation of a derivative [1/s^d] for independent errors of the positions with a standard deviation of 1.
 double noise_gain(const DerivativeFilter& filter) {
     double sum = 0;
     for (const double weight : derivative_weights(filter.points, filter.order, filter.derivative, filter.points / 2))
@@ -53,7 +52,7 @@ double noise_gain(const DerivativeFilter& filter) {
     return std::sqrt(sum) * std::pow(filter.period, -filter.derivative);
 }
 
-/// The window of the speed [s] for a usual speed [mm/s] and positions that come in steps of `quantum` [mm].
+/// The window of the speed [s] for a usual speed [mm/s] and positions with a resolution of `quantum` [mm].
 double speed_window(double usual_speed, double quantum) {
     const double rounded = usual_speed > 0 ? std::min(speed_steps * quantum, speed_arc_length) / usual_speed : 0;
     return std::max(std::min(speed_seconds, speed_arc_length / usual_speed), rounded);
@@ -78,14 +77,13 @@ void read(const Trajectory& path, PointIndex first, PointIndex last, Axes& out) 
     path.read(first, out[0], out[1], out[2]);
 }
 
-/// Mean over the window round a value, of those that are there; at least half the window must be.
+/// Mean of the known values in a window around a value; at least half of the window must be known.
 class Smoother {
 public:
     explicit Smoother(int points) : half_(points / 2) {}
     [[nodiscard]] PointIndex reach() const { return half_; }
 
-    /// Means for raw[skip …], out.size() of them, from sums up to each value. `every`: one in so many
-    /// points has a value at all.
+    /// Means for raw[skip …], as many as `out` has, from cumulative sums. `every`: only one in so many points has a value.
     void apply(std::span<const float> raw, std::size_t skip, std::size_t every, std::span<float> out) const {
         std::vector<double> sums(raw.size() + 1);
         std::vector<std::uint32_t> counts(raw.size() + 1);
@@ -95,7 +93,7 @@ public:
             counts[i + 1] = counts[i] + (there ? 1 : 0);
         }
         const auto half = static_cast<std::size_t>(half_);
-        // The window shrinks evenly towards the ends: an uneven one would lean on slopes.
+        // The window shrinks symmetrically towards the ends: an asymmetric one would be biased on slopes.
         for (std::size_t k = 0; k < out.size(); ++k) {
             const std::size_t at = skip + k;
             const std::size_t reach = std::min({half, at, raw.size() - 1 - at});
@@ -109,7 +107,7 @@ private:
     int half_;
 };
 
-/// f(piece, first, last) for the sections of pieces inside a block, last inclusive.
+/// Calls f(piece, first, last) for the sections of pieces inside a block, last inclusive.
 template <typename F>
 void for_each_piece(const std::vector<PointRange>& pieces, PointIndex begin, PointIndex end, F&& f) {
     for (auto piece = range_at(pieces, begin); piece != pieces.end() && piece->first < end; ++piece) {
@@ -170,7 +168,7 @@ public:
         signals.height_note = note("heights", static_cast<int>(2 * smoother_.reach() + 1));
     }
 
-    /// How far [mm] from an end, at the usual speed, derivatives are taken over a window that lies evenly round them.
+    /// Distance [mm] from an end, at the usual speed, from which on the windows of derivatives are symmetric.
     [[nodiscard]] double window_reach() const {
         return 0.5 * acceleration_.filter().points * path_.period * usual_speed_;
     }
@@ -200,7 +198,7 @@ public:
         }
     }
 
-    /// Normals and heights; after derive_motion() and the zones of all that is looked at.
+    /// Normals and heights. Domain: after derive_motion() and the zones of all points that are read.
     void derive_heights(PointRange piece, PointIndex first, PointIndex last) const {
         const PointIndex from = std::max(piece.first, first - smoother_.reach());
         const PointIndex to = std::min(piece.last, last + smoother_.reach());
@@ -248,7 +246,7 @@ private:
         }
     }
 
-    /// The normal at a point, and how far the point lies above the chord between its neighbours.
+    /// The normal at a point. Returns its height above the chord between its neighbours.
     float measure_relief(PointIndex i, Eigen::Vector3f& normal) const {
         normal.setConstant(missing<float>);
         const Eigen::Vector3f feed = out_.feed(i);
@@ -261,10 +259,11 @@ private:
         const Eigen::Vector3f b = right.exists() ? position_at(p, right) : here;
         const Eigen::Vector3f across = a - b;
         normal = feed.cross(across).normalized();
-        // On a steep wall the left neighbour is the upper one, whichever way the tool runs: the normal would turn round with the feed.
+        // On a steep wall the left neighbour is above for one direction of the feed and below for the other, so the normal
+        // would reverse with the feed.
         if (normal.z() < -least_upward) normal = -normal;
         if (!left.exists() || !right.exists()) return missing<float>;
-        // Where a pass is interrupted, by an island, what lies beside is its retract or its end.
+        // If a pass is interrupted by an island, the neighbour is in its retract or near its end.
         if (out_.zone(left.nearest()) == Zone::outside || out_.zone(right.nearest()) == Zone::outside)
             return missing<float>;
         const float share = (here - b).dot(across) / across.squaredNorm();
@@ -291,7 +290,7 @@ private:
             const Vec3 here(commanded[0][k], commanded[1][k], commanded[2][k]);
             const Vec3 feed = out_.feed(i).cast<double>();
             const auto along = [&](PointIndex q) { return (at(q) - here).dot(feed); };
-            // The first crossing after where the last one was; a little before it where it went back.
+            // The first crossing after the last one, or shortly before it if the path went back.
             m = std::clamp(m, std::max(begin + 1, i - lead), std::min(end, i + reach_));
             while (m > std::max(begin + 1, i - lead) && along(m - 1) >= 0) --m;
             while (m < std::min(end, i + reach_) && along(m) < 0) ++m;
@@ -316,7 +315,7 @@ private:
     PointIndex reach_;
 };
 
-/// Speed [mm/s] that a twentieth of the points of cut passes, evenly chosen, exceed; 0: none moves.
+/// 95th percentile of the speed [mm/s] at evenly chosen points of cut passes; 0: none moves.
 double usual_speed_of(const ClSurface& surface, double period) {
     constexpr PointIndex chosen = 20'000;
     constexpr double chord_seconds = 0.010;
@@ -334,7 +333,7 @@ double usual_speed_of(const ClSurface& surface, double period) {
     return speeds.empty() ? 0 : quantile_below(speeds, 0.95);
 }
 
-/// The finest step of the axes: one that moves in step-overs only would seem to have a coarse one.
+/// The finest resolution of the axes. An axis that moves only in step-overs would seem to have a coarse one.
 float quantum_of_axes(const Trajectory& role) {
     double finest = 0;
     for (const ChannelView& axis : role.axes) {
@@ -375,7 +374,7 @@ std::vector<std::string> reasons_against(const Trajectory& path) {
 
 namespace {
 
-/// Where loops are joined the speed sideways is not that of the pass.
+/// Excludes step-over moves, whose sideways speed is not that of the pass.
 std::vector<PointRange> without_moves(const ClSurface& surface, const std::vector<PointRange>& smooth) {
     std::vector<PointRange> pieces;
     StepOverMoveCutter cutter(surface.step_over_moves);
@@ -399,7 +398,7 @@ EndZone end_zone_of(const Deriver& deriver, double usual, double step_over) {
     return {usual, std::min(usual, std::max(end_step_overs * step_over, deriver.window_reach()))};
 }
 
-/// All of signals that concerns the whole log.
+/// Sets what concerns the whole log.
 void note_facts(const Deriver& deriver, const SignalFacts& facts, Signals& signals) {
     signals.quantum = facts.quantum;
     signals.unfit = facts.unfit;
@@ -407,7 +406,7 @@ void note_facts(const Deriver& deriver, const SignalFacts& facts, Signals& signa
     deriver.note_noise(facts.path_quantum, facts.scatter, signals);
 }
 
-/// What derives signals when they are read.
+/// Derives signals when they are read.
 struct Derivation {
     Trajectory path;
     std::optional<Trajectory> measured;

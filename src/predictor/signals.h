@@ -22,18 +22,18 @@ struct Signals {
     Column<Sample> samples;  ///< one per point
     bool measured = false;   ///< there is a lag
     float quantum = 0;       ///< [mm] coarsest step in which the positions come; 0: none seen
-    /// What the rounding of the positions alone makes of two passes, at most: differences of speed [mm/s] and
+    /// The largest differences that the rounding of positions alone causes between two passes: of speed [mm/s] and of
     /// acceleration [mm/s²] along an axis.
     float speed_noise = 0, acceleration_noise = 0;
     float speed_step_response =
-        0;  ///< [1/s] acceleration that is seen where the speed changes at once, over that change
-    std::vector<PointRange> pieces;  ///< of the path, between which nothing is smoothed: they end where passes do
+        0;  ///< [1/s] largest filtered acceleration at a step of the speed, divided by that step
+    std::vector<PointRange> pieces;  ///< of the path; nothing is smoothed across their ends, which are ends of passes
     std::vector<std::string> unfit;  ///< why the data cannot show marks, as sentences; empty: they can
     std::string speed_note, acceleration_note, height_note;  ///< the windows, "speed over 11 points (11 ms)"
-    /// Of signals that are derived when they are read, each step from those before it; elsewhere nothing. Who reads
-    /// `samples` themselves needs them first.
+    /// For signals that are derived when they are read, each stage from the one before; else nullptr. Code that reads `samples`
+    /// directly must request them first.
     BlockFillPointer motion, zones, heights;
-    std::shared_ptr<ArcLength> arc_length;  ///< of these: what zones are found with
+    std::shared_ptr<ArcLength> arc_length;  ///< of these signals, from which zones are derived
 
     [[nodiscard]] PointIndex size() const { return static_cast<PointIndex>(samples.size()); }
     [[nodiscard]] const Sample& operator[](PointIndex i) const {
@@ -44,17 +44,17 @@ struct Signals {
         heights.need(i);
         return samples[static_cast<std::size_t>(i)];
     }
-    /// A sample whose motion and zone are known, for who does not ask for normals and heights.
+    /// A sample with motion and zone; normals and heights may be missing.
     [[nodiscard]] const Sample& without_heights(PointIndex i) const {
         zones.need(i);
         return samples[static_cast<std::size_t>(i)];
     }
-    /// A sample whose motion is known.
+    /// A sample with motion only.
     [[nodiscard]] const Sample& motion_of(PointIndex i) const {
         motion.need(i);
         return samples[static_cast<std::size_t>(i)];
     }
-    /// Of signals that are derived when they are read: none is known any more, and they take no memory.
+    /// Forgets all signals that are derived when they are read, and frees their memory.
     void forget();
     [[nodiscard]] Eigen::Map<const Eigen::Vector3f> feed(PointIndex i) const { return vector_of((*this)[i].feed); }
     [[nodiscard]] Eigen::Map<const Eigen::Vector3f> acceleration(PointIndex i) const {
@@ -63,37 +63,37 @@ struct Signals {
     [[nodiscard]] Eigen::Map<const Eigen::Vector3f> normal(PointIndex i) const { return vector_of((*this)[i].normal); }
 };
 
-/// What signals depend on that is known of the whole log only.
+/// The facts about a whole log that its signals depend on.
 struct SignalFacts {
-    double usual_speed = 0;          ///< [mm/s] that a twentieth of the points exceeds; 0: none moves
+    double usual_speed = 0;          ///< [mm/s] 95th percentile of the points; 0: none moves
     float path_quantum = 0;          ///< [mm] finest step of the axes of the path …
     float quantum = 0;               ///< … the coarser one of path and measured positions; 0: none seen
     double scatter = 0;              ///< [mm] position_noise()
-    std::vector<std::string> unfit;  ///< as Signals has them
+    std::vector<std::string> unfit;  ///< as in Signals
 };
 
-/// How much [mm] of the ends of passes is not judged by default: what the tool does there, it does on
-/// every pass. Of passes shorter than ten times this a tenth, but at least two step-overs and half the window of the acceleration.
+/// The length [mm] at the ends of passes that is not judged by default, because the tool does the same there on every pass. On
+/// passes shorter than ten times this it is a tenth of the pass, but at least two step-overs and half the window of the
+/// acceleration.
 [[nodiscard]] double usual_end_zone(double step_over);
 
-/// `path` is what `surface` was gathered from; `measured` the feedback or actual positions, or nullptr.
-/// `pieces` (surface/smoothing_segments.h) bound the windows. `end_zone` [mm] at the ends of pieces is outside.
-/// O(points), parallel.
+/// `path`: the trajectory that `surface` was gathered from. `measured`: the feedback or actual positions, or nullptr. `pieces`
+/// (surface/smoothing_segments.h) bound the windows. `end_zone` [mm] at the ends of pieces is outside. O(points), parallel.
 ///
-/// The lag is where the measured path crosses the plane through the commanded point normal to the
-/// feed: a lag *along* the path, which says nothing about the surface, drops out.
+/// The lag is taken where the measured path crosses the plane through the commanded point normal to the feed. A lag *along* the
+/// path, which has no effect on the surface, is thereby excluded.
 ///
 /// `estimate`: speeds and accelerations are those of a Kalman smoother; nullptr: of least squares over windows.
 [[nodiscard]] Signals derive_signals(const ClSurface& surface, const Trajectory& path, const Trajectory* measured,
                                      const std::vector<PointRange>& pieces, double end_zone,
                                      const MotionEstimate* estimate = nullptr);
 
-/// The facts that derive_signals() finds. O(points), parallel.
+/// The facts that derive_signals() uses. O(points), parallel.
 [[nodiscard]] SignalFacts measure_facts(const ClSurface& surface, const Trajectory& path, const Trajectory* measured,
                                         const std::vector<PointRange>& pieces);
 
-/// The same signals, over windows, but those of a block are derived when one of them is first read. `surface` must
-/// outlive them, and stay where it is. O(pieces).
+/// The same signals by least squares over windows, but each block is derived when one of its samples is first read. `surface`
+/// must outlive them and must not move. O(pieces).
 [[nodiscard]] Signals derive_when_read(const ClSurface& surface, const Trajectory& path, const Trajectory* measured,
                                        const std::vector<PointRange>& pieces, double end_zone,
                                        const SignalFacts& facts);

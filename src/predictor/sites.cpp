@@ -8,10 +8,10 @@
 namespace clsurf {
 namespace {
 
-constexpr double site_length = 0.2;    ///< [mm] marks are seen by their length; halved where the tool …
+constexpr double site_length = 0.2;    ///< [mm] because marks are seen by their length; halved where the tool …
 constexpr float slow_from = 70.7107F;  ///< [mm/s] … moves at half of this or less, and so on: 3 to 6 ms between sites
 constexpr double site_arc_length = 0.1;  ///< step-overs between sites, at least
-constexpr PointIndex farthest = 128;     ///< points from a point to its site
+constexpr PointIndex farthest = 128;     ///< points from a point to its site, at most
 
 static_assert(block_points % 64 == 0);  // blocks share no word
 
@@ -46,9 +46,9 @@ Sites::Crossing Sites::crossing(const ClSurface& surface, const Signals& signals
     const Eigen::Vector3f feed = vector_of(sample.feed);
     Eigen::Index axis = 0;
     feed.cwiseAbs().maxCoeff(&axis);
-    // The distance is halved where the tool is slow, so that there are the same planes and more.
+    // The distance is halved where the tool is slow, so that the same planes exist and others between them.
     const int halvings = std::clamp(std::ilogb(slow_from / speed), 0, most_halvings);
-    const double planes = std::ldexp(1 / site_length, halvings);  // a millimetre
+    const double planes = std::ldexp(1 / site_length, halvings);  // per mm
     const Positions& p = surface.positions;
     const double before = (p.origin[axis] + static_cast<double>(p[point - 1][axis])) * planes,
                  now = (p.origin[axis] + static_cast<double>(p[point][axis])) * planes;

@@ -1,7 +1,7 @@
 #pragma once
-// Sites: the places of a log at which passes are compared. Position selects them, not time: a site is where
-// the path crosses planes that are fixed in the workpiece. A second log of the same path has the same sites,
-// so the same place is judged alike, and the sites of adjacent passes are next to each other.
+// Sites: the places of a log at which passes are compared. They depend on position, not on time: a site is a place where the
+// path crosses one of a set of planes that are fixed in the workpiece. A second log of the same path has the same sites, so the
+// same place is judged alike, and the sites of adjacent passes are next to each other.
 
 #include <bit>
 #include <cstdint>
@@ -14,20 +14,21 @@ namespace clsurf {
 
 class Sites {
 public:
-    /// A site is the first point of a cut pass behind a plane across that axis along which the tool moves most there. The planes are
-    /// 0.2 mm apart, below 35 mm/s half of it, below 18 mm/s a quarter …, but no less than a tenth of a step-over.
-    /// O(points), parallel; of signals that are derived when they are read O(1), and a block of points when it is asked for.
+    /// A site is the first point of a cut pass after a plane normal to the axis along which the tool moves fastest there. The
+    /// planes are 0.2 mm apart, below 35 mm/s half of that, below 18 mm/s a quarter, and so on, but at least a tenth of a
+    /// step-over. O(points), parallel. For signals that are derived when they are read: O(1), and each block of points when it
+    /// is requested.
     Sites(const ClSurface& surface, const Signals& signals);
 
     [[nodiscard]] bool at(PointIndex point) const {
         fill_.need(point);
         return (words_[static_cast<std::size_t>(point / 64)] >> (point % 64) & 1) != 0;
     }
-    /// Where the plane is crossed before a site. Domain: at(site).
+    /// Where the path crosses the plane of a site. Domain: at(site).
     [[nodiscard]] PathLocation place(PointIndex site) const;
-    /// The site nearest to a point; −1: none is near.
+    /// The site nearest to a point; −1: there is none nearby.
     [[nodiscard]] PointIndex nearest(PointIndex point) const;
-    /// f(site) for those from `first` to `last`, `last` exclusive, in order.
+    /// Calls f(site) for the sites from `first` to `last`, `last` exclusive, in order.
     template <typename F>
     void for_each(PointIndex first, PointIndex last, F&& f) const {
         if (first >= last) return;
@@ -43,7 +44,7 @@ public:
 private:
     struct Crossing {
         bool crosses = false;
-        float fraction = 0;  ///< of the path from the point before
+        float fraction = 0;  ///< of the path, from the point before
     };
     [[nodiscard]] Crossing crossing(PointIndex point) const;
     static Crossing crossing(const ClSurface& surface, const Signals& signals, int most_halvings, PointIndex point);
@@ -51,7 +52,7 @@ private:
     const ClSurface& surface_;
     const Signals& signals_;
     int most_halvings_;
-    Column<std::uint64_t> words_;  ///< a bit a point
+    Column<std::uint64_t> words_;  ///< one bit per point
     BlockFillPointer fill_;
 };
 

@@ -7,11 +7,11 @@
 namespace clsurf {
 namespace {
 
-/// Names the lines of subprograms that are in files of their own.
+/// Sets the file and lines of sections in subprograms with separate files.
 void name_subprograms(const Program& program, const LineMap& lines, std::vector<DefectSection>& sections) {
     const Motions& motions = program.motions;
     for (DefectSection& section : sections) {
-        std::uint16_t file = 0;  // of the first point in one
+        std::uint16_t file = 0;  // of the first point in a subprogram
         for (PointIndex i = section.points.first; i <= section.points.last; ++i) {
             const std::int64_t motion = lines.motion_at(i);
             if (motion < 0) continue;

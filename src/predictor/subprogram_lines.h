@@ -1,5 +1,5 @@
 #pragma once
-// Defects inside subprograms that are in files of their own: which lines of which file.
+// Defects in subprograms with separate files: the file and its lines.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace clsurf {
 
-/// Sets file, file_first_line and file_last_line of the sections that run there. O(points of the sections).
+/// Sets file, file_first_line and file_last_line of the sections inside such subprograms. O(points of the sections).
 void name_subprograms(const Program& program, const LineMap& lines, std::vector<Defect>& defects);
 
 }  // namespace clsurf

@@ -15,21 +15,21 @@
 namespace clsurf {
 namespace {
 
-constexpr int lag_passes_aside = 8;     ///< looked at on each side: a fault on every second pass must be wider to count
-constexpr float one_sided_bend = 1.5F;  ///< as far again to the place as from ring to ring of the passes on one side
+constexpr int lag_passes_aside = 8;     ///< compared on each side; narrower faults on every second pass do not count
+constexpr float one_sided_bend = 1.5F;  ///< extrapolation from the two rings of passes on one side to the place
 constexpr float alternates = 0.5F;      ///< of the threshold
 constexpr std::size_t fewest_of_a_kind = 2;  ///< passes of each direction, for a median
 constexpr std::size_t fewest_passes = 8;     ///< that a region spans
 constexpr double least_share = 0.05;         ///< of the path of all cut passes, that is systematic
 constexpr float shift_step_overs =
-    2;  ///< along the feed: beside an edge at 45° the next pass of its direction changes so much later
+    2;  ///< along the feed: next to an edge at 45°, the next pass of its direction changes so much later
 
 /// The lag of a place among the passes around it.
 struct LagAround {
     float alternating = missing<float>;  ///< [mm] own direction minus the other one, without the place itself
     float residual = missing<float>;     ///< [mm] to the median of its own direction
     float step = missing<float>;         ///< [mm] ≥ 0, to the next passes of its own direction
-    float slack = 0;                     ///< [mm] of both: what all of them change nearby
+    float slack = 0;                     ///< [mm] of residual and step: change that all passes have nearby
 };
 
 class LagComparer {
@@ -78,7 +78,8 @@ private:
         Lags own, other;
     };
 
-    /// As many of either side, so that what changes evenly from pass to pass drops out; all of one side where the other has none.
+    /// Median of equal numbers of passes on both sides, so that an even change from pass to pass cancels; of all passes of one
+    /// side if the other has none.
     [[nodiscard]] static float balanced_median(const Lags& left, const Lags& right) {
         std::array<float, lag_passes_aside> all{};
         const std::size_t even = std::min({left.count, right.count, all.size() / 2});
@@ -90,8 +91,8 @@ private:
         return median_of(std::span<const float>(all.data(), n), fewest_of_a_kind, [](float v) { return v; });
     }
 
-    /// How much the lag of one direction changes from the nearer passes to the farther ones: as much may a place differ from
-    /// them all. 0 where it is not known.
+    /// Change of the lag of one direction from the nearer to the farther passes: a place may differ from all of them by as
+    /// much. 0 if it is not known.
     [[nodiscard]] static float bend_across(const Lags& left, const Lags& right) {
         constexpr std::size_t near = lag_passes_aside / 4;
         const auto ring = [&](std::size_t first, std::size_t last) {
@@ -107,7 +108,7 @@ private:
         return bend == bend ? bend : 0;
     }
 
-    /// How much the lag changes along its pass within `shift_step_overs`.
+    /// Largest change of the lag along its pass within `shift_step_overs`.
     [[nodiscard]] float change_nearby(PointIndex point) const {
         const Positions& p = surface_.positions;
         float change = 0;
@@ -125,14 +126,14 @@ private:
     const Signals& signals_;
 };
 
-/// A candidate round which the passes alternate, or where that is not known: too few of them run on.
+/// A candidate around which the lag alternates, or where this is not known because too few of the passes run on.
 struct Candidate {
     DefectCandidate* defect_candidate = nullptr;
     LagAround lag;
     [[nodiscard]] bool known() const { return lag.alternating == lag.alternating; }
 };
 
-/// Those of `found` round which the lag alternates, in the order of their points.
+/// The candidates of `found` around which the lag alternates, in the order of their points.
 std::vector<Candidate> find_candidates(const LagComparer& comparer, const Thresholds& thresholds,
                                        FoundCandidates& found, const ForgetBlocks& forget) {
     std::vector<Candidate> all;
@@ -153,7 +154,7 @@ std::vector<Candidate> find_candidates(const LagComparer& comparer, const Thresh
     return all;
 }
 
-/// The way between sites of one pass that follow each other [mm].
+/// Arc length between consecutive sites of one pass [mm].
 double arc_length_of(std::span<const AlternatingSite> sites, const ArcLength& arc_length, double joined) {
     double sum = 0;
     for (std::size_t k = 1; k < sites.size(); ++k) {
@@ -163,7 +164,7 @@ double arc_length_of(std::span<const AlternatingSite> sites, const ArcLength& ar
     return sum;
 }
 
-/// Whether places spread over so many passes that they are no fault of some of them. In the order of their points.
+/// Whether places, in the order of their points, spread over so many passes that they are no fault of a few.
 bool is_wide(std::span<const std::size_t> region, const std::vector<Candidate>& candidates) {
     std::size_t passes = 0;
     const DefectCandidate* before = nullptr;
@@ -176,7 +177,7 @@ bool is_wide(std::span<const std::size_t> region, const std::vector<Candidate>& 
     return passes >= fewest_passes;
 }
 
-/// From now on its lag is what the passes of its own direction do not explain; nothing where that is not known.
+/// Replaces the lag difference of a candidate by the one to the passes of its own direction; 0 if that is not known.
 void subtract(const Candidate& candidate, const Thresholds& thresholds) {
     constexpr std::size_t q = index_of(Quantity::lag);
     DefectCandidate& s = *candidate.defect_candidate;

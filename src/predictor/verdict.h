@@ -10,7 +10,7 @@
 
 namespace clsurf {
 
-/// What a part may have; what is not set is not limited.
+/// Limits for a part; those that are not set do not apply.
 struct QualityBudget {
     std::optional<double> max_depth_um;
     std::optional<double> max_defects;
@@ -23,7 +23,7 @@ struct QualityBudget {
 using QualityLimit = BudgetLimit<QualityReport, QualityBudget>;
 [[nodiscard]] std::span<const QualityLimit> budget_limits();
 
-/// Every limit that the budget sets. A report that is not judged meets none of them.
+/// The comparison with each limit that the budget sets. A report that is not judged meets none of them.
 [[nodiscard]] std::vector<BudgetLine> hold(const QualityReport& report, const QualityBudget& budget);
 
 }  // namespace clsurf
