@@ -7,7 +7,7 @@ namespace clsurf {
 
 namespace {
 
-/// Arc lengths [mm] at places `step` mm apart seen from above, where a line has these slopes; not finite: level.
+/// Arc lengths [mm] at places `step` mm apart, seen from above, on a line with these slopes; not finite: horizontal.
 std::vector<double> arc_lengths(std::span<const float> slopes, double step) {
     std::vector<double> along(slopes.size());
     const auto steepness = [&](std::size_t k) {
@@ -28,7 +28,7 @@ AcrossFeed across_feed(const AsMachinedSurface& as_machined, const Signals& sign
     if (!contact.allFinite() || !feed.allFinite() || flat.norm() < 0.1) return a;
     a.at = contact.head<2>();
     a.direction = Vec2(-flat.y(), flat.x()).normalized();
-    // The direction across that lies in the surface.
+    // The direction across the feed in the tangent plane of the surface.
     const Vec3 in_surface = signals.normal(point).cross(feed).cast<double>();
     a.step_over = as_machined.surface().step_over *
                   std::clamp(in_surface.head<2>().norm() / std::max(in_surface.norm(), 1e-9), 0.2, 1.0);

@@ -10,20 +10,20 @@
 
 namespace clsurf {
 
-inline constexpr double steps_per_pass = 200;  ///< of a profile: a cusp's tip is then met to a hundredth of its height
+inline constexpr double steps_per_pass = 200;  ///< of a profile: within a hundredth of the height of a cusp at its tip
 
-/// Seen from above.
+/// A place and a direction, seen from above.
 struct AcrossFeed {
     Vec2 at = Vec2::Zero();  ///< [mm] contact of the tool with the surface
     Vec2 direction = Vec2::UnitY();
-    double step_over = 0;  ///< [mm] on a slope shorter than in the surface
+    double step_over = 0;  ///< [mm] on a slope shorter than along the surface
     bool known = false;
 };
 
-/// Of a point; not known where its normal or its feed is not, or where it goes straight down.
+/// Of a point. Not known if its normal or its feed is not known, or if the feed is vertical.
 [[nodiscard]] AcrossFeed across_feed(const AsMachinedSurface& as_machined, const Signals& signals, PointIndex point);
 
-/// A row of `count` places: the first one [mm], the direction of the others from it, and how far they are apart.
+/// A row of `count` places: the first place [mm], the direction of the row, and the spacing.
 struct ProfileRow {
     Vec2 from = Vec2::Zero(), along = Vec2::UnitX();
     double step = 0;  ///< [mm]
@@ -32,16 +32,16 @@ struct ProfileRow {
     [[nodiscard]] MapFrame frame() const { return {from, along, step, count, 1}; }
 };
 
-/// A surface over a form, along a row.
+/// Deviations of a surface from a form, along a row.
 struct RowDeviations {
-    std::vector<double> deviation;  ///< [mm] NaN: nothing was cut, or no form there
-    std::vector<double> along;      ///< [mm] arc length of the form from the first place; level where there is none
+    std::vector<double> deviation;  ///< [mm] NaN: nothing was cut, or there is no form
+    std::vector<double> along;  ///< [mm] arc length of the form from the first place; horizontal where there is none
 };
 
-/// Over a form of the places of the row.
+/// Deviations from a form that covers the places of the row.
 [[nodiscard]] RowDeviations deviations_along(const AsMachinedSurface& as_machined, const Form& form,
                                              const ProfileRow& row);
-/// Over the form of `form_of`; `of` and `tolerance` as of Form.
+/// Deviations from the form of `form_of`; `of` and `tolerance` as for Form.
 [[nodiscard]] RowDeviations deviations_along(const AsMachinedSurface& as_machined, const AsMachinedSurface& form_of,
                                              const ProfileRow& row, Form::Of of = Form::Of::program,
                                              double tolerance = 0);

@@ -14,17 +14,17 @@ namespace clsurf {
 namespace {
 
 constexpr PointIndex scallop_places = 10'000;
-constexpr double passes_aside = 6.5;  ///< of a mark's profile: a mark of two passes leaves most pairs of it as they are
-constexpr double mark_within = 1.0;   ///< step-overs from the middle that the mark lies in
-constexpr double coarse_spread = 0.001;   ///< [mm] by which pieces of an even surface do not differ
-constexpr double certain_share = 0.5;     ///< of a depth: spread of the level that it is measured from
-constexpr double mark_tolerance = 0.25;   ///< of a mark's depth: so far contact points may lie from the form about it
+constexpr double passes_aside = 6.5;  ///< of a mark's profile: most of its pairs are then outside a mark of two passes
+constexpr double mark_within = 1.0;   ///< step-overs from the middle, within which the mark is
+constexpr double coarse_spread = 0.001;   ///< [mm] sections of an even surface differ by less
+constexpr double certain_share = 0.5;     ///< of a depth: largest spread of the level that it is measured from
+constexpr double mark_tolerance = 0.25;   ///< of a mark's depth: tolerance of contact points about the form
 constexpr double agreement = 0.002;       ///< [mm] between the depth of a pass alone and the as-machined one …
 constexpr double agreement_share = 0.3;   ///< … or this share of it
 constexpr std::size_t fewest_pairs = 2;   ///< of a mark's profile …
 constexpr std::size_t fewest_pieces = 4;  ///< … or pieces of one
 
-/// What is usual about the middle of a row, and how far it is certain.
+/// The usual value around the middle of a row, and its uncertainty.
 struct Level {
     double value = missing<double>, spread = 0;
 };
@@ -34,10 +34,10 @@ Level level_of(std::vector<double> values) {
     return {spread.median, spread.deviation};
 }
 
-/// The value that is usual in the middle of a row: of means of two as far from it on either side, so that
-/// what changes evenly across the row drops out. Where they scatter by more than `coarse`, only those of
-/// every second pass, which runs like the one in the middle. At a border, where there are too few of these,
-/// of all values that are known; NaN where those are too few.
+/// The usual value in the middle of a row: the median of means of two values at equal distances on both sides, so that an even
+/// change across the row cancels. If these scatter by more than `coarse`, only those of every second pass count, which has the
+/// direction of the one in the middle. At a border, with too few of these, it is the median of all known values; NaN if those
+/// are too few.
 Level usual(const std::vector<double>& row, double coarse) {
     std::vector<double> means;
     std::vector<double> alike;
@@ -60,14 +60,14 @@ Level usual(const std::vector<double>& row, double coarse) {
     return middle_level;
 }
 
-/// Whether the depth in the as-machined surface is that of the pass alone, as far as both are known.
+/// Whether the depth in the as-machined surface is that of the pass alone.
 bool agree(double as_machined, double alone) {
     return std::abs(as_machined - alone) <= std::max(agreement, agreement_share * alone);
 }
 
 double median_or_none(std::vector<double> heights) { return heights.empty() ? 0 : median(heights); }
 
-/// What there is to say of a mark whose pass alone would leave `alone` mm.
+/// Adds the note to a mark, by the depth that its pass alone would leave.
 AsMachinedMark with_note(AsMachinedMark mark, const Defect& defect) {
     const double alone = std::abs(defect.depth);
     if (!std::isfinite(mark.depth) || mark.note != MarkNote::none || agree(mark.depth, alone)) return mark;
@@ -102,10 +102,10 @@ AsMachinedMark mark_depth(std::span<const double> deviation, double step, double
 }
 
 Form::Of form_about_mark(const AsMachinedSurface& as_machined, PointIndex point) {
-    // The contact points of a program whose mark is taken off still have the normals that it gave them.
+    // Contact points with the mark subtracted still have the normals of the marked program.
     if (as_machined.knows_program() && !as_machined.marks().at(point).isZero(0)) return Form::Of::program;
-    // A form of the program takes up the marks that are programmed and were not found: where the contacts have one,
-    // theirs is better. Where the very passes are measured that it follows, there is no other.
+    // A form of the program includes programmed marks that were not found, so a form of the contacts is better where there is
+    // one. If the measured passes are those of the program, the contacts are the only form.
     return as_machined.follows_surface() ? Form::Of::contacts : Form::Of::contacts_and_program;
 }
 

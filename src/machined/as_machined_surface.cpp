@@ -17,15 +17,15 @@
 namespace clsurf {
 namespace {
 
-constexpr double smooth_seconds = 0.015;  ///< as heights are (signals.cpp)
+constexpr double smooth_seconds = 0.015;  ///< as for heights (signals.cpp)
 constexpr PointIndex section_points = 64;
 constexpr std::int64_t section_group = 256;  ///< sections that are measured together
-constexpr float rough_room = 1;  ///< [mm] by which smoothed positions may lie beside those that they were smoothed from
-constexpr std::int64_t tile_cells = 256;    ///< a side: 256 kB, which the L2 cache holds
-constexpr std::int64_t tile_of_row = 4096;  ///< cells where there are hardly any rows: all look at the same sections
+constexpr float rough_room = 1;              ///< [mm] largest distance of smoothed positions from the original ones
+constexpr std::int64_t tile_cells = 256;     ///< per side: 256 kB, which fit into the L2 cache
+constexpr std::int64_t tile_of_row = 4096;   ///< cells if there are hardly any rows: all of them use the same sections
 constexpr std::int64_t few_rows = 4;
-constexpr double passes_apart = 2;       ///< step-overs, seen from above, that passes between two lie beside them
-constexpr std::size_t most_kept = 1000;  ///< sections whose passes between are kept: 25 MB
+constexpr double passes_apart = 2;  ///< step-overs, seen from above, from interpolated passes to the two around them
+constexpr std::size_t most_kept = 1000;  ///< sections whose interpolated passes are stored: 25 MB
 constexpr double most_between = 1000;    ///< contact points between two positions
 
 int smoother_points(double period) {
@@ -67,11 +67,11 @@ AsMachinedSurface::AsMachinedSurface(const ClSurface& surface, const Signals& si
 void AsMachinedSurface::cut_sections() {
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
         const PointRange& piece = pieces_[k];
-        // The way goes on into the next piece, but over a gap in time nobody knows how.
+        // The path continues into the next piece. Over a gap in time it is not known.
         const bool joined = k + 1 < pieces_.size() && pieces_[k + 1].first == piece.last + 1;
         for (PointIndex first = piece.first; first <= piece.last; first += section_points) {
             Section section;
-            section.first = std::max(piece.first, first - 1);  // the segment before tells where the contact came from
+            section.first = std::max(piece.first, first - 1);  // the previous segment is needed, too
             section.last = std::min(piece.last, first + section_points - 1);
             section.piece = k;
             section.goes_on = section.last < piece.last || joined;
@@ -123,7 +123,7 @@ void AsMachinedSurface::measure(Section& section) const {
     }
 }
 
-/// Positions of a section and, where it goes on, of the next point.
+/// Positions of a section and, if it continues, of the next point.
 void AsMachinedSurface::read_swept(const Section& section, std::vector<double> (&axes)[3]) const {
     const PointRange piece = pieces_[section.piece];
     const PointIndex end = section.last + (section.goes_on ? 1 : 0);
@@ -142,7 +142,7 @@ void AsMachinedSurface::read_swept(const Section& section, std::vector<double> (
     for (std::size_t axis = 0; axis < 3; ++axis)
         smoother_.apply(raw[axis], from, piece, section.first, std::span(axes[axis]).first(inside));
     if (inside == count) return;
-    const Vec3 next = swept_.at(end);  // the next piece's first point
+    const Vec3 next = swept_.at(end);  // first point of the next piece
     for (std::size_t axis = 0; axis < 3; ++axis) axes[axis].back() = next[static_cast<Eigen::Index>(axis)];
 }
 
@@ -156,7 +156,7 @@ void AsMachinedSurface::add_swept(const Section& section, const FrameAxes& axes,
     Vec3 from = at(0);
     for (std::size_t k = 1; k < count; ++k) {
         const Vec3 to = at(k);
-        // Points nearer to each other than the cells are taken together: the chord hardly leaves the path.
+        // Points closer to each other than the cells are merged: the chord hardly leaves the path.
         if ((to - from).head<2>().norm() < least && std::abs(to.z() - from.z()) < least && k + 1 < count) continue;
         pieces.add(from, to, longest);
         from = to;
@@ -291,7 +291,7 @@ std::vector<PointRange> AsMachinedSurface::points_near(const Box2& box, double r
 
 std::vector<ContactPoint> AsMachinedSurface::contacts(const Box2& box, double spacing) const {
     std::vector<ContactPoint> found;
-    // A contact point lies no farther from its tip than the tool is wide.
+    // A contact point is no farther from its tip than the radius of the tool.
     const std::vector<std::size_t> near = sections_in(box, tool_.radius);
     for (const std::size_t number : near) {
         const Section& section = sections_[number];
@@ -306,7 +306,7 @@ std::vector<ContactPoint> AsMachinedSurface::contacts(const Box2& box, double sp
             }
             const double distance = goes_on ? (now.at - before.at).norm() : spacing;
             if (distance < spacing) continue;
-            // Points farther apart than that: as many between them as are missing.
+            // If points are farther apart than the spacing, intermediate ones are inserted.
             const int pieces = goes_on ? static_cast<int>(std::min(distance / spacing, most_between)) : 1;
             for (int k = 1; k <= pieces; ++k) {
                 const double share = static_cast<double>(k) / pieces;

@@ -1,13 +1,13 @@
 #pragma once
-// AsMachinedSurface: the as-machined surface. Over each place it is the lowest point of the tool outline along the
-// whole path (the fourth surface of Wu et al.). Scallops, lags and differences between passes add up as they
-// do on the part: a pit keeps its depth, and neighbours cut a bulge down.
+// AsMachinedSurface: the surface after cutting. Its height over each place is the lowest point of the tool outline along the
+// whole path (the fourth surface of Wu et al.). Scallops, lags and differences between passes add up as on the part: a pit
+// keeps its depth, and neighbours cut a bulge down.
 //
-// The tool is swept along the straight segments between positions, smoothed over a stated window inside one
-// section, because the rounding of an encoder is not cut. Every segment within a tool radius of a cell counts, and
-// those that cannot be the lowest are left out a block of cells at a time (swept_pieces.h). Swept are passes, and
-// links between passes of one cutting run that stay low (at most a step-over above their ends). Rapids, approaches
-// and high links remove nothing.
+// The tool is swept along the straight segments between positions. Positions are smoothed over a stated window inside one
+// section, because the rounding of an encoder is not cut. Every segment within a tool radius of a cell counts; segments that
+// cannot be the lowest are excluded for a block of cells at a time (swept_pieces.h). Passes are swept, and links between passes
+// of one cutting run that stay low (at most a step-over above their ends). Rapids, approaches and high links remove no
+// material.
 //
 // Three axes, tool axis +z. A height map has one height over each place.
 
@@ -23,7 +23,7 @@
 
 namespace clsurf {
 
-/// Where the tool touches, and where its tip then is [mm].
+/// Where the tool touches the part, and the tip of the tool at that time [mm].
 struct ContactPoint {
     Vec3 at = Vec3::Zero(), tip = Vec3::Zero();
 };
@@ -32,10 +32,9 @@ class PassesBetween;
 
 class AsMachinedSurface {
 public:
-    /// `surface`, gathered from the positions of `surface_role`, and `signals` (its normals) tell the
-    /// contact, `swept` is what the tool did: commanded, feedback or actual positions of the same
-    /// points. All must outlive it.
-    /// `pieces` (surface/smoothing_segments.h) bound the smoothing. `marks`: of `surface`; its form is without them.
+    /// `surface`: the CL surface, gathered from the positions of `surface_role`; with its `signals` (normals) it gives the
+    /// contact points. `swept`: the path of the tool, as commanded, feedback or actual positions of the same points. `pieces`
+    /// (surface/smoothing_segments.h) bound the smoothing. `marks`: of `surface`; the form excludes them. All must outlive it.
     /// O(points), parallel.
     AsMachinedSurface(const ClSurface& surface, const Signals& signals, Role surface_role, const Trajectory& swept,
                       const std::vector<PointRange>& pieces, const CuttingTool& tool, ProgrammedMarks marks = {});
@@ -44,9 +43,9 @@ public:
     [[nodiscard]] double usual_cell() const {
         return surface_.step_over > 0 ? surface_.step_over / 20 : tool_.radius / 50;
     }
-    /// Of the contact points [mm], and a step-over more.
+    /// The box around the contact points [mm], extended by a step-over.
     [[nodiscard]] Box2 bounds() const { return bounds_; }
-    /// From which heights are counted [mm].
+    /// The level from which heights are counted [mm].
     [[nodiscard]] double level() const { return surface_.positions.origin.z(); }
     [[nodiscard]] const ClSurface& surface() const { return surface_; }
     [[nodiscard]] const CuttingTool& tool() const { return tool_; }
@@ -54,49 +53,49 @@ public:
     [[nodiscard]] bool knows_program() const { return surface_role_ == Role::commanded; }
     /// Whether the tool is swept along the surface's own positions.
     [[nodiscard]] bool follows_surface() const { return swept_.role == surface_role_; }
-    /// The window of the smoothing, for reports.
+    /// The window of the smoothing, as text for reports.
     [[nodiscard]] const std::string& note() const { return note_; }
 
-    /// The height map, a row of tiles at a time, from the first row on. Memory: a row of tiles (256 rows
-    /// of cells) and a list of sections of the path. The same for any number of threads.
+    /// Computes the height map, a row of tiles at a time, from the first row on. Memory: a row of tiles (256 rows of cells) and
+    /// a list of sections of the path. The same for any number of threads.
     void map(const MapFrame& frame, const TakeRows& take) const;
 
-    /// The marks of the surface's own positions that are no form.
+    /// The marks of the surface's own positions, which are not part of the form.
     [[nodiscard]] const ProgrammedMarks& marks() const { return marks_; }
 
-    /// The surface's own positions without their marks, with more passes between each two adjacent ones, for maps inside a
-    /// region. `many`: of which there will be several, so that what they have in common is kept.
+    /// The surface's own positions without their marks, with additional passes between adjacent ones, for maps inside a region.
+    /// `many`: there will be several maps, so common results are cached.
     [[nodiscard]] PassesBetween passes_between(const Box2& region, bool many = false) const;
-    /// The same map of what a tool would leave that follows them: no scallops, no errors of the machine.
+    /// The same map for a tool that follows these passes: without scallops and without errors of the machine.
     void map_programmed(const PassesBetween& between, const MapFrame& frame, const TakeRows& take) const;
 
-    /// Contact points of the surface's own positions without their marks [mm] inside a box, about every `spacing` mm
-    /// along the passes, where the normal is known. O(points / 64) and the points near the box.
+    /// Contact points [mm] of the surface's own positions without their marks, inside a box, about every `spacing` mm along the
+    /// passes, where the normal is known. O(points / 64) and the points near the box.
     [[nodiscard]] std::vector<ContactPoint> contacts(const Box2& box, double spacing) const;
-    /// Of one point; not finite where its normal is not known.
+    /// The contact point of one point; not finite if its normal is not known.
     [[nodiscard]] Vec3 contact(PointIndex point) const;
-    /// Runs of points, one after the other, among which are all whose tips lie in a box or `reach` mm beside it.
+    /// Ranges of consecutive points that include all points with a tip in a box or within `reach` mm of it.
     [[nodiscard]] std::vector<PointRange> points_near(const Box2& box, double reach) const;
 
 private:
-    /// Some consecutive points, swept to the one after the last where there is one.
+    /// Some consecutive points, swept up to the point after the last, if there is one.
     struct Section {
         PointIndex first = 0, last = 0;
         std::size_t piece = 0;
         bool goes_on = false;            ///< to point last + 1
         Eigen::AlignedBox2f tips, cuts;  ///< [mm] relative to the origin: tips, contacts
     };
-    /// Adds the pieces of a section that is swept, in the axes of a frame from a corner [mm] and level().
+    /// Adds the pieces of a swept section, in the axes of a frame: from its corner [mm] and from level().
     using Gather = std::function<void(const Section&, const FrameAxes&, SweptPieces&)>;
 
     void cut_sections();
     void measure_sections();
-    /// Where the sections of a group may lie, before they are measured.
+    /// A box around the sections of a group, before they are measured exactly.
     [[nodiscard]] Eigen::AlignedBox2f rough_box(std::size_t first, std::size_t last) const;
     void measure(Section& section) const;
     void read_swept(const Section& section, std::vector<double> (&axes)[3]) const;
     void add_swept(const Section& section, const FrameAxes& axes, SweptPieces& pieces) const;
-    /// `beside` [mm]: how far from the tips of a section what is gathered of it may lie.
+    /// `beside` [mm]: largest distance of the gathered pieces of a section from its tips.
     void map_tiles(const MapFrame& frame, const Gather& gather, double beside, const TakeRows& take) const;
     [[nodiscard]] std::vector<std::size_t> sections_in(const Box2& box, double reach) const;
 
@@ -106,16 +105,16 @@ private:
     const Trajectory& swept_;
     CuttingTool tool_;
     ProgrammedMarks marks_;
-    std::vector<PointRange> pieces_;  ///< those that are swept
+    std::vector<PointRange> pieces_;  ///< that are swept
     mutable std::vector<Section> sections_;
-    BlockFillPointer measured_;  ///< of a surface that is read in parts: sections are measured when they are asked for
+    BlockFillPointer measured_;  ///< of a surface that is read in parts: sections are measured when they are requested
     Differentiator smoother_;
     bool smoothed_ = false;
     Box2 bounds_;
     std::string note_;
 };
 
-/// The contact point [mm] of a tool that stands upright, at a point of the surface; not finite where its normal is not known.
+/// The contact point [mm] of an upright tool at a point of the surface; not finite if its normal is not known.
 [[nodiscard]] Vec3 contact_at(const ClSurface& surface, const Signals& signals, const CuttingTool& tool,
                               PointIndex point);
 

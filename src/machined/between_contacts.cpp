@@ -6,7 +6,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double farthest = 2.2;  ///< tool radii between contact points of one place of the tool and the next
+constexpr double farthest = 2.2;  ///< tool radii between contact points, along the path or across
 
 /// Contact points of a point and of its neighbour, seen from above [mm].
 struct ContactPair {

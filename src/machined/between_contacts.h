@@ -1,6 +1,6 @@
 #pragma once
-// Between contacts: the part of the plane that lies between the contact points of adjacent passes. There the tool leaves
-// the part; beyond the outermost contact points stands its flank.
+// Between contacts: the region of the plane between the contact points of adjacent passes. There the tool leaves the surface of
+// the part; beyond the outermost contact points there is only the shape of its flank.
 
 #include <functional>
 
@@ -8,9 +8,9 @@
 
 namespace clsurf {
 
-/// f(place) for places [mm] between the contact points of adjacent passes, no farther apart than `spacing`, about a
-/// region. In a valley that is tighter than the tool the contact points lie far apart, and what lies between them counts.
-/// O(area of it / spacing² + points near the region).
+/// Calls f(place) for places [mm] between the contact points of adjacent passes around a region, no farther apart than
+/// `spacing`. In a valley that is tighter than the tool, contact points are far apart, and the region between them is included.
+/// O(its area / spacing² + points near the region).
 void for_each_between_contacts(const AsMachinedSurface& as_machined, const Box2& region, double spacing,
                                const std::function<void(const Vec2& place)>& f);
 

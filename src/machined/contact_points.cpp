@@ -11,15 +11,15 @@
 namespace clsurf {
 namespace {
 
-constexpr double carried_along = 3;        ///< step-overs along the path that a normal may come from
-constexpr PointIndex longest_walk = 4096;  ///< points: the tool may stand still
-constexpr double straight = 0.35;          ///< [rad] between directions across that are carried on
-constexpr double rounding = 1e-6;          ///< [mm] of positions that have no grid
-constexpr double level_steps = 1.5;        ///< quanta per step-over that rounding tilts a level surface by
-constexpr double least_square = 0.1;       ///< sine between a normal and the feed that it can be made square to
+constexpr double carried_along = 3;        ///< step-overs along the path, over which a normal may be carried
+constexpr PointIndex longest_walk = 4096;  ///< points: the tool may rest
+constexpr double straight = 0.35;          ///< [rad] between directions across, for an extrapolation
+constexpr double rounding = 1e-6;          ///< [mm] of positions without a grid
+constexpr double level_steps = 1.5;        ///< quanta per step-over by which rounding tilts a level surface
+constexpr double least_square = 0.1;       ///< sine between a normal and the feed, to make it perpendicular
 constexpr int most_iterations = 12;        ///< of a normal under a tool that turns
-constexpr double near_end = 0.5;           ///< shorter than that against the other side: half a chord
-constexpr double settled = 1e-5;           ///< change of a normal that ends them
+constexpr double near_end = 0.5;           ///< of the other half of the chord: a shorter half is at an end of the pass
+constexpr double settled = 1e-5;           ///< change of a normal that ends the iterations
 
 double finest_quantum(const Trajectory& path) {
     double finest = 0;
@@ -86,7 +86,7 @@ const Pass* ContactPoints::pass_of(PointIndex point) const {
     return any_has(surface_.passes, point) ? &*range_at(surface_.passes, point) : nullptr;
 }
 
-/// The first point that lies `distance` [mm] along the path from another, < 0 before it, or the last one within a range.
+/// The first point `distance` [mm] along the path from another (< 0: before it), or the last one within a range.
 PointIndex ContactPoints::walk(PointIndex point, PointRange within, double distance) const {
     const Positions& p = surface_.positions;
     const PointIndex step = distance < 0 ? -1 : 1;
@@ -107,7 +107,7 @@ std::optional<ContactPoints::Direction> ContactPoints::across_at(PointIndex poin
     const PathLocation right = beside(surface_, here, feed, Side::right);
     if (!left.exists() && !right.exists()) return std::nullopt;
     if (left.exists() && right.exists()) return Direction{right, left, {}, {}};
-    // Every second pass of a zigzag may lie a little off: steps of two passes do not see that.
+    // Every second pass of a zigzag may be slightly displaced: steps over two passes are not affected.
     const PathLocation first = left.exists() ? left : right;
     const PathLocation second = beyond(surface_, here, first, feed);
     if (!second.exists()) return Direction{first, here, {}, {}};
@@ -121,7 +121,7 @@ ContactPoints::Frame ContactPoints::make_frame(PointIndex point, PointRange pass
     PointIndex last = walk(point, pass, half_chord_);
     const auto apart = [&](PointIndex a, PointIndex b) { return static_cast<double>((p[b] - p[a]).norm()); };
     Frame frame{{{first, 0}, {last, 0}, {}, {}}, {}};
-    // At an end of the pass there is a chord on one side only: the next one says how it goes on.
+    // At an end of the pass there is a chord on one side only; the next chord is used to extrapolate.
     if (apart(first, point) < near_end * apart(point, last)) {
         first = point;
         frame.along = {{point, 0}, {last, 0}, {last, 0}, {walk(last, pass, half_chord_), 0}};
@@ -133,7 +133,7 @@ ContactPoints::Frame ContactPoints::make_frame(PointIndex point, PointRange pass
     if (!(chord.squaredNorm() > 0)) return frame;
     for (const PointIndex i : {point, first, last}) {
         if (const std::optional<Direction> across = across_at(i, chord)) frame.across.push_back(*across);
-        // The others lie on one side of an end.
+        // At an end, the other places are on one side of the point.
         if ((first == point || last == point) && !frame.across.empty()) break;
     }
     return frame;
@@ -146,7 +146,7 @@ Vec3 ContactPoints::axis_at(const PathLocation& at) const {
     return (axis + static_cast<double>(at.fraction) * (axes_->at(at.point + 1) - axis)).normalized();
 }
 
-/// The point of the tool whose surface has a normal of its own there (head of the file) [mm], from the positions' origin.
+/// The point of the tool whose surface has the given normal (head of the header) [mm], from the positions' origin.
 Vec3 ContactPoints::tool_point(const PathLocation& at, const Vec3& normal) const {
     const Vec3 tip = position_at(surface_.positions, at).cast<double>();
     if (!axes_) return tip;
@@ -192,14 +192,14 @@ Vec3 ContactPoints::normal_by_neighbours(PointIndex point, PointRange pass) cons
     return normal;
 }
 
-/// Of links, and of points without a pass beside them.
+/// For links, and for points without an adjacent pass.
 Vec3 ContactPoints::normal_from_along(PointIndex point, PointRange piece) const {
     const Positions& p = surface_.positions;
     const Eigen::Vector3f chord = p[walk(point, piece, half_chord_)] - p[walk(point, piece, -half_chord_)];
     const Vec3 feed = chord.cast<double>().normalized();
     if (!feed.allFinite()) return no_normal();
     Vec3 sum = Vec3::Zero();
-    if (surface_.step_over <= 0) sum = axis_at({point, 0});  // a single pass: upright but for its slope
+    if (surface_.step_over <= 0) sum = axis_at({point, 0});  // a single pass: upright, except for its slope
     for (const PointIndex step : {PointIndex{-1}, PointIndex{1}}) {
         if (surface_.step_over <= 0) break;
         double gone = 0;

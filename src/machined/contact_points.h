@@ -1,18 +1,17 @@
 #pragma once
-// ContactPoints: where the tool touches the part, point by point of a log.
+// ContactPoints: where the tool touches the part, for each point of a log.
 //
-// The normal of the part at the contact comes from the tool's own positions: along the pass from a chord of
-// one step-over, across it from both passes beside it at three places of the chord. At an outermost pass it is
-// carried on from the passes on its one side. Where a point has no pass beside it, the normal is that of the
-// nearest points on its path which have one, made square to its own feed.
+// The normal of the part at the contact is computed from the tool's own positions. Along the pass it uses a chord of one
+// step-over; across it, both adjacent passes at three places of the chord. At an outermost pass the direction across is
+// extrapolated from the passes on the other side. A point without an adjacent pass gets the normal of the nearest points on its
+// path that have one, made perpendicular to its own feed.
 //
-// With an upright tool the surface of its tips has the part's normal. A tool that turns has not: a point of the
-// torus that touches moves as the rigid tool does. With n the part's normal, a the tool axis, c the corner
-// radius, R the tool's and e the direction of n across a, the points tip + c a − (R − c) e of all positions, for
-// one n, form a surface whose normal there is n. That is solved by iteration. For a ball (R = c) this is the
-// surface of its centres.
+// With an upright tool, the surface of its tips has the normal of the part. With a tool that turns it has not, because a point
+// of the torus in contact moves as the rigid tool does. Let n be the normal of the part, a the tool axis, c the corner radius,
+// R the radius of the tool and e the direction of n across a. For fixed n, the points tip + c a − (R − c) e of all positions
+// form a surface whose normal there is n. This is solved by iteration. For a ball (R = c) this is the surface of its centres.
 //
-// Nothing is kept per point: each contact point is computed when it is asked for.
+// Nothing is stored per point: each contact point is computed when it is requested.
 
 #include <optional>
 #include <vector>
@@ -25,36 +24,36 @@
 
 namespace clsurf {
 
-/// Whether a link between passes stays where it can cut: no more than a step-over above its ends. O(its points).
+/// Whether a link between passes stays low enough to cut: no more than a step-over above its ends. O(its points).
 [[nodiscard]] bool stays_low(const Positions& positions, const Pass& link, double step_over);
 
 class ContactPoints {
 public:
-    /// `surface` is that of the positions of `path`, and must outlive it. `axes`: nullopt: the tool axis is +z all the
-    /// time. O(passes).
+    /// `surface`: that of the positions of `path`; it must outlive this. `axes`: nullopt: the tool axis is always +z.
+    /// O(passes).
     ContactPoints(const ClSurface& surface, const Trajectory& path, std::optional<ToolAxes> axes,
                   const CuttingTool& tool);
 
-    /// [mm] in the workpiece; nothing where the tool does not finish, or no pass is near that tells the normal.
-    /// O(points in two step-overs of the pass).
+    /// The contact point in the workpiece [mm]; nullopt if the tool does not finish there, or no pass is near enough for a
+    /// normal. O(points in two step-overs of the pass).
     [[nodiscard]] std::optional<Vec3> at(PointIndex point) const;
     /// Unit normal of the part where the tool touches it; NaN: not known.
     [[nodiscard]] Vec3 normal(PointIndex point) const;
     [[nodiscard]] const CuttingTool& tool() const { return tool_; }
-    /// nullopt: +z all the time.
+    /// nullopt: always +z.
     [[nodiscard]] const std::optional<ToolAxes>& axes() const { return axes_; }
-    /// No contact point lies farther from its tip [mm].
+    /// Largest distance of a contact point from its tip [mm].
     [[nodiscard]] double reach() const;
     /// Whether a piece of the path can have contact points.
     [[nodiscard]] bool cuts(const Pass& piece) const;
 
 private:
-    /// Places on the path that tell a direction at one place.
+    /// Places on the path that give a direction at one place.
     struct Direction {
-        PathLocation from, to;         ///< it is from → to …
-        PathLocation before, towards;  ///< … carried on from before → towards, where that exists: at a border
+        PathLocation from, to;         ///< the direction is from → to …
+        PathLocation before, towards;  ///< … extrapolated from before → towards, if that exists: at a border
     };
-    /// What tells the normal at a point: the directions along its pass and across it.
+    /// The directions along the pass of a point and across it, which give its normal.
     struct Frame {
         Direction along;
         std::vector<Direction> across;
@@ -73,7 +72,7 @@ private:
     std::optional<ToolAxes> axes_;
     CuttingTool tool_;
     double half_chord_ = 0;  ///< [mm]
-    double level_ = 0;       ///< sine of the tilt below which a flat bottom lies on the part with all of itself
+    double level_ = 0;       ///< sine of the tilt below which the whole flat bottom touches the part
 };
 
 }  // namespace clsurf

@@ -17,7 +17,7 @@ struct Least {
     double at = 0, value = 0;
 };
 
-/// The least value of a convex function on 0 … 1, which may be infinite on a part of it, by golden sections.
+/// The least value of a convex function on 0 … 1, by golden-section search. It may be infinite on part of the interval.
 template <typename F>
 Least least_of(F&& f) {
     const Least first{0, f(0)}, last{1, f(1)};
@@ -44,7 +44,7 @@ Least least_of(F&& f) {
 
 }  // namespace
 
-/// The point of the disc of corner centres that is nearest to `off`, both from the tip.
+/// The centre on the disc of corner centres that is nearest to `off`, both relative to the tip.
 Vec3 CutterBody::centre_near(const Vec3& off, const Vec3& axis) const {
     const Vec3 aside = off - off.dot(axis) * axis;
     const double rho = aside.norm(), most = tool_.radius - tool_.corner;

@@ -17,24 +17,23 @@
 namespace clsurf {
 namespace {
 
-constexpr double fit_reach = 3;          ///< step-overs round a knot that its fit looks at
-constexpr double least_spread = 0.0003;  ///< [mm] what rounding to a micrometre leaves
-constexpr double least_scatter = 0.001;  ///< [mm] beside which contact points of a smooth form do not lie …
+constexpr double fit_reach = 3;          ///< step-overs around a knot, within which places are fitted
+constexpr double least_spread = 0.0003;  ///< [mm] left by rounding to a micrometre
+constexpr double least_scatter = 0.001;  ///< [mm] tolerance for contact points of a smooth form …
 constexpr double knots_differ = 2;       ///< most_scatter_ between fits of neighbouring knots at one place
-constexpr double scallop_share = 0.5;    ///< … or this share of a scallop
-constexpr double most_off = 1.0 / 3;     ///< share of the contact points' weight that may lie off a smooth form
-constexpr double crease_off = 0.06;      ///< share off a smooth form from which on a crease is looked for …
-constexpr double fold_off = 0.2;         ///< … and that may lie off its two sheets
-constexpr double fold_gain = 0.5;        ///< of the share off the smooth form: two sheets that leave more are no better
+constexpr double scallop_share = 0.5;    ///< … or this share of a scallop, if larger
+constexpr double most_off = 1.0 / 3;     ///< share of the contact points' weight that may be off a smooth form
+constexpr double crease_off = 0.06;      ///< share off a smooth form from which on a crease is searched …
+constexpr double fold_off = 0.2;         ///< … and that may be off its two sheets
+constexpr double fold_gain = 0.5;        ///< of the share off the smooth form: two sheets must leave less
 
-constexpr double sharp_edge =
-    2;  ///< step-overs that the corner radius of a tool has at least whose scallops are flat arcs
-constexpr double covered = 1.1;    ///< step-overs from the nearest contact point in space; beyond, no pass has made
-                                   ///< the surface: half a step-over is usual, one stands where a pass is missing
-constexpr std::int64_t finer = 4;  ///< squares of a knot's, a side, that lie inside or not
+constexpr double sharp_edge = 2;   ///< step-overs: least corner radius of a tool whose scallops are flat arcs
+constexpr double covered = 1.1;    ///< step-overs from the nearest contact point in space; beyond, no pass has cut
+                                   ///< the surface: half is usual, and one if a pass is missing
+constexpr std::int64_t finer = 4;  ///< squares per side of a knot's square, each inside or outside
 constexpr double sample_spacing = 0.25;  ///< step-overs along the passes
-constexpr double on_line = 0.15;         ///< step-overs: so near to a contact point is inside
-constexpr double opposite = -0.9;        ///< cosine to the nearest contact point of what lies on the other side: along
+constexpr double on_line = 0.15;         ///< step-overs: places this near to a contact point are inside
+constexpr double opposite = -0.9;        ///< cosine to the nearest contact point, for points on the other side: along
                                          ///< an outermost pass, points to both sides of the nearest one do not count
 
 }  // namespace
@@ -46,7 +45,7 @@ struct Form::Samples {
     std::int64_t columns = 0, rows = 0;
     double level = 0;
 
-    /// f(point) for those in the squares about a square.
+    /// Calls f(point) for the points in the squares around a square.
     template <typename F>
     void for_each_near(std::int64_t column, std::int64_t row, std::int64_t squares, F&& f) const {
         const auto always = [&](const Vec3& p) {
@@ -57,7 +56,7 @@ struct Form::Samples {
             (void)for_each_in_run(r, column - squares, column + squares, always);
     }
 
-    /// f(point) for those in the squares that lie `ring` squares from a square, until it returns false. Whether it never did.
+    /// Calls f(point) for the points in squares `ring` squares away, until it returns false. Returns whether it never did.
     template <typename F>
     [[nodiscard]] bool for_each_in_ring(std::int64_t column, std::int64_t row, std::int64_t ring, F&& f) const {
         for (std::int64_t r = row - ring; r <= row + ring; ++r) {
@@ -82,7 +81,7 @@ private:
     }
 };
 
-/// A sheet over a place [mm], its slopes per pitch.
+/// Height of a sheet at a place [mm], and its slopes per pitch.
 struct Form::Height {
     double z = 0, zx = 0, zy = 0;
     bool reached = true;  ///< by the tool
@@ -96,7 +95,7 @@ struct Form::Workspace {
 Form::Form(const AsMachinedSurface& as_machined, const Box2& region, Of of, double tolerance)
     : level_(as_machined.level()),
       pitch_(as_machined.surface().step_over > 0 ? as_machined.surface().step_over : 10 * as_machined.usual_cell()),
-      // Of the flat formula, with the tool's radius: a measure of size.
+      // By the formula for flat surfaces with the tool's radius, as an estimate.
       most_scatter_(
           std::max({least_scatter, tolerance, scallop_share * pitch_ * pitch_ / (8 * as_machined.tool().radius)})),
       reach_(as_machined.tool().radius) {
@@ -107,7 +106,7 @@ Form::Form(const AsMachinedSurface& as_machined, const Box2& region, Of of, doub
     knots_.resize(static_cast<std::size_t>(columns_ * rows_));
     inside_.resize(static_cast<std::size_t>(finer * columns_ * finer * rows_));
     if (of != Of::contacts && as_machined.knows_program()) program_ = &as_machined;
-    // Between passes of an edge that is nearly sharp, more passes leave cusps that are not much lower.
+    // With a nearly sharp edge, additional passes leave cusps that are not much lower.
     if (of == Of::program && as_machined.tool().corner < sharp_edge * pitch_) of = Of::contacts_and_program;
     if (of != Of::program || program_ == nullptr) fit_contacts(as_machined, region);
     if (program_ == nullptr) return;
@@ -116,7 +115,7 @@ Form::Form(const AsMachinedSurface& as_machined, const Box2& region, Of of, doub
     } else {
         find_contradictions();
     }
-    // Slopes are taken from places beside the region, too.
+    // Slopes need places next to the region too.
     const Vec2 room = Vec2::Constant(2 * as_machined.usual_cell());
     between_ = std::make_unique<PassesBetween>(
         as_machined.passes_between(Box2(region.min() - room, region.max() + room), of == Of::program));
@@ -137,7 +136,7 @@ void Form::fit_contacts(const AsMachinedSurface& as_machined, const Box2& region
     samples.level = level_;
     samples.columns = columns_;
     samples.rows = rows_;
-    // Points beside the grid belong to its outermost squares.
+    // Points outside the grid belong to its outermost squares.
     const auto square = [&](const Vec3& p) {
         const auto c = std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor((p.x() - corner_.x()) / pitch_)),
                                                 0, columns_ - 1);
@@ -222,7 +221,7 @@ bool Form::is_inside(const Vec2& place, const Samples& samples) const {
             offset = off;
             return true;
         });
-        // What lies in the rings beyond is farther away than that.
+        // Points in the rings beyond are farther away.
         if (std::sqrt(nearest) <= static_cast<double>(ring) * pitch_) break;
     }
     if (!(nearest <= covered * covered * pitch_ * pitch_)) return false;
@@ -241,7 +240,7 @@ void Form::fit(std::int64_t column, std::int64_t row, const Samples& samples, Wo
     Knot& knot = knots_[static_cast<std::size_t>(row * columns_ + column)];
     const Vec2 here = corner_ + pitch_ * Vec2(static_cast<double>(column), static_cast<double>(row));
     constexpr std::int64_t squares =
-        static_cast<std::int64_t>(fit_reach) + 1;  // a knot stands at the corner of four of them
+        static_cast<std::int64_t>(fit_reach) + 1;  // a knot is at the corner of four of them
     double nearest = std::numeric_limits<double>::infinity();
     double base = 0;
     samples.for_each_near(column, row, squares, [&](const Vec3& p) {
@@ -286,7 +285,7 @@ void Form::fit(std::int64_t column, std::int64_t row, const Samples& samples, Wo
 }
 
 bool Form::is_below_tool(const Height& one, const Height& two) const {
-    // The sheets as planes: a ball that rests on both touches them where these meet the planes' normals through its centre.
+    // With planes as sheets: a ball on both touches them where they meet their normals through its centre.
     const Vec2 slope_one = Vec2(one.zx, one.zy) / pitch_;
     const Vec2 slope_two = Vec2(two.zx, two.zy) / pitch_;
     const double bend = (slope_one - slope_two).norm();
@@ -337,7 +336,7 @@ Form::Facet Form::at(const Vec2& place) const {
     return blend(place, {missing<double>, missing<double>, missing<double>, true});
 }
 
-/// The knots' sheets about a place, and the programmed surface where knots have none.
+/// Blends the sheets of the knots around a place, with the programmed surface for knots that have none.
 Form::Facet Form::blend(const Vec2& place, const Facet& programmed) const {
     Facet sum;
     if (!is_among_contacts(place)) {
@@ -382,7 +381,7 @@ Form::Facet Form::blend(const Vec2& place, const Facet& programmed) const {
     return sum;
 }
 
-/// Whether a place of a box lies about a knot without a smooth form, or in a valley.
+/// Whether a place of a box is near a knot without a smooth form, or in a valley.
 bool Form::has_gaps(const Box2& box) const {
     const auto clamped = [&](const Vec2& place, std::int64_t more) {
         const Vec2 at = (place - corner_) / pitch_;
@@ -400,10 +399,10 @@ bool Form::has_gaps(const Box2& box) const {
     return false;
 }
 
-/// Rows of a frame, with some more on every side, from which slopes are taken.
+/// Rows of a frame with a margin on every side, from which slopes are computed.
 struct Form::Programmed {
     std::int64_t columns = 0, margin = 0, row_margin = 0;
-    double reach = 0;  ///< [mm] from a place to those that its slopes are taken from
+    double reach = 0;  ///< [mm] from a place to those that its slopes are computed from
     Vec2 along = Vec2::UnitX(), across = Vec2::UnitY();
     std::vector<float> z;
 
@@ -427,13 +426,13 @@ struct Form::Programmed {
 Form::Programmed Form::programmed_rows(const MapFrame& frame, std::int64_t first_row, std::int64_t rows) const {
     Programmed p;
     if (program_ == nullptr || !has_gaps(frame.bounds(0, first_row, frame.columns, rows))) return p;
-    // Heights are floats, whose rounding would be the slope between places that lie nearer to each other.
+    // Heights are floats, so slopes between places that are too close would consist of rounding errors.
     p.margin = std::max<std::int64_t>(1, std::lround(program_->usual_cell() / frame.cell));
     p.reach = static_cast<double>(p.margin) * frame.cell;
     p.columns = frame.columns + 2 * p.margin;
     p.along = frame.along;
     p.across = frame.across();
-    // Of a single row, those beside it are farther apart than its cells.
+    // If there is a single row, the rows next to it are farther apart than its cells.
     const bool single = rows == 1;
     p.row_margin = single ? 1 : p.margin;
     const double pitch = single ? p.reach : frame.pitch_of_rows();

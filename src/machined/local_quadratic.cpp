@@ -12,14 +12,14 @@
 namespace clsurf {
 namespace {
 
-constexpr int fits = 3;             ///< the first and two with weights by what it left
-constexpr double outlying = 4.685;  ///< robust standard deviations at which a place weighs nothing
-constexpr double stiffness = 1e-6;  ///< of what the places do not tell
+constexpr int fits = 3;             ///< the first, and two with weights from its residuals
+constexpr double outlying = 4.685;  ///< robust standard deviations, from which on the weight of a place is 0
+constexpr double stiffness = 1e-6;  ///< regularisation of terms that the places do not determine
 
 constexpr std::size_t width = 4;
 typedef double Four [[gnu::vector_size(width * sizeof(double))]];
 
-/// Sums of w xⁱ yʲ, by i + j and then by j, and of w z xⁱ yʲ.
+/// Sums of w xⁱ yʲ, ordered by i + j and then by j, and of w z xⁱ yʲ.
 struct Moments {
     std::array<double, 15> of_places{};
     std::array<double, 6> of_heights{};

@@ -19,16 +19,16 @@ public:
     void add(double x, double y, double z, double weight);
     [[nodiscard]] std::size_t size() const { return z_.size(); }
 
-    /// Fits three times: places that the fit before leaves `outlying` robust standard deviations away weigh
-    /// nothing. `least_spread`: of that deviation, in units of z. What the places do not tell (the slope
-    /// across, if they lie on one line) is near zero. At least six places. O(places).
+    /// Fits three times; places that are `outlying` robust standard deviations off the previous fit have weight 0.
+    /// `least_spread`: lower limit of that deviation, in units of z. Terms that the places do not determine (the slope across,
+    /// if they are on one line) are near zero. At least six places. O(places).
     [[nodiscard]] Terms fit(double least_spread);
 
 private:
     [[nodiscard]] Terms solve();
     void weigh(const Terms& a, double least_spread);
 
-    /// Columns, for loops over four places at a time.
+    /// One vector per member, for loops over four places at a time.
     std::vector<double> x_, y_, z_, weight_, robust_, left_, sorted_;
 };
 

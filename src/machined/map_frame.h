@@ -1,5 +1,5 @@
 #pragma once
-// MapFrame: a height map's place in the plane.
+// MapFrame: the position of a height map in the plane.
 
 #include <cstdint>
 #include <functional>
@@ -11,28 +11,28 @@ namespace clsurf {
 
 using Box2 = Eigen::AlignedBox2d;
 
-/// A height map's place in the plane: rows run along `along`, any unit vector, so that a map of one row
-/// is a profile in any direction.
+/// The position of a height map in the plane. Rows have the direction `along`, any unit vector, so that a map of one row is a
+/// profile in any direction.
 struct MapFrame {
     Vec2 corner = Vec2::Zero();  ///< [mm] middle of the first cell
     Vec2 along = Vec2::UnitX();
     double cell = 0;  ///< [mm]
     std::int64_t columns = 0, rows = 0;
-    double row_pitch = 0;  ///< [mm] from row to row; 0: as from cell to cell
+    double row_pitch = 0;  ///< [mm] from row to row; 0: the same as from cell to cell
 
     [[nodiscard]] Vec2 across() const { return {-along.y(), along.x()}; }
     [[nodiscard]] double pitch_of_rows() const { return row_pitch > 0 ? row_pitch : cell; }
     [[nodiscard]] Vec2 at(double column, double row) const {
         return corner + cell * column * along + pitch_of_rows() * row * across();
     }
-    /// Of cells [column, column + columns) × [row, row + rows).
+    /// The box of cells [column, column + columns) × [row, row + rows).
     [[nodiscard]] Box2 bounds(std::int64_t column, std::int64_t row, std::int64_t wide, std::int64_t high) const;
 };
 
 /// The axis-parallel frame of a box.
 [[nodiscard]] MapFrame frame_of(const Box2& box, double cell);
 
-/// Turns places into the axes of a part of a frame: along its rows, along its columns, and up from a level [mm].
+/// Transforms places into axes of a frame: along its rows, along its columns, and up from a level [mm].
 struct FrameAxes {
     Vec2 corner, along;
     double level = 0;
@@ -43,8 +43,8 @@ struct FrameAxes {
     }
 };
 
-/// rows [first_row, first_row + z.size() / columns): heights [mm] over AsMachinedSurface::level(), row by
-/// row; NaN: nothing was cut there.
+/// Receives rows [first_row, first_row + z.size() / columns): heights [mm] above AsMachinedSurface::level(), row by row; NaN:
+/// nothing was cut there.
 using TakeRows = std::function<void(std::int64_t first_row, std::span<float> z)>;
 
 }  // namespace clsurf

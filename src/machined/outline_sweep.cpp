@@ -11,8 +11,8 @@ namespace {
 constexpr std::size_t width = CellGroup::width;
 using Lanes = std::array<float, width>;
 
-/// Lowers each cell to height(along, across), its place seen from the middle of the piece; what is not reached is infinite.
-/// Returns the highest over its plane. Inlined into what is vectorised.
+/// Lowers each cell to height(along, across), with its position relative to the middle of the piece; infinite: not reached.
+/// Returns the largest height above its plane. Inlined into vectorised code.
 template <typename Height>
 [[gnu::always_inline]] inline float lower_each(CellGroup& cells, const SweptPiece& piece, const Height& height) {
     const auto size = static_cast<std::size_t>(cells.size);
@@ -34,7 +34,7 @@ template <typename Height>
     return *std::max_element(highest.begin(), highest.end());
 }
 
-/// The outline's height is convex in the way, so that the lowest place on the infinite line, held back to the piece's
+/// The outline's height is convex along the motion. Therefore the lowest place on the infinite line, clamped to the piece's
 /// ends, is the lowest on the piece.
 CLSURF_VECTORISED float lower_ball(CellGroup& cells, const SweptPiece& piece, float radius) {
     const float tip = piece.z, half = piece.half, slope = piece.slope;
@@ -43,7 +43,7 @@ CLSURF_VECTORISED float lower_ball(CellGroup& cells, const SweptPiece& piece, fl
     return lower_each(
         cells, piece, [=](float along, float across) __attribute__((always_inline)) {
             const float rest = squared - across * across;
-            // The tangent of slope touches the circle of this section `radius · sine` from its middle.
+            // The tangent with this slope touches the circle of this section at `radius · sine` from its middle.
             float at = along - std::sqrt(rest > 0 ? rest : 0.0F) * sine;
             at = at < -half ? -half : at;
             at = at > half ? half : at;
@@ -54,7 +54,7 @@ CLSURF_VECTORISED float lower_ball(CellGroup& cells, const SweptPiece& piece, fl
         });
 }
 
-/// Where the rise along the piece is zero, between the ends by two steps of the secant and a last one.
+/// Finds where the rise along the piece is zero, between its ends, by two secant steps and a last one.
 CLSURF_VECTORISED float lower_bull(CellGroup& cells, const SweptPiece& piece, float radius, float corner) {
     const float tip = piece.z, half = piece.half, slope = piece.slope;
     const float bottom = radius - corner;
@@ -73,14 +73,13 @@ CLSURF_VECTORISED float lower_bull(CellGroup& cells, const SweptPiece& piece, fl
             };
             float low = -half, high = half;
             float rise_low = rise_at(low), rise_high = rise_at(high);
-            // Where it rises from the first end or falls to the last, that is it.
+            // If it rises from the first end or falls to the last, that end is the lowest place.
             const bool is_first = rise_low >= 0, is_last = !is_first & (rise_high <= 0);
             high = is_first ? low : high;
             low = is_last ? half : low;
             const auto secant = [&] {
                 const float at = low - rise_low * (high - low) / (rise_high - rise_low);
-                const float from =
-                    at >= low ? at : low;  // also where the rises are equal, and their quotient no number
+                const float from = at >= low ? at : low;  // also if the rises are equal, so that their quotient is NaN
                 return from <= high ? from : high;
             };
             for (int step = 0; step < 2; ++step) {
@@ -102,7 +101,7 @@ CLSURF_VECTORISED float lower_bull(CellGroup& cells, const SweptPiece& piece, fl
         });
 }
 
-/// Its bottom stands over a cell all the way between two places: the lower one counts.
+/// The flat bottom is over a cell all the way between two places; the lower one counts.
 CLSURF_VECTORISED float lower_flat(CellGroup& cells, const SweptPiece& piece, float radius) {
     const float tip = piece.z, half = piece.half, slope = piece.slope;
     return lower_each(

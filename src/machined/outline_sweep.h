@@ -1,5 +1,5 @@
 #pragma once
-// Outline: the height that a tool leaves over a few cells when it moves straight along one piece of its path.
+// Outline: the height that a tool leaves over a few cells when it moves along one straight piece of its path.
 
 #include <array>
 #include <cstddef>
@@ -12,21 +12,21 @@ namespace clsurf {
 /// The height over a cell that no tool has reached.
 inline constexpr float not_reached = std::numeric_limits<float>::infinity();
 
-/// A straight piece of the path of a tool's tip [mm], from its middle.
+/// A straight piece of the path of a tool tip [mm], described from its middle.
 struct SweptPiece {
     float x, y, z;  ///< of the middle
     float dx, dy;   ///< unit vector in the plane
-    float half;     ///< half of its length in the plane; 0: the tool stands or plunges
+    float half;     ///< half of its length in the plane; 0: the tool rests or plunges
     float slope;    ///< rise per length
 };
 
-/// Cells near each other, in any order. Their number is filled up to a multiple of `width` with cells that do not count.
+/// Cells near each other, in any order. They are padded to a multiple of `width` with cells that do not count.
 struct CellGroup {
     static constexpr int most = 64, width = 8;
 
-    alignas(32) std::array<float, most> x, y;   ///< [mm] where they lie
-    alignas(32) std::array<float, most> plane;  ///< [mm] a height over each …
-    alignas(32) std::array<float, most> z;      ///< [mm] … and how high the part stands; −∞: does not count
+    alignas(32) std::array<float, most> x, y;   ///< [mm] positions
+    alignas(32) std::array<float, most> plane;  ///< [mm] height of a plane at each …
+    alignas(32) std::array<float, most> z;      ///< [mm] … and height of the part; −∞: does not count
     int size = 0;
 
     void add(float at_x, float at_y, float plane_there, float height) {
@@ -52,12 +52,12 @@ public:
 
     [[nodiscard]] float radius() const { return radius_; }
     [[nodiscard]] float corner() const { return corner_; }
-    /// Radius of what is flat.
+    /// Radius of the flat bottom.
     [[nodiscard]] float bottom() const { return bottom_; }
-    /// Over the tip, `rho` from the axis.
+    /// Height above the tip, `rho` from the axis.
     [[nodiscard]] float height(float rho) const;
-    /// Lowers the cells to what the tool leaves of them along a piece. How high the highest of them then stands over its
-    /// plane.
+    /// Lowers the cells to the height that the tool leaves along a piece. Returns the largest height of a cell above its plane
+    /// after that.
     float lower(CellGroup& cells, const SweptPiece& piece) const;
 
 private:

@@ -15,15 +15,16 @@ namespace clsurf {
 namespace {
 
 constexpr std::size_t patches_wanted = 24;
-constexpr double profile_cutoffs = 6;  ///< five sampling lengths and half of one at both ends
+constexpr double profile_cutoffs = 6;  ///< five sampling lengths, and half of one at both ends
 constexpr double patch_cutoffs = 2;    ///< side of a patch
-constexpr int lines_across = 6;        ///< through a patch
-constexpr int rows_in_two = 41;        ///< of a patch's cells, in two step-overs
+constexpr int lines_across = 6;        ///< profiles through a patch
+constexpr int rows_in_two = 41;        ///< rows of a patch's cells in two step-overs
 
-/// The part of the surface that is evaluated about a place. It is two cut-offs long along the feed. Across the feed it has the
-/// even number of step-overs that comes nearest to that length; even, because passes to and fro may differ. A window that ended
-/// inside a scallop would have a mean and an Sa that depend on where it ends. Its weights rise over one step-over at each edge:
-/// that is the mean over all windows that begin within one step-over, and an error of the step-over changes it in second order only.
+/// The section of the surface that is evaluated around a place. It is two cut-offs long along the feed. Across the feed it has
+/// the even number of step-overs nearest to that length; even, because forward and backward passes may differ. If a window
+/// ended inside a scallop, its mean and Sa would depend on where it ends. Its weights therefore rise over one step-over at each
+/// edge. This is the mean over all windows that begin within one step-over, and an error of the step-over changes it in second
+/// order only.
 class PatchWindow {
 public:
     PatchWindow(const RoughnessPlace& place, double cutoff)
@@ -36,13 +37,13 @@ public:
     [[nodiscard]] const Vec2& across() const { return across_; }
     /// [mm] along the feed.
     [[nodiscard]] double length() const { return 2 * half_along_; }
-    /// [mm] across the feed, where the weight is a half at least.
+    /// [mm] across the feed, where the weight is at least a half.
     [[nodiscard]] double width() const { return 2 * half_across_; }
     [[nodiscard]] Vec2 at(double along, double across) const {
         return middle_ + along * Vec2(across_.y(), -across_.x()) + across * across_;
     }
-    /// Rows along the feed, as far as the weights reach, with the place in the middle. Two step-overs have 41 rows. The rows of
-    /// one scallop therefore lie between those of the next one, and do not all miss the tips of the cusps.
+    /// Rows along the feed, as far as the weights reach, with the place in the middle. Two step-overs have 41 rows, so that the
+    /// rows of one scallop are offset against those of the next one, and do not all miss the tips of the cusps.
     [[nodiscard]] MapFrame frame() const {
         const double cell = 2 * apart_ / rows_in_two;
         const auto columns = static_cast<std::int64_t>(half_along_ / cell);
@@ -50,9 +51,9 @@ public:
         return {at(-static_cast<double>(columns) * cell, -static_cast<double>(rows) * cell),
                 Vec2(across_.y(), -across_.x()), cell, 2 * columns + 1, 2 * rows + 1};
     }
-    /// [mm] from contact to contact of adjacent passes, seen from above.
+    /// [mm] between contacts of adjacent passes, seen from above.
     [[nodiscard]] double apart() const { return apart_; }
-    /// Of the cells of such a frame: 0 where passes end before they have cut them.
+    /// Weights of the cells of such a frame: 0 if passes end before they have cut them.
     [[nodiscard]] std::vector<float> weights(const MapFrame& frame, const BeforePassEnds& before_ends) const {
         std::vector<float> result;
         for (std::int64_t row = 0; row < frame.rows; ++row) {
@@ -74,7 +75,7 @@ public:
     }
 
 private:
-    /// [mm] to where the weight is 0.
+    /// [mm] to the edge of the window, where the weight is 0.
     [[nodiscard]] double reach_across() const { return half_across_ + 0.5 * apart_; }
 
     Vec2 middle_, across_;
@@ -82,8 +83,8 @@ private:
     double half_along_, half_across_;  ///< [mm]
 };
 
-/// From the lowest place to the highest [mm] on lines across the feed through a window: cells of a map meet the tip of a
-/// cusp within a tenth of its height only, and these within a hundredth.
+/// Height from the lowest place to the highest [mm] on lines across the feed through a window. Cells of a map resolve the tip
+/// of a cusp only within a tenth of its height, and these lines within a hundredth.
 double height_across(const AsMachinedSurface& as_machined, const Form& form, const BeforePassEnds& before_ends,
                      const PatchWindow& window, double step) {
     double low = std::numeric_limits<double>::infinity();
@@ -103,7 +104,7 @@ double height_across(const AsMachinedSurface& as_machined, const Form& form, con
     return high > low ? high - low : 0;
 }
 
-/// Of a window, from its heights.
+/// Area parameters of a window, from its heights.
 AreaHeights window_heights(const AsMachinedSurface& as_machined, const Form& form, const BeforePassEnds& before_ends,
                            const PatchWindow& window, double step, std::span<const float> weights,
                            std::vector<float> cells, double& unknown) {
@@ -119,7 +120,7 @@ AreaHeights window_heights(const AsMachinedSurface& as_machined, const Form& for
     return heights;
 }
 
-/// Evenly spaced points of cut passes that can be compared, by number.
+/// Evenly spaced points of cut passes that can be compared.
 std::vector<PointIndex> spread_points(const Signals& signals) {
     std::vector<PointIndex> found;
     const auto count = signals.size();
@@ -129,7 +130,7 @@ std::vector<PointIndex> spread_points(const Signals& signals) {
             static_cast<PointIndex>(static_cast<double>(count) * static_cast<double>(k) / patches_wanted);
         const auto end =
             static_cast<PointIndex>(static_cast<double>(count) * static_cast<double>(k + 1) / patches_wanted);
-        // From the middle of its share on, so that patches do not crowd where a pass begins.
+        // The search starts in the middle of each share, so that patches do not accumulate at the beginning of a pass.
         const PointIndex middle = (first + end) / 2;
         PointIndex i = middle;
         while (i < end && !inner(i)) ++i;
@@ -143,7 +144,7 @@ std::vector<PointIndex> spread_points(const Signals& signals) {
     return found;
 }
 
-/// The slope of a height map at a cell, as 1 / cosine; of differences between the cells beside it.
+/// The slope of a height map at a cell, as 1 / cosine, from differences of adjacent cells.
 double steepness(std::span<const float> z, const MapFrame& frame, std::int64_t column, std::int64_t row) {
     const auto at = [&](std::int64_t c, std::int64_t r) {
         return static_cast<double>(z[static_cast<std::size_t>(r * frame.columns + c)]);
@@ -168,7 +169,7 @@ std::vector<float> heights_of(const AsMachinedSurface& as_machined, const MapFra
     return cells;
 }
 
-/// Heights over `measured_from` [mm] less those of a map of `commanded`, along the normal of the latter.
+/// Heights above `measured_from` [mm] minus those of a map of `commanded`, along the normal of the latter.
 std::vector<float> take_off(const AsMachinedSurface& commanded, double measured_from, std::vector<float> heights,
                             const MapFrame& frame) {
     const std::vector<float> from = heights_of(commanded, frame);
@@ -187,9 +188,9 @@ bool surrounds(const AsMachinedSurface& as_machined, const Vec2& at) {
     return Form(as_machined, Box2(at - margin, at + margin), Form::Of::contacts).is_among_contacts(at);
 }
 
-/// Whether the measured run cut about a place wherever that run did whose places these are: a log may hold a part of the program,
-/// and beyond its outermost pass stands the tool's flank. Looks at places along the profile, and at the corners of the
-/// window.
+/// Whether the measured run cut around a place as far as the run that defines the places. A log may contain only a section of
+/// the program, and beyond its outermost pass there is only the flank of the tool. Tests places along the profile, and the
+/// corners of the window.
 bool covers(const RoughnessSurfaces& surfaces, const RoughnessPlace& place, double cutoff) {
     constexpr int parts = 6;  ///< of the profile
     std::vector<Vec2> places;
@@ -231,7 +232,7 @@ RoughPatch measure_patch(const RoughnessSurfaces& surfaces, const RoughnessPlace
     return patch;
 }
 
-/// Means and extremes of the patches.
+/// Computes means and extremes of the patches.
 void sum_up(PartRoughness& result, const std::vector<RoughPatch>& patches) {
     double known_patches = 0, patches_of_machine = 0;
     for (const RoughPatch& patch : patches) {
@@ -258,8 +259,8 @@ void sum_up(PartRoughness& result, const std::vector<RoughPatch>& patches) {
     for (double* sum : {&result.ra, &result.rz, &result.sa, &result.sq}) *sum /= known_patches;
 }
 
-/// Seen from above, to the contacts of the neighbours on both sides [mm]; 0: there are none, or they lie so much nearer or
-/// farther than step-overs do that they are not usual.
+/// Distance, seen from above, to the contacts of the neighbours on both sides [mm]; 0: there are none, or it differs too much
+/// from the step-over.
 double contacts_apart(const AsMachinedSurface& as_machined, PointIndex point, const AcrossFeed& across) {
     const Adjacency& neighbours = as_machined.surface().neighbours;
     double sum = 0;

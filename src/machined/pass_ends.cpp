@@ -8,7 +8,7 @@
 namespace clsurf {
 namespace {
 
-constexpr std::int64_t stride = 3;     ///< of rows and of columns, between cells that the quadratic is fitted to
+constexpr std::int64_t stride = 3;     ///< in rows and columns, between cells that are used for the quadratic
 constexpr double rounded_by = 0.0003;  ///< [mm] scatter of positions that are rounded to a micrometre
 
 }  // namespace
@@ -29,8 +29,8 @@ double cusp_before_contact(const CuttingTool& tool, const Vec2& slope, double ap
 BeforePassEnds::BeforePassEnds(const Form& form, const CuttingTool& tool, double apart, const MapFrame& frame,
                                std::span<const float> heights)
     : form_(&form) {
-    // The contact of a sharp edge jumps near the end of a pass. A wider margin would cut through steps of the surface, and the
-    // measured ones do not rise there.
+    // The contact of a sharp edge jumps near the end of a pass. A wider margin would exclude steps of the surface, and
+    // measurements show no higher cusps there.
     if (tool.corner <= 0) return;
     const Vec2 middle =
         frame.at(0.5 * static_cast<double>(frame.columns - 1), 0.5 * static_cast<double>(frame.rows - 1));
@@ -48,8 +48,8 @@ BeforePassEnds::BeforePassEnds(const Form& form, const CuttingTool& tool, double
     if (quadratic.size() < 6) return;
     const LocalQuadratic::Terms terms = quadratic.fit(rounded_by);
     if (!terms.allFinite()) return;
-    // The greatest distance in the window holds for all of it. A distance that varied would leave out parts of scallops, and
-    // Sa would be wrong.
+    // The largest distance in the window is used for all of it. A varying distance would exclude parts of scallops, and Sa
+    // would be wrong.
     double before = 0;
     for (const double column : {0.0, 0.5, 1.0}) {
         for (const double row : {0.0, 0.5, 1.0}) {

@@ -10,16 +10,16 @@
 namespace clsurf {
 namespace {
 
-constexpr double most_uneven = 3;       ///< times the distance of the two passes; farther ones tell nothing
+constexpr double most_uneven = 3;       ///< times the distance of the two passes; farther passes are not used
 constexpr double most_jump = 4;         ///< times the step along the pass; a longer step leads to another pass
-constexpr float least_between = 0.25F;  ///< of the distance of two passes; a pass this far from both lies between them
-constexpr double jump_fits = 0.15;      ///< of a step-over: how far apart both sides may place a jump of curvature
-constexpr double least_jump = 2e-4;     ///< [mm] second difference: below it a cubic is as good
-constexpr double least_turn = 3e-3;     ///< [mm] between second differences: less may be rounding and uneven heights
+constexpr float least_between = 0.25F;  ///< of the distance of two passes; a pass this far from both is between them
+constexpr double jump_fits = 0.15;   ///< of a step-over, between the positions of a jump of curvature from both sides
+constexpr double least_jump = 2e-4;  ///< [mm] second difference: below it a cubic is as good
+constexpr double least_turn = 3e-3;  ///< [mm] of second differences: smaller changes may be rounding and uneven heights
 constexpr double smoother_side = 0.25;  ///< of the change of second differences in a gap, on a side without a turn
-constexpr double corner_turns = 8;      ///< times the bends next to it: the sides of a valley are nearly straight
+constexpr double corner_turns = 8;      ///< times the adjacent bends: the sides of a valley are nearly straight
 
-/// Passes about the gap between two, by number from the first of these.
+/// Passes around the gap between two passes, numbered from the first of these.
 class Across {
 public:
     void set(int number, const Vec3& at) {
@@ -28,25 +28,25 @@ public:
     }
     [[nodiscard]] bool has(int number) const { return known_[index(number)]; }
     [[nodiscard]] const Vec3& at(int number) const { return at_[index(number)]; }
-    /// The second derivative at a pass, by shares of the gap. Passes need not lie evenly apart.
+    /// The second derivative at a pass, in units of the gap. Passes need not be evenly spaced.
     [[nodiscard]] Vec3 bend(int number) const {
         const Vec3 to = at(number) - at(number - 1), on = at(number + 1) - at(number);
         const double before = to.norm(), after = on.norm();
         return gap_squared() * 2 / (before + after) * (on / after - to / before);
     }
-    /// The same, turned with the path from the pass to the gap, so that it is normal to the chord of the gap as the path's own
-    /// second derivative is there. Where the path turns by 0.2 rad from pass to pass, bends of two passes on one circle differ
-    /// in direction by as much, and a circle beside a line would seem to bend less than it does.
+    /// The same, rotated with the path from the pass to the gap, so that it is normal to the chord of the gap, as the second
+    /// derivative of the path is there. If the path turns by 0.2 rad from pass to pass, the bends of two passes on one circle
+    /// differ by that angle, and a circle next to a line would seem to bend less than it does.
     [[nodiscard]] Vec3 bend_in_gap(int number) const {
         const Vec3 through = (at(number) - at(number - 1)).normalized() + (at(number + 1) - at(number)).normalized();
         const Vec3 from = through.normalized(), to = (at(1) - at(0)).normalized();
         const double cosine = from.dot(to);
         const Vec3 here = bend(number);
-        if (!(cosine > 0)) return here;  // the path doubles back
+        if (!(cosine > 0)) return here;  // the path reverses
         const Vec3 axis = from.cross(to);
         return here + axis.cross(here) + axis.cross(axis.cross(here)) / (1 + cosine);
     }
-    /// How a change of the bend in the gap shows at a pass at its ends: a share of it, over that of passes evenly apart.
+    /// Effect of a change of the bend in the gap on the bend of a pass at its ends, relative to evenly spaced passes.
     [[nodiscard]] double weight_of_gap(int number) const {
         const double gap = std::sqrt(gap_squared());
         return 2 * gap / ((at(number) - at(number - 1)).norm() + (at(number + 1) - at(number)).norm());
@@ -62,8 +62,8 @@ private:
     std::array<bool, 6> known_{};
 };
 
-/// The place `found` on the pass beside `from`, or the one on a pass between both. Near a turn the pass that it leads to is
-/// too near along the path to be a neighbour, and the search finds the pass beyond it.
+/// The place `found` on the pass adjacent to `from`, or the one on a pass between both. Near a turn, the pass that it leads to
+/// is too near along the path to be a neighbour, so the search finds the pass beyond it.
 PathLocation on_adjacent_pass(const ClSurface& surface, const PathLocation& from, const PathLocation& found,
                               const Eigen::Vector3f& feed) {
     if (!found.exists()) return found;
@@ -91,7 +91,7 @@ public:
         if (!before || !after) return;
         if (p.has(-2) && p.has(3)) {
             if (meets_parabolas(p, p.bend_in_gap(-1), p.bend_in_gap(2))) return;
-            // The sides of a corner go on in their own directions.
+            // Bends at a corner are not rotated: its sides continue in their own directions.
             if (turns_corner(p, p.bend(-1), p.bend(2))) return;
         }
         go_on_from_smoother_side(p);
@@ -100,8 +100,8 @@ public:
     [[nodiscard]] Vec3 at(double x) const { return from_ + x * (chord_ - over(1)) + over(x); }
 
 private:
-    /// Parabolas of bends `low` and `high` that meet in the gap, at a share x of it, make those at its ends
-    /// low + (high − low) (1 − x)²/2 and high − (high − low) x²/2, where passes lie evenly apart.
+    /// If passes are evenly spaced, two parabolas with bends `low` and `high` that meet at a fraction x of the gap give its
+    /// ends the bends low + (high − low) (1 − x)²/2 and high − (high − low) x²/2.
     bool meets_parabolas(const Across& p, const Vec3& low, const Vec3& high) {
         const Vec3 jump = high - low;
         const double squared = jump.squaredNorm();
@@ -115,8 +115,8 @@ private:
         return true;
     }
 
-    /// A corner in the gap, where the ways on from both sides meet. Only in a valley: round an edge that is nearly sharp the
-    /// tool rolls.
+    /// A corner in the gap, where the extrapolations of both sides meet. Only in a valley, because the tool rolls around a
+    /// nearly sharp edge.
     bool turns_corner(const Across& p, const Vec3& low, const Vec3& high) {
         const Vec3 to = p.at(0) - p.at(-1), on = p.at(2) - p.at(1);
         const double squared = chord_.squaredNorm();
@@ -136,8 +136,8 @@ private:
         return true;
     }
 
-    /// Where the path across the passes turns or changes its curvature at a pass or in the gap beside this one, the passes
-    /// on the other side alone tell how it goes here: the cubic through both sides would overshoot.
+    /// If the path across the passes turns or changes its curvature at a pass or in the adjacent gap, only the passes on the
+    /// other side are used: a cubic through both sides would overshoot.
     void go_on_from_smoother_side(const Across& p) {
         const Vec3 change = turn_ - bend_;
         const Vec3 before = p.has(-2) ? Vec3(bend_ - p.bend_in_gap(-1)) : change;
@@ -150,7 +150,7 @@ private:
             turn_ = bend_ + before;
     }
 
-    /// What the second differences alone give.
+    /// The contribution of the second differences.
     [[nodiscard]] Vec3 over(double x) const {
         if (meets_ < 0) return 0.5 * x * x * bend_ + x * x * x / 6 * (turn_ - bend_);
         const double beyond = std::max(0.0, x - meets_);
@@ -160,7 +160,7 @@ private:
     Vec3 from_, chord_;
     Vec3 bend_ = Vec3::Zero(), turn_ = Vec3::Zero();
     Vec3 corner_ = Vec3::Zero();  ///< change of direction …
-    double meets_ = -1;           ///< … or of the bend, there; < 0: none
+    double meets_ = -1;           ///< … or of the bend at this fraction; < 0: none
 };
 
 }  // namespace
@@ -189,7 +189,7 @@ void PassesBetween::smooth_into(PointRange points, std::vector<Eigen::Vector3f>&
     std::vector<double> samples, values[3];
     for (PointIndex first = points.first; first <= points.last;) {
         while (piece != pieces_.end() && piece->last < first) ++piece;
-        if (piece == pieces_.end() || piece->first > first) {  // of no piece: as it is
+        if (piece == pieces_.end() || piece->first > first) {  // outside of all pieces: not smoothed
             smoothed.emplace_back(p[first] - marks_.at(first).cast<float>());
             ++first;
             continue;
@@ -247,7 +247,7 @@ bool PassesBetween::between(PointIndex point, Side side, Row& row) const {
     across.set(1, smooth(next));
     const double apart = (across.at(1) - across.at(0)).norm();
     if (!(apart > 0)) return false;
-    // On from pass to pass, as long as they lie about as far apart.
+    // Continues from pass to pass, as long as their distances are similar.
     const auto go_on = [&](PathLocation before, PathLocation from, int number, int direction) {
         for (int k = 0; k < 2 && from.exists(); ++k) {
             const Vec3 at = smooth(from);
@@ -269,14 +269,14 @@ bool PassesBetween::between(PointIndex point, Side side, Row& row) const {
     return std::all_of(row.begin(), row.end(), [](const Vec3& p) { return p.allFinite(); });
 }
 
-/// take(from, to) for the straight motions along passes between those of points and those beside them.
+/// Calls take(from, to) for the straight motions along the passes between those of points and the adjacent ones.
 template <typename Take>
 void PassesBetween::motions_beside(PointRange points, Side side, Take&& take) const {
     std::optional<Row> before;
     PointIndex last = points.first;
     for (PointIndex i = points.first; i <= points.last; ++i) {
         Row row;
-        // The neighbours of points that are taken together lie in a row as well.
+        // If points are merged, so are their neighbours, which are on a line too.
         if (before && i < points.last &&
             (surface_.positions[i] - surface_.positions[last]).norm() < static_cast<float>(least_))
             continue;

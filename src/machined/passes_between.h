@@ -1,9 +1,9 @@
 #pragma once
-// PassesBetween: the programmed surface between its passes. A CL surface is known along the passes only; between two of
-// them, passes are interpolated through both and those beyond on either side: by a cubic, or where the curvature changes
-// from one value to another between the two (a ball that rolls round an edge), by two parabolas that meet there. Where the
-// path across the passes has a corner or an edge at a pass or in the gap beside, those on the other side alone count; where
-// two sides of a valley meet in a corner between the two passes, it goes as far as there. A tool that follows all of these
+// PassesBetween: the programmed surface between its passes. A CL surface is known along the passes only. Between two passes,
+// additional ones are interpolated through both and the next passes on either side: by a cubic, or, if the curvature changes
+// from one value to another between the two (a ball that rolls around an edge), by two parabolas that meet there. If the path
+// across the passes has a corner or an edge at a pass or in the adjacent gap, only the passes on the other side count. If two
+// sides of a valley meet in a corner between the two passes, both are extended to that corner. A tool that follows all passes
 // leaves the programmed surface without its scallops, at creases and in fillets too.
 
 #include <array>
@@ -20,26 +20,26 @@ namespace clsurf {
 
 class PassesBetween {
 public:
-    /// Odd, so that one of them lies over the cusp. Scallops become (seven + 1)² times lower.
+    /// Odd, so that one of them is over the cusp. Scallops become (seven + 1)² times lower.
     static constexpr int count = 7;
 
-    /// `smoother`: of the positions inside one of `pieces`; nullptr: none. `near`: points that will be asked for, in
-    /// order; these are smoothed once. `marks` are taken off the positions. All but `near` must outlive it.
-    /// O(points in `near`).
+    /// `smoother`: for the positions inside one of `pieces`; nullptr: none. `near`: points that will be requested, in order;
+    /// these are smoothed only once. `marks` are subtracted from the positions. All but `near` must outlive it. O(points in
+    /// `near`).
     PassesBetween(const ClSurface& surface, const Signals& signals, const Differentiator* smoother,
                   const std::vector<PointRange>& pieces, std::span<const PointRange> near, const CuttingTool& tool,
                   double cell, const ProgrammedMarks& marks);
 
-    /// The pass itself along points of a piece and, where it goes on, to the next one; and what lies between it and
-    /// later passes beside it. O(points).
+    /// Adds the pass itself along points of a piece, and to the next point if `goes_on`, and the passes between it and later
+    /// adjacent ones. O(points).
     void add(PointRange points, std::size_t piece, bool goes_on, const FrameAxes& axes, SweptPieces& swept) const;
-    /// Computes what add() adds for such points once and for all: for many maps of one place. Not while others add.
-    /// `points` begin behind those that are kept already. Memory: some 400 bytes a point.
+    /// Computes and stores what add() adds for such points, for several maps of one place. Not thread-safe with add(). `points`
+    /// begin after those that are stored already. Memory: some 400 bytes per point.
     void keep(PointRange points, std::size_t piece, bool goes_on);
 
 private:
     using Row = std::array<Vec3, count>;
-    /// Smoothed positions of points one after the other, from the surface's origin.
+    /// Smoothed positions of consecutive points, from the surface's origin.
     struct Run {
         PointIndex first = 0;
         std::vector<Eigen::Vector3f> at;
@@ -48,7 +48,7 @@ private:
     struct Motion {
         Vec3 from, to;
     };
-    /// What is kept of the points from one on.
+    /// Stored motions of the points from one on.
     struct Kept {
         PointIndex first = 0;
         std::vector<Motion> motions;

@@ -15,19 +15,19 @@
 namespace clsurf {
 namespace {
 
-constexpr double beside_places = 0.6;  ///< step-overs in the plane within which levels are told apart
+constexpr double beside_places = 0.6;  ///< step-overs in the plane, within which places belong to one column of levels
 constexpr double level_ends = 2;       ///< step-overs of height between two levels
 constexpr double longest_jump = 0.25;  ///< step-overs: contact points farther apart are not joined …
 constexpr double jump_of_tips = 4;     ///< … unless their tips are a quarter as far apart
-constexpr double near_the_part = 0.5;  ///< step-overs: a place no farther from what the cutters leave is on the part
-constexpr double own_contact = 0.6;    ///< step-overs: a contact point farther away is not what touches the place
-/// Of a contact point's distance against the cutter's own: under a flat bottom that lies on the part all passes
-/// touch, and the nearest is meant.
+constexpr double near_the_part = 0.5;  ///< step-overs: a place this near to the cut surface is on the part
+constexpr double own_contact = 0.6;    ///< step-overs: a contact farther away does not touch the place
+/// Weight of the distance of a contact point relative to that of the cutter. Under a flat bottom all passes touch the place,
+/// and the nearest contact point decides.
 constexpr double by_contact = 0.003;
-constexpr double most_by_contact = 1.5;  ///< step-overs that count of it
+constexpr double most_by_contact = 1.5;  ///< step-overs: upper limit of the distance that counts
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// The point of a piece where something is least.
+/// The point of a piece with the least value.
 struct LeastPoint {
     double value = infinite;
     PointIndex point = -1;
@@ -40,7 +40,7 @@ struct LeastPoint {
     }
 };
 
-/// What is nearest of a piece, of its points alone.
+/// The nearest points of a piece; motions between points are ignored.
 struct NearestTip {
     std::size_t piece = 0;
     LeastPoint tip;     ///< [mm] to the place
@@ -60,7 +60,7 @@ public:
         const std::vector<NearestTip> tips = nearest_tips();
         const double reach = contacts_ != nullptr ? contacts_->reach() : 0;
         std::vector<FoundPlace> found;
-        // Rising distance of tips: no piece can be nearer than its nearest tip less the tool's reach.
+        // By increasing distance of tips: no piece can be nearer than its nearest tip minus the tool's reach.
         for (const NearestTip& tip : tips) {
             if (tip.tip.value - reach > farthest_wanted(found)) break;
             const FoundPlace nearest = nearest_of(tip, reach);
@@ -89,7 +89,7 @@ private:
         return !wanted_.from_above || piece.kind == PassKind::cut;
     }
 
-    /// Beyond this distance [mm] a piece is not needed.
+    /// Distance [mm] beyond which pieces are not needed.
     [[nodiscard]] double farthest_wanted(const std::vector<FoundPlace>& found) const {
         const auto last_of = [&](const std::vector<FoundPlace>& kept) {
             return kept.size() >= wanted_.pieces ? kept[wanted_.pieces - 1].distance : infinite;
@@ -101,7 +101,7 @@ private:
         return std::max(last, std::max(found.front().distance, beside_places * step_over_));
     }
 
-    /// The place is what the upright cutters leave under x, y.
+    /// The place is at the height that the upright cutters leave at x, y.
     [[nodiscard]] std::vector<FoundPlace> run_from_above() const {
         double z = infinite;
         for (const NearestTip& tip : nearest_tips()) {
@@ -122,7 +122,7 @@ private:
 
     [[nodiscard]] PointIndex first_point_of_piece(PointIndex point) const { return range_at(pieces_, point)->first; }
 
-    /// The longer of the two steps beside the point whose cutter is nearest [mm].
+    /// The longer of the two steps next to the point whose cutter is nearest [mm].
     [[nodiscard]] double most_between_points(const NearestTip& tip) const {
         const PointRange range = range_of(tip);
         const Vec3 here = path_.at(tip.cutter.point);
@@ -133,20 +133,20 @@ private:
         return most;
     }
 
-    /// A piece whose cutter touches the place, or all but does.
+    /// A piece whose cutter touches the place, or nearly does.
     struct Touching {
         FoundPlace place;
         double score = infinite;
     };
 
-    /// The better of the point whose cutter is nearest and of the one whose contact is, where that is known.
+    /// The better one of the point with the nearest cutter and the point with the nearest contact, if that is known.
     [[nodiscard]] Touching touching(const CutterTouch& touch, PointRange piece, const FoundPlace* by_contacts) const {
         Touching best;
         const auto look = [&](const CutterTouch& here, const FoundPlace& place) {
             const double score = here.distance + by_contact * std::min(place.distance, most_by_contact * step_over_);
             if (score >= best.score) return;
             best = {place, score};
-            // In a groove the cutter touches more than one place, and no fitted normal tells which.
+            // In a groove the cutter touches more than one place, and no fitted normal selects one.
             if (place.distance > own_contact * step_over_) best.place = place_of(here.point, here.projection);
         };
         FoundPlace mine = place_of(touch.point, contacts_->at(touch.point));
@@ -157,8 +157,8 @@ private:
         return best;
     }
 
-    /// The part is what the cutters leave: a place on it is theirs whose cutter reaches lowest there. `found` are the
-    /// nearest by contact points, which know places off the part as well.
+    /// The part is the surface that the cutters leave, so a place on it belongs to the piece whose cutter is lowest there.
+    /// `found`: the nearest by contact points, which also cover places off the part.
     void put_touching_first(std::vector<NearestTip> tips, std::vector<FoundPlace>& found) const {
         const double spare = by_contact * most_by_contact * step_over_;
         std::sort(tips.begin(), tips.end(),
@@ -171,7 +171,7 @@ private:
             least = std::min(least, touches.back().first.distance);
         }
         if (!(std::abs(least) <= near_the_part * step_over_)) return;
-        // Where the place lies nearer to a contact point than to the part, that contact is meant, though cut away.
+        // If the place is nearer to a contact point than to the part, that contact is meant, although it was cut away.
         if (!found.empty() && found.front().distance <= std::abs(least)) return;
         std::map<PointIndex, FoundPlace> known;  // by the first point of their pieces
         for (const FoundPlace& f : found) known.emplace(first_point_of_piece(f.point), f);
@@ -190,7 +190,7 @@ private:
         found = std::move(all);
     }
 
-    /// Of every piece that is asked, nearest first.
+    /// The nearest tips of all pieces in question, nearest first.
     [[nodiscard]] std::vector<NearestTip> nearest_tips() const {
         const auto blocks = static_cast<std::size_t>((path_.count + block_points - 1) / block_points);
         std::vector<std::vector<NearestTip>> of_block(blocks);
@@ -200,7 +200,7 @@ private:
         std::vector<NearestTip> all;
         for (const std::vector<NearestTip>& block : of_block) {
             for (const NearestTip& tip : block) {
-                // A piece may go on from the block before.
+                // A piece may continue from the block before.
                 if (all.empty() || all.back().piece != tip.piece)
                     all.push_back(tip);
                 else {
@@ -241,7 +241,7 @@ private:
         return tips;
     }
 
-    /// Distance of the cutter, or its height where the place is looked for from above.
+    /// Distance to the cutter, or its height if the place is searched from above.
     [[nodiscard]] double cutter_at(const Vec3& tip, const Vec3& axis) const {
         const Vec3 off = wanted_.at - tip;
         if (!wanted_.from_above) return body_->distance(off, axis);
@@ -293,7 +293,7 @@ private:
         return best;
     }
 
-    /// A place between two contact points belongs to the nearer one of them.
+    /// A place between two contact points belongs to the nearer one.
     template <typename Look>
     void look_between(PointIndex a, const Vec3& from, PointIndex b, const Vec3& to, Look&& look) const {
         Vec3 step = to - from;
@@ -309,7 +309,7 @@ private:
         look(first_is_nearer ? a : b, first_is_nearer ? from : to, (off - share * step).norm());
     }
 
-    /// Leaves the topmost level of what lies under the place, then the others by distance.
+    /// Keeps the topmost level under the place, then the others by distance.
     void keep_topmost(std::vector<FoundPlace>& found) const {
         if (found.empty()) return;
         const double near = std::max(found.front().distance, beside_places * step_over_);

@@ -14,18 +14,18 @@ namespace clsurf {
 namespace {
 
 const double alpha =
-    std::sqrt(std::numbers::ln2 / std::numbers::pi);  ///< half of a wave of the cut-off's length goes through
+    std::sqrt(std::numbers::ln2 / std::numbers::pi);  ///< a wave with the length of the cut-off is halved
 constexpr int most_lengths = 5;
 
 struct CutoffClass {
-    double above = 0;  ///< [mm] step-over
+    double above = 0;  ///< [mm] lower limit of the step-over
     double cutoff = 0;
 };
 constexpr std::array<CutoffClass, 2> wide_cutoffs{{{1.3, 8}, {0.4, 2.5}}};
 constexpr double usual_cutoff = 0.8;  ///< [mm]
 constexpr double scatter = 1.02;      ///< of a step-over that is estimated from positions
 
-/// Adds to every place the values `off` steps before and after it, weighed.
+/// Adds to each place the values `off` steps before and after it, with a weight.
 CLSURF_VECTORISED void add_beside(std::span<const double> z, std::size_t off, double weight,
                                   std::vector<double>& line) {
     const double* const from = z.data();
@@ -35,7 +35,7 @@ CLSURF_VECTORISED void add_beside(std::span<const double> z, std::size_t off, do
     for (std::size_t k = 0; k < count; ++k) to[k] += weight * from[k + off];
 }
 
-/// z(along) at other distances; both increase, and the others lie within the ends of `along`, but for rounding.
+/// z(along) at other distances. Both increase, and the others are within the ends of `along`, except for rounding.
 std::vector<double> interpolated(std::span<const double> z, std::span<const double> along,
                                  std::span<const double> others) {
     std::vector<double> result(others.size());
@@ -48,7 +48,7 @@ std::vector<double> interpolated(std::span<const double> z, std::span<const doub
     return result;
 }
 
-/// As many places in equal steps, the ends included. Domain: two places at least.
+/// The same number of places in equal steps, including both ends. Domain: at least two places.
 std::vector<double> equal_steps(std::span<const double> along) {
     std::vector<double> places(along.size());
     const double step = (along.back() - along.front()) / static_cast<double>(along.size() - 1);
@@ -82,7 +82,7 @@ std::vector<double> gaussian_mean_line(std::span<const double> z, double step, d
         const double x = static_cast<double>(k) * step / (alpha * cutoff);
         weights[k] = std::exp(-std::numbers::pi * x * x);
     }
-    // Weights of the places within some steps on one side.
+    // Sum of the weights of the places within some steps on one side.
     std::vector<double> beside(weights.size());
     for (std::size_t k = 1; k < weights.size(); ++k) beside[k] = beside[k - 1] + weights[k];
     std::vector<double> line(z.begin(), z.end());

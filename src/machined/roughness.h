@@ -8,29 +8,29 @@
 
 namespace clsurf {
 
-/// Of a profile as it is, about its mean. Rz is the height from lowest to highest.
+/// Of an unfiltered profile, about its mean. Rz is the height from lowest to highest.
 struct ProfileHeights {
     double ra = 0, rq = 0, rz = 0;
 };
 /// O(points). Nothing to measure (no points): zeros.
 [[nodiscard]] ProfileHeights profile_heights(std::span<const double> z);
 
-/// The waviness: the mean line of a Gaussian filter that halves waves of length `cutoff`. At the ends
-/// the weights of what is there are scaled up. Domain: step, cutoff > 0. O(points · cutoff / step).
+/// The waviness: the mean line of a Gaussian filter that halves waves of length `cutoff`. At the ends, the weights of the
+/// existing values are scaled up. Domain: step, cutoff > 0. O(points · cutoff / step).
 [[nodiscard]] std::vector<double> gaussian_mean_line(std::span<const double> z, double step, double cutoff);
 
-/// The same of values that lie `along` a line, distances [mm] that increase: equal steps of it are filtered.
+/// The same for values at increasing distances `along` a line [mm]; they are resampled in equal steps.
 [[nodiscard]] std::vector<double> gaussian_mean_line(std::span<const double> z, std::span<const double> along,
                                                      double cutoff);
 
-/// The cut-off [mm] for scallops so far apart: 0.8 mm, for wider ones what ISO 4288 (now ISO 21920-3) gives for such a
-/// spacing of profile elements: 2.5 mm above 0.4 mm, 8 mm above 1.3 mm. A step-over up to 2 % above such a limit counts as
-/// the limit: it is estimated from logged positions, and runs of one program must not get different cut-offs.
+/// The cut-off [mm] for scallops at a given spacing: 0.8 mm, or for wider ones what ISO 4288 (now ISO 21920-3) gives for such a
+/// spacing of profile elements: 2.5 mm above 0.4 mm, 8 mm above 1.3 mm. A step-over up to 2 % above such a limit counts as the
+/// limit: it is estimated from logged positions, and runs of one program must not get different cut-offs.
 [[nodiscard]] double cutoff_for(double step_over);
-/// In words, with the step-overs that have it.
+/// A cut-off in words, with the step-overs for which it is used.
 [[nodiscard]] std::string cutoff_text(double cutoff);
 
-/// Roughness of a profile: what the filter leaves, in the middle of it.
+/// Roughness of a profile: the residual of the filter, in the middle of the profile.
 struct Roughness {
     double ra = 0, rq = 0;
     double rz = 0;      ///< mean over the sampling lengths of the height from lowest to highest
@@ -39,12 +39,10 @@ struct Roughness {
     double cutoff = 0;
 };
 
-/// Evaluates up to five sampling lengths of one cut-off each, in the middle, with half a cut-off left
-/// out at both ends, where the filter does not know enough; of a profile shorter than two cut-offs all
-/// is one sampling length. Domain: z finite.
+/// Evaluates up to five sampling lengths of one cut-off each, in the middle. Half a cut-off is excluded at both ends, where the
+/// filter has too few values. A profile shorter than two cut-offs is one sampling length. Domain: z finite.
 [[nodiscard]] Roughness roughness_of(std::span<const double> z, double step, double cutoff);
-/// The same of values that lie `along` a line, distances [mm] that increase: on an incline they are longer than seen from
-/// above.
+/// The same for values at increasing distances `along` a line [mm], which on an incline are longer than seen from above.
 [[nodiscard]] Roughness roughness_of(std::span<const double> z, std::span<const double> along, double cutoff);
 
 /// Of an area about its mean; NaN: no value. Sz is the height from lowest to highest.
@@ -52,7 +50,7 @@ struct AreaHeights {
     double sa = 0, sq = 0, sz = 0;
     std::size_t cells = 0;  ///< that have a value
 };
-/// `weights`, 0 … 1, one for each value; empty: all are 1. Sz counts those that weigh a half at least. O(cells).
+/// `weights`, 0 … 1, one for each value; empty: all are 1. Sz counts values with a weight of at least a half. O(cells).
 [[nodiscard]] AreaHeights area_heights(std::span<const float> z, std::span<const float> weights = {});
 
 }  // namespace clsurf

@@ -30,7 +30,7 @@ double scallop_height(double ball, double step_over, double rho) {
 
 double cusp_height(double ball, double chord, double turn) {
     if (!std::isfinite(turn) || !(chord > 0) || chord >= 2 * ball) return missing<double>;
-    const double curvature = turn / (chord * chord);  // > 0: normals spread, the surface is convex
+    const double curvature = turn / (chord * chord);  // > 0: normals diverge, the surface is convex
     if (curvature == 0) return scallop_height(ball, chord, std::numeric_limits<double>::infinity());
     if (curvature * ball <= -1) return missing<double>;  // the ball would gouge: no closed form
     const double sine = 0.5 * chord * std::abs(curvature);

@@ -16,7 +16,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double least_cosine = 0.866;  ///< 30°: passes that turn more do not go on, nor do they lie side by side
+constexpr double least_cosine = 0.866;  ///< 30°: passes that turn by more neither continue nor are adjacent
 constexpr double shortest_piece = 2;    ///< step-overs
 
 /// Whether the path has a corner between two steps.
@@ -24,11 +24,11 @@ bool turns(const Vec3& before, const Vec3& after) {
     return before.dot(after) < least_cosine * before.norm() * after.norm();
 }
 
-/// What the path is like at a point. Not finite: not known.
+/// Local geometry of the path at a point. Not finite: not known.
 struct Place {
     Vec3 feed = Vec3::Constant(missing<double>);
     Vec3 normal = Vec3::Constant(missing<double>);
-    double length = 0;  ///< [mm] of the path that the point stands for
+    double length = 0;  ///< [mm] of the path that the point represents
     /// The point whose neighbours are used. At the end of a pass the adjacent pass may already have ended, and the neighbour
     /// found there belongs to another pass.
     PointIndex inner = 0;
@@ -61,7 +61,7 @@ public:
 private:
     [[nodiscard]] Vec3 tip(PointIndex i) const { return surface_.positions.absolute(i); }
 
-    /// Between the corners of a pass. Short ones lead from one pass to the next and are left out.
+    /// The pieces between the corners of a pass. Short ones are links between passes and are excluded.
     [[nodiscard]] std::vector<PointRange> pieces_of(const Pass& pass) const {
         std::vector<PointRange> pieces;
         PointIndex first = pass.first;
@@ -83,7 +83,7 @@ private:
         return pieces;
     }
 
-    /// Without a step-over at both ends. `piece` is longer than two.
+    /// Excludes a step-over at both ends. Domain: `piece` is longer than two.
     [[nodiscard]] PointRange without_ends(PointRange piece) const {
         const auto steps = [&](PointIndex from, PointIndex step) {
             double length = 0;
@@ -120,7 +120,7 @@ private:
     std::vector<Place> places_;
 };
 
-/// What stands beside a point: cusps, and a share of the gaps to passes that are too far away.
+/// Uncut material next to a point: cusps, and a share of the gaps to passes that are too far away.
 struct Beside {
     double height = missing<double>;
     double gap = 0;  ///< [mm] half of the widths of both gaps
@@ -142,7 +142,8 @@ Beside beside(const ClSurface& surface, const PlacesOfPath& places, double ball,
         const double height = cusp_height(ball, apart.norm(), turn);
         if (std::isfinite(height) && !(result.height >= height)) result.height = height;
     }
-    if (result.gap > 0) result.height = ball;  // the limit of cusps where passes hardly meet; what stands is higher
+    if (result.gap > 0)
+        result.height = ball;  // the limit of cusps of passes that just meet; the actual height is greater
     return result;
 }
 

@@ -13,14 +13,14 @@
 namespace clsurf {
 namespace {
 
-constexpr int side = 4;              ///< cells of a block that is not divided any further
-constexpr std::size_t few = 8;       ///< pieces that are not worth a division either
-constexpr double kept_share = 0.9;   ///< of pieces: a division that leaves more is of no use
+constexpr int side = 4;              ///< cells of a block that is not divided further
+constexpr std::size_t few = 8;       ///< pieces that are not worth a division
+constexpr double kept_share = 0.9;   ///< of pieces: a division that keeps more is useless
 constexpr float gentle = 0.04F;      ///< of the corner radius squared: a steeper outline has no useful tangent plane
 constexpr float rounding = 2e-6F;    ///< [mm] of heights
 constexpr double corner_share = 4;   ///< pieces of a bull-nose tool to its corner radius
-constexpr double longest_cells = 8;  ///< cells to a piece, or more where the tool is large beside them
-constexpr double standing = 1e-6;    ///< [mm] in the plane
+constexpr double longest_cells = 8;  ///< cells per piece, or more if the tool is large compared with the cells
+constexpr double standing = 1e-6;    ///< [mm] in the plane, below which a motion is vertical
 
 struct Block {
     int column, row, columns, rows;
@@ -38,12 +38,12 @@ struct Extent {
     [[nodiscard]] float diagonal() const { return std::sqrt(half_x * half_x + half_y * half_y); }
 };
 
-/// A plane through nothing in the middle of a block, by its slopes.
+/// The slopes of a plane through the origin in the middle of a block.
 struct Plane {
     float slope_x = 0, slope_y = 0;
 };
 
-/// Pieces, a column for each member.
+/// Pieces as one column per member.
 class PieceColumns {
 public:
     explicit PieceColumns(const std::vector<SweptPiece>& pieces = {}) {
@@ -63,7 +63,7 @@ public:
     [[nodiscard]] SweptPiece operator[](std::size_t k) const {
         return {x[k], y[k], z[k], dx[k], dy[k], half[k], slope[k]};
     }
-    /// Those of others that have these numbers, in place of its own.
+    /// Replaces the pieces by those of `others` with these numbers.
     void take(const PieceColumns& others, const std::vector<std::uint32_t>& numbers) {
         const auto to = columns();
         const auto from = others.columns();
@@ -84,9 +84,9 @@ private:
     }
 };
 
-/// What each piece is over the middle of a block: height and slopes of the tool in the middle of the piece, infinite and
-/// level where the outline there is too steep; and how low the tool can be there all along the piece, or anywhere in the
-/// block where it is too steep; infinite: it reaches no cell.
+/// Each piece over the middle of a block. `height`, `slope_x`, `slope_y`: of the tool in the middle of the piece, infinite and
+/// 0 if the outline is too steep there. `low`: how low the tool can be there along the whole piece, or, if it is too steep,
+/// anywhere in the block; infinite: it reaches no cell.
 struct Reach {
     std::vector<float> height, slope_x, slope_y, low;
 
@@ -110,7 +110,7 @@ CLSURF_VECTORISED void measure(const PieceColumns& p, const Outline& tool, const
     float* const low = reach.low.data();
     const float radius = tool.radius(), corner = tool.corner(), bottom = tool.bottom(), at_x = e.x, at_y = e.y;
     const float squared = corner * corner, diagonal = e.diagonal();
-    // The columns do not overlap, and they are too many for the compiler to ask.
+    // The columns do not overlap, and there are too many for the compiler to check at run time.
 #pragma GCC ivdep
     for (std::size_t k = 0; k < count; ++k) {
         const float off_x = at_x - x[k];
@@ -130,7 +130,7 @@ CLSURF_VECTORISED void measure(const PieceColumns& p, const Outline& tool, const
         slope_y[k] = rise_y;
         height[k] = usable ? over : not_reached;
         const float tangent = over - std::abs(slope[k] - rise_x * dx[k] - rise_y * dy[k]) * half[k];
-        // Where it is steep, by how near the axis comes to the block.
+        // If the outline is steep: by the least distance of the axis from the block.
         const float apart = rho - diagonal - half[k];
         const float nearest = apart > 0 ? apart : 0.0F;
         const float past = nearest - bottom > 0 ? nearest - bottom : 0.0F;
@@ -141,7 +141,7 @@ CLSURF_VECTORISED void measure(const PieceColumns& p, const Outline& tool, const
     }
 }
 
-/// From how low a piece can be over the middle of a block to how low it can be anywhere in the block, over a plane.
+/// Changes `low` from the middle of a block to the whole block, relative to a plane.
 CLSURF_VECTORISED void lean(Reach& reach, const Extent& e, const Plane& plane) {
     const std::size_t count = reach.low.size();
     const float* const slope_x = reach.slope_x.data();
@@ -163,7 +163,7 @@ void find_low(const std::vector<float>& low, float top, std::vector<std::uint32_
     found.resize(count);
 }
 
-/// The number of the least value, of the first of them.
+/// The index of the least value; the first one of several.
 CLSURF_VECTORISED std::size_t least_of(const std::vector<float>& values) {
     constexpr std::size_t lanes = 16;
     std::array<float, lanes> least;
@@ -186,7 +186,7 @@ public:
     void run(const PieceColumns& pieces) { lower(pieces, {0, 0, cells_.columns, cells_.rows}, 0); }
 
 private:
-    /// What a depth of the division works with.
+    /// Work space of one depth of the division.
     struct Level {
         Reach reach;
         std::vector<std::uint32_t> found;
@@ -208,7 +208,7 @@ private:
         lean(reach, extent, plane);
         find_low(reach.low, top + rounding, level.found);
         const int cells = block.columns * block.rows;
-        // Nor is a block divided whose division leaves nearly all pieces to each part: a flat bottom covers them alike.
+        // A division is also useless if each part keeps nearly all pieces: a flat bottom covers all parts alike.
         const bool is_divided = level.found.size() > few && static_cast<double>(level.found.size()) <=
                                                                 kept_share * static_cast<double>(pieces.size());
         if (cells <= side * side || (cells <= CellGroup::most && !is_divided)) {
@@ -217,7 +217,7 @@ private:
             return scatter(block);
         }
         level.kept.take(pieces, level.found);
-        // The longer side, or both: blocks stay about square.
+        // Divides the longer side, or both, so that blocks stay about square.
         const Block& b = block;
         const int left = b.columns > 1 && 2 * b.columns > b.rows ? half_of(b.columns) : b.columns;
         const int low = b.rows > 1 && 2 * b.rows > b.columns ? half_of(b.rows) : b.rows;
@@ -228,11 +228,11 @@ private:
             lower(level.kept, part, depth + 1);
     }
 
-    /// Sides of whole blocks, as long as there are two.
+    /// Multiples of whole blocks, as long as there are two.
     static int half_of(int cells) { return cells > side ? (cells / side + 1) / 2 * side : (cells + 1) / 2; }
 
-    /// How high the tool in the middle of a piece stands over the plane at the block's corners: since its outline is
-    /// convex, nowhere in the block does it stand higher.
+    /// The largest height of the tool in the middle of a piece above the plane at the corners of the block. The outline is
+    /// convex, so it is nowhere higher in the block.
     [[nodiscard]] float highest_at_corners(const SweptPiece& p, const Extent& e, const Plane& plane) const {
         float most = -not_reached;
         for (const float x : {-e.half_x, e.half_x}) {
@@ -271,13 +271,13 @@ private:
     void lower_group(const PieceColumns& pieces, const Level& level, std::size_t lowest) {
         const Reach& reach = level.reach;
         float top = reach.height[lowest] < not_reached ? tool_.lower(group_, pieces[lowest]) : not_reached;
-        // The lowest in the middle first: after a few of them, most of the others are too high. Those as high as the
-        // cells already are do not count: under a flat bottom there are thousands.
+        // The lowest pieces in the middle first: after a few of them, most of the others are too high. Pieces as high as the
+        // cells already are do not count; under a flat bottom there are thousands.
         order_.clear();
         for (const std::uint32_t k : level.found) {
             if (k != lowest && reach.low[k] < top) order_.emplace_back(reach.height[k], k);
         }
-        // A few at a time: they lower the cells so far that hardly any of the others has to be sorted.
+        // A few at a time: they lower the cells so far that hardly any of the others must be sorted.
         while (!order_.empty()) {
             const std::size_t count = std::min(order_.size(), few);
             std::partial_sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(count), order_.end());
@@ -293,7 +293,7 @@ private:
 
     Outline tool_;
     CellBlock cells_;
-    std::deque<Level> levels_;  // whose addresses stay
+    std::deque<Level> levels_;  // keeps its addresses
     CellGroup group_;
     std::vector<std::pair<float, std::uint32_t>> order_;
 };

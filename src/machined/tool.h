@@ -1,5 +1,5 @@
 #pragma once
-// Tool: the outline of the cutting edge, as far as the as-machined surface needs it.
+// Tool: the outline of the cutting edge, as far as it is needed for the as-machined surface.
 
 #include <cstdint>
 #include <optional>
@@ -20,10 +20,10 @@ struct CuttingTool {
 
 /// "ball:D", "bull:D,R", "flat:D" [mm]. Throws UsageError.
 [[nodiscard]] CuttingTool parse_tool(std::string_view text);
-/// The tool that a row of a tool table describes: its remark has a word as parse_tool() reads it ("ball:6"),
-/// or one of the words "ball", "ballnose", "flat", "endmill" beside a diameter [mm]. Nothing: it tells no shape.
+/// The tool of a row of a tool table. Its remark contains a word that parse_tool() reads ("ball:6"), or one of the words
+/// "ball", "ballnose", "flat", "endmill" with a diameter [mm]. nullopt: the shape is not given.
 [[nodiscard]] std::optional<CuttingTool> tool_of_remark(std::string_view remark, double diameter);
-/// The same back, "ball:6".
+/// The inverse of parse_tool(): "ball:6".
 [[nodiscard]] std::string to_text(const CuttingTool& tool);
 
 }  // namespace clsurf

@@ -11,14 +11,14 @@
 namespace clsurf {
 namespace {
 
-constexpr double tips_aside = 12;           ///< tips that are looked at from a contact point to the tool's radius
-constexpr double cut_away = 0.02;           ///< [mm] by which a contact point lies inside the tool elsewhere
+constexpr double tips_aside = 12;  ///< squares from a contact point to the tool's radius, each with one tested tip
+constexpr double cut_away = 0.02;  ///< [mm] inside the tool elsewhere, from which on a contact point is cut away
 constexpr double distance_rounding = 1e-9;  ///< [mm] of distances
 
-/// Squares of the plane, with the lowest tip in each and the contact points in each.
+/// A grid of squares, with the lowest tip and the contact points in each.
 class SquareGrid {
 public:
-    /// Of contact points whose tips lie no farther than `radius` from them, at least `least` mm a square.
+    /// For contact points no farther than `radius` from their tips; squares of at least `least` mm.
     SquareGrid(const std::vector<ContactPoint>& found, const Box2& region, double radius, double least)
         : square_(std::max(least, radius / tips_aside)), radius_(radius) {
         Box2 all = region;
@@ -32,7 +32,7 @@ public:
             Vec3& lowest = lowest_[square_of(contact.tip)];
             if (contact.tip.z() < lowest.z()) lowest = contact.tip;
         }
-        // Those beside the region are a group behind the last square.
+        // Those outside the region are in a group after the last square.
         places_ = group_numbers(found.size(), squares + 1, [&](std::size_t k) {
             return region.contains(found[k].at.head<2>()) ? square_of(found[k].at) : squares;
         });
@@ -44,7 +44,7 @@ public:
         return places_.of(static_cast<std::size_t>(square));
     }
 
-    /// f(tip) for the lowest tips of the squares within the tool's radius of a box.
+    /// Calls f(tip) for the lowest tips of the squares within the tool's radius of a box.
     template <typename F>
     void for_each_tip_near(const Box2& box, F&& f) const {
         const std::int64_t last_row = std::min(rows_ - 1, row_of(box.max().y() + radius_));
@@ -73,7 +73,7 @@ private:
     Grouping places_;           ///< by square
 };
 
-/// Where some places, all near each other, lie.
+/// Extent of some places that are near each other.
 struct Extent {
     Box2 box;
     double highest = -std::numeric_limits<double>::infinity();
@@ -83,7 +83,7 @@ struct Extent {
 
 std::vector<Vec3> ungouged_contacts(const AsMachinedSurface& as_machined, const Box2& region, double spacing) {
     const CuttingTool& tool = as_machined.tool();
-    // A contact point lies within a radius of its tip, and is cut away by tips within a radius of it.
+    // A contact point is within a radius of its tip, and can be cut away by tips within a radius of it.
     const Vec2 room = Vec2::Constant(2 * tool.radius);
     const std::vector<ContactPoint> found =
         as_machined.contacts(Box2(region.min() - room, region.max() + room), spacing);
@@ -100,7 +100,7 @@ std::vector<Vec3> ungouged_contacts(const AsMachinedSurface& as_machined, const 
                 extent.box.extend(Vec2(found[k].at.head<2>()));
                 extent.highest = std::max(extent.highest, found[k].at.z());
             }
-            // What cannot reach the highest place at the shortest distance reaches none of them.
+            // Tips that cannot reach the highest place at the shortest distance reach none of them.
             tips.clear();
             grid.for_each_tip_near(extent.box, [&](const Vec3& tip) {
                 const double room_above = extent.highest - tip.z() - cut_away;

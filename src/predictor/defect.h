@@ -66,7 +66,7 @@ struct Defect {
     double speed_mismatch = 0;      ///< the same relative to the neighbours' speed, ≥ −1
     double acceleration_jump = 0;   ///< [mm/s²] ≥ 0
     std::vector<DefectSection> sections;    ///< on the passes at fault, sorted by their points
-    std::vector<DefectSection> neighbours;  ///< the clean passes beside them
+    std::vector<DefectSection> neighbours;  ///< on the adjacent clean passes
 };
 
 /// The section where a defect is strongest. Of a defect with many sections only the longest are stored; if none of these

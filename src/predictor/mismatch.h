@@ -83,7 +83,7 @@ struct ThresholdRule {
                 ///< less than what a sharp change of the speed by its least threshold shows
     float least_speed = 0.25F;   ///< of the usual speed, and no less than where rounding alone reaches the threshold
     float height = 0.0015F;      ///< least threshold [mm] …
-    float lag_quanta = 1.5F;     ///< … and in steps of the positions: all of a pass may be rounded the same way,
+    float lag_quanta = 1.5F;     ///< … and in steps of the positions: a whole pass may be rounded in one direction,
     float relief_quanta = 2.4F;  ///< and a relief depends on three passes
     float spreads = 6;           ///< above the median; the usual scatter of a part is no defect …
     float acceleration_spreads = 9;  ///< (the length of a noise vector has a longer tail)
