@@ -79,9 +79,9 @@ struct Thresholds {
 struct ThresholdRule {
     float speed = 0.03F;  ///< least threshold, relative to the neighbours' speed
     float acceleration =
-        0.15F;  ///< least threshold, relative to the usual acceleration; neither is less than rounding makes, and this one no
-                ///< less than what a sharp change of the speed by its least threshold shows
-    float least_speed = 0.25F;   ///< of the usual speed, and no less than where rounding alone reaches the threshold
+        0.15F;  ///< least threshold, relative to the usual acceleration; at least the effect of rounding (as for the speed),
+                ///< and at least the acceleration of a sharp change of the speed by its least threshold
+    float least_speed = 0.25F;   ///< of the usual speed; higher if rounding alone reaches the threshold there
     float height = 0.0015F;      ///< least threshold [mm] …
     float lag_quanta = 1.5F;     ///< … and in steps of the positions: a whole pass may be rounded in one direction,
     float relief_quanta = 2.4F;  ///< and a relief depends on three passes
