@@ -10,13 +10,13 @@ namespace clsurf {
 namespace {
 
 constexpr double reach_of_step_over = 0.75;
-constexpr double usual_reach = 0.5;      ///< [mm] where no step-over is known
+constexpr double usual_reach = 0.5;      ///< [mm] if no step-over is known
 constexpr double least_overlap = 0.25;   ///< of the shorter one
-constexpr double sample_spacing = 0.25;  ///< of samples along a run, of the reach
+constexpr double sample_spacing = 0.25;  ///< of the reach, between samples along a run
 
 bool is_height(const Defect& d) { return d.quantity == Quantity::lag || d.quantity == Quantity::relief; }
 
-/// Its runs as places, evenly spaced [mm].
+/// Evenly spaced places along the sections of a defect [mm].
 std::vector<Vec3> samples_of(const Defect& defect, const Positions& positions, double reach) {
     std::vector<Vec3> places;
     for (const DefectSection& section : defect.sections) {
@@ -31,7 +31,7 @@ std::vector<Vec3> samples_of(const Defect& defect, const Positions& positions, d
     return places;
 }
 
-/// Places of many defects in cells as large as the reach.
+/// Places of many defects, in a grid of cells as large as the reach.
 class DefectPlaces {
 public:
     explicit DefectPlaces(double reach) : grid_(reach) {}
@@ -60,7 +60,7 @@ private:
     std::unordered_map<CellGrid::Key, std::vector<Entry>> cells_;
 };
 
-/// How much of a defect lies on each of the other defects, in samples. Each sample counts once for each.
+/// Overlap of a defect with each of the other defects, in samples. Each sample counts once per other defect.
 std::map<std::size_t, std::size_t> overlaps(const std::vector<Vec3>& samples, const DefectPlaces& others) {
     std::map<std::size_t, std::size_t> counts;
     std::vector<std::size_t> here;

@@ -11,9 +11,9 @@ namespace clsurf {
 namespace {
 
 constexpr double compared_places = 20'000;
-constexpr double clear_lead = 2.0;  ///< of the run that drifted over the next one
+constexpr double clear_lead = 2.0;  ///< ratio of the drifted run to the next one
 
-/// The median of those that are known; NaN where fewer than three are.
+/// The median of known values; NaN if there are fewer than three.
 float median_of_known(std::vector<float>& values) {
     std::erase_if(values, [](float v) { return !(v == v); });
     if (values.size() < 3) return std::numeric_limits<float>::quiet_NaN();

@@ -1,6 +1,6 @@
 #pragma once
-// The run that drifted: of three or more runs of a part, the one that departs from the others. At each place
-// the median of all runs is normal, so the reference run itself may be the one that drifted.
+// Drifted run: of three or more runs of a part, the one that deviates from the others. At each place the median of all runs is
+// the reference, so the reference run A may itself have drifted.
 
 #include <optional>
 #include <vector>
@@ -12,19 +12,19 @@ namespace clsurf {
 /// How far a run deviates from the median run.
 struct RunDeparture {
     std::array<double, run_quantities> rms{};   ///< inside units; NaN: not known
-    double score = 0;                           ///< the greatest rms over its threshold
-    RunQuantity quantity = RunQuantity::speed;  ///< that has it
+    double score = 0;                           ///< the largest rms over its threshold
+    RunQuantity quantity = RunQuantity::speed;  ///< the quantity with this score
 };
 
 class DriftFinder {
 public:
-    /// Places evenly spaced along the path of run A.
+    /// Selects places that are evenly spaced along the path of run A.
     explicit DriftFinder(const ClSurface& surface);
 
-    /// Another run that was compared with A. O(places).
+    /// Adds another run that was compared with A. O(places).
     void add(const RunDifferences& differences);
 
-    /// Of A and then of the runs added, in their order. Empty where there are fewer than three.
+    /// Deviations of A, and of the added runs in their order. Empty if there are fewer than three.
     [[nodiscard]] std::vector<RunDeparture> departures() const;
 
 private:
@@ -33,7 +33,7 @@ private:
     std::array<double, run_quantities> threshold_{};
 };
 
-/// The run that departs by more than a threshold, and twice as far as any other; none where no run does.
+/// The run that deviates by more than a threshold, and twice as far as any other; nullopt if there is none.
 [[nodiscard]] std::optional<std::size_t> drifted_run(const std::vector<RunDeparture>& departures);
 
 }  // namespace clsurf

@@ -8,7 +8,7 @@ namespace clsurf {
 namespace {
 
 // Lengths in mm.
-constexpr float spacing = 0.005F;    ///< of knots at least: coarser than the noise of axes that stand
+constexpr float spacing = 0.005F;    ///< between knots, at least: coarser than the noise of resting axes
 constexpr float same_place = 1e-6F;  ///< of a chord
 constexpr float same_spot = 1e-6F;
 
@@ -25,7 +25,7 @@ KnotPath::KnotPath(const Positions& b, const Eigen::Vector3f& shift) : b_(b), sh
         knots_.push_back(i);
         last = p;
     }
-    // The end belongs to the path however near it lies.
+    // The last point always belongs to the path.
     if (last_known >= 0 && knots_.back() != last_known) knots_.push_back(last_known);
 }
 
@@ -45,7 +45,7 @@ PathProjection KnotPath::projection(std::int64_t knot, const Eigen::Vector3f& p,
 PathProjection KnotPath::advance(const PathProjection& from, const Eigen::Vector3f& p, float chord) const {
     PathProjection best = from;
     WalkWindow<float> window(chord);
-    float arc_length = 0;  // from the projection to the start of the chord in turn; negative on its own
+    float arc_length = 0;  // from the projection to the start of the present chord; negative on the first one
     for (std::int64_t k = from.knot; k + 1 < size(); ++k) {
         const float length = (at(point(k + 1)) - at(point(k))).norm();
         if (k == from.knot) arc_length = -from.fraction * length;
@@ -54,13 +54,13 @@ PathProjection KnotPath::advance(const PathProjection& from, const Eigen::Vector
         arc_length += length;
         if (window.ends_before(arc_length)) break;
     }
-    // The end of a chord is the start of the next, where pauses are found.
+    // The end of a chord is replaced by the start of the next, where pauses are handled.
     if (best.fraction == 1.0F && best.knot + 2 < size()) best = {best.knot + 1, 0.0F, best.distance};
     return best;
 }
 
 PathLocation KnotPath::location(const PathProjection& projected, const Eigen::Vector3f& p, PointIndex expected) const {
-    // Runs in step are in step: in a corner a chord cannot tell which of the points on it comes first.
+    // Synchronous runs stay synchronous: in a corner, the chord does not give the order of the points on it.
     const PointIndex before = point(std::max<std::int64_t>(0, projected.knot - 1));
     const PointIndex after = point(std::min(size() - 1, projected.knot + 2));
     if (expected >= before && expected <= after && (at(expected) - p).squaredNorm() < same_spot * same_spot)
@@ -69,7 +69,7 @@ PathLocation KnotPath::location(const PathProjection& projected, const Eigen::Ve
     const PointIndex last = point(projected.knot + 1);
     if (last == first + 1)
         return projected.fraction == 1.0F ? PathLocation{last, 0} : PathLocation{first, projected.fraction};
-    // Points between two knots lie on their chord, in order but for what a standing axis trembles.
+    // Points between two knots are on their chord, in order except for the noise of a resting axis.
     const Eigen::Vector3f a = at(first);
     const Eigen::Vector3f chord = at(last) - a;
     const float squared = chord.squaredNorm();

@@ -1,6 +1,6 @@
 #pragma once
-// KnotPath: a run without the points at which the tool (almost) stopped: the chain of chords with which
-// another run is aligned. Noise of a resting axis adds no arc length.
+// KnotPath: a run without the points at which the tool (almost) rests. Another run is aligned with the chain of chords between
+// its knots. Noise of a resting axis adds no arc length.
 
 #include "surface/path_location.h"
 
@@ -10,7 +10,7 @@ namespace clsurf {
 struct PathProjection {
     std::int64_t knot = 0;  ///< on the chord from this knot to the next
     float fraction = 0;     ///< of the chord
-    float distance = 0;     ///< [mm] from the point whose projection it is
+    float distance = 0;     ///< [mm] from the point to its projection
 };
 
 class KnotPath {
@@ -26,8 +26,8 @@ public:
     [[nodiscard]] PathProjection projection(std::int64_t knot, const Eigen::Vector3f& p, float from) const;
     /// The projection of `p` at or after `from`, for a tool that moved by `chord` [mm].
     [[nodiscard]] PathProjection advance(const PathProjection& from, const Eigen::Vector3f& p, float chord) const;
-    /// The place between the points of B for `p`, whose projection `projected` is. Among points on one spot (B
-    /// stands still) the one nearest to `expected`, so that pauses are gone through in step.
+    /// The location between the points of B for `p`, whose projection is `projected`. Among points at one place (B rests), it
+    /// is the one nearest to `expected`, so that pauses of both runs are traversed at the same rate.
     [[nodiscard]] PathLocation location(const PathProjection& projected, const Eigen::Vector3f& p,
                                         PointIndex expected) const;
 

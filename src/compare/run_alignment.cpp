@@ -12,28 +12,28 @@ namespace clsurf {
 namespace {
 
 // Lengths in mm.
-constexpr float off_distance = 0.1F;               ///< the walk may be on the wrong path from here on
-constexpr float lost_distance = 0.5F;              ///< it is
-constexpr float lost_length = 1.0F;                ///< arc length gone off before the walk counts as lost
-constexpr float near_distance = 0.1F;              ///< a walk must begin this near, and stay so …
+constexpr float off_distance = 0.1F;               ///< from here on, the walk may be on the wrong path
+constexpr float lost_distance = 0.5F;              ///< from here on, it is
+constexpr float lost_length = 1.0F;                ///< arc length off the path, after which the walk is lost
+constexpr float near_distance = 0.1F;              ///< a walk must begin within this distance, and keep it …
 constexpr float trial_arc_length = 5.0F;           ///< … over this arc length
-constexpr float same_fit = 0.002F;                 ///< mean distances that differ less are equal
-constexpr double cell = 0.25;                      ///< of the grid in which beginnings are looked for
-constexpr float search_arc_length = 0.1F;          ///< between two searches at first; doubles with each that fails …
+constexpr float same_fit = 0.002F;                 ///< smaller differences of mean distances do not count
+constexpr double cell = 0.25;                      ///< of the grid for the search of beginnings
+constexpr float search_arc_length = 0.1F;          ///< between two searches at first; doubled after each failure …
 constexpr float longest_search_arc_length = 5.0F;  ///< … up to this
 constexpr float one_place = 1.0F;                  ///< points of B with less arc length between them are one place
-constexpr std::size_t most_places = 32;            ///< where a walk is tried to begin
-constexpr std::int64_t work_per_point = 8;         ///< bound of what is walked more than once
+constexpr std::size_t most_places = 32;            ///< at which a walk may be tried
+constexpr std::int64_t work_per_point = 8;         ///< limit for repeated walks
 
-/// A walk that is tried.
+/// A tentative walk.
 struct Trial {
     PathProjection begin, projected;
-    float arc_length = 0;  ///< gone near the path
-    double cost = 0;       ///< distance times arc length; `near_distance` times arc length where it is off
+    float arc_length = 0;  ///< near the path
+    double cost = 0;       ///< distance times arc length; `near_distance` times arc length if it is off
     bool alive = true;
 };
 
-/// The distance from the point before, 0 from none. `before` becomes `p`.
+/// The distance from the previous point; 0 if there is none. Sets `before` to `p`.
 float chord_to(const Eigen::Vector3f& p, Eigen::Vector3f& before) {
     const float distance = (p - before).norm();
     before = p;
@@ -63,12 +63,12 @@ public:
 private:
     void walk(Column<PathLocation>& locations) {
         PointIndex off_since = -1;  // first point at which the walk is off the path
-        float off_path = 0;         // gone since
+        float off_path = 0;         // arc length since then
         float retry_after = lost_length;
         float to_search = 0;  // arc length until the next search for a beginning
         float search_step = search_arc_length;
         PathLocation last{};
-        PointIndex last_point = -1;  // of A, on the path; −1: the walk stands nowhere
+        PointIndex last_point = -1;  // of A, on the path; −1: there is no walk
         Eigen::Vector3f before = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
         for (PointIndex i = 0; i < a_.size(); ++i) {
             const Eigen::Vector3f p = a_[i];
@@ -119,7 +119,7 @@ private:
         }
     }
 
-    /// Forgets the walk from A's point `since` to `now`. True: another beginning is looked for from `since` on.
+    /// Discards the walk from A's point `since` to `now`. Returns true if another beginning is to be searched from `since` on.
     bool leave(PointIndex since, PointIndex now, Column<PathLocation>& locations) {
         std::fill(locations.begin() + since, locations.begin() + now + 1, PathLocation{});
         while (!begins_.empty() && begins_.back() >= since) begins_.pop_back();
@@ -128,7 +128,7 @@ private:
         return true;
     }
 
-    /// Places of B from which a walk at A's point `i` could begin: those after the last stand first.
+    /// Places of B where a walk at A's point `i` could begin, those after the last projection first.
     [[nodiscard]] std::vector<Trial> places(PointIndex i) {
         if (!grid_) {
             arc_length_ = std::make_unique<ArcLength>(b_);
@@ -155,7 +155,7 @@ private:
         return trials;
     }
 
-    /// The projection between two points of B and a cell beyond them.
+    /// The nearest projection between two points of B, extended by a cell on both sides.
     [[nodiscard]] PathProjection nearest(const Eigen::Vector3f& p, PointIndex first, PointIndex last) const {
         PathProjection best{0, 0, std::numeric_limits<float>::infinity()};
         std::int64_t knot = path_.knot_at(first);
@@ -173,7 +173,7 @@ private:
         return (b_[path_.point(knot + 1)] - b_[path_.point(knot)]).norm();
     }
 
-    /// Puts the walk where it fits best from A's point `i` on. False: nowhere.
+    /// Starts the walk at the place that fits best from A's point `i` on. Returns false if there is none.
     bool begin(PointIndex i) {
         std::vector<Trial> trials = places(i);
         if (trials.empty()) return false;
@@ -203,7 +203,7 @@ private:
                 --alive;
             }
         }
-        // One that is still near when all others are off is right however well those fitted before.
+        // A trial that is still near when all others are off is right, however well those fitted before.
         const bool to_the_end = k == a_.size();
         const Trial* best = nullptr;
         for (const Trial& trial : trials) {
@@ -245,9 +245,9 @@ private:
     PathProjection projected_;
     std::unique_ptr<ArcLength> arc_length_;
     std::unique_ptr<PathGrid> grid_;
-    std::int64_t trial_steps_;        ///< points that several walks at once may still take
+    std::int64_t trial_steps_;        ///< points left for several walks at the same time
     std::vector<PointIndex> begins_;  ///< of A, where a walk began
-    PointIndex rewinds_;              ///< points that may still be walked again
+    PointIndex rewinds_;              ///< points left for repeated walks
 };
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 namespace clsurf {
 
-/// What is not set is not limited.
+/// Limits that are not set do not apply.
 struct RunBudget {
     std::optional<double> max_speed_difference_percent;
     std::optional<double> max_acceleration_difference_mm_s2;
@@ -22,7 +22,7 @@ struct RunBudget {
 using RunBudgetLimit = BudgetLimit<RunReport, RunBudget>;
 [[nodiscard]] std::span<const RunBudgetLimit> run_budget_limits();
 
-/// Every limit that the budget sets.
+/// The comparison with each limit that the budget sets.
 [[nodiscard]] std::vector<BudgetLine> hold(const RunReport& report, const RunBudget& budget);
 
 }  // namespace clsurf

@@ -15,14 +15,14 @@
 namespace clsurf {
 namespace {
 
-constexpr double smoothing_seconds = 0.015;         ///< window of the mean of lags and heights
-constexpr double jerk_seconds = 0.050;              ///< window of the root mean square of the jerk
-constexpr double jump_seconds = 0.0125;             ///< half a window of derivatives, and a record more
-constexpr double jerk_jump_seconds = 0.0475;        ///< half both windows of the jerk, and a record more
-constexpr PointIndex feed_reach = 8;                ///< points before and after one that tell the feed there
-constexpr double least_feed = 1e-4;                 ///< [mm] of arc length that has a direction
-constexpr float least_tilt = 0.1F;                  ///< sine of the feed's angle to Z: steeper, it has no upper side
-constexpr std::int64_t points_for_usual = 200'000;  ///< that usual values are taken from
+constexpr double smoothing_seconds = 0.015;   ///< window of the mean of lags and heights
+constexpr double jerk_seconds = 0.050;        ///< window of the root mean square of the jerk
+constexpr double jump_seconds = 0.0125;       ///< half a window of derivatives, plus a record
+constexpr double jerk_jump_seconds = 0.0475;  ///< half of both windows of the jerk, plus a record
+constexpr PointIndex feed_reach = 8;          ///< points before and after one that determine the feed there
+constexpr double least_feed = 1e-4;           ///< [mm] least arc length for a direction
+constexpr float least_tilt = 0.1F;  ///< sine of the angle between feed and Z: a steeper feed has no upper side
+constexpr std::int64_t points_for_usual = 200'000;  ///< for the computation of usual values
 
 constexpr auto quantity_table = std::to_array<RunQuantityInfo>({
     {RunQuantity::speed, "speed", "Path speed", unit::mm_min, "mm_min"},
@@ -32,7 +32,7 @@ constexpr auto quantity_table = std::to_array<RunQuantityInfo>({
     {RunQuantity::jerk, "jerk", "RMS jerk over 50 ms", unit::mm_s3, "mm_s3"},
 });
 
-/// The unit vector of the feed at a point of a trajectory; NaN where the tool stands.
+/// The unit vector of the feed at a point of a trajectory; NaN if the tool rests.
 Vec3 feed_at(const Trajectory& path, PointIndex i) {
     for (PointIndex reach = 1; reach <= feed_reach; reach *= 2) {
         const Vec3 chord = path.at(std::min(path.count - 1, i + reach)) - path.at(std::max<PointIndex>(0, i - reach));
@@ -54,7 +54,7 @@ Column<float> lags_of(const ComparedRun& run) {
     return lags;
 }
 
-/// Upper side of the CL surface; where a pass has no other beside it, of the path.
+/// The upward normal of the CL surface, or of the path if a pass has no adjacent one.
 Eigen::Vector3f normal_at(const ClSurface& surface, PointIndex i, const Eigen::Vector3f& feed) {
     const Positions& p = surface.positions;
     const PathLocation left = beside(surface, {i, 0}, feed, Side::left);
@@ -67,8 +67,8 @@ Eigen::Vector3f normal_at(const ClSurface& surface, PointIndex i, const Eigen::V
     return up.norm() > least_tilt ? Eigen::Vector3f(up.normalized()) : Eigen::Vector3f::Constant(missing<float>);
 }
 
-/// A position between two points, from the cubic through the points round it (Catmull, Rom 1974): a
-/// chord would cut off a T²/8, 5 µm at 600 mm/s² and 8 ms.
+/// A position between two points on the cubic through the surrounding points (Catmull, Rom 1974). A chord would have an error
+/// of a T²/8, which is 5 µm at 600 mm/s² and 8 ms.
 Vec3 position_between(const Trajectory& path, const PathLocation& at) {
     const Vec3 p1 = path.at(at.point);
     if (at.fraction == 0) return p1;
@@ -82,7 +82,7 @@ Vec3 position_between(const Trajectory& path, const PathLocation& at) {
     return bend.allFinite() ? Vec3(chord + bend) : chord;
 }
 
-/// How far `b` lies above `a` along A's surface [mm].
+/// Height of `b` above `a`, normal to A's surface [mm].
 Column<float> heights_of(const Trajectory& a, const Trajectory& b, const RunAlignment& alignment,
                          const ClSurface& surface, const Trajectory& path) {
     Column<float> heights(static_cast<std::size_t>(a.count));
@@ -101,7 +101,7 @@ Column<float> heights_of(const Trajectory& a, const Trajectory& b, const RunAlig
     return heights;
 }
 
-/// values := B's at the locations minus A's.
+/// values := B's values at the locations minus A's.
 void subtract(const Column<float>& of_b, const RunAlignment& alignment, Column<float>& values) {
     for_each_block(static_cast<PointIndex>(values.size()), [&](PointIndex first, PointIndex last) {
         for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
@@ -111,7 +111,7 @@ void subtract(const Column<float>& of_b, const RunAlignment& alignment, Column<f
     });
 }
 
-/// Means over `points` round each point, of what is known, inside the sections. O(points).
+/// Means of known values over `points` around each point, inside the sections. O(points).
 void smooth(Column<float>& values, const std::vector<PointRange>& sections, PointIndex points) {
     const PointIndex half = points / 2;
     std::vector<float> raw;
@@ -129,7 +129,7 @@ void smooth(Column<float>& values, const std::vector<PointRange>& sections, Poin
             known += sign;
         };
         for (PointIndex k = 0; k < size; ++k) {
-            // The window shrinks evenly towards the ends.
+            // The window shrinks symmetrically towards the ends.
             const PointIndex reach = std::min({half, k, size - 1 - k});
             while (end <= k + reach) take(end++, +1);
             while (begin < k - reach) take(begin++, -1);
@@ -140,7 +140,7 @@ void smooth(Column<float>& values, const std::vector<PointRange>& sections, Poin
     }
 }
 
-/// The root mean square of the jerk round each point of a run.
+/// The root mean square of the jerk around each point of a run.
 Column<float> rough_motion(const FieldSet& fields, double period) {
     Column<float> values = fields.get("jerk").values;
     const auto count = static_cast<PointIndex>(values.size());
@@ -155,7 +155,7 @@ Column<float> rough_motion(const FieldSet& fields, double period) {
     return values;
 }
 
-/// Of all that is compared, finishing or not: rapids are left out.
+/// Percentile of all that is compared, finishing or not; rapids are excluded.
 float percentile_at_feed(const Column<float>& values, const Passes& passes, double p) {
     Column<float> sampled;
     PointIndex cutting = 0;
@@ -171,7 +171,7 @@ float percentile_at_feed(const Column<float>& values, const Passes& passes, doub
     return sampled.empty() ? 0.0F : quantile_below(sampled, p);
 }
 
-/// The step of the positions, that of the finest axis: one that hardly moves would seem to have a coarse one.
+/// The resolution of the finest axis. An axis that hardly moves would seem to have a coarse one.
 float quantum_of(const Trajectory& path) {
     double finest = 0;
     for (const ChannelView& axis : path.axes) {
@@ -181,7 +181,7 @@ float quantum_of(const Trajectory& path) {
     return static_cast<float>(finest);
 }
 
-/// Nothing of a rapid is compared.
+/// Excludes rapids from the comparison.
 void leave_out_rapids(const Passes& passes, RunDifferences& differences) {
     for (const Pass& pass : passes) {
         if (pass.kind != PassKind::rapid) continue;
@@ -191,7 +191,7 @@ void leave_out_rapids(const Passes& passes, RunDifferences& differences) {
     }
 }
 
-/// Where the path of a run jumps (it was stopped and begun again from an earlier line) its derivatives say nothing.
+/// Where the path of a run jumps (it was stopped and restarted from an earlier line), its derivatives mean nothing.
 void leave_out_jumps(const std::vector<PointRange>& sections, double period, RunDifferences& differences) {
     const auto leave_out = [&](RunQuantity q, double seconds) {
         Column<float>& values = differences.of[index_of(q)];
@@ -209,25 +209,25 @@ void leave_out_jumps(const std::vector<PointRange>& sections, double period, Run
     leave_out(RunQuantity::jerk, jerk_jump_seconds);
 }
 
-/// The whole log as one pass: windows end at gaps in time only, in both runs alike.
+/// The whole log as one pass: windows end only at gaps in time, equally in both runs.
 Passes whole(const Trajectory& path) {
     Passes passes;
     passes.push_back({0, path.count - 1, PassKind::cut});
     return passes;
 }
 
-/// The two runs alike: windows reach as far as the coarser of them asks.
+/// The same windows for both runs, as the run with the longer period requires.
 Derivation derivation_of(const ComparedRun& run, const ComparedRun& other, const Passes& passes) {
     return {estimate_motion(run.derivative, *run.log, run.path, passes), other.log->period};
 }
 
-/// What the steps of the positions of a run may make of its jerk [mm/s³].
+/// Effect of the steps of the positions of a run on its jerk [mm/s³].
 float jerk_of_steps(const ComparedRun& run, const Derivation& derivation) {
     return quantum_of(run.path) * static_cast<float>(derivation.filter(3, run.log->period).step_response());
 }
 
-/// The shortest window [s] in which the steps of the positions of both runs make little of a jerk; 0: the usual one. A vibration
-/// that is shorter than the window does not show.
+/// The shortest window [s] in which the steps of the positions of both runs have little effect on the jerk; 0: the usual one. A
+/// window hides vibrations that are shorter.
 double shortest_jerk_window(const ComparedRun& a, const ComparedRun& b, float usual_jerk) {
     constexpr float little = 0.05F;
     constexpr double growth = 1.4;
@@ -242,7 +242,7 @@ double shortest_jerk_window(const ComparedRun& a, const ComparedRun& b, float us
     return 0;
 }
 
-/// A run of which fields are compared.
+/// A run with the fields that are compared.
 struct DerivedRun {
     const ComparedRun& run;
     Passes passes;
@@ -262,7 +262,7 @@ struct DerivedRun {
     }
 };
 
-/// The roughness of both runs, in the shortest window that their steps allow.
+/// Compares the jerk of both runs, in the shortest window that their resolution allows.
 void compare_roughness(DerivedRun& a, DerivedRun& b, const ClSurface& surface, RunDifferences& out) {
     const auto take_a = [&] {
         out.jerk_of_a = a.roughness();

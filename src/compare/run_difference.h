@@ -17,11 +17,11 @@
 namespace clsurf {
 
 enum class RunQuantity : std::uint8_t {
-    speed,         ///< of the path [mm/s]
-    acceleration,  ///< its length [mm/s²]
+    speed,         ///< path speed [mm/s]
+    acceleration,  ///< its magnitude [mm/s²]
     lag,           ///< how far the measured position trails the commanded one along the feed [mm]
-    height,        ///< how far B's path lies above that of A along the surface normal [mm]
-    jerk,          ///< root mean square of its length over 50 ms [mm/s³]: how rough the motion is
+    height,        ///< of B's path above that of A along the surface normal [mm]
+    jerk,          ///< root mean square of its magnitude over 50 ms [mm/s³]: roughness of the motion
 };
 inline constexpr std::size_t run_quantities = 5;
 [[nodiscard]] constexpr std::size_t index_of(RunQuantity q) { return static_cast<std::size_t>(q); }
@@ -35,25 +35,25 @@ struct RunQuantityInfo {
 /// All of them, in order.
 [[nodiscard]] std::span<const RunQuantityInfo> run_quantity_table();
 
-/// A run as it is compared.
+/// One of the runs to compare.
 struct ComparedRun {
     const Log* log = nullptr;
     Trajectory path;                                         ///< runs are aligned by it
-    std::optional<Trajectory> commanded, measured;           ///< both: lags are compared
-    std::optional<Trajectory> truest;                        ///< heights are compared along it; none: along `path`
+    std::optional<Trajectory> commanded, measured;           ///< if both are given, lags are compared
+    std::optional<Trajectory> truest;                        ///< heights are compared along it; nullopt: along `path`
     DerivativeMethod derivative = DerivativeMethod::savgol;  ///< of speeds and accelerations
 };
 
 struct RunThresholds {
-    float speed = 0.03F;         ///< of the speed there …
-    float least_speed = 0.25F;   ///< … which counts as at least so much of the usual speed
-    float period = 0.25F;        ///< plus what the usual acceleration makes of the speed in this part of a period
+    float speed = 0.03F;         ///< of the speed at the place …
+    float least_speed = 0.25F;   ///< … which counts as at least this share of the usual speed
+    float period = 0.25F;        ///< plus the change of speed by the usual acceleration in this fraction of a period
     float acceleration = 0.15F;  ///< of the usual acceleration
-    float height = 0.0015F;      ///< [mm], lags and heights …
-    float lag_quanta = 1.5F;     ///< … and at least so many steps of the positions
+    float height = 0.0015F;      ///< [mm], for lags and heights …
+    float lag_quanta = 1.5F;     ///< … and at least this many steps of the positions
     float height_quanta = 2.4F;
-    float jerk = 0.5F;         ///< of the jerk of the smoother run there …
-    float usual_jerk = 0.05F;  ///< … plus so much of the usual jerk, and what the steps of the positions make
+    float jerk = 0.5F;         ///< of the jerk of the smoother run at the place …
+    float usual_jerk = 0.05F;  ///< … plus this share of the usual jerk, and the effect of the steps of the positions
 };
 
 struct RunDifferences {
@@ -61,25 +61,25 @@ struct RunDifferences {
     std::array<Column<float>, run_quantities>
         of;  ///< per point of A, inside units; NaN: not compared; empty: not known
     std::array<float, run_quantities>
-        threshold{};  ///< above which a place differs; of speed and jerk: at the usual one
+        threshold{};  ///< above which a place differs; of speed and jerk: at their usual values
     RunThresholds rules;
     float usual_speed = 0;         ///< [mm/s] 95th percentile of A where it cuts
     float usual_acceleration = 0;  ///< [mm/s²] 99th percentile
     float usual_jerk = 0;          ///< [mm/s³] 95th percentile
-    float speed_tolerance = 0;     ///< [mm/s] that sampling alone may make of a speed
-    float jerk_tolerance = 0;      ///< [mm/s³] that says nothing
+    float speed_tolerance = 0;     ///< [mm/s] error of a speed by sampling alone
+    float jerk_tolerance = 0;      ///< [mm/s³] difference that is not significant
     Column<float> speed_of_a;      ///< [mm/s]
     Column<float> jerk_of_a;       ///< [mm/s³] root mean square
 
     [[nodiscard]] bool has(RunQuantity q) const { return !of[index_of(q)].empty(); }
-    /// Above which a quantity differs at a point.
+    /// The threshold of a quantity at a point.
     [[nodiscard]] float threshold_at(RunQuantity q, PointIndex i) const;
-    /// The speed that differences at a point are relative to [mm/s].
+    /// The reference of relative speed differences at a point [mm/s].
     [[nodiscard]] float speed_base(PointIndex i) const;
 };
 
-/// `surface` is stitched from A's path. Points of rapids are not compared. Windows of derivatives are
-/// those of the coarser period; lags and heights are means over 15 ms. O(points of both).
+/// `surface`: stitched from A's path. Points of rapids are not compared. Windows of derivatives are those of the run with the
+/// longer period; lags and heights are means over 15 ms. O(points of both).
 [[nodiscard]] RunDifferences compare_runs(const ComparedRun& a, const ClSurface& surface, const ComparedRun& b,
                                           const RunThresholds& rules = {});
 

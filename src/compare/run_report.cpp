@@ -8,16 +8,16 @@
 namespace clsurf {
 namespace {
 
-constexpr double joined_arc_length = 1.0;          ///< [mm] between two sections that are one
-constexpr double least_seconds = 0.005;            ///< of a section …
-constexpr PointIndex least_points = 3;             ///< … and its points
-constexpr double sampled_by_arc_length = 200'000;  ///< by arc length, of percentiles
+constexpr double joined_arc_length = 1.0;          ///< [mm] between two sections that are joined
+constexpr double least_seconds = 0.005;            ///< least duration of a section …
+constexpr PointIndex least_points = 3;             ///< … and its least number of points
+constexpr double sampled_by_arc_length = 200'000;  ///< places along the path, for percentiles
 constexpr std::size_t most_kept = 1000;            ///< sections of a quantity
-constexpr double end_share = 0.1;                  ///< of the path, from which a drift is estimated
+constexpr double end_share = 0.1;                  ///< of the path, for the estimate of a drift
 
 bool worse(const RunDifferenceSection& x, const RunDifferenceSection& y) { return x.score > y.score; }
 
-/// The worst sections first, no more than `most_kept`; memory stays bounded on runs that differ everywhere.
+/// Sorts sections, the worst first, and keeps at most `most_kept`, so that memory is bounded for runs that differ everywhere.
 void keep_worst(std::vector<RunDifferenceSection>& sections) {
     std::stable_sort(sections.begin(), sections.end(), worse);
     if (sections.size() > most_kept) sections.resize(most_kept);
@@ -76,7 +76,7 @@ public:
         return summary;
     }
 
-    /// Their number; the worst are added to `report`.
+    /// Adds the worst sections to `report`. Returns the number of all.
     [[nodiscard]] PointIndex find_sections(RunQuantity q, RunReport& report) const {
         std::vector<RunDifferenceSection> found;
         PointIndex count = 0;
@@ -117,7 +117,7 @@ public:
         return count;
     }
 
-    /// The ways of B that no section of A runs along.
+    /// Arc length of B that no section of A covers.
     void measure_b(RunReport& report) const {
         const ArcLength arc_length(gather(b_.path));
         std::vector<PointRange> covered;
@@ -177,7 +177,7 @@ private:
             const double step = i < points.last ? arc_length_.step(i) : 0;
             d.length += step;
             if (!(value == value)) continue;
-            // A little for standing still, so that a pause has a mean too.
+            // A small weight for resting, so that a pause has a mean too.
             const double weight = step + 1e-9;
             weights += weight;
             d.mean += weight * value;

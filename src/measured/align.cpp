@@ -16,30 +16,30 @@
 namespace clsurf {
 namespace {
 
-constexpr std::size_t most_fitted = 5000;   ///< points; more do not make the pose better than the surface is known
+constexpr std::size_t most_fitted = 5000;   ///< points; more do not improve the pose beyond the accuracy of the surface
 constexpr std::size_t most_searched = 600;  ///< points
 constexpr double usual_search = 1;          ///< [mm]
 constexpr double search_passes = 3;         ///< step-overs
 constexpr double search_steps = 8;          ///< of a step-over
-constexpr double same_place = 0.25;         ///< step-overs between two poses that are one
-constexpr double surface_error = 5e-5;      ///< [mm] of the heights between cells: nothing is known better
-constexpr double most_error = 0.25;         ///< step-overs: standard error of a degree of freedom that is determined
-constexpr double much_farther = 1.25;       ///< middle distance of a pose that is less likely
-constexpr double clear_difference = 12;     ///< of squares over their variance: less than 1 in 1,000 by chance
-constexpr double clear_share = 0.2;         ///< of the squares of points that lie far off in both poses
-constexpr double far_off = 4.5;             ///< middle distances, three standard deviations
+constexpr double same_place = 0.25;         ///< step-overs: poses closer than this are the same
+constexpr double surface_error = 5e-5;      ///< [mm] of heights between cells: lower limit of any error
+constexpr double most_error = 0.25;         ///< step-overs: largest standard error of a determined degree of freedom
+constexpr double much_farther = 1.25;       ///< times the least median distance: such a pose is unlikely
+constexpr double clear_difference = 12;     ///< of squares, relative to their variance: less than 1 in 1,000 by chance
+constexpr double clear_share = 0.2;         ///< of the squares of points that are far off in both poses
+constexpr double far_off = 4.5;             ///< median distances: three standard deviations
 constexpr double least_far_off = 2e-4;      ///< [mm]
-constexpr double unknown_error = 1e6;       ///< [mm] of a degree of freedom that changes no distance
-constexpr double main_share = 0.4;          ///< of a direction's length, of an axis that names it
-constexpr std::size_t fewest_each = 4;      ///< points for each degree of freedom that scallops tell
-constexpr double above_scatter = 3;         ///< rms over the scatter, from which a profile may lie beside its place
-constexpr double far_above_scatter = 10;    ///< … that scatter does not explain
+constexpr double unknown_error = 1e6;       ///< [mm] for a degree of freedom that changes no distance
+constexpr double main_share = 0.4;          ///< of a direction's length: a smaller component of an axis is not named
+constexpr std::size_t fewest_each = 4;      ///< points for each degree of freedom that scallops determine
+constexpr double above_scatter = 3;         ///< rms over scatter, from which on a profile may be at a wrong place
+constexpr double far_above_scatter = 10;    ///< … which scatter does not explain
 
 std::size_t known_points(const MeasuredData& measured) {
     return measured.points.size() - (measured.kind == MeasuredKind::areal ? measured.missing : 0);
 }
 
-/// Every point that was measured, `most` of them at the most, evenly.
+/// All measured points, or `most` of them, evenly thinned.
 std::vector<Vec3> some_of(const MeasuredData& measured, std::size_t most) {
     const double stride = std::max(1.0, static_cast<double>(known_points(measured)) / static_cast<double>(most));
     std::vector<Vec3> found;
@@ -61,8 +61,8 @@ Box2 region_of(std::span<const Vec3> points, const Pose& pose, double beside) {
     return {box.min() - room, box.max() + room};
 }
 
-/// How many neighbouring points scatter as one: the sum over cells of a step-over of their residuals, squared, over that of
-/// independent ones.
+/// The number of neighbouring points with correlated scatter: the sum of squares of the sums of residuals over cells of a
+/// step-over, relative to that of independent residuals.
 double correlated_points(std::span<const Vec3> points, const FittedPose& fit, const PoseFit& by, double step_over) {
     std::map<std::pair<std::int64_t, std::int64_t>, double> sums;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -76,7 +76,7 @@ double correlated_points(std::span<const Vec3> points, const FittedPose& fit, co
     return fit.distances.squares > 0 ? std::max(1.0, squares / fit.distances.squares) : 1.0;
 }
 
-/// [mm] between one point and the next; other scatter than that of the surface's form and of its prediction.
+/// Scatter [mm] from one point to the next; independent of errors of the form and of the prediction.
 double scatter_of(const FittedPose& fit, const PoseFit& by) {
     std::vector<double> steps;
     const std::vector<double>& distances = fit.distances.along_normal;
@@ -97,8 +97,8 @@ double variance_of(const FittedPose& fit, std::size_t unknowns, double correlate
 
 std::size_t known_of(const FittedPose& fit) { return fit.distances.known_ones().size(); }
 
-/// Squares of all points that have a distance, each counted up to a most one [mm]: how far off a missing mark or dirt is does
-/// not matter. And the part of those that are cut off.
+/// Squares of all points with a distance, each limited to that of `most` [mm], because it does not matter how far off a missing
+/// mark or dirt is. `cut`: the share of the limited ones.
 struct CutSquares {
     double sum = 0, cut = 0;
 };
@@ -117,7 +117,7 @@ double middle_distance(const FittedPose& fit) {
     return known.empty() ? infinite : median(known);
 }
 
-/// The direction of one degree of freedom, or of several together, in words.
+/// Describes the direction of one degree of freedom, or of several together.
 std::string words_for(const PoseInformation& information, const Eigen::VectorXd& direction) {
     std::string words;
     for (Eigen::Index k = 0; k < direction.size(); ++k) {
@@ -157,7 +157,8 @@ public:
                 fmt::format("{} points cannot determine {} degrees of freedom", points_.size(), unknowns_));
             return result_;
         }
-        // The best of many starts then fits the scatter of the points, and its errors are far greater than they look.
+        // With too few points, the best of many starts would fit their scatter, and its errors would be far greater than
+        // estimated.
         if (is_shifted() && points_.size() < fewest_each * unknowns_) {
             result_.reasons.push_back(
                 fmt::format("{} points are too few for {} degrees of freedom on a surface with scallops: {} are needed",
@@ -166,7 +167,7 @@ public:
         }
         lift();
         const Form form(as_machined_, region_of(points_, lifted_, search_ + 2 * step_over_), Form::Of::contacts);
-        // Points come in the axes of the part, if coarsely; others begin where they are stated to.
+        // Points are given in the axes of the part, at least roughly. Other measurements begin where the start states.
         const double most_shift = kind_ == MeasuredKind::points ? infinite : search_ + step_over_;
         PoseFit coarse(few_points_, heights_, form, lifted_, free_, step_over_, most_shift);
         PoseFit fine(points_, heights_, form, lifted_, free_, step_over_, most_shift);
@@ -184,7 +185,7 @@ public:
     }
 
 private:
-    /// A profile and a map have heights from anywhere: their mean is put on the surface.
+    /// Heights of a profile or a map have no common zero with the part: shifts them to the surface.
     void lift() {
         if (!free_[static_cast<std::size_t>(PoseAxis::z)]) return;
         std::vector<Vec2> places(few_points_.size());
@@ -198,30 +199,30 @@ private:
         if (!off.empty()) lifted_.shift.z() += median(off);
     }
 
-    /// Whether the points are shifted along the surface, where they may fit one step-over beside the right place.
+    /// Whether points may be shifted along the surface, where they may also fit one step-over away from the right place.
     [[nodiscard]] bool is_shifted() const {
         return free_[static_cast<std::size_t>(PoseAxis::x)] || free_[static_cast<std::size_t>(PoseAxis::y)];
     }
 
-    /// Where fits to the surface with its scallops begin.
+    /// The start poses of fits to the surface with its scallops.
     std::vector<Pose> first_poses(const FittedPose& led) {
         std::vector<Pose> found{led.pose};
         if (!is_shifted()) return found;
         const double step = step_over_ / search_steps;
         const auto steps = static_cast<std::int64_t>(std::ceil(search_ / step));
         PoseSearch search(few_points_, heights_, start_.turn, free_);
-        // A measurement that begins where it is stated to is looked for there: its form, if it has hardly any, may lead astray.
+        // A measurement with a stated start is searched there, because a form with hardly any features may mislead the fit.
         const std::vector<Pose> best = search.around(kind_ == MeasuredKind::points ? led.pose : lifted_, step, steps);
         found.insert(found.end(), best.begin(), best.end());
         return found;
     }
 
-    /// The best pose, and whether it is the only one.
+    /// Selects the best pose, and checks whether it is the only one.
     void choose(std::vector<FittedPose>& found, PoseFit& fine) {
         std::size_t most = 0;
         for (const FittedPose& fit : found) most = std::max(most, known_of(fit));
         std::erase_if(found, [&](const FittedPose& fit) { return 10 * known_of(fit) < 9 * most; });
-        // The middle distance tells a wrong place from a right one even where a mark is missing.
+        // The median distance separates wrong places from right ones even if a mark is missing.
         double least = infinite;
         for (const FittedPose& fit : found) least = std::min(least, middle_distance(fit));
         const double likely = std::max(much_farther * least, surface_error);
@@ -245,8 +246,8 @@ private:
         find_rivals(found, most_off, variance, fine);
     }
 
-    /// Whether another pose fits as well as the best one. A mark distinguishes poses if it was measured; one that is missing
-    /// lies somewhere off in every pose.
+    /// Whether another pose fits as well as the best one. A measured mark distinguishes poses; a missing one causes the same
+    /// error in every pose.
     void find_rivals(const std::vector<FittedPose>& found, double most_off, double variance, const PoseFit& fine) {
         const CutSquares best = cut_squares(found.front(), most_off);
         const double clear = std::max(clear_difference * variance, clear_share * best.cut);
@@ -261,7 +262,7 @@ private:
         }
     }
 
-    /// Standard errors, and which degrees of freedom the surface does not hold.
+    /// Standard errors, and the degrees of freedom that the surface does not constrain.
     void judge(const PoseInformation& information, double variance, const PoseFit& fine) {
         Eigen::MatrixXd held = information.normal;
         const double noise = static_cast<double>(result_.used) * information.slope_noise * information.slope_noise;
@@ -309,7 +310,7 @@ private:
     FreeAxes free_;
     std::vector<Vec3> points_, few_points_;
     PredictedHeights heights_;
-    Pose start_;   ///< as it is stated
+    Pose start_;   ///< as stated
     Pose lifted_;  ///< with the points on the surface
     std::size_t unknowns_ = 0;
     Alignment result_;
@@ -319,7 +320,8 @@ bool is_above_scatter(const Alignment& alignment, double times) {
     return alignment.rms > times * std::max(alignment.scatter, surface_error);
 }
 
-/// Along the profile, and where that leaves more than scatter, across it as well: beside its place a profile has another form.
+/// Aligns along the profile, and if the residuals exceed the scatter, across it as well: at a wrong place a profile has another
+/// form.
 Alignment align_profile(const MeasuredData& measured, const AsMachinedSurface& as_machined, const AlignRules& rules) {
     Alignment stated = Aligner(measured, as_machined, rules).run();
     if (rules.free || !is_above_scatter(stated, above_scatter)) return stated;

@@ -1,5 +1,5 @@
 #pragma once
-// AlignedHeights: what was measured, as heights over places on the part.
+// AlignedHeights: a measurement as heights over places on the part.
 
 #include <vector>
 
@@ -14,13 +14,12 @@ public:
     /// `measured` must outlive it.
     AlignedHeights(const MeasuredData& measured, const Pose& pose);
 
-    /// Along the profile from end to end, as finely as it was measured but no finer than `least_step` [mm]; of a profile
-    /// only.
+    /// The row along the profile from end to end, with the measured spacing but at least `least_step` [mm]; for a profile only.
     [[nodiscard]] ProfileRow own_row(double least_step) const;
-    /// Height [mm] over a place, linear between measured ones. A profile is asked along own_row() only. NaN: nothing was
+    /// Height [mm] over a place, interpolated linearly. For a profile, only places on own_row() are valid. NaN: nothing was
     /// measured there.
     [[nodiscard]] double at(const Vec2& place) const;
-    /// The middle of what was measured [mm], seen from above.
+    /// The middle of the measured region [mm], seen from above.
     [[nodiscard]] const Vec2& middle() const { return middle_; }
     /// [mm] between neighbouring places.
     [[nodiscard]] double spacing() const { return spacing_; }
@@ -35,7 +34,7 @@ private:
     Vec2 middle_ = Vec2::Zero();
     double spacing_ = 0;
     Vec2 from_ = Vec2::Zero(), along_ = Vec2::UnitX();  ///< of a profile
-    std::vector<double> distance_, height_;             ///< of its points; distances rise
+    std::vector<double> distance_, height_;             ///< of its points; distances increase
 };
 
 }  // namespace clsurf

@@ -11,10 +11,10 @@
 namespace clsurf {
 namespace {
 
-constexpr double steps_of_pass = 1000;  ///< of a profile: more tell nothing
+constexpr double steps_of_pass = 1000;  ///< of a profile: more have no effect
 constexpr int map_profiles = 11;
-constexpr double map_share = 0.9;          ///< of a map's extent that its profiles are spread over
-constexpr double steps_of_short_wave = 2;  ///< that a filter of it needs
+constexpr double map_share = 0.9;          ///< of the extent of a map, over which its profiles are distributed
+constexpr double steps_of_short_wave = 2;  ///< steps that a filter of a short wave needs
 
 /// The deviations of heights along a row [mm] from a form.
 std::vector<double> over_form(std::vector<double> heights, const Form& form, const MapFrame& frame, double level) {
@@ -24,7 +24,7 @@ std::vector<double> over_form(std::vector<double> heights, const Form& form, con
     return {z.begin(), z.end()};
 }
 
-/// Without waves shorter than `cutoff`; NaN stays.
+/// Removes waves shorter than `cutoff`; NaN stays NaN.
 void take_off_short_waves(std::vector<double>& z, std::span<const double> along, double cutoff) {
     for (std::size_t first = 0; first < z.size();) {
         std::size_t end = first;
@@ -54,7 +54,7 @@ std::vector<double> roughness_profile(std::span<const double> z, std::span<const
     return rough;
 }
 
-/// Over the middle `used` values.
+/// Correlation of the middle `used` values.
 double correlation_of(std::span<const double> a, std::span<const double> b, std::size_t used) {
     const std::size_t first = (a.size() - std::min(used, a.size())) / 2;
     const auto n = static_cast<double>(used);
@@ -95,7 +95,7 @@ void evaluate(ComparedProfile& profile, double cutoff, double short_cutoff) {
     profile.correlation = correlation_of(profile.measured_rough, profile.predicted_rough, used);
 }
 
-/// The point of a cut pass whose contact lies nearest to a place, with its direction across the feed.
+/// The direction across the feed at the point of a cut pass whose contact is nearest to a place.
 AcrossFeed nearest_across(const AsMachinedSurface& as_machined, const Signals& signals, const Vec2& place) {
     AcrossFeed nearest;
     double least = infinite;
@@ -114,7 +114,7 @@ AcrossFeed nearest_across(const AsMachinedSurface& as_machined, const Signals& s
     return nearest;
 }
 
-/// Lines across the feed through a map, each from edge to edge of it.
+/// Rows across the feed through a map, each from edge to edge.
 std::vector<ProfileRow> rows_of_map(const MeasuredData& data, const AlignedHeights& measured, const AcrossFeed& across,
                                     double least_step) {
     const double step = std::max(measured.spacing(), least_step);

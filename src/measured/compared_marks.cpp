@@ -15,22 +15,22 @@ namespace clsurf {
 namespace {
 
 constexpr double passes_aside = 6.5;     ///< of a mark's profile, as for its predicted depth
-constexpr double crossing = 0.5;         ///< step-overs that the contact of a mark lies from a profile which crosses it
+constexpr double crossing = 0.5;         ///< step-overs: a profile crosses a mark if its contact is this near
 constexpr double least_across = 0.5;     ///< cosine between a profile and the direction across the feed
 constexpr double mark_tolerance = 0.25;  ///< of a mark's depth, as for its predicted depth
-constexpr double times_noise = 3;        ///< of a mark that is judged
-constexpr double least_depth = 1e-4;     ///< [mm] and at least this deep
+constexpr double times_noise = 3;        ///< times the noise: least depth of a judged mark
+constexpr double least_depth = 1e-4;     ///< [mm] and at least this depth
 constexpr double present = 0.5;          ///< of the predicted depth
 
-/// A point of a mark that was measured, and the passes there.
+/// A measured point of a mark, and the passes there.
 struct Crossing {
     PointIndex point = 0;
     Vec2 place = Vec2::Zero();
     AcrossFeed across;
 };
 
-/// Where a measurement crosses a run of a mark: the point whose contact lies nearest to its profile, or to the middle of
-/// its map.
+/// Where a measurement crosses a section of a mark: the point whose contact is nearest to its profile, or to the middle of its
+/// map.
 std::optional<Crossing> crossing_of(const DefectSection& section, const MeasuredData& data,
                                     const AlignedHeights& measured, const AsMachinedSurface& as_machined,
                                     const Signals& signals) {

@@ -1,5 +1,5 @@
 #pragma once
-// MeasuredData: what an instrument measured on a finished part, in the instrument's own axes, in mm.
+// MeasuredData: the measurement of a finished part, in the axes of the instrument, in mm.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace clsurf {
 
 enum class MeasuredKind : std::uint8_t {
     profile,  ///< heights along a line: y is 0
-    points,   ///< places in space, as a coordinate measuring machine touches them
+    points,   ///< places in space, as from a coordinate measuring machine
     areal,    ///< heights over a grid
 };
 /// "profile", "points", "areal map".
@@ -25,7 +25,7 @@ enum class MeasuredKind : std::uint8_t {
 struct MeasuredData {
     MeasuredKind kind = MeasuredKind::points;
     std::string name;  ///< of its file
-    /// [mm] A profile in rising x; a map row by row, z NaN where nothing was measured. No other value is NaN.
+    /// [mm] A profile by increasing x; a map row by row, z NaN if nothing was measured there. No other value is NaN.
     std::vector<Vec3> points;
     std::int64_t columns = 0, rows = 0;  ///< of a map
     Vec2 spacing = Vec2::Zero();         ///< [mm] of a map's columns and rows

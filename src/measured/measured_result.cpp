@@ -11,15 +11,15 @@ namespace clsurf {
 namespace {
 
 constexpr double least_correlation = 0.3;
-constexpr double most_times = 3;        ///< between measured and predicted Rq that are alike
-constexpr double least_rough = 0.0002;  ///< [mm] Rq of the rougher of both; heights are not known better
+constexpr double most_times = 3;        ///< between measured and predicted Rq, if they are alike
+constexpr double least_rough = 0.0002;  ///< [mm] Rq of the rougher one; heights are not known more precisely
 
 }  // namespace
 
 std::optional<std::string> doubt_of(const MeasuredComparison& c) {
     if (!c.reason.empty() || std::max(c.measured.rq, c.predicted.rq) < least_rough) return std::nullopt;
     const bool alike = c.measured.rq <= most_times * c.predicted.rq && c.predicted.rq <= most_times * c.measured.rq;
-    // What the prediction does not know adds to the measured roughness: the more it adds, the less both correlate.
+    // Effects that are not predicted add to the measured roughness. The more they add, the lower the correlation is.
     const double expected = alike ? std::min(1.0, c.predicted.rq / c.measured.rq) : 1.0;
     if (c.correlation >= least_correlation * expected) return std::nullopt;
     return fmt::format(

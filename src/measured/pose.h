@@ -1,5 +1,5 @@
 #pragma once
-// Pose: where the axes of a measurement lie on the part.
+// Pose: position and orientation of the axes of a measurement on the part.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ struct Pose {
     Vec3 shift = Vec3::Zero();
 
     [[nodiscard]] Vec3 operator()(const Vec3& point) const { return turn * point + shift; }
-    /// Turned by `rotation` (its length is the angle [rad]) about `centre`, then shifted.
+    /// Rotated by `rotation` (its length is the angle [rad]) about `centre`, then shifted.
     [[nodiscard]] Pose moved(const Vec3& by, const Vec3& rotation, const Vec3& centre) const {
         const double angle = rotation.norm();
         const Vec3 axis = angle > 0 ? Vec3(rotation / angle) : Vec3(Vec3::UnitZ());

@@ -13,19 +13,18 @@ namespace clsurf {
 namespace {
 
 constexpr int most_steps = 60;
-constexpr double least_step = 1e-7;     ///< [mm] that a point still moves
+constexpr double least_step = 1e-7;     ///< [mm] of motion of a point, below which the fit ends
 constexpr double first_damping = 1e-4;  ///< of the mean diagonal
 constexpr double least_damping = 1e-6;
 constexpr double most_damping = 1e8;
-constexpr double surface_reach = 0.125;  ///< step-overs, of slopes with scallops
-constexpr double least_known =
-    0.5;  ///< share of the points that must lie over the part: elsewhere they have no distance
-constexpr double kept_share = 0.95;     ///< of the points that a pose has distances of, in the next one
+constexpr double surface_reach = 0.125;  ///< step-overs, for slopes with scallops
+constexpr double least_known = 0.5;      ///< share of the points that must be over the part: others have no distance
+constexpr double kept_share = 0.95;     ///< of the points with a distance for one pose, that must have one for the next
 constexpr double outlier = 3;           ///< standard deviations
 constexpr double least_outlier = 2e-4;  ///< [mm]
 constexpr int most_rounds = 8;
 constexpr int level_rounds = 12;
-constexpr double nearest_share = 0.75;    ///< of the points, which height and tilt are found from
+constexpr double nearest_share = 0.75;    ///< of the points, from which height and tilt are determined
 constexpr double height_rounding = 6e-8;  ///< relative, of float heights over level()
 
 }  // namespace
@@ -110,7 +109,7 @@ FittedPose PoseFit::fit(const Pose& from, double reach) {
     FittedPose best{from, distances(from)};
     const auto half = static_cast<std::size_t>(least_known * static_cast<double>(points_.size()));
     if (best.distances.known < std::max<std::size_t>(half, 1)) return best;
-    // A pose must not look better because points of it lie beside the part.
+    // A pose must not improve because some of its points leave the part.
     const auto few = static_cast<std::size_t>(kept_share * static_cast<double>(best.distances.known));
     double damping = first_damping;
     for (int step = 0; step < most_steps && damping < most_damping; ++step) {
@@ -150,7 +149,7 @@ FittedPose PoseFit::fit(const Pose& from, double reach) {
 FittedPose PoseFit::fit_form(const Pose& from) { return fit(from, step_over_); }
 FittedPose PoseFit::fit_surface(const Pose& from) { return fit(from, surface_reach * step_over_); }
 
-/// All but a share of the points.
+/// Excludes all but the nearest share of the points.
 void PoseFit::leave_out_farthest(const FittedPose& fit) {
     std::vector<double> known = fit.distances.known_ones();
     if (known.empty()) return;
@@ -177,8 +176,8 @@ bool PoseFit::leave_out_far_ones(const FittedPose& fit) {
 FittedPose PoseFit::fit_without_outliers(const Pose& from) {
     std::fill(left_out_.begin(), left_out_.end(), char{0});
     FittedPose best{from, {}};
-    // Height and tilt first, of the nearest points again and again (least trimmed squares): with all points, a mark that is
-    // missing would draw the pose along the surface to where it is less deep.
+    // Height and tilt first, repeatedly from the nearest points (least trimmed squares). With all points, a missing mark would
+    // shift the pose along the surface to where the mark is less deep.
     const std::vector<PoseAxis> free = free_;
     std::erase_if(free_,
                   [](PoseAxis axis) { return axis != PoseAxis::z && axis != PoseAxis::a && axis != PoseAxis::b; });

@@ -1,6 +1,6 @@
 #pragma once
-// PoseFit: the rigid pose of measured points for which the sum of squares of their distances from the as-machined surface is
-// least (Levenberg-Marquardt). Distances are along the normal.
+// PoseFit: the rigid pose of measured points with the least sum of squares of their distances from the as-machined surface
+// (Levenberg-Marquardt). Distances are along the normal.
 
 #include <array>
 #include <cstdint>
@@ -13,20 +13,20 @@
 
 namespace clsurf {
 
-/// Degrees of freedom of a pose, in the axes that the measurement has at its start.
+/// Degrees of freedom of a pose, in the axes of the measurement at its start.
 enum class PoseAxis : std::uint8_t { x, y, z, a, b, c };
 inline constexpr std::size_t pose_axes = 6;
 using FreeAxes = std::array<bool, pose_axes>;
 
-/// Distances of points from the surface in a pose.
+/// Distances of points from the surface for a pose.
 struct Distances {
     std::vector<double>
-        along_normal;  ///< [mm] + outside of the part; NaN: nothing was cut there, or only the flank stands
+        along_normal;  ///< [mm] + outside of the part; NaN: nothing was cut there, or only the flank of the tool
     std::size_t known = 0;
     double squares = 0;  ///< their sum [mm²]
 
     [[nodiscard]] double mean_square() const { return squares / static_cast<double>(known); }
-    /// Those that are not NaN, also of points that a fit leaves out.
+    /// Those that are not NaN, including points that a fit excludes.
     [[nodiscard]] std::vector<double> known_ones() const;
 };
 
@@ -35,8 +35,8 @@ struct FittedPose {
     Distances distances;
 };
 
-/// What a fit tells of its degrees of freedom: along `axes`, in mm that a point moves (rotations: at the root
-/// mean square distance of the points from their centre).
+/// The information of a fit about its degrees of freedom along `axes`, in mm of motion of a point (rotations: at the root mean
+/// square distance of the points from their centre).
 struct PoseInformation {
     std::vector<PoseAxis> axes;  ///< that were free
     Eigen::MatrixXd normal;      ///< JᵀJ over them
@@ -46,18 +46,18 @@ struct PoseInformation {
 
 class PoseFit {
 public:
-    /// `points` [mm] in the axes of the measurement, `form` of the surface where they can lie. All must outlive it.
-    /// `most_shift` [mm], seen from above: how far their centre may lie from where `start` puts it.
+    /// `points` [mm]: in the axes of the measurement. `form`: of the surface in the region of the points. All must outlive it.
+    /// `most_shift` [mm], seen from above: largest distance of their centre from its place in `start`.
     PoseFit(std::span<const Vec3> points, PredictedHeights& heights, const Form& form, const Pose& start,
             const FreeAxes& free, double step_over, double most_shift);
 
     [[nodiscard]] Distances distances(const Pose& pose);
-    /// Slopes over a whole step-over: scallops drop out, and the form alone leads.
+    /// Fit with slopes over a whole step-over: scallops cancel, and only the form counts.
     [[nodiscard]] FittedPose fit_form(const Pose& from);
-    /// Slopes of the surface with its scallops.
+    /// Fit with slopes of the surface with its scallops.
     [[nodiscard]] FittedPose fit_surface(const Pose& from);
-    /// The same, again and again without the points that then lie too far off (three standard deviations, robust): a mark that
-    /// is missing, dirt. Distances are still given for all of them, known and squares are of the others.
+    /// The same, repeated without outliers (three standard deviations, robust), for example a missing mark or dirt. Distances
+    /// are still given for all points; known and squares exclude outliers.
     [[nodiscard]] FittedPose fit_without_outliers(const Pose& from);
     [[nodiscard]] PoseInformation information(const Pose& pose);
     [[nodiscard]] bool is_left_out(std::size_t point) const { return left_out_[point] != 0; }

@@ -54,7 +54,7 @@ std::vector<Pose> PoseSearch::around(const Pose& middle, double step, std::int64
 PoseSearch::Squares PoseSearch::levelled(const Pose& pose) const {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Vec3 right = Vec3::Zero();
-    std::vector<std::pair<double, Vec3>> off;  // height over the surface, and what it changes by
+    std::vector<std::pair<double, Vec3>> off;  // height above the surface, and its derivatives
     off.reserve(points_.size());
     const Vec3 middle = pose(points_[points_.size() / 2]);
     for (const Vec3& point : points_) {
