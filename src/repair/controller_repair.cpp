@@ -13,9 +13,9 @@
 namespace clsurf {
 namespace {
 
-constexpr double kept_promise = 0.05;  ///< share of the run before, by which mismatch and defects may differ from it
-constexpr double most_missing = 0.02;  ///< share of the program's motions that a log may lack
-constexpr double kept_time = 0.005;    ///< share of the time
+constexpr double kept_promise = 0.05;  ///< of the run before, by which mismatch and defects may differ
+constexpr double most_missing = 0.02;  ///< share of the program's motions that may be missing in a log
+constexpr double kept_time = 0.005;    ///< of the time
 
 bool keeps(const RunMeasures& before, const RunMeasures& promised, const RunMeasures& measured) {
     const double mismatch = std::abs(measured.mismatch - promised.mismatch) / std::max(before.mismatch, 1e-9),
@@ -70,7 +70,7 @@ public:
         }
         result.before = std::move(before_);
         result.after = std::move(after_);
-        // Those of the runs that are shown, whether the candidate was taken or not.
+        // For the runs that are shown, whether the candidate was accepted or not.
         result.evaluation.defects_before = result.before.report.defects.size();
         result.evaluation.defects_after = result.after.report.defects.size();
         return result;
@@ -82,7 +82,7 @@ private:
     /// The measures of the program and of a run.
     struct Comparison {
         RunMeasures before, after;
-        std::optional<RoughnessChange> roughness{};  ///< where the tool is known
+        std::optional<RoughnessChange> roughness{};  ///< if the tool is known
     };
 
     [[nodiscard]] Comparison compare(const JudgedRun& run) const {
@@ -108,7 +108,7 @@ private:
         return judge_run(std::move(log), program, diagnostics_, nullptr, ProgramIdentity::unknown, rules_.derivative);
     }
 
-    /// Why a log does not show how the program ran; empty: it does.
+    /// Why a log does not represent a run of the program; empty: it does.
     [[nodiscard]] static std::string why_unusable(const JudgedRun& run) {
         const ProgramMatch& match = run.lines->match();
         if (!match.foreign.empty()) return "the log does not belong to the program: " + match.foreign;
@@ -121,7 +121,7 @@ private:
         throw InputError(Place::of_file(program_.main().name()), "the controller did not run it: " + failure);
     }
 
-    /// Takes the log of an earlier round into account.
+    /// Includes the log of an earlier round.
     void take_round(const EarlierRound& round) {
         const Program changed = read_(round.run.text);
         const JudgedRun after = judged(Log(round.run.log), changed);
@@ -140,7 +140,7 @@ private:
         best_round_ = round.name;
     }
 
-    /// The best candidate of the simulation, if it promises more than the earlier rounds gave.
+    /// The best candidate of the simulation, if it promises more than the earlier rounds gained.
     Optimized simulated(const Log& measured) {
         Optimized found = optimize(program_, read_, judge_.fit(logs_, known_), rules_, std::optional<Log>(measured),
                                    progress_, diagnostics_);
@@ -161,7 +161,7 @@ private:
         return found;
     }
 
-    /// Searches with the machine that the logs so far give, until a candidate keeps its promise or no run is left.
+    /// Searches with the machine fitted to the logs so far, until a candidate keeps its promise or no run remains.
     Optimized search(const Log& measured) {
         Optimized result;
         Machine machine = judge_.fit(logs_, known_);
@@ -179,7 +179,8 @@ private:
         }
     }
 
-    /// Runs candidates until one keeps what the simulation promised. True: one did not, so that there is something to learn.
+    /// Runs candidates until one meets the prediction of the simulation. Returns true if one did not, so that the machine can
+    /// be fitted again.
     bool try_finalists(const Optimized& found, Optimized& result) {
         for (const Finalist& finalist : found.finalists) {
             if (!has_runs()) return false;
@@ -200,7 +201,7 @@ private:
         return run.measured;
     }
 
-    /// Judges a candidate's log. Returns why it is not accepted.
+    /// Judges the log of a candidate. Returns why it is not accepted.
     std::string take_outcome(const Finalist& finalist, const Optimized& found, ControllerOutcome outcome,
                              ControllerRun& run, Optimized& result) {
         if (!outcome.log) return refusal_ = outcome.failure;
@@ -211,8 +212,8 @@ private:
         return take(finalist, found, std::move(after), run, result);
     }
 
-    /// Takes a candidate whose log is better than that of the program, and than those of the candidates before.
-    /// Returns why it is not accepted.
+    /// Accepts a candidate whose log is better than that of the program, and than those of the previous candidates. Returns why
+    /// it is not accepted.
     std::string take(const Finalist& finalist, const Optimized& found, JudgedRun after, ControllerRun& run,
                      Optimized& result) {
         Comparison runs = compare(after);
@@ -249,13 +250,13 @@ private:
     std::vector<ControllerLog> logs_;
     std::vector<ControllerRun> runs_;
     JudgedRun before_, after_;
-    std::optional<RoughnessGauge> gauge_;       ///< of before_, where the tool is known
+    std::optional<RoughnessGauge> gauge_;       ///< of before_, if the tool is known
     std::optional<RoughnessChange> roughness_;  ///< to after_
     bool after_judged_ = false;
     int candidates_ = 0;
     int most_runs_ = 0;
     double best_gain_ = 0;    ///< of the runs so far
-    std::string best_round_;  ///< file of the earlier round that has it; empty: none
+    std::string best_round_;  ///< file of the earlier round with this gain; empty: none
     std::string refusal_ = "no candidate was better on the simulated machines";
 };
 

@@ -35,7 +35,7 @@ Draft Drafter::draft(const DraftLines& lines, std::vector<std::uint8_t> needed) 
     const auto keep_slowing = [&](std::int64_t first, std::int64_t end) {
         for (std::int64_t i = first; i < end; ++i) {
             const auto k = static_cast<std::size_t>(i);
-            // Splines of the program stay as they are.
+            // Splines of the program are not changed.
             const bool is_spline = program_.motions.kind[k] == MotionKind::spline;
             draft.may_slow.push_back(is_spline ? 0 : slows_anywhere_ ? 1 : needed[k]);
         }

@@ -17,36 +17,36 @@ namespace clsurf {
 /// Reads a text in the dialect of the program, with the same options.
 using ReadProgram = std::function<Program(const std::string& text)>;
 
-/// What the lines of a draft may be [mm].
+/// Limits of the lines of a draft [mm].
 struct DraftLines {
     double chord_error = 0;    ///< largest distance of a line from the smooth curve
-    double shortest_line = 0;  ///< lines are shorter only to keep the tolerance
+    double shortest_line = 0;  ///< shorter lines only to keep the tolerance
 };
 
 struct Draft {
     Program program;
     std::string text;
-    std::size_t segments = 0, splines = 0, changed_lines = 0;  ///< splines: sections that are one
+    std::size_t segments = 0, splines = 0, changed_lines = 0;  ///< splines: number of segments written as splines
     DraftLines lines{};
-    std::vector<std::uint8_t> needed{};    ///< per motion of the old program: 0 has kept its points
+    std::vector<std::uint8_t> needed{};    ///< per motion of the old program: 0 if its points did not change
     std::vector<std::uint8_t> may_slow{};  ///< per motion of the draft, whether it may get a feed; empty: all may
     std::vector<std::uint8_t> merged{};    ///< per motion of the draft: merged_with_next(); empty: none is merged
 };
 
 class Drafter {
 public:
-    /// `slows_anywhere`: feeds may also change outside the selected sections. `orientation`: of a program that runs on five
+    /// `slows_anywhere`: feeds may also change outside the selected sections. `orientation`: of a program that is run on five
     /// axes. All must outlive it. O(points).
     Drafter(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules,
             bool slows_anywhere, const Orientation* orientation = nullptr);
 
     /// New points for the motions that need repair (one entry per motion).
     [[nodiscard]] Draft draft(const DraftLines& lines, std::vector<std::uint8_t> needed) const;
-    /// The program as it is.
+    /// The program without changes.
     [[nodiscard]] Draft unchanged() const;
 
 private:
-    /// What the controller merges of a draft. On five axes it merges nothing.
+    /// Which motions of a draft the controller merges. On five axes it merges none.
     [[nodiscard]] std::vector<std::uint8_t> merged(const Program& program) const;
 
     const Program& program_;

@@ -1,5 +1,5 @@
 #pragma once
-// An ensemble of machines on which a new program must be better: what is known of one machine allows all of them.
+// An ensemble of machines, all consistent with what is known of one machine. A new program must be better on them.
 
 #include <memory>
 #include <string>
@@ -14,11 +14,11 @@ namespace clsurf {
 /// One machine's runs of the program and of the new program.
 struct EnsembleRun {
     RunMeasures before, after;
-    double gain = 0;  ///< of the objective, a share
+    double gain = 0;  ///< of the objective, as a share
 };
 
 struct EnsembleResult {
-    std::vector<EnsembleRun> runs;  ///< one for each machine; empty: the ensemble has none
+    std::vector<EnsembleRun> runs;  ///< one for each machine; empty: there are no machines
 
     /// The run with the smallest gain. There must be runs.
     [[nodiscard]] const EnsembleRun& worst() const;
@@ -26,16 +26,16 @@ struct EnsembleResult {
     [[nodiscard]] EnsembleRun mean() const;
 };
 
-/// Longest additional time on one machine of the ensemble, a share, while the mean must not be longer at all.
+/// Longest additional time on one machine of the ensemble, as a share. The mean must not be longer at all.
 inline constexpr double most_time_on_one_machine = 0.005;
 
-/// Why the new program is not better: on the mean, in mismatch, defects and time and by least_gain; on every machine, in
-/// defects, in the objective and, up to most_time_on_one_machine, in time. Empty: it is, or there are no machines.
+/// Why the new program is not better. On the mean it must be better in mismatch, defects and time, and by least_gain; on every
+/// machine in defects, in the objective and, up to most_time_on_one_machine, in time. Empty: it is, or there are no machines.
 [[nodiscard]] std::string why_not_better(const EnsembleResult& result, double more_time);
 
 class Ensemble {
 public:
-    /// Runs the program on every machine when the first new program comes. All must outlive the ensemble.
+    /// The program is run on every machine when the first new program comes. All must outlive the ensemble.
     Ensemble(const Program& program, std::vector<Machine> machines, const OptimizeRules& rules,
              std::shared_ptr<const Kinematics> kinematics);
 
@@ -48,7 +48,7 @@ private:
     std::vector<Machine> machines_;
     const OptimizeRules& rules_;
     std::shared_ptr<const Kinematics> kinematics_;
-    std::vector<RunMeasures> before_;  ///< of the program, one a machine
+    std::vector<RunMeasures> before_;  ///< of the program, one per machine
 };
 
 }  // namespace clsurf

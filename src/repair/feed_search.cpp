@@ -11,21 +11,22 @@ namespace clsurf {
 namespace {
 
 constexpr std::array<double, 3> steps_between_passes{0.1, 0.05, 0.02};
-constexpr double feed_tolerance = 0.003;  ///< a motion this little too fast (a share) gets no feed
-constexpr int equalising_rounds = 3;      ///< with the time that there is
-constexpr double most_share = 0.65;  ///< of the time there is, that a round may reckon with: feeds hold whole lines
-/// Of the machine's acceleration. A feed holds a whole line: along a steep ramp, adjacent passes whose lines end elsewhere differ.
+constexpr double feed_tolerance = 0.003;  ///< as a share: a motion that is too fast by less gets no feed
+constexpr int equalising_rounds = 3;      ///< within the available time
+constexpr double most_share = 0.65;       ///< of the available time, for one round: feeds apply to whole lines
+/// Of the machine's acceleration. A feed applies to a whole line, so along a steep ramp, adjacent passes whose lines end
+/// elsewhere differ.
 constexpr std::array<double, 2> gentle_ramps{0.3, 0.1};
-constexpr int most_mixed_attempts = 3;  ///< of the attempts of a round, place by place
-constexpr double more_than_late = 1.5;  ///< times what the last one was late, that the next one takes less
-constexpr double time_used = 0.95;      ///< of what is there: enough
+constexpr int most_mixed_attempts = 3;  ///< number of combinations of the attempts of a round, place by place
+constexpr double more_than_late = 1.5;  ///< times the delay of the last one, by which the next one must be faster
+constexpr double time_used = 0.95;      ///< of the available time: sufficient
 
 Ramp gentle(Ramp ramp, double share) {
     ramp.acceleration *= share;
     return ramp;
 }
 
-/// The targets of a proposal, and lower ones from a speed per point of its run [mm/s]; its own where none is lower.
+/// The targets of a proposal, lowered to a speed per point of its run [mm/s]; unchanged if none is lower.
 std::vector<float> lowered_targets(const Proposal& proposal, const std::vector<float>& speeds) {
     const std::vector<float> own =
         peaks_by_motion(proposal.run, proposal.draft->program, compared_speeds(proposal.run));
@@ -42,7 +43,7 @@ std::vector<float> lowered_targets(const Proposal& proposal, const std::vector<f
     return any ? targets : proposal.targets;
 }
 
-/// The targets of a proposal, raised where its run fell below the speeds that they were made for on the run of `from`.
+/// The targets of a proposal, raised where its run was slower than the speeds for which they were set on the run of `from`.
 std::vector<float> eased_targets(const Proposal& from, const Proposal& made, const std::vector<float>& speeds) {
     const std::vector<float> wanted = peaks_by_motion(from.run, from.draft->program, speeds);
     const std::vector<float> reached = peaks_by_motion(made.run, from.draft->program, compared_speeds(made.run));
@@ -56,7 +57,7 @@ std::vector<float> eased_targets(const Proposal& from, const Proposal& made, con
     return targets;
 }
 
-/// For each motion the target of that attempt, or of `from`, that ran best about it.
+/// For each motion, the target of the attempt (or of `from`) that ran best around it.
 std::vector<float> best_targets(const Proposal& from, const std::vector<TriedProposal>& attempts, double longest) {
     std::vector<const JudgedRun*> runs{&from.run};
     for (const TriedProposal& each : attempts) runs.push_back(&each->run);
@@ -72,7 +73,7 @@ std::vector<float> best_targets(const Proposal& from, const std::vector<TriedPro
     return targets;
 }
 
-/// Whether a feed reduction removed defects near some of its causes but not near others. The others are added to `abandoned`.
+/// Whether a feed reduction removed defects near some of its causes but not near others. Adds the others to `abandoned`.
 bool gives_up_losses(const Proposal& from, const ReducedSpeeds& speeds, const Proposal& reduced,
                      std::vector<Vec3>& abandoned) {
     const std::vector<int> gains = gains_of(speeds, from.run, reduced.run);
@@ -100,7 +101,7 @@ void FeedSearch::equalise(const TriedProposal& from) {
         if (!evaluator_.has_time()) return;
         const TriedProposal equalised =
             evaluator_.propose(from->draft, lowered_targets(*from, equaliser.everywhere({step, 0, ramp_})));
-        if (equalised->run.duration > evaluator_.longest()) return;  // lower feeds take longer still
+        if (equalised->run.duration > evaluator_.longest()) return;  // lower feeds would take even longer
     }
 }
 
@@ -152,7 +153,7 @@ void FeedSearch::reduce_feeds(FeedReduction& reduction, int rounds) {
             continue;
         }
         if (from == last_from && targets == last_targets) {
-            reduction.share /= 2;  // it was tried: for less time there may be another one
+            reduction.share /= 2;  // already tried: there may be another one for less time
             continue;
         }
         last_from = from;

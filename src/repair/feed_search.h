@@ -15,9 +15,9 @@ namespace clsurf {
 struct FeedReduction {
     static constexpr double usual_step = 0.7;
     TriedProposal from;             ///< the last one kept
-    double share = 0;               ///< of the time there is to lose, that the next round may take
-    double step = usual_step;       ///< of the threshold of a speed step, that is left about defects
-    std::vector<Vec3> abandoned{};  ///< [mm] places of defects that are let be
+    double share = 0;               ///< of the available time, that the next round may use
+    double step = usual_step;       ///< step of the speed around defects that is accepted, in thresholds
+    std::vector<Vec3> abandoned{};  ///< [mm] places of defects that are no longer repaired
 };
 
 class FeedSearch {
@@ -25,20 +25,20 @@ public:
     /// The evaluator must outlive it.
     FeedSearch(Evaluator& evaluator, const Machine& machine);
 
-    /// Feeds that make adjacent passes equal everywhere within a step [mm/s], the smallest one that the time saved by
-    /// `from` allows.
+    /// Feeds that make adjacent passes equal everywhere within a step [mm/s]: the smallest step for which the time that `from`
+    /// has saved is sufficient.
     void equalise_in_time(const TriedProposal& from);
 
     /// The same with steps that are fixed fractions of the speed.
     void equalise(const TriedProposal& from);
 
-    /// Slows down around remaining defects, round by round, as long as the time budget lasts. Each round is one feed
-    /// reduction, the same only for the defects that it removed, the last of these with feeds as high as its speeds
-    /// need, and for each place what ran best there.
+    /// Slows down around remaining defects, in rounds, until the time budget is used up. Each round tries several variants: one
+    /// feed reduction; the same only for the defects that it removed; the last of these with the feeds raised to what its
+    /// speeds need; and a combination of the variants that ran best at each place.
     void reduce_feeds(FeedReduction& reduction, int rounds);
 
 private:
-    /// Adds attempts that have for each motion the target that ran best about it, of these attempts and of `from`.
+    /// Adds attempts that combine these attempts and `from`: each motion gets the target that ran best around it.
     void mix(const TriedProposal& from, std::vector<TriedProposal>& attempts);
 
     Evaluator& evaluator_;

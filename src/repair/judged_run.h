@@ -1,5 +1,5 @@
 #pragma once
-// JudgedRun: a run of a program, simulated or recorded, with what the predictor says of it.
+// JudgedRun: a run of a program, simulated or recorded, with the results of the predictor.
 
 #include <memory>
 #include <optional>
@@ -21,17 +21,16 @@ namespace clsurf {
 
 struct JudgedRun {
     Log log;
-    Trajectory path;  ///< commanded, or what the log has
+    Trajectory path;  ///< commanded, or the positions that the log has
     std::unique_ptr<LineMap> lines;
     ClSurface surface;
     Signals signals;
     QualityReport report;
-    double duration = 0;  ///< [s] from the first to the last motion
-    double mismatch = 0;  ///< [mm/s] 95th percentile of the speed difference to the adjacent passes
-    Column<float>
-        speed_differences;         ///< [mm/s] per point, to the neighbour pass that differs most; NaN: none beside it
-    double greatest_mismatch = 0;  ///< [mm/s] 99.9th percentile of it
-    std::optional<MotionQuality> motion{};  ///< where it is asked for
+    double duration = 0;              ///< [s] from the first to the last motion
+    double mismatch = 0;              ///< [mm/s] 95th percentile of the speed difference to the adjacent passes
+    Column<float> speed_differences;  ///< [mm/s] per point, to the adjacent pass that differs most; NaN: there is none
+    double greatest_mismatch = 0;     ///< [mm/s] 99.9th percentile of it
+    std::optional<MotionQuality> motion{};  ///< if it was requested
 
     [[nodiscard]] GaugedRun gauged() const { return {log, path, *lines, surface, &report}; }
     [[nodiscard]] RunMeasures measures() const {
@@ -43,10 +42,10 @@ struct JudgedRun {
     }
 };
 
-/// Stitches the surface of a log and judges it as `check` does. Adds diagnostics about lines to `diagnostics`. `kinematics`: of a
-/// machine whose rotary axes the log has; the program's motions are then those of the tip. `identity`: what is known of
-/// the program that ran; `same` for a simulation. `derivative`: how speeds and accelerations are derived. `with_motion`: asks for
-/// JudgedRun::motion. O(points), parallel.
+/// Stitches the surface of a log and judges it as `check` does. Adds diagnostics about lines to `diagnostics`. `kinematics`: of
+/// the machine if the log has its rotary axes; the motions of the program are then those of the tip. `identity`: what is known
+/// about the program that ran; `same` for a simulation. `derivative`: method for speeds and accelerations. `with_motion`:
+/// requests JudgedRun::motion. O(points), parallel.
 [[nodiscard]] JudgedRun judge_run(Log log, const Program& program, Diagnostics& diagnostics,
                                   std::shared_ptr<const Kinematics> kinematics = nullptr,
                                   ProgramIdentity identity = ProgramIdentity::same,

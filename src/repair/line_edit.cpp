@@ -17,17 +17,17 @@
 namespace clsurf {
 namespace {
 
-constexpr double same_coordinate = 1e-7;  ///< [mm] a word and where its motion ends
+constexpr double same_coordinate = 1e-7;  ///< [mm] between a word and the end of its motion
 constexpr double same_axis_angle = 1e-9;  ///< [rad]
 constexpr std::string_view letters = "XYZABC";
-constexpr std::size_t linear = 3, axes = 6;  ///< words: X, Y, Z and A, B, C behind them
+constexpr std::size_t linear = 3, axes = 6;  ///< words: X, Y, Z and then A, B, C
 
 std::size_t skip_blanks(std::string_view text, std::size_t at) {
     while (at < text.size() && is_blank(text[at])) ++at;
     return at;
 }
 
-/// Digits behind the point of the number that ends before `end`.
+/// Number of decimals of a number.
 int decimals_of(std::string_view number) {
     const std::size_t point = number.find('.');
     return point == std::string_view::npos ? 0 : static_cast<int>(number.size() - point - 1);
@@ -40,7 +40,7 @@ Vec3 angles_before(const Motions& motions, std::int64_t i) {
     return i > 0 && !motions.rotary.empty() ? motions.rotary[static_cast<std::size_t>(i - 1)].vec() : Vec3::Zero();
 }
 
-/// Whether a line's words are the angles at which its motion ends; where those turn, the tip must move as well.
+/// Whether a line's words are the angles at the end of its motion. If these turn, the tip must move as well.
 bool says_its_angles(const PlainLine& line, const Motions& motions, std::size_t i) {
     const Vec3 begin = angles_before(motions, static_cast<std::int64_t>(i)),
                end = motions.rotary.empty() ? Vec3::Zero() : motions.rotary[i].vec();
@@ -52,14 +52,14 @@ bool says_its_angles(const PlainLine& line, const Motions& motions, std::size_t 
     return begin == end || motions.begin_of(static_cast<std::int64_t>(i)) != motions.end[i];
 }
 
-/// A point of the path as the words of a motion count it: in the motion's work system, before what the program turns,
-/// scales and shifts.
+/// A point of the path in the coordinates of a motion's words: in its work system, before rotation, scale and shift by the
+/// program.
 Vec3 in_words(const Motions& motions, std::int64_t motion, const Vec3& p) {
     const WorkFrame& frame = motions.frame_of(motion);
     return frame.words.to_programmed(apply(frame.placed.inverse(), p));
 }
 
-/// The number and the word of a straight line that Klartext begins with: "12 L "; false: there are none.
+/// The number and the word at the beginning of a straight line in Klartext: "12 L "; false: there are none.
 bool read_statement(std::string_view text, std::string_view word, PlainLine& line, std::size_t& at) {
     const std::size_t number = at;
     while (at < text.size() && is_digit(text[at])) ++at;
@@ -70,14 +70,14 @@ bool read_statement(std::string_view text, std::string_view word, PlainLine& lin
     if (after >= text.size() || !is_blank(text[after])) return false;
     const std::size_t end = skip_blanks(text, after);
     line.code = text.substr(at, end - at);
-    line.blanks = true;  // Klartext needs them between words
+    line.blanks = true;  // required between words in Klartext
     at = end;
     return true;
 }
 
-/// How the lines that are replaced are written.
+/// The format of the lines that are replaced.
 struct OldLines {
-    std::array<std::string, axes> words;      ///< letters as they stand there
+    std::array<std::string, axes> words;      ///< letters as written there
     std::array<bool, axes> everywhere{};      ///< written on every line
     std::vector<std::string_view> numbers{};  ///< of lines: "N10"
     std::string first_code{};
@@ -116,7 +116,7 @@ struct Replaced {
           old(read_old(program.main(), first, last, straight_word)) {}
 
     [[nodiscard]] std::size_t count() const { return last - first + 1; }
-    /// What new line k begins with: the number of old line k, the last one that of the last; empty: not all had one.
+    /// The line number for new line k: that of old line k, and for the last one that of the last; empty: not all had one.
     [[nodiscard]] std::string number(std::size_t k, bool is_last) const {
         if (old.numbers.size() != count()) return {};
         if (is_last) return std::string(old.numbers.back());
@@ -124,7 +124,7 @@ struct Replaced {
     }
 };
 
-/// Whether a text has a word G18 or G19, of another plane than G17, be it in a comment.
+/// Whether a text has a word G18 or G19, which select another plane than G17, even in a comment.
 bool has_other_plane(std::string_view text) {
     for (std::size_t at = 0; at < text.size(); ++at) {
         if (upper(text[at]) != 'G') continue;
@@ -180,7 +180,7 @@ std::optional<PlainLine> read_plain_line(std::string_view text, std::string_view
 
 namespace {
 
-/// The dialect's splines, unless they lie in one plane and the program leaves it.
+/// The form of the dialect's splines; none if they are planar and the program uses another plane.
 SplineForm usable_splines(const TextRules& rules, const Program& program) {
     const bool other_plane = rules.splines == SplineForm::cubic_plane && has_other_plane(program.main().text());
     return other_plane ? SplineForm::none : rules.splines;
@@ -207,7 +207,7 @@ LineEditor::LineEditor(const Program& program, int least_decimals)
     std::array<std::size_t, 2> fits{0, 0};
     constexpr std::array<double, 2> units{1, mm_per_inch};
     for (int turn = 0; turn < 2; ++turn) {
-        // First which unit the words have, then which lines say where they go in it.
+        // The first round determines the unit of the words, the second one the lines that give their end in it.
         FeedModeCursor feed_mode(program);
         for (std::size_t i = 0; i < count; ++i) {
             if (!feed_mode.per_minute(static_cast<std::int64_t>(i))) continue;
@@ -282,7 +282,7 @@ std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const std
             now[a] = text_of(a, position, angles.empty() ? Vec3::Zero() : angles[k].programmed);
             moves = moves || (a < linear && now[a] != modal[a]);
         }
-        if (!moves) continue;  // nearer to the point before than the decimals tell
+        if (!moves) continue;  // the distance to the previous point is below the last decimal
         const std::int64_t kept = angles.empty() ? -1 : angles[k].motion;
         const PlainLine as_written =
             kept < 0 ? PlainLine{}
@@ -308,7 +308,7 @@ bool LineEditor::may_be_spline(std::int64_t first, const std::vector<Vec3>& poin
     if (splines_ != SplineForm::cubic_plane) return splines_ != SplineForm::none;
     const auto words = [&](const Vec3& p) { return in_words(program_->motions, first, p); };
     const Vec3& begin = points.front();
-    // The inner points of G5 are not turned or scaled with the frame.
+    // The inner points of G5 are not rotated or scaled with the frame.
     for (const Vec3& axis : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY())}) {
         if (!((words(begin + axis) - words(begin) - axis).norm() <= same_coordinate)) return false;
     }
@@ -344,7 +344,7 @@ std::string LineEditor::text(std::string_view header) const {
     const std::string comment = header.empty() ? ""
                                 : semicolon    ? fmt::format("; {}{}", header, end_of_line)
                                                : fmt::format("({}){}", header, end_of_line);
-    // Behind what must come first: the tape mark and the program's name.
+    // After the lines that must come first: the tape mark and the program's name.
     LineNumber head = 0;
     while (head < main.line_count()) {
         const std::string_view line = main.line(head + 1);

@@ -22,8 +22,8 @@ constexpr double feed_steps = 10;  ///< per unit and minute of a feed word
 struct LineEditor::FedMotion {
     std::string programmed, wanted;  ///< F words
     LineNumber line = 0;             ///< of the word
-    LineNumber restoring = 0;        ///< the line that sets the programmed feed again; 0: a new one behind `line`
-    LineNumber next = 0;             ///< the line that the next motion has where nothing stands between
+    LineNumber restoring = 0;        ///< the line that restores the programmed feed; 0: a new one after `line`
+    LineNumber next = 0;             ///< the line of the next motion if nothing is between them
 };
 
 std::string LineEditor::feed_word(double feed) const {
@@ -31,7 +31,7 @@ std::string LineEditor::feed_word(double feed) const {
     return fmt::format("F{}", std::round(feed * seconds_per_minute / unit * feed_steps) / feed_steps);
 }
 
-/// In the order of the program. A section of a spline is one where it has one feed.
+/// In the order of the program. A section of a spline is one entry if it has a single feed.
 std::vector<LineEditor::FedMotion> LineEditor::fed_motions(const std::vector<float>& feeds,
                                                            const std::vector<std::uint8_t>& spans) const {
     const Motions& motions = program_->motions;
@@ -72,13 +72,13 @@ std::vector<LineEditor::FedMotion> LineEditor::fed_motions(const std::vector<flo
     return fed;
 }
 
-/// Puts words behind those of a line, and a line behind it; both may be empty.
+/// Appends words to a line, and a line after it; both may be empty.
 void LineEditor::append(LineNumber line, const std::string& words, const std::string& line_behind) {
     const std::string_view end_of_line = line_end_of(program_->main().text());
     std::string_view text = program_->main().line(line);
     while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
     Edit edit{line, line, std::string(text)};
-    // As the line itself has them: "X1Y2F3", but "G1 F3".
+    // In the style of the line: "X1Y2F3", but "G1 F3".
     const bool close = text.find(' ') == std::string_view::npos && read_plain_line(text, rules_->straight_word);
     if (!words.empty()) edit.text += (close ? "" : " ") + words;
     edit.text += end_of_line;
@@ -90,7 +90,7 @@ void LineEditor::append(LineNumber line, const std::string& words, const std::st
 void LineEditor::set_feeds(const std::vector<float>& feeds, const std::vector<std::uint8_t>& spans) {
     const std::string statement = rules_->straight_word.empty() ? "" : std::string(rules_->straight_word) + " ";
     const std::vector<FedMotion> fed = fed_motions(feeds, spans);
-    std::string modal;  // what the controller has now, where that is not what was programmed
+    std::string modal;  // the present feed of the controller if it is not the programmed one
     for (std::size_t k = 0; k < fed.size(); ++k) {
         const FedMotion& motion = fed[k];
         if (modal.empty()) modal = motion.programmed;

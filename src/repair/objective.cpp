@@ -11,11 +11,11 @@
 namespace clsurf {
 namespace {
 
-constexpr double growth_weight = 0.03;    ///< of a program's growth, against shares of mismatch and defects
-constexpr double goal_of_mismatch = 0.5;  ///< share left, from which on …
+constexpr double growth_weight = 0.03;    ///< of a program's growth, relative to shares of mismatch and defects
+constexpr double goal_of_mismatch = 0.5;  ///< remaining share, below which …
 constexpr double beyond_goal = 0.1;       ///< … less mismatch counts less
 
-/// What a mismatch counts as.
+/// The weight of a mismatch.
 double counted(const RunMeasures& run, const RunMeasures& before) {
     return std::max(mismatch_that_counts(before, run), least_mismatch * before.speed);
 }

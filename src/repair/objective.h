@@ -1,6 +1,6 @@
 #pragma once
-// What a repair is to lower, in one place: mismatch, defects and time of a run, the roughness of the surface that it
-// leaves, and the length of the program.
+// The objective of a repair, in one place: mismatch, defects and time of a run, the roughness of the resulting surface, and the
+// length of the program.
 
 #include <algorithm>
 #include <string>
@@ -11,26 +11,27 @@
 
 namespace clsurf {
 
-/// What a run of a program is judged by. Lower is better in each.
+/// The measures of a run of a program. Lower is better for each.
 struct RunMeasures {
     double mismatch = 0;                 ///< [mm/s] 95th percentile of the speed differences between adjacent passes
-    double defects = 0;                  ///< their number, as `check` counts them; not whole in a mean
+    double defects = 0;                  ///< their number, as in `check`; may be fractional in a mean
     double duration = 0;                 ///< [s]
     double speed = 0;                    ///< [mm/s] usual speed of the cuts
     double roughness = missing<double>;  ///< [mm] Ra of the as-machined surface; NaN: not known
     double defect_mismatch = 0;          ///< [mm/s] the largest speed difference of a defect
 };
 
-/// The measures of a run with its roughness, where that is known.
+/// The measures of a run with its roughness, if that is known.
 [[nodiscard]] RunMeasures with_roughness(RunMeasures measures, const PartRoughness& roughness);
 
-/// A rise of the roughness by this share is none: it is measured at some places only.
+/// Relative rise of the roughness that is not significant, because it is measured at some places only.
 inline constexpr double roughness_agrees = 0.01;
 
-/// A smaller mismatch, as a share of the speed, is none.
+/// Mismatch, as a share of the speed, below which it counts as zero.
 inline constexpr double least_mismatch = 0.002;
 
-/// RunMeasures::mismatch is none in the run before. A few sections may still differ: defect_mismatch counts then.
+/// Whether RunMeasures::mismatch of the run before counts as zero. A few sections may still differ; then defect_mismatch
+/// counts.
 [[nodiscard]] inline bool defects_alone_count(const RunMeasures& before) {
     return before.mismatch <= least_mismatch * before.speed;
 }
@@ -40,24 +41,24 @@ inline constexpr double least_mismatch = 0.002;
     return defects_alone_count(before) ? std::max(run.mismatch, run.defect_mismatch) : run.mismatch;
 }
 
-/// Gains below this are not worth a new program.
+/// Smaller gains are not worth a new program.
 inline constexpr double least_gain = 0.02;
 
-/// The objective, relative to the run before: m + d + t + r + 0.03 g. m is the share of mismatch_that_counts() that remains,
-/// both at least least_mismatch; what is below one half counts a tenth, because defects matter more from there on. d is the share of the defects that
-/// remain. t is the share of additional time, at most `more_time`. r is
-/// the share of the roughness that remains, where both are known. g = lines after / lines before.
+/// The objective, relative to the run before: m + d + t + r + 0.03 g. m is the remaining share of mismatch_that_counts(), both
+/// at least least_mismatch; the part of m below one half has a weight of one tenth, because defects matter more from there on.
+/// d is the remaining share of the defects. t is the share of additional time, at most `more_time`. r is the remaining share of
+/// the roughness, if both are known. g = lines after / lines before.
 [[nodiscard]] double objective(const RunMeasures& before, const RunMeasures& after, double line_ratio,
                                double more_time);
 
-/// By which share the objective falls from that of the unchanged program; negative: it rises.
+/// The share by which the objective falls from that of the unchanged program; negative: it rises.
 [[nodiscard]] double gain_of(const RunMeasures& before, const RunMeasures& after, double line_ratio, double more_time);
 
 /// "`what` is 1.3 %, less than 2 %"; empty: it is at least least_gain.
 [[nodiscard]] std::string too_little_gain(std::string_view what, double gain);
 
-/// Why `after` is not better than `before` in every respect: mismatch, defects, time (with `more_time`, a share), roughness; empty:
-/// it is.
+/// Why `after` is not better than `before` in every respect: mismatch, defects, time (with `more_time`, a share), roughness;
+/// empty: it is.
 [[nodiscard]] std::string why_not_better(const RunMeasures& before, const RunMeasures& after, double more_time);
 
 }  // namespace clsurf

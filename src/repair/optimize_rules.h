@@ -1,5 +1,5 @@
 #pragma once
-// OptimizeRules: what a repaired program may differ in.
+// OptimizeRules: the permitted differences of a repaired program.
 
 #include <optional>
 #include <string>
@@ -18,15 +18,15 @@ inline constexpr double most_turned = 0.01 * rad_per_deg;
 
 /// Which feeds a new program gets.
 enum class FeedChoice : unsigned char {
-    searched,   ///< those that make adjacent passes equal, as far as the time goes
+    searched,   ///< feeds that make adjacent passes equal, as far as the time allows
     intervals,  ///< the speeds of its constant-speed intervals (Wu et al. 2022)
 };
 
 struct OptimizeRules {
     FeedChoice feeds = FeedChoice::searched;
-    bool splines = false;       ///< sections are written as splines where the dialect has them; three axes
+    bool splines = false;       ///< sections are written as splines if the dialect has them; three axes
     double tolerance = 0.005;   ///< [mm] from the programmed path
-    double more_time = 0;       ///< a share: how much longer the new program may take
+    double more_time = 0;       ///< as a share: how much longer the new program may take
     int least_decimals = 0;     ///< of new coordinates; 0: as many as the program has
     Vec3 start = Vec3::Zero();  ///< [mm] where the axes stand before the program
     Vec3 zero = Vec3::Zero();   ///< [mm] machine position of its zero, on five axes
@@ -34,10 +34,10 @@ struct OptimizeRules {
     std::optional<CuttingTool> tool;                         ///< whose surface must not get rougher; three axes
     int machines = 4;                ///< of the ensemble that must be better; 0: the nominal machine alone decides
     bool keeps_front = false;        ///< all candidates that pass are compared by time, mismatch and jerk
-    std::optional<double> weight{};  ///< chooses from these (tradeoff/front.h); nothing: the objective does
-    bool all_finalists = false;      ///< lists all, instead of the best that the ensemble accepts
+    std::optional<double> weight{};  ///< selects one of these (tradeoff/front.h); nullopt: the objective selects
+    bool all_finalists = false;      ///< lists all, instead of only the best that the ensemble accepts
     ProgramIdentity identity = ProgramIdentity::unknown;  ///< of the program that a recorded run ran
-    std::string header;  ///< text of the comment that says where the program comes from
+    std::string header;                                   ///< text of the comment that states the origin of the program
 };
 
 }  // namespace clsurf

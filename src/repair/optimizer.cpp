@@ -19,29 +19,29 @@
 namespace clsurf {
 namespace {
 
-constexpr std::array<double, 3> shares_of_tolerance{0.2, 0.1, 0.4};  ///< that lines may leave the curve by
-constexpr double reserve = 1.1;                                      ///< of the way in a block time or in periods
-constexpr double periods_a_line = 2;                                 ///< of the trapezoidal planner
-constexpr RepairMaskRules worst_alone{0.5, 2, 2};                    ///< a draft that leaves the more as it is
-constexpr RepairMaskRules slow_as_well{.slow = 0.9};                 ///< a draft that saves time
-constexpr std::size_t most_mixed = 2;                                ///< drafts of which regions are given back …
-constexpr int mixing_rounds = 3;                                     ///< … so many times …
-constexpr int most_mixing_rounds = 6;                                ///< … or more, while the run is refused
-constexpr std::size_t most_sections_alone = 24;  ///< that are tried one by one where nothing else is accepted
-constexpr double share_of_drafts = 0.35;         ///< of all runs, that points alone may take; the others seek feeds
-constexpr double most_time_to_regain = 0.01;     ///< a share, by motions that get their old points back
-constexpr std::size_t most_fed = 5;              ///< drafts that feeds are sought for
-constexpr std::size_t most_equalised_early = 2;  ///< of them
-constexpr double most_behind = 0.2;   ///< the best, by score, after the first rounds: others are not repaired on
-constexpr double small_share = 0.3;   ///< of the time, for a feed reduction that begins with the cheap defects …
-constexpr double large_share = 0.65;  ///< … and for one that takes all it can
+constexpr std::array<double, 3> shares_of_tolerance{0.2, 0.1, 0.4};  ///< distance of lines from the curve
+constexpr double reserve = 1.1;                       ///< of the arc length in a block time or in periods
+constexpr double periods_a_line = 2;                  ///< of the trapezoidal planner
+constexpr RepairMaskRules worst_alone{0.5, 2, 2};     ///< a draft that changes less
+constexpr RepairMaskRules slow_as_well{.slow = 0.9};  ///< a draft that saves time
+constexpr std::size_t most_mixed = 2;                 ///< drafts of which regions are reset …
+constexpr int mixing_rounds = 3;                      ///< … so many times …
+constexpr int most_mixing_rounds = 6;                 ///< … or more, while the run is refused
+constexpr std::size_t most_sections_alone = 24;       ///< that are tried one by one if nothing else is accepted
+constexpr double share_of_drafts = 0.35;              ///< of all runs, for points alone; the others are for feeds
+constexpr double most_time_to_regain = 0.01;          ///< as a share, by motions that get their old points back
+constexpr std::size_t most_fed = 5;                   ///< drafts for which feeds are searched
+constexpr std::size_t most_equalised_early = 2;       ///< of them
+constexpr double most_behind = 0.2;   ///< by score, after the first rounds: drafts farther behind the best are dropped
+constexpr double small_share = 0.3;   ///< of the time, for a reduction that begins with inexpensive defects …
+constexpr double large_share = 0.65;  ///< … and for one that uses as much as it can
 constexpr int first_rounds = 2, more_rounds = 8;
-constexpr std::size_t most_listed = 8;                    ///< accepted finalists, where all are listed
-constexpr std::array<double, 2> other_steps{0.85, 0.55};  ///< that feed reductions are tried with as well …
+constexpr std::size_t most_listed = 8;                    ///< accepted finalists, if all are listed
+constexpr std::array<double, 2> other_steps{0.85, 0.55};  ///< with which feed reductions are also tried …
 constexpr std::size_t most_drafts_of_other_steps = 2;     ///< … for so many drafts
-/// Of the best proposal, one after the other …
+/// Steps for the best proposal, one after the other …
 constexpr std::array<double, 4> polishing_steps{FeedReduction::usual_step, 0.85, 0.55, 0.4};
-constexpr double least_polished = 1e-3;  ///< … again, while the score falls by so much
+constexpr double least_polished = 1e-3;  ///< … repeated while the score falls by this much
 
 /// The median feed of the cutting lines [mm/s].
 double usual_feed(const Program& program) {
@@ -94,8 +94,7 @@ public:
     }
 
 private:
-    /// The best proposal that the ensemble accepts; the best of all, refused with the ensemble's reason, where it accepts
-    /// none.
+    /// The best proposal that the ensemble accepts. If it accepts none, the best of all, refused with the ensemble's reason.
     TriedProposal choose(Optimized& result) {
         measure_roughness();
         const std::vector<TriedProposal> finalists = evaluator_.finalists();
@@ -126,7 +125,7 @@ private:
             if (chosen == nullptr) chosen = each;
             if (!rules_.all_finalists || result.finalists.size() == most_listed) break;
         }
-        // Where a controller decides, it decides on these, too.
+        // If a controller decides, it may also run these.
         std::move(doubtful.begin(), doubtful.end(), std::back_inserter(result.finalists));
         if (chosen != nullptr) return chosen;
         result.ensemble = refused;
@@ -162,8 +161,8 @@ private:
                 static_cast<std::size_t>(std::count(needed_.begin(), needed_.end(), 1))};
     }
 
-    /// Of lines that a controller runs in less than block_time, or in few periods, many would slow it down. What the
-    /// trapezoidal planner makes of short lines depends on the corners, so that both are tried.
+    /// Many lines that a controller runs in less than block_time, or in few periods, would slow it down. With the trapezoidal
+    /// planner the effect of short lines depends on the corners, so both are tried.
     [[nodiscard]] std::vector<DraftLines> line_choices() const {
         const ControllerSettings& controller = machine_.controller;
         const double feed = usual_feed(program_);
@@ -177,7 +176,7 @@ private:
         return choices;
     }
 
-    /// Each draft, and the program itself, at the speeds of its constant-speed intervals.
+    /// Proposes each draft, and the program itself, with the speeds of its constant-speed intervals.
     void propose_intervals(const Drafter& drafter) {
         std::vector<Draft> drafts;
         drafts.push_back(drafter.unchanged());
@@ -195,7 +194,7 @@ private:
         std::vector<TriedProposal> drafts;  // points alone
         const std::vector<DraftLines> choices = line_choices();
         for (const DraftLines& lines : choices) {
-            // What is tried last is left out first where a program is long.
+            // The last ones are skipped first if a program is long.
             if (evaluator_.has_time()) propose(drafter.draft(lines, needed_), drafts);
         }
         for (const DraftLines& lines : choices) {
@@ -222,7 +221,7 @@ private:
                 combine_sections(drafter, *all[k], mixed);
         }
         sort(mixed);
-        // In turn: what saves most time may be worth more, with feeds, than what is better without.
+        // Alternating: a draft that saves most time may be better with feeds than one that is better without.
         std::vector<TriedProposal> order;
         for (std::size_t k = 0; k < std::max({drafts.size(), mixed.size(), narrow.size()}); ++k) {
             for (const std::vector<TriedProposal>* each : {&drafts, &narrow, &mixed}) {
@@ -232,7 +231,7 @@ private:
         seek_feeds(order);
     }
 
-    /// Feeds for the first drafts, a little for each; then all that can be done, the best first.
+    /// Searches feeds for the first drafts, a few rounds for each, then all rounds, the best first.
     void seek_feeds(const std::vector<TriedProposal>& drafts) {
         FeedSearch feeds(evaluator_, machine_);
         struct Fed {
@@ -249,7 +248,7 @@ private:
             return evaluator_.score(*a.reduction.from) < evaluator_.score(*b.reduction.from);
         });
         const double best_so_far = evaluator_.score(*evaluator_.best());
-        // Early: where a program is long, the search ends before all is tried.
+        // Early, because the search for a long program ends before all is tried.
         for (std::size_t k = 0; k < std::min(fed.size(), most_equalised_early); ++k)
             feeds.equalise_in_time(fed[k].points);
         feeds.equalise_in_time(evaluator_.best());
@@ -273,7 +272,7 @@ private:
         }
         polish(feeds);
         if (rules_.more_time <= 0) return;
-        // After all that costs nothing: what the user gives is added to that, and never makes it worse.
+        // After everything within the original time: additional time extends that search and never makes the result worse.
         evaluator_.allow_more_time();
         reduce_best(feeds);
         for (const Fed& each : fed) {
@@ -283,7 +282,7 @@ private:
         }
     }
 
-    /// Feed reductions of the best proposal with one step after the other, as long as that helps.
+    /// Repeats feed reductions of the best proposal, one step after the other, as long as the score falls.
     void polish(FeedSearch& feeds) const {
         double before = 0;
         do {
@@ -297,14 +296,14 @@ private:
         if (best.from->evaluation.accepted) feeds.reduce_feeds(best, more_rounds);
     }
 
-    /// A draft alone; nullptr: it changes nothing.
+    /// Proposes a draft without feeds; nullptr: it changes nothing.
     TriedProposal propose(Draft draft, std::vector<TriedProposal>& drafts) {
         if (draft.segments == 0) return nullptr;
         drafts.push_back(evaluator_.propose(std::make_shared<const Draft>(std::move(draft)), {}));
         return drafts.back();
     }
 
-    /// Round by round, motions get their old points back where a draft runs worse than the program does.
+    /// In rounds, gives motions their old points back where a draft runs worse than the program.
     void mix(const Drafter& drafter, TriedProposal from, std::vector<TriedProposal>& drafts) {
         for (int round = 0; round < most_mixing_rounds && from && evaluator_.has_time(share_of_drafts); ++round) {
             if (round >= mixing_rounds && from->evaluation.accepted) return;
@@ -317,12 +316,12 @@ private:
         }
     }
 
-    /// Each section of a draft alone; then those that are better alone are taken together, the best first, as long as the
-    /// score falls.
+    /// Tries each section of a draft alone. Then combines those that are better alone, the best first, as long as the score
+    /// falls.
     void combine_sections(const Drafter& drafter, const Proposal& from, std::vector<TriedProposal>& drafts) {
         const std::vector<std::uint8_t>& needed = from.draft->needed;
         std::vector<std::pair<std::size_t, std::size_t>>
-            sections;  // of motions, from the first one up to the second one
+            sections;  // motions, from the first up to but excluding the second
         for (std::size_t i = 0; i < needed.size(); ++i) {
             if (needed[i] == 0) continue;
             if (i > 0 && needed[i - 1] != 0)
@@ -363,7 +362,7 @@ private:
         return draft.run.duration > evaluator_.before().duration * (1 + rules_.more_time + most_time_to_regain);
     }
 
-    /// The best accepted one first, then by score. Last those that are late, which the score does not count.
+    /// Sorts by score, but with the best accepted one first, and those that are late last, because the score ignores that.
     void sort(std::vector<TriedProposal>& drafts) const {
         std::stable_sort(drafts.begin(), drafts.end(), [&](const TriedProposal& a, const TriedProposal& b) {
             return is_late(*a) != is_late(*b) ? is_late(*b) : evaluator_.score(*a) < evaluator_.score(*b);
@@ -379,7 +378,7 @@ private:
     const OptimizeRules& rules_;
     Diagnostics& diagnostics_;
     Evaluator evaluator_;
-    std::vector<std::uint8_t> needed_, in_worst_need_, needed_or_slow_;  ///< one entry a motion
+    std::vector<std::uint8_t> needed_, in_worst_need_, needed_or_slow_;  ///< one entry per motion
 };
 
 }  // namespace

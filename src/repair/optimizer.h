@@ -1,7 +1,7 @@
 #pragma once
-// The optimiser: propose, simulate, accept or refuse. A proposal moves points of finishing passes only, so
-// that adjacent passes are programmed alike. It is accepted only if a run on the machine is better in every
-// respect, and if it is better on machines that the knowledge of this one allows, too (ensemble.h).
+// The optimiser: it makes proposals, simulates them, and accepts or refuses each. A proposal moves only points of finishing
+// passes, so that adjacent passes are programmed alike. It is accepted only if a run on the machine is better in every respect,
+// and if it is also better on other machines that are consistent with what is known of this one (ensemble.h).
 
 #include <optional>
 #include <string>
@@ -17,9 +17,9 @@ namespace clsurf {
 struct Measured {
     PointIndex points = 0;
     double duration = 0;  ///< [s]
-    double mismatch = 0;  ///< [mm/s] 95th percentile, as JudgedRun has it
+    double mismatch = 0;  ///< [mm/s] 95th percentile, as in JudgedRun
     std::size_t defects = 0;
-    std::size_t motions_in_need = 0;  ///< which alone are repaired
+    std::size_t motions_in_need = 0;  ///< only these are repaired
 };
 
 /// A new program that the ensemble accepts.
@@ -44,27 +44,27 @@ struct Optimized {
     Evaluation evaluation;   ///< by simulation, also where a recorded run was given
     bool five_axes = false;  ///< the program was run on them
     std::optional<Measured> measured;
-    std::string text;  ///< of the new program; that of the best proposal where none was accepted
+    std::string text;  ///< of the new program; of the best proposal if none was accepted
     JudgedRun before, after;
-    /// Of both runs, at the same places; nothing: the tool is not known, or the program was run on five axes.
+    /// Of both runs, at the same places; nullopt: the tool is not known, or the program was run on five axes.
     std::optional<PartRoughness> roughness_before, roughness_after;
     SimulationSummary run_before, run_after;
-    std::string machine;               ///< where its values come from: a file, or the log that they are fitted to
+    std::string machine;               ///< origin of its values: a file, or the log to which they were fitted
     std::optional<Fidelity> fidelity;  ///< of simulations with the machine file
-    EnsembleResult ensemble;           ///< of the new program; no runs: no proposal came so far
-    /// That the ensemble accepts, the best first: its first one is `text`. With OptimizeRules::all_finalists the others follow.
+    EnsembleResult ensemble;           ///< of the new program; no runs: no proposal reached the ensemble
+    /// Accepted by the ensemble, the best first: the first one is `text`. With OptimizeRules::all_finalists the others follow.
     std::vector<Finalist> finalists;
-    /// With OptimizeRules::keeps_front: the program, and the candidates that pass all that one simulation decides; chosen is the one
-    /// whose text this is.
+    /// With OptimizeRules::keeps_front: the program, and the candidates that pass all tests of one simulation. `chosen` is the
+    /// one with this text.
     TradeoffFront front;
     std::vector<ControllerRun> controller_runs;
-    bool on_controller = false;  ///< its runs decided; false: simulation did
+    bool on_controller = false;  ///< runs on it decided; false: the simulation did
 };
 
-/// Simulates the program, makes proposals, simulates and judges them. With a recorded run `measured` of the program,
-/// only sections that need repair in that run change; simulation evaluates the proposals before and after. A program
-/// with rotary axes runs on five axes if the machine has them, and its passes are those of the tip. Throws InputError
-/// if the program cannot be run or has no adjacent passes.
+/// Simulates the program, makes proposals, simulates and judges them. With a recorded run `measured` of the program, only
+/// sections that need repair in that run change; proposals are still compared by simulation. A program with rotary axes is run
+/// on five axes if the machine has them, and its passes are those of the tip. Throws InputError if the program cannot be run or
+/// has no adjacent passes.
 [[nodiscard]] Optimized optimize(const Program& program, const ReadProgram& read, const Machine& machine,
                                  const OptimizeRules& rules, std::optional<Log> measured, const Progress& progress,
                                  Diagnostics& diagnostics);

@@ -14,16 +14,16 @@ namespace clsurf {
 namespace {
 
 constexpr double interval_width =
-    0.005;  ///< of the speeds in a constant-speed interval: wider, passes side by side differ by as much
-constexpr double most_run_points = 16e6;      ///< of all runs together; then what there is has to do …
-constexpr double large_run = 1e6;             ///< … or less, down to a share of it where a run has so many points …
-constexpr double share_of_large = 0.25;       ///< … this
-constexpr int most_in_vain = 192;             ///< proposals in a row, none of them better than the best
-constexpr std::size_t most_finalists = 16;    ///< of each kind …
-constexpr double most_finalist_points = 4e6;  ///< … or as many as have so many points together …
-constexpr std::size_t most_finalists_of_large = 1;  ///< … and where runs are large, no more than this
-/// Share of the time that feeds leave for the other machines. Of candidates that use all of it, the mean of the machines
-/// takes up to 0.03 % longer than before.
+    0.005;  ///< of the speeds in a constant-speed interval: adjacent passes may differ by as much
+constexpr double most_run_points = 16e6;            ///< of all runs together; then the search ends …
+constexpr double large_run = 1e6;                   ///< … or less, down to a share, if a run has so many points …
+constexpr double share_of_large = 0.25;             ///< … this share
+constexpr int most_in_vain = 192;                   ///< consecutive proposals without an improvement
+constexpr std::size_t most_finalists = 16;          ///< of each kind …
+constexpr double most_finalist_points = 4e6;        ///< … or as many as have so many points together …
+constexpr std::size_t most_finalists_of_large = 1;  ///< … and if runs are large, no more than this
+/// Share of the time that feeds leave unused for the other machines. For candidates that use all of the time, the mean of the
+/// machines is up to 0.03 % longer than before.
 constexpr double time_reserve = 0.001;
 
 std::string text_of(const LineOfEither& place) {
@@ -40,7 +40,7 @@ std::string no_splines(SplineForm form) {
                : "no section can be written as a spline with fewer blocks than its lines";
 }
 
-/// Whether two proposals are one program in two ways: other machines would run them alike, too.
+/// Whether two proposals are variants of one program, which other machines would run alike, too.
 bool runs_alike(const Proposal& a, const Proposal& b) {
     return a.evaluation.lines_after == b.evaluation.lines_after && a.run.duration == b.run.duration &&
            a.run.mismatch == b.run.mismatch && a.evaluation.defects_after == b.evaluation.defects_after;
@@ -93,7 +93,7 @@ std::string Evaluator::candidate_text() const {
     const RunMeasures was = before_.measures();
     if (!best_ || !(mismatch_that_counts(was, was) > 0)) return fmt::format("candidate {}", tried_);
     if (!best_->evaluation.accepted) return fmt::format("candidate {}, none is better so far", tried_);
-    // Candidates compete by the gain; the mismatch alone may rise while defects go.
+    // Candidates compete by their gain; the mismatch alone may rise while defects are removed.
     const RunMeasures is = best_->measures();
     return fmt::format("candidate {}, best: gain {:.0f} %, {} defects, {:.1f} s", tried_,
                        100 * gain_of(measures_before(*best_), is, line_ratio(best_->evaluation), more_time_),
@@ -154,7 +154,7 @@ Deviation Evaluator::deviation_of(const Program& changed) const {
     return measure_deviation(program_, changed, Deviation::usual_step, {orientation_.get(), &after});
 }
 
-/// Why a proposal cannot be taken; empty: it can.
+/// Why a proposal cannot be accepted; empty: it can.
 std::string Evaluator::objection(const Proposal& p) const {
     return objection(p.evaluation, measures_before(p), p.measures(), p.summary.limits_ok);
 }
@@ -171,7 +171,7 @@ std::string Evaluator::objection(const Evaluation& e, const RunMeasures& before,
     if (e.deviation.turned > most_turned)
         return fmt::format("it would turn the tool axis away from the programmed one by {:.4f} deg at {}",
                            e.deviation.turned * deg_per_rad, text_of(e.deviation.turned_line));
-    // Some controllers exceed them by themselves, as where blocks overlap in corners.
+    // Some controllers exceed the limits with any program, for example where blocks overlap in corners.
     if (!limits_ok && summary_before_.limits_ok) return "the machine's limits would not be kept";
     if (std::string reason = why_not_better(before, after, more_time_); !reason.empty()) return reason;
     return too_little_gain("the gain", gain_of(before, after, line_ratio(e), more_time_));
@@ -224,7 +224,7 @@ std::vector<TriedProposal> Evaluator::finalists() const {
 
 bool Evaluator::better(const Proposal& a, const Proposal& b) const {
     if (a.evaluation.accepted != b.evaluation.accepted) return a.evaluation.accepted;
-    // One without splines would be refused for that alone, which says nothing of those that have some.
+    // A proposal without splines would be refused for that reason, which says nothing about those that have some.
     const bool has = a.evaluation.splines > 0, other_has = b.evaluation.splines > 0;
     if (rules_.splines && has != other_has) return has;
     return score(a) < score(b);

@@ -20,9 +20,9 @@ namespace clsurf {
 /// The comparison of a proposal with the program.
 struct Evaluation {
     bool accepted = false;
-    std::string reason;  ///< why not, or empty
+    std::string reason;  ///< why it was not accepted, or empty
     Deviation deviation;
-    std::size_t intervals = 0;  ///< sections that were changed
+    std::size_t intervals = 0;  ///< number of changed sections
     std::size_t splines = 0;    ///< of them, written as splines
     LineNumber lines_before = 0, lines_after = 0;
     std::size_t changed_lines = 0;  ///< of the old program
@@ -32,13 +32,13 @@ struct Evaluation {
 /// A draft with feeds, its run, and the comparison with the run of the program.
 struct Proposal {
     std::shared_ptr<const Draft> draft;
-    std::vector<float> targets;  ///< [mm/s] per motion of the draft: speeds that feeds hold it to; 0: none
+    std::vector<float> targets;  ///< [mm/s] per motion of the draft: speed limits for which feeds are set; 0: none
     Evaluation evaluation;
     std::string text;
     JudgedRun run;
     SimulationSummary summary;
-    std::optional<RoughnessChange> roughness{};  ///< from the program to a finalist, where the tool is known
-    int number = 0;                              ///< in the order in which they were tried, from 1
+    std::optional<RoughnessChange> roughness{};  ///< from the program to a finalist, if the tool is known
+    int number = 0;                              ///< in the order of trials, from 1
 
     [[nodiscard]] RunMeasures measures() const;
 };
@@ -55,50 +55,50 @@ public:
     [[nodiscard]] const JudgedRun& before() const { return before_; }
     [[nodiscard]] JudgedRun take_before() { return std::move(before_); }
     [[nodiscard]] const SimulationSummary& summary_before() const { return summary_before_; }
-    /// The time that feeds may use [s]: that of the program, unless more is allowed; a little less where other machines
-    /// must not take longer either.
+    /// The longest run that feeds may cause [s]: the time of the program, unless more is allowed; slightly less if other
+    /// machines must not take longer either.
     [[nodiscard]] double longest() const;
-    /// Applies the time that the rules allow from now on. At least as much of the search remains as after half of it.
+    /// Applies the time that the rules allow from now on. At least half of the search remains after that.
     void allow_more_time();
     /// nullptr: the program is not run on five axes.
     [[nodiscard]] const Orientation* orientation() const { return orientation_.get(); }
     [[nodiscard]] const std::shared_ptr<const Kinematics>& kinematics() const { return kinematics_; }
-    /// Whether one more proposal may be tried (always for the first one). The total number of simulated points is
-    /// limited, of which a share may be used, and so is the number of consecutive proposals without improvement.
+    /// Whether one more proposal may be tried (always for the first one). The total number of simulated points is limited, of
+    /// which a share may be used, and so is the number of consecutive proposals without improvement.
     [[nodiscard]] bool has_time(double share = 1) const;
 
-    /// `targets`: as those of a Proposal, or none at all.
+    /// `targets`: as those of a Proposal, or empty.
     TriedProposal propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
     [[nodiscard]] const TriedProposal& best() const { return best_; }
-    /// The accepted proposals with the lowest scores, the lowest first, and last those that measure_roughness() refused. Few where
-    /// runs are long. Some of them have no feeds, where there are such.
+    /// The accepted proposals with the lowest scores, the lowest first; those that measure_roughness() refused come last. Few
+    /// if runs are long. Some have no feeds, if there are such proposals.
     [[nodiscard]] std::vector<TriedProposal> finalists() const;
 
-    /// Makes those candidates of the front the finalists that a weight prefers, the best one first, and runs them again. Domain:
+    /// Makes the candidates of the front that a weight prefers the finalists, the best one first, and runs them again. Domain:
     /// OptimizeRules::keeps_front.
     void prefer(double weight);
-    /// The program and the candidates that are accepted, in rising order of time but the program first; `chosen`: one of them, or
-    /// nullptr. Domain: OptimizeRules::keeps_front.
+    /// The program and then the accepted candidates in ascending order of time. `chosen`: one of them, or nullptr. Domain:
+    /// OptimizeRules::keeps_front.
     [[nodiscard]] TradeoffFront front(const Proposal* chosen) const;
 
-    /// Measures the roughness that the program and the finalists leave; it counts in scores and for acceptance from then
-    /// on. Of programs on three axes.
+    /// Measures the roughness of the surfaces of the program and of the finalists. From then on it counts in scores and for
+    /// acceptance. For programs on three axes.
     void measure_roughness(const CuttingTool& tool);
-    /// Nothing: it is not measured.
+    /// nullopt: it is not measured.
     [[nodiscard]] const std::optional<PartRoughness>& roughness_before() const { return roughness_before_; }
 
-    /// Accepted proposals are better than others; where splines are wanted, those that have some; then the one with less remaining mismatch and fewer defects; of two
-    /// nearly equal ones the shorter.
+    /// Accepted proposals are better than others; if splines are requested, those that have some; then the one with less
+    /// remaining mismatch and fewer defects; of two nearly equal ones the shorter.
     [[nodiscard]] bool better(const Proposal& a, const Proposal& b) const;
 
-    /// Says what is being done, to who shows progress. Thread-safe.
+    /// Reports the present step as progress. Thread-safe.
     void say(std::string_view what) const;
 
-    /// Lower is better: objective() against the run of the program.
+    /// Lower is better: objective() relative to the run of the program.
     [[nodiscard]] double score(const Proposal& proposal) const;
 
 private:
-    /// What is kept of a proposal so that it can be compared and run again.
+    /// The data of a proposal for its comparison and for another run.
     struct Candidate {
         int number = 0;
         std::shared_ptr<const Draft> draft;
@@ -108,16 +108,16 @@ private:
         bool limits_ok = false;
         TradeoffRow row;
     };
-    /// Of those that are accepted, in rising order of time.
+    /// The accepted ones, in ascending order of time.
     [[nodiscard]] std::vector<const Candidate*> accepted_candidates() const;
     [[nodiscard]] TradeoffFront front_of(const std::vector<const Candidate*>& candidates) const;
     void keep_candidate(const Proposal& proposal);
     [[nodiscard]] Proposal prove(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
     [[nodiscard]] Deviation deviation_of(const Program& changed) const;
     [[nodiscard]] double most_points() const;
-    /// "candidate 14, best: 61 % less mismatch, 38.0 s".
+    /// "candidate 14, best: gain 61 %, 3 defects, 38.0 s".
     [[nodiscard]] std::string candidate_text() const;
-    /// Of the program, with its roughness as far as it is compared with that of the proposal.
+    /// Measures of the program, with its roughness as far as it is compared with that of the proposal.
     [[nodiscard]] RunMeasures measures_before(const Proposal& proposal) const;
     [[nodiscard]] std::string objection(const Proposal& proposal) const;
     [[nodiscard]] std::string objection(const Evaluation& evaluation, const RunMeasures& before,
@@ -136,12 +136,12 @@ private:
     std::optional<PartRoughness> roughness_before_;
     TriedProposal best_;
     std::vector<TriedProposal> with_feeds_, without_feeds_;  ///< finalists
-    std::vector<TriedProposal> preferred_;                   ///< by a weight, instead of them
+    std::vector<TriedProposal> preferred_;                   ///< selected by a weight, instead of those
     std::vector<Candidate> candidates_;                      ///< all, with OptimizeRules::keeps_front
     double more_time_ = 0;                                   ///< a share
     double points_ = 0;                                      ///< simulated so far
     int in_vain_ = 0;                                        ///< proposals since the best one
-    int tried_ = 0;                                          ///< proposals
+    int tried_ = 0;                                          ///< number of proposals
 };
 
 }  // namespace clsurf

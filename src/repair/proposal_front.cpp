@@ -11,8 +11,8 @@
 namespace clsurf {
 namespace {
 
-constexpr std::size_t most_preferred = 8;           ///< candidates that a weight puts first are run again …
-constexpr std::size_t most_preferred_of_large = 2;  ///< … where runs are large
+constexpr std::size_t most_preferred = 8;           ///< candidates that a weight prefers are run again …
+constexpr std::size_t most_preferred_of_large = 2;  ///< … if runs are large
 constexpr double large = 1e6;                       ///< points of a run
 
 /// "candidate 14: 231 sections and feeds"
@@ -33,7 +33,7 @@ void Evaluator::keep_candidate(const Proposal& p) {
 std::vector<const Evaluator::Candidate*> Evaluator::accepted_candidates() const {
     std::vector<const Candidate*> accepted;
     for (const Candidate& each : candidates_) {
-        // The roughness is known of finalists only, and decides on these.
+        // The roughness is known for finalists only, and is checked there.
         if (objection(each.evaluation, before_.measures(), each.measures, each.limits_ok).empty())
             accepted.push_back(&each);
     }
@@ -57,7 +57,7 @@ void Evaluator::prefer(double weight) {
         static_cast<double>(before_.log.records) >= large ? most_preferred_of_large : most_preferred;
     say("the candidates that the weight prefers");
     for (const std::size_t row : front_by_weight(front.rows, weight)) {
-        if (row == 0) continue;  // the program as it is
+        if (row == 0) continue;  // the unchanged program
         if (preferred_.size() == most) return;
         const Candidate& candidate = *candidates[row - 1];
         preferred_.push_back(std::make_shared<Proposal>(prove(candidate.draft, candidate.targets)));

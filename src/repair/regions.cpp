@@ -10,10 +10,10 @@
 namespace clsurf {
 namespace {
 
-/// What a run has in a cell.
+/// Sums of a run in a cell.
 struct CellSum {
-    double loss = 0;  ///< defects and mismatch, each as a share of all that the first run has
-    double time = 0;  ///< points, one a period
+    double loss = 0;  ///< defects and mismatch, each as a share of the total of the first run
+    double time = 0;  ///< points, one per period
 
     CellSum& operator+=(const CellSum& other) {
         loss += other.loss;
@@ -22,15 +22,15 @@ struct CellSum {
     }
 };
 
-using CellSums = std::vector<CellSum>;  ///< one a run
+using CellSums = std::vector<CellSum>;  ///< one per run
 
-constexpr double least_loss = 1e-4;    ///< that counts, a share of all
-constexpr double counted_from = 0.5;   ///< of the mismatch of the first run: smaller differences are none
-constexpr int most_prices = 24;        ///< of time, each twice the one before …
-constexpr int price_steps = 24;        ///< … and so many halvings between the last two
-constexpr double lowest_price = 1e-3;  ///< what all the time of the first run counts, against all its defects
+constexpr double least_loss = 1e-4;    ///< as a share of the total: smaller losses do not count
+constexpr double counted_from = 0.5;   ///< of the mismatch of the first run: smaller differences do not count
+constexpr int most_prices = 24;        ///< of time, each twice the previous one …
+constexpr int price_steps = 24;        ///< … and number of halvings between the last two
+constexpr double lowest_price = 1e-3;  ///< of all the time of the first run, relative to all its defects
 
-/// Beyond what a difference of speed counts, and how much of that a run has in all [mm/s].
+/// The limit above which a difference of speed counts, and the total of a run above it [mm/s].
 struct Mismatch {
     double usual = 0, all = 0;
 
@@ -54,7 +54,7 @@ public:
     [[nodiscard]] CellGrid::Key key(const Vec3& p) const { return grid_.key(p); }
     [[nodiscard]] const std::unordered_map<CellGrid::Key, CellSums>& cells() const { return cells_; }
 
-    /// A cell together with those around it.
+    /// Sums over a cell and the cells around it.
     [[nodiscard]] CellSums about(CellGrid::Key key, int aside) const {
         CellSums sums(runs_);
         CellGrid::for_each_near(key, aside, [&](CellGrid::Key near) {
@@ -110,7 +110,7 @@ public:
         }
     }
 
-    /// The best runs that together take no more time than there is.
+    /// The best runs that together take no more than the available time.
     [[nodiscard]] std::unordered_map<CellGrid::Key, std::size_t> best() const {
         std::vector<std::size_t> chosen = at_price(0);
         if (is_late(chosen)) chosen = at_lowest_price();
@@ -120,7 +120,7 @@ public:
     }
 
 private:
-    /// Those at the lowest price of time at which they are not late.
+    /// The choice at the lowest price of time at which it is not late.
     [[nodiscard]] std::vector<std::size_t> at_lowest_price() const {
         double low = 0, high = lowest_price / all_time_;
         for (int k = 0; k < most_prices && is_late(at_price(high)); ++k) {
@@ -134,7 +134,7 @@ private:
         return at_price(high);
     }
 
-    /// The runs that are best where a period counts `price`. None of them loses more than the first one does, to save time.
+    /// The best runs if a period costs `price`. None of them has a greater loss than the first run, to save time.
     [[nodiscard]] std::vector<std::size_t> at_price(double price) const {
         std::vector<std::size_t> chosen;
         for (const CellSums& sums : about_) {
@@ -174,7 +174,7 @@ std::vector<std::uint8_t> best_runs(std::span<const JudgedRun* const> runs, std:
     const CellMap map(runs, std::max(rules.cell * first.surface.step_over, rules.least_cell));
     const std::unordered_map<CellGrid::Key, std::size_t> chosen = CellChoice(map, usual, rules).best();
     std::vector<std::uint8_t> best(static_cast<std::size_t>(program.motions.size()), static_cast<std::uint8_t>(usual));
-    std::vector<std::size_t> of_point;  // one lookup each
+    std::vector<std::size_t> of_point;  // one lookup per point
     for (PointIndex i = 0; i < first.surface.positions.size(); ++i)
         of_point.push_back(chosen.at(map.key(first.surface.positions.absolute(i))));
     for (std::size_t k = 0; k < runs.size(); ++k) {

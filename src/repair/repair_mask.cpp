@@ -33,7 +33,7 @@ Marks marked_places(const JudgedRun& run, const RepairMaskRules& rules) {
     return marks;
 }
 
-/// The places beside each mark as well.
+/// Also marks the places adjacent to each mark.
 Marks spread_aside(const JudgedRun& run, const Marks& marks) {
     Marks spread = marks;
     for (PointIndex i = 0; i < run.surface.positions.size(); ++i) {
@@ -51,7 +51,7 @@ void spread_along(const JudgedRun& run, double reach, Marks& marks) {
     for (const Pass& pass : run.surface.passes) {
         if (pass.kind != PassKind::cut) continue;
         const auto walk = [&](PointIndex from, PointIndex to, PointIndex step) {
-            double left = -1;  // of the reach
+            double left = -1;  // remaining reach
             for (PointIndex i = from; i != to + step; i += step) {
                 if (i != from) left -= (run.surface.positions[i] - run.surface.positions[i - step]).norm();
                 std::uint8_t& mine = marks[static_cast<std::size_t>(i)];

@@ -11,8 +11,8 @@ namespace clsurf {
 namespace {
 
 constexpr int degree = 3;
-constexpr int knot_decimals = 3;   ///< section_spline() has knots on such steps
-constexpr int finer_decimals = 3;  ///< more than coordinates have: of directions and coefficients, which set corners
+constexpr int knot_decimals = 3;   ///< section_spline() has knots on these steps
+constexpr int finer_decimals = 3;  ///< more than for coordinates: of directions and coefficients, for smooth joints
 
 std::string point(const Vec3& p, const SplineWords& w) {
     std::string text;
@@ -21,7 +21,7 @@ std::string point(const Vec3& p, const SplineWords& w) {
     return text;
 }
 
-/// Knots of their own: each point but the last degree + 1 knots has one (Fanuc).
+/// With separate knots: each point has one, and the last degree + 1 knots follow (Fanuc).
 std::vector<std::string> knotted_lines(const Nurbs& spline, const SplineWords& w) {
     std::vector<std::string> points, knots;
     for (const Vec3& p : spline.points) points.push_back(point(p, w));
@@ -29,7 +29,7 @@ std::vector<std::string> knotted_lines(const Nurbs& spline, const SplineWords& w
     return fanuc_nurbs_lines(points, knots);
 }
 
-/// Control points behind the first; the i-th has the length of the i-th span (Siemens).
+/// Control points after the first; the i-th has the length of the i-th span (Siemens).
 std::vector<std::string> basis_lines(const Nurbs& spline, const SplineWords& w) {
     std::vector<std::string> lines;
     const std::size_t spans = spans_in(spline);
@@ -48,7 +48,7 @@ Vec3 written(const Vec3& p, int decimals) {
     return (p * steps).array().round() / steps;
 }
 
-/// Spans of their own. G5: from the begin, and from the end, to the inner points. SPL: a polynomial of t from 1 to 0.
+/// One block per span. G5: from the begin, and from the end, to the inner points. SPL: a polynomial of t from 1 to 0.
 std::vector<std::string> span_lines(const Nurbs& spline, SplineForm form, const SplineWords& w) {
     std::vector<std::string> lines;
     const int finer = w.decimals + finer_decimals;

@@ -10,32 +10,33 @@
 
 namespace clsurf {
 
-/// How numbers and words are written.
+/// Format of numbers and words.
 struct SplineWords {
     int decimals = 3;                                 ///< of coordinates
-    std::array<std::string, 3> words{"X", "Y", "Z"};  ///< as the lines around write them
-    std::string straight = "G1";                      ///< sets the mode of lines again; empty: it need not be set
+    std::array<std::string, 3> words{"X", "Y", "Z"};  ///< as the surrounding lines write them
+    std::string straight = "G1";                      ///< restores the mode of lines; empty: this is not needed
 };
 
-/// The blocks of a spline, whose points are counted as the words of the program are. Its first point is where the tool
-/// stands, as the program writes it. Planar forms take no point off the first one's Z. Domain: degree 3, weights 1, a
-/// form that is not none.
+/// The blocks of a spline, whose points are in the units of the program's words. Its first point is the tool position as the
+/// program writes it. Planar forms assume that all points have the Z of the first one. Domain: degree 3, weights 1, a form
+/// other than none.
 [[nodiscard]] std::vector<std::string> spline_lines(const Nurbs& spline, SplineForm form, const SplineWords& words);
 
 [[nodiscard]] inline std::size_t spans_in(const Nurbs& spline) { return spline.points.size() - 3; }
 
-/// How many motions these blocks are: its spans, and in linuxcnc the G1 behind them, which has no length.
+/// Number of motions of these blocks: the spans, and in linuxcnc the G1 after them, which has no length.
 [[nodiscard]] inline std::size_t motions_of_spline(const Nurbs& spline, SplineForm form) {
     return spans_in(spline) + (form == SplineForm::cubic_plane ? 1 : 0);
 }
 
-/// How many blocks spline_lines() makes. O(1).
+/// Number of blocks of spline_lines(). O(1).
 [[nodiscard]] std::size_t blocks_of_spline(const Nurbs& spline, SplineForm form);
 
-/// Blocks of a section before the one that its first span belongs to (docs/formats/programs.md): the points that only shape it.
+/// Number of blocks of a section before that of its first span (docs/formats/programs.md): the points that only define its
+/// shape.
 [[nodiscard]] std::size_t blocks_before_spans(SplineForm form);
-/// Blocks of a section behind the one that its last span belongs to: the last knots, and the one that sets the mode of lines
-/// again, which is the last; 0: there is none.
+/// Number of blocks of a section after that of its last span: the last knots, and the one that restores the mode of lines,
+/// which is the last; 0: there is none.
 [[nodiscard]] std::size_t blocks_behind_spans(SplineForm form);
 
 }  // namespace clsurf

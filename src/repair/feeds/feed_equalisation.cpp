@@ -10,10 +10,10 @@
 namespace clsurf {
 namespace {
 
-constexpr int halvings = 10;                          ///< in search of a step
-constexpr LineNumber most_lines_between_points = 50;  ///< that are passed between two points
+constexpr int halvings = 10;                          ///< for the search of a step
+constexpr LineNumber most_lines_between_points = 50;  ///< that may be traversed between two points
 
-/// Speeds that are brought down pass by pass.
+/// Lowers speeds pass by pass.
 class Sweep {
 public:
     Sweep(const JudgedRun& run, const EqualisationStep& step, const std::vector<float>& own,
@@ -45,7 +45,7 @@ public:
         }
     }
 
-    /// Each section of the pass that is compared.
+    /// For each section of the pass that is compared.
     void keep_to_ramps(const Pass& pass) {
         const auto end = static_cast<std::size_t>(pass.last) + 1;
         for (auto first = static_cast<std::size_t>(pass.first); first < end;) {
@@ -166,7 +166,7 @@ std::vector<float> peaks_by_motion(const JudgedRun& run, const Program& program,
             if (motion < peaks.size() && !(peaks[motion] >= value)) peaks[motion] = value;
         }
     };
-    LineNumber line = 0;  // of the point before
+    LineNumber line = 0;  // of the previous point
     float before = missing<float>;
     for (PointIndex i = 0; i < run.surface.positions.size(); ++i) {
         const float value = values[static_cast<std::size_t>(i)];

@@ -1,6 +1,6 @@
 #pragma once
-// Feed equalisation: speeds that all adjacent passes can keep. Where a pass is faster than the adjacent one,
-// its lines get a feed that makes both equal.
+// Feed equalisation: speeds that all adjacent passes can keep. If a pass is faster than the adjacent one, its lines get a feed
+// that makes both equal.
 
 #include <cstdint>
 #include <vector>
@@ -14,24 +14,24 @@ namespace clsurf {
 /// The speed of each point of a run that is compared with the adjacent passes [mm/s]; NaN elsewhere.
 [[nodiscard]] std::vector<float> compared_speeds(const JudgedRun& run);
 
-/// How much faster than the adjacent pass a place may be: a fraction of its speed plus a speed.
+/// The permitted difference of speed to the adjacent pass: a fraction of its speed plus a speed.
 struct EqualisationStep {
     double share = 0;
     double speed = 0;  ///< [mm/s]
-    Ramp ramp{};       ///< … and how a pass comes back to its own speed
+    Ramp ramp{};       ///< … and the return of a pass to its own speed
 };
 
 /// Speeds during equalisation; one entry per point in each column.
 struct FeedEqualisation {
     std::vector<float> speeds;         ///< [mm/s]
-    std::vector<std::int32_t> causes;  ///< what a point is lowered for, ≥ 0; −1: nothing
-    /// 1: to be equalised with the adjacent points. Where neither of two points is, their old relative difference may
-    /// remain: next to a lowered place there may be another slow one that must not determine its speed.
+    std::vector<std::int32_t> causes;  ///< index ≥ 0 of the reason why a point is slowed; −1: none
+    /// 1: to be equalised with the adjacent points. Between two points that are both 0, their original relative difference may
+    /// remain, because another slow place next to a lowered one must not determine its speed.
     std::vector<std::uint8_t> equalised;
 };
 
-/// Lowers the speeds of a run to what adjacent passes and the ramps allow. Reusable: it keeps the neighbours of each
-/// point. The run must outlive it. Several threads may use it.
+/// Lowers the speeds of a run to what adjacent passes and the ramps allow. Reusable, because it stores the neighbours of each
+/// point. The run must outlive it. Thread-safe.
 class FeedEqualiser {
 public:
     /// O(points)
@@ -40,11 +40,11 @@ public:
     /// compared_speeds() of the run
     [[nodiscard]] const std::vector<float>& own() const { return own_; }
 
-    /// Lowers speeds, one per point of the run, until none exceeds that of its neighbours on both adjacent passes by
-    /// more than a step. Only points with a cause, or with a neighbour that has one, are lowered and take over the
-    /// cause: if all start with one, speeds are equalised everywhere. Before and after a lowered place a pass follows
-    /// the ramp, so the next pass is equalised with the real motion of the machine. Two sweeps, forward and backward,
-    /// over the passes with a cause or next to one.
+    /// Lowers speeds, one per point of the run, until none exceeds that of its neighbours on both adjacent passes by more than
+    /// a step. Only points with a cause, or with a neighbour that has one, are lowered, and they take over the cause; if all
+    /// start with one, speeds are equalised everywhere. Before and after a lowered place a pass follows the ramp, so the next
+    /// pass is equalised with the real motion of the machine. Two sweeps, forward and backward, over the passes with a cause or
+    /// adjacent to one.
     void equalise(const EqualisationStep& step, FeedEqualisation& equalisation) const;
 
     /// The highest speeds that are equal everywhere.
@@ -64,24 +64,24 @@ private:
 
     const JudgedRun& run_;
     std::vector<float> own_;
-    std::vector<Beside> beside_;                           ///< one entry a point
-    std::vector<std::vector<std::size_t>> passes_beside_;  ///< per pass, those that its points have beside them
+    std::vector<Beside> beside_;                           ///< one entry per point
+    std::vector<std::vector<std::size_t>> passes_beside_;  ///< per pass, those adjacent to its points
 };
 
-/// The maximum over the points of each motion of the program, of one value per point; NaN: it has no point with a
-/// value. A motion between the lines of two consecutive points was passed within a period, or joined to the next one by
-/// the controller, and has the greater value of both. Used as a feed, the maximum lets a motion follow a curve that rises or falls along it; the mean would be too
-/// low.
+/// The maximum of the values over the points of each motion of the program; NaN: it has no point with a value. A motion between
+/// the lines of two consecutive points was traversed within one period, or merged with the next one by the controller, and gets
+/// the larger value of both. As a feed, the maximum lets a motion follow a curve that rises or falls along it; the mean would
+/// be too low.
 [[nodiscard]] std::vector<float> peaks_by_motion(const JudgedRun& run, const Program& program,
                                                  const std::vector<float>& values);
 
-/// Targets as those of peaks_by_motion(), of blocks: motions that the controller merges (merged_with_next()) share the highest of
-/// theirs. 0: none. `merged` may be empty: none are merged.
+/// Targets of blocks, from those of peaks_by_motion(): motions that the controller merges (merged_with_next()) share their
+/// highest target. 0: none. `merged` may be empty: none are merged.
 [[nodiscard]] std::vector<float> block_targets(std::vector<float> targets, const std::vector<std::uint8_t>& merged);
 
-/// Feeds that keep motions at a target [mm/s]; targets and feeds of 0: none. Motions whose entry in `may_slow` is 0 get
-/// none; empty: all may. Consecutive motions with a feed form constant-speed intervals, in which targets differ by less
-/// than `width` (a fraction). Each interval gets its lowest target.
+/// Feeds that limit motions to a target [mm/s]; targets and feeds of 0: none. Motions whose entry in `may_slow` is 0 get none;
+/// empty: all may. Consecutive motions with a feed form constant-speed intervals, in which targets differ by less than `width`
+/// (a fraction). Each interval gets its lowest target.
 [[nodiscard]] std::vector<float> equalised_feeds(const std::vector<float>& target,
                                                  const std::vector<std::uint8_t>& may_slow, double width);
 

@@ -13,17 +13,17 @@
 namespace clsurf {
 namespace {
 
-constexpr double equalised_reach = 1;  ///< [mm] of arc length before and behind a defect that is equalised with it
-constexpr double lag_aim = 0.95;       ///< of the threshold, that a lag step is brought down to
-constexpr double slowest = 0.6;        ///< of its speed, to which a place is slowed at most for that
+constexpr double equalised_reach = 1;  ///< [mm] of arc length before and after a defect that is equalised with it
+constexpr double lag_aim = 0.95;       ///< of the threshold, to which a lag step is reduced
+constexpr double slowest = 0.6;        ///< of its speed: a place is slowed to no less for that
 constexpr double most_equalised =
-    2;  ///< times what slowing alone costs, that a lag step may cost that is equalised as well
+    2;  ///< times the cost of slowing alone: limit of the cost of a lag step with equalisation
 
-/// Which defect the points in each cell of space are equalised for.
+/// The index of the defect for which the points in each cell of space are equalised.
 class CauseMap {
 public:
     void add(const Vec3& p, std::int32_t cause) { causes_.insert_or_assign(key(p), cause); }
-    /// That of the nearest cell about a place; −1: none is near.
+    /// The index of the nearest cell around a place; −1: there is none.
     [[nodiscard]] std::int32_t near(const Vec3& p) const {
         const CellGrid::Key centre = key(p);
         std::int32_t found = -1;
@@ -46,7 +46,7 @@ private:
     static constexpr int cells_around = 3;
     static constexpr double side = 1;  ///< [mm]
 
-    /// Cells have whole millimetres in their middle.
+    /// The centres of cells are at whole millimetres.
     [[nodiscard]] CellGrid::Key key(const Vec3& p) const { return cells_.key(p + Vec3::Constant(side / 2)); }
 
     CellGrid cells_{side};
@@ -58,7 +58,7 @@ public:
     FeedReducer(const JudgedRun& run, const FeedReductionRules& rules)
         : run_(run), rules_(rules), equaliser_(run), equalised_(run.report.defects.size(), 1) {}
 
-    /// For the least expensive defects, each by what it costs alone: as many of them as the budget pays for together.
+    /// Speeds for the least expensive defects, each priced alone: as many of them as the budget allows together.
     ReducedSpeeds speeds() {
         const std::vector<std::int32_t> order = by_cost();
         std::size_t paid = 0, too_many = order.size() + 1;
@@ -73,7 +73,7 @@ public:
     }
 
 private:
-    /// Those that can be repaired, the least expensive first.
+    /// The defects that can be reduced, the least expensive first.
     [[nodiscard]] std::vector<std::int32_t> by_cost() {
         std::vector<std::int32_t> order;
         for (std::size_t k = 0; k < run_.report.defects.size(); ++k) {
@@ -92,7 +92,8 @@ private:
         return order;
     }
 
-    /// … and whether it is equalised: a lag step lies beside other slow places, which may cost much more than it does.
+    /// The cost of a defect alone; also decides whether it is equalised. A lag step may be next to other slow places, whose
+    /// equalisation can cost much more.
     [[nodiscard]] double cost_alone(std::int32_t k) {
         const double cost = equaliser_.lost(reduced({&k, 1}).speeds);
         if (run_.report.defects[static_cast<std::size_t>(k)].quantity != Quantity::lag) return cost;
@@ -125,7 +126,7 @@ private:
         return {std::move(equalisation.speeds), std::move(equalisation.causes)};
     }
 
-    /// A section and what lies within `equalised_reach` before and behind it.
+    /// Marks a section, and the points within `equalised_reach` before and after it.
     void mark(const PointRange& points, std::int32_t cause, FeedEqualisation& equalisation) const {
         const bool equalised = equalised_[static_cast<std::size_t>(cause)] != 0;
         const auto mark_point = [&](PointIndex i) {
@@ -162,7 +163,7 @@ private:
         }
     }
 
-    /// How far the lag differs from that of the neighbour pass that differs most [mm].
+    /// The difference of the lag to that of the adjacent pass that differs most [mm].
     [[nodiscard]] double lag_step(PointIndex i) const {
         double most = 0;
         for (const Side side : {Side::left, Side::right}) {
@@ -178,7 +179,7 @@ private:
     const JudgedRun& run_;
     const FeedReductionRules& rules_;
     FeedEqualiser equaliser_;
-    std::vector<std::uint8_t> equalised_;  ///< per defect, whether the speeds about it are
+    std::vector<std::uint8_t> equalised_;  ///< per defect, whether speeds around it are equalised
 };
 
 }  // namespace

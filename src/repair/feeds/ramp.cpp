@@ -7,7 +7,7 @@
 namespace clsurf {
 namespace {
 
-constexpr float speed_rounding = 0.001F;  ///< of a speed, that peaks are not rounded for
+constexpr float speed_rounding = 0.001F;  ///< of a speed: peaks are not lowered by less
 
 class RampKeeper {
 public:
@@ -22,8 +22,8 @@ public:
 
     void keep() {
         const auto n = static_cast<std::ptrdiff_t>(speeds_.size());
-        // First from a halt of the acceleration at each low place, which makes them places that can be reached; then they are left as
-        // they are reached, the acceleration still negative.
+        // First with zero acceleration at each low place, so that all low places can be reached. Then they may be left as they
+        // are reached, with the acceleration still negative.
         for (const float least_growth : {0.0F, -acceleration_}) {
             grow(0, n, 1, least_growth);
             grow(n - 1, -1, -1, least_growth);
@@ -32,7 +32,7 @@ public:
     }
 
 private:
-    /// From one end to the other no faster than speed can grow, whichever way the pass is run.
+    /// Limits the rise of the speed from one end to the other; used in both directions.
     void grow(std::ptrdiff_t from, std::ptrdiff_t end, std::ptrdiff_t direction, float least_growth) {
         float growth = acceleration_;  // [mm/s²]
         for (std::ptrdiff_t i = from + direction; i != end; i += direction) {
@@ -66,7 +66,8 @@ private:
         }
     }
 
-    /// An opening by the parabola that the jerk bends a speed along: the greatest speeds below these that turn down no sharper.
+    /// Morphological opening by the parabola of a speed at constant jerk: the greatest speeds below these whose peaks are no
+    /// sharper.
     [[nodiscard]] std::vector<float> opened(std::span<const float> speeds) const {
         const float drop = 0.5F * jerk_ * period_ * period_;
         std::vector<float> curve = lowered_by_parabolas({speeds.begin(), speeds.end()}, drop);
@@ -76,8 +77,9 @@ private:
         return curve;
     }
 
-    /// The least of values[j] + bend (i − j)² over all j, for each i: a lower envelope of parabolas, each of which is the lowest on
-    /// one section. O(values). Felzenszwalb, Huttenlocher, Distance Transforms of Sampled Functions, Theory of Computing 8 (2012) 415.
+    /// The minimum of values[j] + bend (i − j)² over all j, for each i: a lower envelope of parabolas, each of which is the
+    /// lowest on one section. O(values). Felzenszwalb, Huttenlocher, Distance Transforms of Sampled Functions, Theory of
+    /// Computing 8 (2012) 415.
     static std::vector<float> lowered_by_parabolas(const std::vector<float>& values, float bend) {
         struct Lowest {
             std::size_t apex = 0;
@@ -111,7 +113,8 @@ private:
     std::span<std::int32_t> causes_;
 };
 
-/// Behind how many points, of `most`, a lowered speed is back at its own for sure: twice what the machine takes from a halt.
+/// The number of points, up to `most`, after which a lowered speed has certainly returned: twice what the machine needs from
+/// rest.
 std::size_t recovery(const Ramp& ramp, double period, double speed, std::size_t most) {
     const double seconds = speed / ramp.acceleration + ramp.acceleration / ramp.jerk;
     return static_cast<std::size_t>(std::min(static_cast<double>(most), std::ceil(2 * seconds / period)));

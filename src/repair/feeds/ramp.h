@@ -15,13 +15,13 @@ struct Ramp {
     double jerk = infinite;          ///< [mm/s³]
 };
 
-/// The limits of a machine that hold in every direction: the smallest of its axes and of its path.
+/// The limits of a machine that apply in every direction: the smallest of its axes and of its path.
 [[nodiscard]] Ramp ramp_of(const Machine& machine);
 
-/// Lowers `speeds` [mm/s], one per period [s], around places that are already lowered, to what the ramp allows: from a
-/// low place they rise no faster, and between two low places they do not turn more sharply. Where they have the shape
-/// of `own`, the speeds of the machine, they may change as these do. Lowered points take over the cause (≥ 0; −1: none)
-/// of the place for which they are lowered. All spans have one entry per point, without NaN. O(points).
+/// Lowers `speeds` [mm/s], one per period [s], around places that are already lowered, to what the ramp allows: from a low
+/// place they rise no faster, and between two low places their peak is no sharper. Changes of `own`, the speeds of the machine,
+/// are always allowed. Lowered points take over the cause (≥ 0; −1: none) of the place for which they are lowered. All spans
+/// have one entry per point, without NaN. O(points).
 void keep_to_ramp(const Ramp& ramp, double period, std::span<const float> own, std::span<float> speeds,
                   std::span<std::int32_t> causes);
 

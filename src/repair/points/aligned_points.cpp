@@ -10,9 +10,9 @@ namespace clsurf {
 namespace {
 
 constexpr double steepest = 2.2, flattest = 0.45;  ///< of a phase along a pass, in phases per spacing
-constexpr double jump_tolerance = 0.05;            ///< of a phase that is no jump
-constexpr double fewest_taken = 0.2;  ///< of a pass's points: less in common with the passes before is no hold
-constexpr int parts = 4;              ///< of a phase, that are told apart
+constexpr double jump_tolerance = 0.05;            ///< of a phase: smaller differences are no jump
+constexpr double fewest_taken = 0.2;               ///< of a pass's points: less overlap with earlier passes is not used
+constexpr int parts = 4;                           ///< resolution of a phase
 
 class PhaseRunner {
 public:
@@ -38,7 +38,7 @@ public:
     Phases take() { return std::move(phases_); }
 
 private:
-    /// The phase beside each point, from a pass that has one already.
+    /// Takes the phase at each point from an adjacent pass that has one already.
     void take_from_neighbours(const PointRange& pass) {
         mine_.assign(arc_length_.size(), missing<double>);
         for (std::size_t k = 0; k < mine_.size(); ++k) {
@@ -58,7 +58,8 @@ private:
         }
     }
 
-    /// Doubles or halves the phase until it runs at about one a spacing; its sign. 0: nothing was taken.
+    /// Doubles or halves the phase until it advances by about one per spacing. Returns the sign of its rate. Without sufficient
+    /// overlap, nothing is taken, and the sign is 1.
     double scale_to_spacing() {
         double gone = 0, turned = 0;
         std::size_t taken = 0;
@@ -78,8 +79,8 @@ private:
         return rate > 0 ? 1 : -1;
     }
 
-    /// Keeps the longest run of phases, and of the others those that go on from it: a phase taken across the
-    /// seam between two passes, or from the wrong one, jumps.
+    /// Keeps the longest run of phases, and the others only if they continue it. A phase that was taken across the seam between
+    /// two passes, or from a wrong pass, jumps.
     void keep_what_runs_evenly(double sign) {
         const auto known = [&](std::size_t k) { return mine_[k] == mine_[k]; };
         const auto follows = [&](std::size_t a, std::size_t b) {
@@ -109,7 +110,7 @@ private:
         }
     }
 
-    /// Linear over gaps, one a spacing beyond the ends.
+    /// Interpolates linearly over gaps; beyond the ends one phase per spacing.
     void fill(double sign) {
         std::vector<std::size_t> known;
         for (std::size_t k = 0; k < mine_.size(); ++k) {

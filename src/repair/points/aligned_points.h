@@ -1,7 +1,7 @@
 #pragma once
-// Aligned points: places on adjacent passes that lie side by side. A phase runs along every pass, and an aligned point lies at
-// each whole number. The phase of a place is that of the adjacent place on the pass that was programmed earlier, so that the
-// aligned points of neighbours lie side by side.
+// Aligned points: places on adjacent passes that are next to each other. A phase runs along every pass, and an aligned point is
+// at each whole number. The phase of a place is that of the adjacent place on the pass that was programmed earlier, so that the
+// aligned points of neighbours are next to each other.
 
 #include <cstdint>
 #include <vector>
@@ -12,26 +12,25 @@ namespace clsurf {
 
 struct Phases {
     std::vector<double> of_point;  ///< per point of the surface; NaN: not on a cut pass
-    double spacing = 0;            ///< [mm] of arc length between whole numbers where no pass lies beside
+    double spacing = 0;            ///< [mm] of arc length between whole numbers if there is no adjacent pass
 };
 
-/// Phases of all cut passes in the order of the program. Where passes fan out or in, the phase is doubled or halved
-/// from pass to pass, so that most aligned points are 0.7 to 1.4 spacings apart. O(points).
+/// Phases of all cut passes in the order of the program. Where passes diverge or converge, the phase is doubled or halved from
+/// pass to pass, so that most aligned points are 0.7 to 1.4 spacings apart. O(points).
 [[nodiscard]] Phases run_phases(const ProgrammedSurface& programmed, double spacing);
 
 inline constexpr double nearest_aligned_point =
-    0.35;  ///< of a line: an aligned point nearer to a fixed point is left out
+    0.35;  ///< of a line: aligned points nearer to a fixed point are omitted
 
 /// An aligned point on a section of a pass.
 struct AlignedPoint {
     double arc_length = 0;    ///< [mm] from where the section begins
     std::int64_t number = 0;  ///< its phase in quarters
-    double part = 0;          ///< [mm] of arc length in a quarter
+    double part = 0;          ///< [mm] of arc length per quarter
 };
 
 /// Aligned points between two points of the surface, from a margin after the first one to a margin before the last one, which
-/// is `length` [mm] of arc length away. Where passes fan out, halves and quarters of a phase are aligned points too.
-/// O(points).
+/// is `length` [mm] of arc length away. Where passes diverge, halves and quarters of a phase are aligned points too. O(points).
 [[nodiscard]] std::vector<AlignedPoint> aligned_points_between(const ProgrammedSurface& programmed,
                                                                const Phases& phases, PointIndex first, PointIndex last,
                                                                double length);

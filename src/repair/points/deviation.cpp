@@ -10,33 +10,33 @@
 namespace clsurf {
 namespace {
 
-constexpr double window = 1.0;       ///< [mm] of arc length to both sides of where the walk has come to
+constexpr double window = 1.0;       ///< [mm] of arc length to both sides of the present position
 constexpr double same_place = 1e-9;  ///< [mm]
 constexpr double most_pieces = 1e6;  ///< of one motion
 constexpr double turn_step = rad_per_deg;
-constexpr double most_wound = 90 * rad_per_deg;  ///< a rotary axis, for the same direction of the tool
+constexpr double most_wound = 90 * rad_per_deg;  ///< of a rotary axis, for the same direction of the tool
 
-/// How far a place is from another path.
+/// The distance of a place from another path.
 struct Apart {
     double distance = std::numeric_limits<double>::infinity();  ///< [mm]
     double turned = 0;                                          ///< [rad] the tool axis there
-    double wound = 0;                                           ///< [rad] the rotary axis that differs most there
+    double wound = 0;                                           ///< [rad] of the rotary axis that differs most there
 };
 
-/// A place to be held against another path.
+/// A place to be compared with another path.
 struct Sample {
     Vec3 position = Vec3::Zero();  ///< [mm]
     RotaryAngles angles;
     Vec3 axis = Vec3::UnitZ();
 };
 
-/// Walks along a path beside points that come in its order.
+/// Follows a path along points that are in its order.
 class Walk {
 public:
     /// `orientation`: of the path; nullptr: three axes.
     Walk(const Toolpath& path, const Orientation* orientation) : path_(path), orientation_(orientation) {}
 
-    /// How far `sample` is from the path near the projection of the one before.
+    /// The distance of `sample` from the path near the projection of the previous one.
     [[nodiscard]] Apart apart(const Sample& sample) {
         std::int64_t low = at_;
         double before = arc_length_before_;
@@ -49,14 +49,14 @@ public:
             if (length <= 0 && std::isfinite(apart.distance)) continue;
             Projection projection = path_.projection(m, sample.position);
             if (length > 0) {
-                // Of a long motion only what lies in the window counts.
+                // Only the section of a long motion inside the window counts.
                 const double inside =
                     std::clamp(projection.fraction, std::clamp((arc_length - window - before) / length, 0.0, 1.0),
                                std::clamp((arc_length + window - before) / length, 0.0, 1.0));
                 if (inside != projection.fraction)
                     projection = {(path_.at(m, inside) - sample.position).norm(), inside};
             }
-            // The later of two that are as near: a path that goes back on itself is not to be walked back.
+            // Of two equally near projections the later one, so that the walk does not move back on a path that reverses.
             if (projection.distance <= apart.distance + same_place) {
                 if (orientation_ != nullptr) compare_axes(sample, m, projection, apart);
                 apart.distance = std::min(apart.distance, projection.distance);
@@ -69,7 +69,8 @@ public:
         return apart;
     }
 
-    /// Goes along the line of the path, if there is one from here, that is the same as line `i` of another: how far its points are is known.
+    /// Moves along the next line of the path if it is the same as line `i` of another path: the distance of its points is then
+    /// known.
     [[nodiscard]] bool goes_along(const Toolpath& other, std::int64_t i) {
         if (orientation_ != nullptr || !is_line(other, i)) return false;
         double before = arc_length_before_;
@@ -87,7 +88,7 @@ private:
     [[nodiscard]] static bool is_line(const Toolpath& path, std::int64_t i) {
         return path.motions().kind[static_cast<std::size_t>(i)] == MotionKind::feed;
     }
-    /// Of projections that are as near, the one counts where the tool points most alike.
+    /// Of equally near projections, the one with the most similar tool axis counts.
     void compare_axes(const Sample& sample, std::int64_t motion, const Projection& projection, Apart& apart) const {
         const RotaryAngles angles = orientation_->angles(motion, projection.fraction);
         const double turned = angle_between(sample.axis, orientation_->axis(angles));
@@ -103,7 +104,7 @@ private:
     double arc_length_before_ = 0, arc_length_ = 0;
 };
 
-/// A path, and where the tool points along it.
+/// A path, and the tool axis along it.
 struct Course {
     const Toolpath& path;
     const Orientation* orientation = nullptr;
@@ -114,14 +115,14 @@ struct Course {
     }
 };
 
-/// Calls take(motion, point, how far it is) for points of `from` against `to`.
+/// Calls take(motion, point, distance) for points of `from` compared with `to`.
 template <typename Take>
 void compare(const Course& from, const Course& to, double step, const Take& take) {
     Walk walk(to.path, to.orientation);
     const Toolpath& path = from.path;
     for (std::int64_t i = 0; i < path.size(); ++i) {
         if (walk.goes_along(path, i)) continue;
-        // What lies between rapids has to be there; rapids themselves are compared by their ends.
+        // Sections between rapids must exist; rapids themselves are compared by their ends.
         const bool rapid = path.motions().kind[static_cast<std::size_t>(i)] == MotionKind::rapid;
         const double pieces = rapid ? std::ceil(path.length(i) / (0.5 * window))
                                     : std::ceil(std::max(path.length(i) / step, from.turn_of(i) / turn_step));
@@ -134,14 +135,14 @@ void compare(const Course& from, const Course& to, double step, const Take& take
                 sample.axis = from.orientation->axis(sample.angles);
             }
             Apart apart = walk.apart(sample);
-            // Rapids and turns in place are compared word by word.
+            // Rapids and rotations in place are compared word by word.
             if (rapid || path.length(i) <= 0) apart.turned = apart.wound = 0;
             take(i, sample.position, apart);
         }
     }
 }
 
-/// Whether a repair may put other motions in its place: distances along it are compared, not its words.
+/// Whether a repair may replace a motion by others: it is compared by distances along it, not by its words.
 bool is_plain(const Course& course, std::int64_t i) {
     const Motions& motions = course.path.motions();
     const auto k = static_cast<std::size_t>(i);

@@ -17,13 +17,13 @@ struct Deviation {
     static constexpr double usual_step = 0.05;  ///< [mm] of arc length between measured points
 
     double greatest = 0;           ///< [mm]
-    LineOfEither line;             ///< of the program that is farthest from the other, there
+    LineOfEither line;             ///< of the program that is farthest from the other there
     Vec3 position = Vec3::Zero();  ///< [mm] there
     double turned = 0;             ///< [rad] greatest angle between the tool axes
     LineOfEither turned_line;      ///< there
-    /// The line of the second program with the first rapid, dwell, arc or rotation in place that differs between both,
-    /// or with a path on which an axis is more than a quarter turn away; its last line if the second program has fewer
-    /// of them; 0: all agree.
+    /// The line of the second program with the first rapid, dwell, arc or rotation in place that differs between both, or with
+    /// a path on which an axis differs by more than a quarter turn; its last line if the second program has fewer of them; 0:
+    /// all agree.
     LineNumber disordered = 0;
 };
 
@@ -32,11 +32,11 @@ struct Orientations {
     const Orientation *before = nullptr, *after = nullptr;
 };
 
-/// Compares both paths in both directions: the ends of motions of each path and points every `step` [mm] between them
-/// (on five axes also every degree of rotation) are measured against the other path within a millimetre of the present
-/// position. A missing pass shows as at least one step-over. The tool axes compared are those of the controller there
-/// and at the nearest place of the other path; if there are several, as before and after a rotation in place, the one
-/// that fits. Motions as for simulate_five_axis(). O(path length / step).
+/// Compares both paths in both directions: the ends of motions of each path and points every `step` [mm] between them (on five
+/// axes also every degree of rotation) are measured against the other path within a millimetre of the present position. A
+/// missing pass causes a deviation of at least one step-over. The tool axes compared are those of the controller there and at
+/// the nearest place of the other path; if there are several, for example before and after a rotation in place, the most
+/// similar one counts. Motions as for simulate_five_axis(). O(path length / step).
 [[nodiscard]] Deviation measure_deviation(const Program& before, const Program& after,
                                           double step = Deviation::usual_step, const Orientations& orientations = {});
 

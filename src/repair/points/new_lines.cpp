@@ -10,9 +10,9 @@
 namespace clsurf {
 namespace {
 
-constexpr std::size_t reach_of_bends = 5;  ///< aligned points to both sides whose bends a line's length fits
+constexpr std::size_t reach_of_bends = 5;  ///< aligned points to both sides whose bends determine the length of a line
 constexpr double most_doublings = 6;       ///< of a part
-constexpr double short_share = 0.5;        ///< of both lines beside it: a shorter line is dropped
+constexpr double short_share = 0.5;        ///< of both adjacent lines: shorter lines are dropped
 
 class NewLines {
 public:
@@ -34,7 +34,7 @@ public:
     }
 
 private:
-    /// Which points of the curve lines need that leave it by no more than the chord error.
+    /// The points of the curve that lines need to stay within the chord error.
     [[nodiscard]] std::vector<std::uint8_t> chosen() const {
         const std::size_t n = curve_.points.size();
         std::vector<std::uint8_t> kept(n, 1);
@@ -59,9 +59,10 @@ private:
         return kept;
     }
 
-    /// Of two aligned points nearer to each other than the shortest line the one with the less round number is left out.
+    /// Of two aligned points closer to each other than the shortest line, drops the one with fewer trailing zero bits in its
+    /// number.
     void drop_close(std::vector<std::uint8_t>& kept) const {
-        std::size_t before = 0;  // kept
+        std::size_t before = 0;  // last kept one
         for (std::size_t k = 1; k + 1 < kept.size(); ++k) {
             if (kept[k] == 0) continue;
             if (before > 0 && curve_.arc_length[k] - curve_.arc_length[before] < rules_.shortest_line) {
@@ -74,7 +75,8 @@ private:
         }
     }
 
-    /// How often a part [mm] is doubled to become a line of up to `wanted` [mm], and not too short a one.
+    /// The number of doublings that turn a part [mm] into a line of up to `wanted` [mm], but not shorter than the shortest
+    /// line.
     [[nodiscard]] int level_of(double wanted, double part) const {
         const double coarsest = std::floor(std::log2(std::max(wanted / part, 1.0))),
                      finest = std::ceil(std::log2(std::max(rules_.shortest_line / part, 1.0)));
@@ -83,8 +85,7 @@ private:
 
     [[nodiscard]] NewPlace place(std::size_t k) const { return {curve_.arc_length[k], curve_.points[k]}; }
 
-    /// The point at k, and before it those between it and the point `from` that the line needs to pass the old
-    /// lines closely enough.
+    /// Adds the point at k, and before it those between `from` and k that the line needs to stay close enough to the old lines.
     void join(std::size_t from, std::size_t k) {
         if (k == from + 1) {
             pass_old_points(place(from), place(k));
@@ -111,7 +112,7 @@ private:
         Vec3 projection = Vec3::Zero();  ///< on the line
     };
 
-    /// Of the old points between two places the one farthest from the line between them.
+    /// The old point between two places that is farthest from the line between them.
     [[nodiscard]] OldPoint farthest_old_point(const NewPlace& from, const NewPlace& to) const {
         OldPoint found;
         for (auto i = static_cast<std::size_t>(
@@ -129,7 +130,7 @@ private:
         return turning_ != nullptr && turning_->error_of(from, to).greatest > rules_.most_turned;
     }
 
-    /// Between two places, points beside old ones that the line between them would leave too far off.
+    /// Adds points near old ones, between two places, if the line between them would be too far from those.
     void pass_old_points(const NewPlace& from, const NewPlace& to) {
         const OldPoint farthest = farthest_old_point(from, to);
         if (farthest.distance <= rules_.most) {
@@ -144,7 +145,7 @@ private:
         pass_old_points(middle, to);
     }
 
-    /// Between two places, points of the line between them that have the angles of old ones.
+    /// Adds points with the angles of old ones, on the line between two places.
     void pass_turns(const NewPlace& from, const NewPlace& to) {
         if (turning_ == nullptr) return;
         const AxisError error = turning_->error_of(from, to);
@@ -156,15 +157,15 @@ private:
         pass_turns(middle, to);
     }
 
-    /// How far the line between two places leaves what it replaces [mm]; infinite: farther than it may.
+    /// The deviation if `dropped` is omitted between two places [mm]; infinite: it is not permitted.
     [[nodiscard]] double error_without(const NewPlace& from, const NewPlace& dropped, const NewPlace& to) const {
         const double own = (dropped.position - nearest_on_line(dropped.position, from.position, to.position)).norm();
         const double farthest = std::max(own, farthest_old_point(from, to).distance);
         return farthest <= rules_.most && !turns_away(from, to) ? farthest : std::numeric_limits<double>::infinity();
     }
 
-    /// Controllers that pass corners on arcs slow down at a line that is much shorter than those beside it: arcs end in its
-    /// middle. One of its ends is dropped where the path permits.
+    /// Controllers that round corners by arcs slow down at a line much shorter than the adjacent ones, because arcs end in its
+    /// middle. One of its ends is dropped if the path permits.
     void drop_short_lines() {
         constexpr double never = std::numeric_limits<double>::infinity();
         const auto length = [](const NewPlace& from, const NewPlace& to) {

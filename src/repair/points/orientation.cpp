@@ -6,7 +6,7 @@ namespace clsurf {
 namespace {
 
 constexpr double least_from_pole = 2 * rad_per_deg;
-constexpr double most_by_a_line = 30 * rad_per_deg;  ///< what turns more is no finishing, or winds up
+constexpr double most_by_a_line = 30 * rad_per_deg;  ///< larger turns are no finishing, or wind up an axis
 constexpr double same_angle = 1e-9;                  ///< [rad] as programmed
 constexpr int judged_places = 8;                     ///< of a line
 
@@ -36,7 +36,7 @@ bool Orientation::is_divisible(std::int64_t motion) const {
         return i < 0 ? RotaryAngles{} : kinematics_->angles_of(motions_->rotary[static_cast<std::size_t>(i)].vec());
     };
     const RotaryAngles from = angles(motion, 0), to = angles(motion, 1);
-    // Over the pole a controller may go on with the tilt on the other side than its words say.
+    // Beyond the pole a controller may continue with the tilt on the other side than programmed.
     if (turn_between(from, programmed(motion - 1)) > same_angle || turn_between(to, programmed(motion)) > same_angle)
         return false;
     const Xyz words = motions_->rotary[static_cast<std::size_t>(motion)],

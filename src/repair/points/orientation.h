@@ -1,6 +1,6 @@
 #pragma once
 // Orientation: the tool axis along the motions of a program, as the simulated controller interpolates it
-// (simulation/path/tool_axis_path.h), and the lines that may get new points in spite of it.
+// (simulation/path/tool_axis_path.h), and the lines that may still get new points.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 
 namespace clsurf {
 
-/// Angle of the rotary axis that turns more [rad].
+/// Largest angle by which one of the rotary axes turns [rad].
 [[nodiscard]] inline double turn_between(const RotaryAngles& a, const RotaryAngles& b) {
     return std::max(std::abs(b.tilt - a.tilt), std::abs(b.rotation - a.rotation));
 }
@@ -34,7 +34,7 @@ public:
     [[nodiscard]] double from_pole(const RotaryAngles& angles) const {
         return axis({angles.tilt, 0}).cross(kinematics_->rotation.direction).norm();
     }
-    /// The motion of the tool axis on a line between two places of lines that may be divided.
+    /// The motion of the tool axis on a line between two places of divisible lines.
     [[nodiscard]] ToolAxisPath between(const RotaryAngles& from, const RotaryAngles& to) const {
         return {*kinematics_, from, to, {}, std::numeric_limits<double>::infinity(), 0};
     }
@@ -42,8 +42,8 @@ public:
     /// A, B, C [rad] for angles inside a motion.
     [[nodiscard]] Vec3 programmed(std::int64_t motion, const RotaryAngles& angles) const;
     [[nodiscard]] bool turns(std::int64_t motion) const;
-    /// Whether points inside a motion can be programmed: its axes move as its words say and turn by at most 30°, and
-    /// the tool axis stays at least 2° from the pole. True if nothing turns.
+    /// Whether points inside a motion can be programmed: its axes move to their words and turn by at most 30°, and the tool
+    /// axis stays at least 2° from the pole. True if nothing turns.
     [[nodiscard]] bool divisible(std::int64_t motion) const {
         return divisible_[static_cast<std::size_t>(motion)] != 0;
     }

@@ -16,11 +16,11 @@
 namespace clsurf {
 namespace {
 
-constexpr double narrowest = 0.3;         ///< of what lines may leave the path by: the tube for knots of the curve
-constexpr double most_used = 0.99;        ///< of what decimals leave of the tolerance, by lines
-constexpr double most_turned_used = 0.9;  ///< the same of the turn, which is measured at the nearest place of the path
+constexpr double narrowest = 0.3;   ///< of the tolerance of lines: least radius of the tube for knots of the curve
+constexpr double most_used = 0.99;  ///< of the tolerance that remains after rounding, for lines
+constexpr double most_turned_used = 0.9;  ///< the same for the turn, which is measured at the nearest place of the path
 constexpr double finest_share = 0.2;      ///< of the usual spacing
-constexpr double line_reserve = 1.5;      ///< lines are one to two times as long as the shortest that they may be
+constexpr double line_reserve = 1.5;      ///< lines are one to two times as long as the shortest permitted one
 constexpr std::int64_t passes_a_piece = 4;
 constexpr std::size_t shortest_segment = 3;  ///< motions
 
@@ -29,7 +29,7 @@ struct Spacings {
     double bend = 0;   ///< [1/mm] 98th percentile
 };
 
-/// What the chords of lines, as short as they may be, leave of what lines may leave the path by [mm].
+/// The tolerance of lines minus the chord error of the shortest permitted lines [mm].
 double tube_radius(double most, const ResampleRules& rules, const Spacings& spacings) {
     const double shortest = line_reserve * rules.shortest_line,
                  chord = std::max(rules.chord_error, spacings.bend * shortest * shortest / 8);
@@ -94,7 +94,7 @@ private:
 
     void run_pass(const ProgrammedPass& pass, std::vector<ResampledSegment>& segments) const {
         const std::vector<std::uint8_t> creases = creases_of(pass);
-        std::size_t begin = 0;  // the end that the section begins at
+        std::size_t begin = 0;  // index of the end where the section begins
         for (std::size_t k = 1; k < pass.ends.size(); ++k) {
             const bool may = editable(pass, k);
             const bool goes_on =
@@ -108,8 +108,8 @@ private:
         add(pass, begin, pass.ends.size() - 1, segments);
     }
 
-    /// Which ends of a pass lie where it turns within a spacing by more than the corner angle: at a corner, or in a crease that the program
-    /// follows by lines as short as the crease is narrow. One entry an end.
+    /// Marks ends of a pass where it turns by more than the corner angle within a spacing: at a corner, or in a crease that the
+    /// program follows by lines as short as the crease is narrow. One entry per end.
     [[nodiscard]] std::vector<std::uint8_t> creases_of(const ProgrammedPass& pass) const {
         const std::size_t n = pass.ends.size();
         const double reach = 0.5 * lines_.spacing;
@@ -134,7 +134,7 @@ private:
         return old;
     }
 
-    /// Ends begin … end of a pass, both of which stay.
+    /// Adds the section between two ends of a pass, which do not change.
     void add(const ProgrammedPass& pass, std::size_t begin, std::size_t end,
              std::vector<ResampledSegment>& segments) const {
         if (end < begin + shortest_segment) return;
@@ -155,12 +155,12 @@ private:
                 segment.angles.push_back(standing(segment.last));
         }
         if (splines_) segment.spline = spline_of(old, curve, segment.first);
-        // With --splines the user wants fewer blocks: where no spline saves any, there must not be more lines than before.
+        // With --splines the user wants fewer blocks: if no spline saves any, there must not be more lines than before.
         if (splines_ && !segment.spline && segment.points.size() + 1 > old.points.size()) return;
         if (segment.spline || !stays(old, segment)) segments.push_back(std::move(segment));
     }
 
-    /// The section as a spline, if the dialect has one for it that takes fewer blocks than the old lines.
+    /// The section as a spline, if the dialect has one that takes fewer blocks than the old lines.
     [[nodiscard]] std::optional<Nurbs> spline_of(const OldSegment& old, const SmoothCurve& curve,
                                                  std::int64_t first) const {
         if (!editor_.may_be_spline(first, old.points)) return std::nullopt;
@@ -174,12 +174,12 @@ private:
                                                       [&](std::int64_t m) { return orientation_->turns(m); });
     }
 
-    /// The angles of a section without an axis that turns.
+    /// The angles of a section in which no axis turns.
     [[nodiscard]] LineAngles standing(std::int64_t m) const {
         return {motions_.rotary[static_cast<std::size_t>(m)].vec(), m};
     }
 
-    /// The points are the old ones already.
+    /// Whether the points are already the old ones.
     [[nodiscard]] static bool stays(const OldSegment& old, const ResampledSegment& segment) {
         if (segment.points.size() + 1 != old.points.size()) return false;
         for (std::size_t k = 0; k < segment.points.size(); ++k) {
@@ -195,7 +195,7 @@ private:
     double corner_angle_;  ///< [rad]
     bool splines_;
     LineRules lines_;
-    std::span<const std::uint8_t> needed_;  ///< one entry a motion, or none
+    std::span<const std::uint8_t> needed_;  ///< one entry per motion, or empty
     const Orientation* orientation_;
     Phases phases_;
 };
@@ -209,7 +209,7 @@ Spacings spacings_of(const Program& program, const ProgrammedSurface& programmed
             lengths.push_back(path.length(m));
             if (k + 1 == pass.ends.size() || k < 2) continue;
             const std::uint32_t after = programmed.motion_of(pass.ends[k + 1]);
-            // Rounded words make short lines look bent.
+            // Rounding makes short lines seem to bend.
             if (path.length(m) > 0.05 && path.length(after) > 0.05)
                 bends.push_back(three_point_curvature(path.begin(m), path.end(m), path.end(after)));
         }

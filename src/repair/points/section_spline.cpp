@@ -12,13 +12,13 @@ namespace clsurf {
 namespace {
 
 constexpr int degree = 3;
-constexpr std::size_t width = 3;             ///< diagonals to each side of the normal matrix
+constexpr std::size_t width = 3;             ///< diagonals on each side of the normal matrix
 constexpr double samples_a_spacing = 4;      ///< at least; a span is no shorter than a spacing
-constexpr double spacings_a_span = 64;       ///< before spans are halved
+constexpr double spacings_a_span = 64;       ///< initially, before spans are halved
 constexpr std::size_t samples_at_least = 8;  ///< of a section
 constexpr double most_samples = 1e6;
-/// Of the chord error: how far a spline may leave the smooth curve. Held to one chord error, it copies the scatter that the
-/// curve keeps, in spans nearly as short as lines.
+/// Times the chord error: largest distance of a spline from the smooth curve. With one chord error, it would copy the scatter
+/// that the curve keeps, in spans nearly as short as lines.
 constexpr double curve_share = 3;
 
 /// The four B-splines of degree 3 that are not zero in the span between knots k and k + 1, at u (the NURBS Book, A2.2).
@@ -66,7 +66,7 @@ public:
 private:
     [[nodiscard]] static double on_step(double u) { return std::round(u / spline_knot_step) * spline_knot_step; }
 
-    /// Control points for the spans that there are. False: samples do not determine them.
+    /// Computes control points for the present spans. Returns false if the samples do not determine them.
     bool fit() {
         knots_.assign(degree, 0.0);
         knots_.insert(knots_.end(), ends_.begin(), ends_.end());
@@ -83,7 +83,7 @@ private:
             if (span == 0) rest -= basis[0] * old_.points.front();
             if (span + 2 == ends_.size()) rest -= basis[degree] * old_.points.back();
             for (std::size_t a = 0; a <= degree; ++a) {
-                const std::size_t row = span + a;  // of all control points; both ends are known
+                const std::size_t row = span + a;  // among all control points; both ends are known
                 if (row == 0 || row + 1 == count) continue;
                 right[row - 1] += basis[a] * rest;
                 for (std::size_t b = 0; b <= a; ++b) {
@@ -107,7 +107,7 @@ private:
         return sum;
     }
 
-    /// How far `p` is from the spline about u: across its direction there.
+    /// The distance of `p` from the spline near u, normal to its direction there.
     [[nodiscard]] double across(std::size_t span, double u, const Vec3& p) const {
         const double step = 0.01 * (ends_[span + 1] - ends_[span]);
         const Vec3 along =
@@ -117,7 +117,7 @@ private:
         return (off - off.dot(along) * along).norm();
     }
 
-    /// Which spans leave the curve or the old lines too far, or are left by old points.
+    /// The spans that are too far from the curve, the old lines or the old points.
     [[nodiscard]] std::vector<std::uint8_t> bad_spans() const {
         std::vector<std::uint8_t> bad(ends_.size() - 1, 0);
         const double to_old = old_.length() / end_;
@@ -139,7 +139,7 @@ private:
         return bad;
     }
 
-    /// False: spans would be shorter than the spacing.
+    /// Returns false if spans would be shorter than the spacing.
     bool halve(const std::vector<std::uint8_t>& bad) {
         std::vector<double> ends{0};
         for (std::size_t k = 0; k < bad.size(); ++k) {
@@ -158,7 +158,7 @@ private:
     double end_;  ///< the last knot: the length of the old lines in steps
     std::vector<double> at_;
     std::vector<Vec3> places_;  ///< of the curve, one for each of `at_`
-    std::vector<double> ends_;  ///< of spans, and where the first begins
+    std::vector<double> ends_;  ///< of spans; the first entry is the beginning
     std::vector<double> knots_;
     std::vector<Vec3> points_;
 };

@@ -8,11 +8,10 @@
 namespace clsurf {
 namespace {
 
-constexpr double knot_share =
-    0.6;  ///< of the usual spacing: closer points are no knots of the curve that the search begins at
-constexpr double knot_distance = 0.5;  ///< of the spacing between knots of the curve, at least
+constexpr double knot_share = 0.6;     ///< of the usual spacing: closer points are no knots of the initial curve
+constexpr double knot_distance = 0.5;  ///< of the spacing: least distance between knots of the curve
 
-/// A place on spans whose knots lie at some ways, by linear shares of those.
+/// A place on spans whose knots are at given arc lengths, by linear interpolation of the parameter.
 Vec3 at_arc_length(const std::vector<CubicSpan>& spans, const std::vector<double>& arc_lengths, double arc_length) {
     const auto span =
         static_cast<std::size_t>(std::upper_bound(arc_lengths.begin() + 1, arc_lengths.end() - 1, arc_length) -
@@ -22,7 +21,7 @@ Vec3 at_arc_length(const std::vector<CubicSpan>& spans, const std::vector<double
                           (arc_lengths[span + 1] - arc_lengths[span]));
 }
 
-/// Old points far enough apart to be knots, both ends among them.
+/// Old points far enough apart to be knots, including both ends.
 std::vector<std::size_t> knots_of(const OldSegment& old, double least) {
     std::vector<std::size_t> knots{0};
     const std::size_t last = old.points.size() - 1;
@@ -35,7 +34,7 @@ std::vector<std::size_t> knots_of(const OldSegment& old, double least) {
     return knots;
 }
 
-/// Where knots are: the old points and the aligned points between them, both ends, none too near to the next.
+/// Arc lengths of knots: the old points and the aligned points between them, including both ends, none too close to the next.
 std::vector<double> arc_lengths_of_knots(const OldSegment& old, const std::vector<AlignedPoint>& aligned_points,
                                          double apart) {
     std::vector<double> arc_lengths{0};
@@ -56,7 +55,7 @@ std::vector<double> arc_lengths_of_knots(const OldSegment& old, const std::vecto
     return arc_lengths;
 }
 
-/// A point of the curve between its knots, no farther from the old lines about `arc_length` than most of the tolerance.
+/// A point of the curve between its knots, moved to within `most` of the old lines around `arc_length`.
 Vec3 held(const Vec3& p, const OldSegment& old, double arc_length, double most) {
     const Vec3 nearest = old.projection(p, arc_length).position;
     const double off = (p - nearest).norm();
@@ -83,7 +82,7 @@ SmoothCurve::SmoothCurve(const OldSegment& old, const std::vector<AlignedPoint>&
                                                   : old.points.back());
     }
     std::vector<double> radii(arc_length_.size(), rules.radius);
-    // The ends keep their direction, too.
+    // The ends keep their direction too.
     for (const std::size_t k : {std::size_t{0}, std::size_t{1}, arc_length_.size() - 2, arc_length_.size() - 1})
         radii[k] = 0;
     spans_ = akima_spans(smoothest_in_tube(places, arc_length_, radii, start));

@@ -28,7 +28,7 @@ public:
 
 private:
     const OldSegment& old_;
-    double most_;                     ///< [mm] off the old lines
+    double most_;                     ///< [mm] largest distance from the old lines
     std::vector<double> arc_length_;  ///< of its knots
     std::vector<CubicSpan> spans_;
 };

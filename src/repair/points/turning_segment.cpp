@@ -5,9 +5,9 @@
 namespace clsurf {
 namespace {
 
-/// How many millimetres a radian is drawn as: the tube for angles is then about as wide as those for points.
+/// Millimetres per radian in `drawn_`: the tube for angles is then about as wide as that for points.
 constexpr double lever = 30;
-constexpr double tube_share = 0.5;  ///< of what lines may turn the axis by: the other half is that of chords
+constexpr double tube_share = 0.5;  ///< of the tolerance of the axis; the other half is for chords
 
 LineRules drawn_rules(const LineRules& rules) {
     LineRules drawn = rules;

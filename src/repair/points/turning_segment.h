@@ -28,10 +28,10 @@ public:
     TurningSegment(const TurningSegment&) = delete;
     TurningSegment& operator=(const TurningSegment&) = delete;
 
-    /// Angles of a new line at one of its ends: the smoothest path of the angles in a tube, at the projection onto the
-    /// old lines; at an old point, its own angles.
+    /// Angles of a new line at one of its ends: the smoothest path of the angles in a tube, at the projection onto the old
+    /// lines; at an old point, its own angles.
     [[nodiscard]] RotaryAngles angles(const NewPlace& place) const;
-    /// The words for them: those of an old point are unchanged.
+    /// The words for these angles; at an old point they are unchanged.
     [[nodiscard]] LineAngles words(const NewPlace& place) const;
     /// The axis along a new line compared with the axis at the same fraction of the old lines between its ends, at old
     /// points and half-way between them. O(old points between).
@@ -44,7 +44,7 @@ private:
 
     const OldSegment& old_;
     const Orientation& orientation_;
-    double turn_lever_;   ///< [mm/rad] that rotations are drawn with
+    double turn_lever_;   ///< [mm/rad] scale of rotations in `drawn_`
     OldSegment drawn_;    ///< the angles as lines in space: tilt, rotation, arc length [mm]
     SmoothCurve smooth_;  ///< through them
 };
