@@ -10,7 +10,7 @@
 namespace clsurf {
 namespace {
 
-constexpr int places = 8;  ///< of what is turned within the time, at which the curvature is looked at
+constexpr int places = 8;  ///< at which the curvature is evaluated within the time
 
 }  // namespace
 
@@ -29,7 +29,7 @@ double ArcSteps::speed(const Vec3& change) const {
 
 double ArcSteps::speed(const PathElement& arc, const Vec3& before, const Vec3& after) const {
     const Vec3 at_begin = arc.second_derivative(0) - before, at_end = after - arc.second_derivative(arc.length);
-    // It is no faster than the steps alone allow, and at that speed it turns the most within the time.
+    // The steps alone limit the speed, and at that limit the arc turns most within the time.
     const double turned = std::min(arc.length, speed(at_begin.cwiseAbs().cwiseMax(at_end.cwiseAbs())) * time_);
     std::array<Vec3, 2> low{before, after}, high{before, after};
     for (int k = 0; k <= places; ++k) {

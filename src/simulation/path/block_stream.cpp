@@ -21,7 +21,7 @@ constexpr double cusp_length = 0.001;  ///< [mm] a curve that turns by more than
 BlockStream::BlockStream(MotionSource& source, const Machine& machine, const Vec3& start, Stops stops)
     : source_(&source), machine_(&machine), at_(start), section_ends_(stops) {
     take(PathMode{});
-    // Where the program itself says where it begins, the axes stand there.
+    // If the program defines its start, the axes begin there.
     const Xyz& known = source.program().motions.start;
     if (known.x == known.x) at_.x() = known.x;
     if (known.y == known.y) at_.y() = known.y;
@@ -34,7 +34,7 @@ bool BlockStream::stops_between(const PathElement& before, const PathElement& af
     if (before.tolerance > 0 && after.tolerance > 0) return false;
     if (machine_->controller.corner == CornerMode::junction) return false;
     const bool splines = before.spline && after.spline;
-    // On an exact path only what is straight on, with no jump of curvature, is passed without a stop.
+    // On an exact path only joints without a turn and without a jump of curvature are passed without a stop.
     const double bend = (after.second_derivative(0) - before.second_derivative(before.length)).norm();
     return turning > (splines ? straight_on_of_splines : straight_on) ||
            bend > (splines ? least_bend_jump_of_splines : least_bend_jump);
@@ -44,7 +44,7 @@ void BlockStream::take(const PathMode& mode) {
     const ControllerSettings& controller = machine_->controller;
     const bool rounded = mode.block_end == BlockEnd::rounded && rounds_corners(controller);
     tolerance_ = !rounded ? 0 : std::isfinite(mode.tolerance) ? mode.tolerance : controller.tolerance;
-    // The planner that ends blocks itself knows a path without a tolerance.
+    // The planner that decides itself how blocks end has a path without a tolerance.
     if (rounded && section_ends_ == Stops::programmed && std::isinf(mode.tolerance)) tolerance_ = mode.tolerance;
     const double of_program = controller.planner == PlannerKind::trapezoidal ? mode.merging_tolerance : 0;
     merging_tolerance_ = controller.merging_tolerance.value_or(of_program);
@@ -62,7 +62,7 @@ double BlockStream::done() const {
            static_cast<double>(std::max<std::int64_t>(1, source_->outline().motions));
 }
 
-/// False: the program has no more.
+/// False: the program has no more motions.
 bool BlockStream::at_a_motion() {
     while (next_motion_ >= source_->piece_size()) {
         if (!source_->next_piece()) return false;
@@ -79,7 +79,7 @@ bool BlockStream::turns(const Motions& motions, std::size_t motion) {
     return moved(before.x, rotary_.x) || moved(before.y, rotary_.y) || moved(before.z, rotary_.z);
 }
 
-/// The next motion with a length; dwells on the way to it are added up.
+/// The next motion with a length; adds up the dwells before it.
 bool BlockStream::read(PathElement& element) {
     const Motions& motions = source_->program().motions;
     const auto fail = [&](std::int64_t m, const std::string& what, const std::string& hint = {}) {
@@ -135,7 +135,7 @@ bool BlockStream::read(PathElement& element) {
     return false;
 }
 
-/// A curve with a cusp ends there and begins again behind it: the tool turns round as at a corner.
+/// A curve with a cusp is divided there: the tool reverses as at a corner.
 bool BlockStream::divide(const PathElement& whole) {
     std::shared_ptr<const BezierCurve> rest = whole.spline;
     while (const auto cusp = rest->sharp_turn(cusp_length)) {
@@ -175,13 +175,13 @@ bool BlockStream::begin_section() {
     closed_ = begun_ = false;
     if (waiting_) return true;
     if (!read(waiting_element_)) {
-        // Dwells at the very end still take their time.
+        // Dwells at the end of the program still take their time.
         take_dwell();
         return dwell_ > 0;
     }
     waiting_ = true;
     if (pending_dwell_ > 0) {
-        // A wait before the first motion: a section without length.
+        // A dwell before the first motion is a section without length.
         section_end_ = waiting_element_.begin;
         take_dwell();
     }

@@ -7,11 +7,11 @@
 namespace clsurf {
 namespace {
 
-constexpr int reached_places = 4;  ///< of what a step reaches of an arc, at which its curvature is looked at
+constexpr int reached_places = 4;  ///< at which the curvature of an arc is evaluated within the reach of a step
 
 }  // namespace
 
-/// A part of the held block; `beside`: the step that reaches it.
+/// A part of the held block; `beside`: the step that affects it.
 void CornerArcs::add_piece(double from, double to, const Side* beside) {
     if (to - from < no_arc_length) return;
     PathElement piece = from > 0 || to < held_.length ? held_.part(from, to) : held_;
@@ -22,7 +22,7 @@ void CornerArcs::add_piece(double from, double to, const Side* beside) {
     ready_.push_back(piece);
 }
 
-/// What the arcs at both ends of the held block leave of it.
+/// The part of the held block that remains between the arcs at its ends.
 void CornerArcs::add_block(double end, const Side& at_end) {
     const double left = std::max(end - used_, 0.0);
     const double reached = begun_.reach + at_end.reach;
@@ -35,12 +35,12 @@ void CornerArcs::add_block(double end, const Side& at_end) {
     passed_ += left;
 }
 
-/// How fast the steps of an arc behind the held block let it be passed. Where those of arcs before are within the time of
-/// one, both count, and the arc before is passed more slowly, too.
+/// The speed that the steps of an arc after the held block allow. Steps of previous arcs within the reach add up, and the
+/// previous arc gets the lower speed, too.
 CornerArcs::Side CornerArcs::side_of(const TransitionArc& arc, const PathElement& whole, const PathElement& after) {
     const double end = held_.length - arc.arc_length_before;
     Side side;
-    // Beside the arc no speed is above that in it, so that the reach is as long as the time asks.
+    // The speed next to the arc is at most the speed on it, so the reach covers the required time.
     side.speed =
         std::min({steps_.speed(whole, held_.second_derivative(end), after.second_derivative(arc.arc_length_after)),
                   arc_speed(arc.radius, machine_->path.max_normal_acceleration),
@@ -63,7 +63,7 @@ CornerArcs::Side CornerArcs::side_of(const TransitionArc& arc, const PathElement
     return side;
 }
 
-/// What is left of the held block, and the arc to the next one.
+/// The rest of the held block, and the arc to the next one.
 void CornerArcs::add_corner(const PathElement& after) {
     const double tolerance = std::min(held_.tolerance, after.tolerance);
     TransitionArc arc;

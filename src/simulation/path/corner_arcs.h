@@ -12,16 +12,16 @@ namespace clsurf {
 
 class CornerArcs final : public ElementSource {
 public:
-    /// Both must outlive it.
+    /// Both references must outlive the object.
     CornerArcs(ElementSource& source, const Machine& machine) : source_(&source), machine_(&machine), steps_(machine) {}
 
     [[nodiscard]] bool next(PathElement& element) override;
 
 private:
-    /// What the step at the end of an arc means for the block beside it.
+    /// The effect of the step at the end of an arc on the adjacent block.
     struct Side {
-        double speed = 0;  ///< that it allows [mm/s]; 0: there is none
-        double reach = 0;  ///< of the block that it reaches [mm]
+        double speed = 0;  ///< allowed speed [mm/s]; 0: no step
+        double reach = 0;  ///< affected length of the block [mm]
     };
 
     void add_corner(const PathElement& after);
@@ -40,10 +40,10 @@ private:
     ArcSteps steps_;
     bool holds_ = false;
     PathElement held_;         ///< the last block
-    double used_ = 0;          ///< of its length by the arc at its begin [mm]
-    Side begun_;               ///< by this arc
-    double passed_ = 0;        ///< arc length up to what is left of the last block [mm]
-    std::deque<Bend> recent_;  ///< that a step here adds to
+    double used_ = 0;          ///< length that the arc at its begin replaces [mm]
+    Side begun_;               ///< by that arc
+    double passed_ = 0;        ///< arc length at which the rest of the last block begins [mm]
+    std::deque<Bend> recent_;  ///< close enough to add to a step here
     std::deque<PathElement> ready_;
 };
 

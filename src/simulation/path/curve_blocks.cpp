@@ -14,12 +14,12 @@ namespace clsurf {
 namespace {
 
 constexpr double curve_share = 0.5;             ///< of the tolerance, for curves
-constexpr double sharp = std::numbers::pi / 4;  ///< [rad] a corner that no curve goes through
-constexpr std::size_t most_blocks = 1000;       ///< of a run: bounds the blocks that must be known
-constexpr std::size_t windows[] = {10, 5};      ///< blocks to a cubic of least squares, tried in turn
+constexpr double sharp = std::numbers::pi / 4;  ///< [rad] no curve passes a sharper corner
+constexpr std::size_t most_blocks = 1000;       ///< of a run: limits how many blocks must be known
+constexpr std::size_t windows[] = {10, 5};      ///< blocks per least-squares cubic, tried in turn
 
-/// How far a cubic leaves the line between two points at most: the distances of its ends, and of the inner control points of
-/// Bézier's form, of which no more than 3/4 is reached; infinite where it does not run along the line.
+/// Upper bound of the distance between a cubic and the line between two points. Uses the distances of the cubic's ends and
+/// of the inner Bézier control points, of which at most 3/4 is reached; infinite if the cubic does not run along the line.
 double deviation_from(const CubicSpan& curve, const Vec3& begin, const Vec3& end) {
     const Vec3 along = (end - begin).normalized();
     const Vec3 at_begin = curve.derivative(0), at_end = curve.derivative(curve.chord);
@@ -38,8 +38,8 @@ bool CurveBlocks::joins(const PathElement& element) const {
     return element.tolerance == run_.back().tolerance && deflection(run_.back().direction, element.direction) < sharp;
 }
 
-/// Cubics beside the points, where need be with fewer blocks to each, or pinned to the point that is farthest off; where there are
-/// too few, a curve through them.
+/// Fits cubics to the points. If they deviate too much, uses fewer blocks per cubic, or pins the cubic to the point that is
+/// farthest off. If there are too few points, uses a curve through them.
 void CurveBlocks::add_fit(std::size_t first, std::size_t last, double allowed) {
     const std::span<const Vec3> points = std::span(points_).subspan(first, last - first + 1);
     std::size_t farthest = 0;
@@ -68,12 +68,13 @@ void CurveBlocks::add_akima(std::size_t first, std::size_t last) {
     spans_.insert(spans_.end(), spans.begin(), spans.end());
 }
 
-/// The curves of the run, a span for each block; how many blocks are done: where the run goes on, its last interval waits for its end.
+/// Makes the curves of the run, one span per block. Returns the number of finished blocks: if the run continues, its last
+/// interval is not finished.
 std::size_t CurveBlocks::make_spans(bool goes_on) {
     points_.clear();
     for (const PathElement& line : run_) points_.push_back(line.begin);
     points_.push_back(run_.back().end);
-    // Curves are made in one of the two directions, whichever way they are travelled.
+    // Curves are made in a fixed direction, independent of the direction of travel.
     const Vec3 &begin = points_.front(), &end = points_.back();
     const bool back = std::lexicographical_compare(end.begin(), end.end(), begin.begin(), begin.end());
     if (back) std::reverse(points_.begin(), points_.end());
@@ -98,7 +99,7 @@ std::size_t CurveBlocks::make_spans(bool goes_on) {
     return done;
 }
 
-/// The blocks of the run, each as its span of a curve unless that leaves the tolerance.
+/// The blocks of the run, each as its span of a curve unless that exceeds the tolerance.
 void CurveBlocks::add_run(bool goes_on) {
     const std::size_t done = make_spans(goes_on);
     for (std::size_t i = 0; i < done; ++i) {

@@ -1,11 +1,10 @@
 #pragma once
-// CurveBlocks: replaces consecutive short lines without a sharp corner by curves. An Akima curve goes through
-// their points, one per constant-speed interval (numeric/speed_intervals.h). The interval is known as a whole
-// when its curve is made, so both directions of travel give the same curve. Least-squares cubics pass near the
-// points, over windows of ten blocks. Each block becomes its part of the curve, so that lines, feeds and
-// look-ahead remain those of the program.
+// CurveBlocks: replaces consecutive short lines without a sharp corner by curves. An Akima curve passes through their
+// points, one curve per constant-speed interval (numeric/speed_intervals.h). The whole interval is known when its curve is
+// made, so both directions of travel give the same curve. Least-squares cubics pass near the points, over windows of ten
+// blocks. Each block becomes its part of the curve, so lines, feeds and look-ahead remain those of the program.
 //
-// Curves may use half of the tolerance. A block whose curve would exceed it stays a line. The rest is for the
+// Curves may use half of the tolerance. A block whose curve would exceed it stays a line. The other half is for the
 // roundings where curves and lines meet.
 
 #include <deque>
@@ -18,7 +17,7 @@ namespace clsurf {
 
 class CurveBlocks final : public ElementSource {
 public:
-    /// The source must outlive it.
+    /// The source must outlive the object.
     CurveBlocks(ElementSource& source, CurveMode mode) : source_(&source), mode_(mode) {}
 
     [[nodiscard]] bool next(PathElement& element) override;
@@ -32,7 +31,7 @@ private:
 
     ElementSource* source_;
     CurveMode mode_;
-    std::vector<PathElement> run_;  ///< lines that follow each other
+    std::vector<PathElement> run_;  ///< consecutive lines
     std::vector<Vec3> points_;      ///< their ends, scratch of make_spans()
     std::vector<CubicSpan> spans_;
     bool waiting_ = false;

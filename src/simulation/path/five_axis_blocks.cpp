@@ -13,9 +13,9 @@
 namespace clsurf {
 namespace {
 
-constexpr double derating = 0.97;          ///< of the speed that would just hold
-constexpr double least_turn_angle = 1e-9;  ///< [rad] a block that turns less does not turn
-constexpr int places_of_block = 4;         ///< of a block, for a first guess of its speed
+constexpr double derating = 0.97;          ///< of the speed that exactly reaches the limit
+constexpr double least_turn_angle = 1e-9;  ///< [rad] a smaller turn is none
+constexpr int places_of_block = 4;         ///< of a block, for a first estimate of its speed
 std::array<AxisLimits, 5> limits_of(const Machine& machine) {
     std::array<AxisLimits, 5> limits{};
     for (std::size_t k = 0; k < 5; ++k) {
@@ -23,7 +23,7 @@ std::array<AxisLimits, 5> limits_of(const Machine& machine) {
         limits[k] = {a.travel_low, a.travel_high, a.max_speed, a.max_acceleration,
                      a.max_jerk > 0 ? a.max_jerk : infinite};
     }
-    // Travel is what the axis shows.
+    // Travel limits apply to the displayed axis values.
     const std::array<double, 2> signs{machine.kinematics.tilt.sign, machine.kinematics.rotation.sign};
     for (std::size_t k = 0; k < 2; ++k) {
         AxisLimits& l = limits[3 + k];
@@ -69,7 +69,7 @@ FiveAxisBlocks::FiveAxisBlocks(const Program& program, const Machine& machine, c
                                 : static_cast<double>(motions.feed[i]);
         axis_paths_[i] = make_axis_path(i, angles, to, feed);
         angles = axis_paths_[i].at(1);
-        // A block that only turns is a wait for the tip.
+        // A block that only turns is a dwell for the tip.
         if (kind != MotionKind::dwell && !(elements_[i].length > 0) && turn_of(i) > least_turn_angle) {
             if (cuts) turn_speeds_[i] = motions.feed[i] * rad_per_deg;
             kind = MotionKind::dwell;
@@ -83,7 +83,7 @@ FiveAxisBlocks::FiveAxisBlocks(const Program& program, const Machine& machine, c
     kinds_ = motions.kind;
     lines_ = motions.line;
     for (std::size_t i = 0; i < n; ++i)
-        motions.line[i] = static_cast<LineNumber>(i + 1);  // the samples tell their block
+        motions.line[i] = static_cast<LineNumber>(i + 1);  // the samples contain their block
     motions.rotary = {};
     motions.tool_axis = {};
     motions.file = {};
@@ -143,7 +143,7 @@ ToolAxisPath FiveAxisBlocks::make_axis_path(std::size_t i, const RotaryAngles& f
     return {k, from, to, {limits_[3].low, limits_[3].high}, ratio, k.axis_tolerance};
 }
 
-/// The time of a turn from rest to rest that both axes can run together, at its feed or slower.
+/// The time of a turn from rest to rest that both axes can keep, at its feed or slower.
 double FiveAxisBlocks::turning_time(std::size_t i) const {
     const RotaryAngles a = axis_paths_[i].at(0);
     const RotaryAngles b = axis_paths_[i].at(1);
@@ -159,7 +159,7 @@ double FiveAxisBlocks::turning_time(std::size_t i) const {
     return time;
 }
 
-/// From how far the axes go between places of a block: no more than a first guess.
+/// A first estimate of the speed, from the axis distances between places of a block.
 void FiveAxisBlocks::guess_cap(std::size_t i) {
     const PathElement& e = elements_[i];
     const Kinematics& k = machine_->kinematics;
@@ -174,7 +174,7 @@ void FiveAxisBlocks::guess_cap(std::size_t i) {
         const std::array<double, 5> now = axes_at(static_cast<double>(j) / places_of_block);
         for (std::size_t axis = 0; axis < 5; ++axis) {
             const double slope = std::abs(now[axis] - before[axis]) / step;
-            // An axis that goes no farther than the tip is as fast as the planner lets it be.
+            // The planner limits the speed of an axis that moves no farther than the tip.
             if (axis < 3 ? slope <= 1 + 1e-9 : slope * e.length <= least_turn_angle) continue;
             caps_[i] = std::min(caps_[i], derating * limits_[axis].speed / slope);
         }

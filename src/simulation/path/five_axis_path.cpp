@@ -8,11 +8,11 @@
 namespace clsurf {
 namespace {
 
-constexpr double length_of_angle = 10;      ///< [mm/rad] of u, for what turns without going
+constexpr double length_of_angle = 10;      ///< [mm/rad] of u, for blocks that only turn
 constexpr std::size_t joints_reached = 20;  ///< joints to each side that a rounding may cross
 constexpr double at_joint = 15.0 / 96.0;    ///< G(0)
 constexpr double inside_chords = 4;         ///< width of a rounding inside a curved block, in chords
-constexpr double least_turn = 1e-12;        ///< a jump of the slope that is none
+constexpr double least_turn = 1e-12;        ///< a smaller jump of the slope is ignored
 constexpr double least_length = 1e-9;       ///< [mm] of a chord
 
 using VectorJet = std::array<Vec3, 4>;
@@ -30,7 +30,7 @@ Result leibniz(const A& a, const B& b, const Product& product) {
             product(a[3], b[0]) + 3 * product(a[2], b[1]) + 3 * product(a[1], b[2]) + product(a[0], b[3])};
 }
 
-/// `v` turned about a unit vector by `sign` times an angle; all change along the path.
+/// `v` rotated about a unit vector by `sign` times an angle; both vary along the path.
 VectorJet turned_jet(const VectorJet& v, const Vec3& axis, const ScalarJet& angle, double sign) {
     const double s = std::sin(sign * angle[0]), c = std::cos(sign * angle[0]);
     const double d1 = sign * angle[1], d2 = sign * angle[2], d3 = sign * angle[3];
@@ -112,8 +112,8 @@ void FiveAxisPath::set_widths() {
     fit(&Joint::angle_width, 3, 2, of_angles);
 }
 
-/// Widths that hold the tolerances, also where roundings overlap: between joints their sum is convex, and at a joint
-/// all widths times f make it at most f times as great.
+/// Widths that satisfy the tolerances where roundings overlap, too: between joints the sum of the deviations is convex, and
+/// at a joint all widths times f make it at most f times as great.
 void FiveAxisPath::fit(double Joint::*width, int first, int count, const std::vector<double>& tolerances) {
     const std::size_t n = joints_.size();
     std::vector<double> turns(n), sums(n, 0.0), factors(n, 1.0);
@@ -126,7 +126,7 @@ void FiveAxisPath::fit(double Joint::*width, int first, int count, const std::ve
         turns[j] = joints_[j].turn.segment(first, count).norm();
         if (!(turns[j] > least_turn)) continue;
         double w = tolerances[j] / (at_joint * turns[j]);
-        // The ends of the way stay where they are, and a joint is rounded within those near it.
+        // The ends of the path keep their positions, and a rounding reaches over a limited number of joints.
         const double before = j >= joints_reached ? ends_[j] - ends_[j - joints_reached] : ends_[j];
         const double after = (j + joints_reached < n ? ends_[j + joints_reached] : length()) - ends_[j];
         w = std::min({w, before, after});
@@ -170,7 +170,7 @@ FiveAxisPath::Jet FiveAxisPath::jet(double u, std::size_t chord) const {
             FiveAxes::Zero()};
     const auto add = [&](std::size_t j, int first, int count, double w) {
         const double d = u - ends_[j];
-        if (!(std::abs(d) < w)) return;  // most of them
+        if (!(std::abs(d) < w)) return;  // most joints are out of reach
         const double x = std::abs(d) / w;
         const auto turn = joints_[j].turn.segment(first, count);
         const double rest = 1 - x * x, side = d < 0 ? -1 : 1;
@@ -226,7 +226,7 @@ std::vector<double> FiveAxisPath::places() const {
         if (i == joints_.size()) continue;
         for (const double w : {joints_[i].tip_width, joints_[i].angle_width}) {
             if (!(w > 0)) continue;
-            // In a chord shorter than the rounding its own places are close enough.
+            // If the chord is shorter than the rounding, its own places are dense enough.
             const bool before = w <= length_of_chord, after = w <= ends_[i + 1] - ends_[i];
             for (const double x : {0.2, 0.58, 1.0}) {
                 if (before) places.push_back(ends_[i] - x * w);

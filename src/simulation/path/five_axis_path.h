@@ -1,13 +1,13 @@
 #pragma once
-// FiveAxisPath: the way of the tip and of both angles between two rests as one curve with a continuous third derivative.
+// FiveAxisPath: the path of the tip and of both angles between two rests, as one curve with a continuous third derivative.
 //
-// Blocks become chords of (tip, angles) over one parameter u. At each joint of two chords a jump Δ of the slope is taken
-// out by what smoothing with the kernel K(d) = 15/(16 w) (1 − (d/w)²)², |d| < w, adds there:
+// Blocks become chords of (tip, angles) over one parameter u. At each joint of two chords the slope jumps by Δ. Smoothing
+// with the kernel K(d) = 15/(16 w) (1 − (d/w)²)², |d| < w, removes the jump by adding
 //
 //     Δ w G(|d|/w),     G(x) = 15/16 (1/6 − 8x/15 + x²/2 − x⁴/6 + x⁶/30).
 //
-// The tip and the angles have widths of their own, by their own tolerances. Where roundings overlap, those of one place
-// together stay within the tolerance. The linear axes follow from both by the kinematics, with their derivatives.
+// The tip and the angles have separate widths, from their separate tolerances. If roundings overlap, their sum at any
+// place stays within the tolerance. The linear axes follow from both by the kinematics, with their derivatives.
 
 #include <cstdint>
 #include <vector>
@@ -19,14 +19,14 @@ namespace clsurf {
 
 using FiveAxes = AxisVector<5>;
 
-/// A chord of the way.
+/// A chord of the path.
 struct FiveAxisChord {
     FiveAxes end = FiveAxes::Zero();  ///< tip [mm], tilt, rotation [rad]
     double feed = 0;                  ///< of the tip, with the override [mm/s]; infinite for a rapid
-    /// Of both angles together where they alone turn [rad/s]; infinite where the feed is that of the tip.
+    /// Speed of both angles together if only they move [rad/s]; infinite if the feed is that of the tip.
     double turn_speed = infinite_speed;
-    double tolerance = 0;  ///< of the tip at its begin [mm]
-    bool inside = false;   ///< its begin lies inside a curved block
+    double tolerance = 0;  ///< of the tip at the begin of the chord [mm]
+    bool inside = false;   ///< the chord begins within a curved block
     std::uint32_t block = 0;
     double part_from = 0, part_to = 1;  ///< of the block
 };
@@ -36,7 +36,7 @@ struct FiveAxisPlace {
     Vec3 tip = Vec3::Zero();
     RotaryAngles angles;
     double deviation = 0;  ///< of the tip from its chord [mm]
-    double pace = 0;       ///< way of the tip by u
+    double pace = 0;       ///< derivative of the tip's arc length by u
 };
 
 class FiveAxisPath {
@@ -48,16 +48,16 @@ public:
     [[nodiscard]] double length() const { return ends_.empty() ? 0 : ends_.back(); }
     [[nodiscard]] std::size_t chord_at(double u) const;
     [[nodiscard]] const FiveAxisChord& chord(std::size_t i) const { return chords_[i]; }
-    /// Which part of its block lies behind u.
+    /// The share of the chord's block before u.
     [[nodiscard]] double part_at(std::size_t chord, double u) const;
     [[nodiscard]] FiveAxisPlace at(double u) const;
-    /// How far u is from the nearest rounding, or from a joint that has none; 0: it lies within one.
+    /// Distance of u from the nearest rounding, or from a joint without rounding; 0 within a rounding.
     [[nodiscard]] double clearance(double u) const;
-    /// How far the angles turn by u there [rad], but for roundings.
+    /// Turn of the angles per u there, without roundings [rad].
     [[nodiscard]] double turning(double u) const { return slopes_[chord_at(u)].tail<2>().norm(); }
-    /// Derivatives of x, y, z, tilt and rotation by u; `tip`: those of the tip.
+    /// Derivatives of x, y, z, tilt and rotation by u; `tip`: output, those of the tip.
     [[nodiscard]] AxisSample<5> derivatives(double u, PathDerivatives& tip) const;
-    /// Where derivatives change fast, in order: a polyline through them misses no corner.
+    /// Places where derivatives change fast, in order. A polyline through them follows every corner.
     [[nodiscard]] std::vector<double> places() const;
 
 private:
@@ -65,7 +65,7 @@ private:
         FiveAxes turn = FiveAxes::Zero();
         double tip_width = 0, angle_width = 0;
     };
-    /// Value and derivatives up to the third.
+    /// Value and first to third derivative.
     using Jet = std::array<FiveAxes, 4>;
     void set_widths();
     void fit(double Joint::*width, int first, int count, const std::vector<double>& tolerances);

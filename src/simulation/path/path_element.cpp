@@ -11,10 +11,10 @@ namespace clsurf {
 namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
-constexpr double same_angle = 1e-9;  ///< a difference of rounding size is a full circle, not none
-constexpr int turning_places = 8;    ///< at which the direction of a cubic is looked at
+constexpr double same_angle = 1e-9;  ///< a smaller angle is rounding and means a full circle
+constexpr int turning_places = 8;    ///< at which the direction of a cubic is evaluated
 
-/// Derivatives by the arc length of a curve that is known by u, from those by u.
+/// Derivatives of a curve by arc length, from its derivatives by a parameter u.
 PathDerivatives by_the_way(const Vec3& r1, const Vec3& r2, const Vec3& r3) {
     const double f = r1.squaredNorm();
     const double q = r1.dot(r2);

@@ -10,8 +10,8 @@
 namespace clsurf {
 namespace {
 
-constexpr double share_of_bends = 0.25;  ///< of the tolerance, for jumps of curvature, where there are arcs
-constexpr double top_share = 0.25;       ///< of a rounding's width, where only the path limits the jerk
+constexpr double share_of_bends = 0.25;  ///< of the tolerance, for jumps of curvature, if the path has arcs
+constexpr double top_share = 0.25;       ///< of a rounding's width, if only the path limits the jerk
 
 }  // namespace
 
@@ -25,7 +25,7 @@ std::string_view name_of(LimitingFactor limiting) {
 Vec3 Span::at(double tau, double& deviation, double& pace) const {
     deviation = base.deviation;
     pace = 1;
-    const bool spiral = base.arc && base.growth != 0;  // by its angle, not by its length
+    const bool spiral = base.arc && base.growth != 0;  // its position depends on the angle, not on the length
     if (!rounded && !spiral) return base.at(from + tau);
     Vec3 tangent;
     const Vec3 position = base.at(from + tau, tangent);
@@ -44,7 +44,7 @@ PathStream::PathStream(MotionSource& source, const Machine& machine, const Vec3&
     : machine_(&machine), blocks_(source, machine, start), source_(&blocks_) {
     const bool arcs = drives_arcs(machine);
     const bool curves = machine.controller.curve != CurveMode::none;
-    // Only drives that bear any jerk bear every jump of curvature.
+    // Only machines without a jerk limit of the axes permit every jump of curvature.
     if ((!arcs || !only_path_jerk(machine)) && (curves || source.outline().curved)) bend_share_ = share_of_bends;
     if (limits_jerk_in_bends(machine) && !jerks_freely(machine)) top_ = top_share;
     if (machine.controller.merging_tolerance.value_or(0) > 0) {
@@ -69,14 +69,14 @@ void PathStream::add_joint(const PathElement& before, const PathElement& after) 
     const bool splines = before.spline && after.spline;
     if (joint.turning < (splines ? straight_on_of_splines : straight_on)) joint.turn.setZero(), joint.turning = 0;
     joint.tolerance = std::min(before.tolerance, after.tolerance);
-    // A corner that has no arc keeps off the arcs of others, which take the tolerance for themselves.
+    // A corner without an arc stays clear of other corners' arcs, which use the whole tolerance.
     joint.widest = arcs_ ? std::min(before.length, after.length) : std::numeric_limits<double>::infinity();
     if (bend_share_ > 0 && !before.corner_arc && !after.corner_arc)
         joint.bend = after.second_derivative(0) - before.second_derivative(before.length);
     const double bend = joint.bend.norm();
     if (bend > (splines ? least_bend_jump_of_splines : least_bend_jump)) {
-        // |d (v − |d|)³/(12 v²)| is greatest at v/4: 27/3072 v². The halves of a block keep the
-        // roundings of its two ends apart.
+        // |d (v − |d|)³/(12 v²)| is greatest at v/4: 27/3072 v². Each rounding uses at most half a block, so that those at
+        // its two ends do not overlap.
         const double widest = std::sqrt(bend_share_ * joint.tolerance * 3072 / (27 * bend));
         joint.bend_width = std::min({widest, 0.5 * before.length, 0.5 * after.length});
     } else {
@@ -106,7 +106,7 @@ bool PathStream::begin_section() {
     return true;
 }
 
-/// Takes one more element into the section; false: the section is closed.
+/// Reads one more element of the section; false: the section is complete.
 bool PathStream::pull() {
     if (closed_) return false;
     PathElement element;
@@ -122,8 +122,8 @@ bool PathStream::pull() {
     return true;
 }
 
-/// The widest rounding of a joint: its own deviation, with equal widths of those that it overlaps,
-/// within the tolerance; inside the section; over no more than reach_of_a_joint neighbours.
+/// The widest rounding of a joint: with equal widths of all roundings that it overlaps, its own deviation stays within the
+/// tolerance. It stays inside the section and reaches over at most reach_of_a_joint neighbours.
 void PathStream::settle_width(std::int64_t i) {
     Joint& j = joint(i);
     if (j.turning == 0) return;
@@ -134,12 +134,12 @@ void PathStream::settle_width(std::int64_t i) {
     if (i - reach_of_a_joint >= 0) widest = std::min(widest, j.at - joint(i - reach_of_a_joint).at);
     if (i + reach_of_a_joint <= last) widest = std::min(widest, joint(i + reach_of_a_joint).at - j.at);
     const std::int64_t low = std::max(first_joint_, i - reach_of_a_joint), high = std::min(last, i + reach_of_a_joint);
-    // It ends before an exact path begins. Scaled by the tolerance there, it would have no width at all.
+    // It ends before an exact path begins: scaling by the tolerance there would reduce its width to 0.
     for (std::int64_t n = low; n <= high; ++n) {
         if (joint(n).tolerance == 0) widest = std::min(widest, std::abs(joint(n).at - j.at));
     }
     if (!(widest > 0)) return;
-    // Σ |Δt| (w − |d|)³/(6 w²) is convex in w: from anywhere Newton's method comes down to the root from above.
+    // Σ |Δt| (w − |d|)³/(6 w²) is convex in w: from above, Newton's method converges to the root from any start.
     double width = widest;
     if (i > low && joint(i - 1).width > 0) width = std::min(widest, joint(i - 1).width);
     constexpr int most_steps = 60;
@@ -169,7 +169,7 @@ void PathStream::settle_width(std::int64_t i) {
     j.share = j.turning / (6 * width * width * (1 - top_ * top_));
 }
 
-/// The deviation at a joint where every rounding is as wide as it may be.
+/// The deviation at a joint if every rounding has its greatest width.
 void PathStream::settle_deviation(std::int64_t i) {
     Joint& j = joint(i);
     const std::int64_t high = std::min(element_count_ - 2, i + reach_of_a_joint);
@@ -182,7 +182,7 @@ void PathStream::settle_deviation(std::int64_t i) {
     }
 }
 
-/// Narrower where the deviations of those that it reaches need it.
+/// Scales the width down to satisfy the tolerances of all joints that it reaches.
 void PathStream::settle_scale(std::int64_t i) {
     Joint& j = joint(i);
     double scale = 1;
@@ -199,7 +199,7 @@ void PathStream::settle_scale(std::int64_t i) {
     j.reach = std::max(j.width, j.bend_width);
 }
 
-/// Takes every stage as far as the elements known allow.
+/// Advances every stage as far as the known elements allow.
 void PathStream::settle() {
     const std::int64_t joints = element_count_ - 1;
     const auto known = [&](std::int64_t done_before) {
@@ -215,11 +215,11 @@ const Span* PathStream::next() {
     while (ready_.empty()) {
         if (element_count_ == 0) return nullptr;
         const std::int64_t joints = element_count_ - 1;
-        // An element's spans need the roundings that can reach into it.
+        // The spans of an element need all roundings that can reach into it.
         const bool can = closed_ ? spans_done_ < element_count_ : scales_done_ > spans_done_ + reach_of_a_joint + 1;
         if (can) {
             make_spans(spans_done_++);
-            // What no later element can need any more.
+            // Removes joints that no later element can need.
             while (first_joint_ < std::min(joints, spans_done_ - 3 * reach_of_a_joint - 2)) {
                 joints_.pop_front();
                 ++first_joint_;

@@ -1,5 +1,5 @@
-// Spans of an element: cut where a rounding begins, ends or turns over, so that on each the position
-// is one polynomial (on an arc: besides the arc), and its derivatives can be bounded.
+// Spans of an element. It is divided where a rounding begins, ends or has its middle, so that the position on each span is
+// one polynomial (on an arc: added to the arc) and its derivatives can be bounded.
 
 #include <algorithm>
 #include <cmath>
@@ -13,19 +13,20 @@
 namespace clsurf {
 namespace {
 
-constexpr double least_span = 1e-9;         ///< [mm] nearer cuts are one
-constexpr double most_turn_of_span = 0.75;  ///< [rad] of a curve in one span: limits of axes change round it
-constexpr double gentle_turn = 0.1;         ///< [rad] a span of a spline that turns less is not cut further …
-constexpr double most_bend_ratio = 1.5;   ///< … nor one whose greatest curvature is less than so many times the least
-constexpr int most_spline_halvings = 10;  ///< of a span of a spline
-constexpr int checked_points = 5;         ///< of a span whose bounds are not at its ends
+constexpr double least_span = 1e-9;         ///< [mm] closer cuts are merged
+constexpr double most_turn_of_span = 0.75;  ///< [rad] of a curve in one span: limits of axes vary with the direction
+constexpr double gentle_turn = 0.1;         ///< [rad] a span of a spline that turns less is not divided further …
+constexpr double most_bend_ratio = 1.5;     ///< … nor one with a smaller ratio of greatest to least curvature
+constexpr int most_spline_halvings = 10;    ///< of a span of a spline
+constexpr int checked_points = 5;           ///< of a span whose greatest values need not be at its ends
 constexpr double most_turn_of_step = 0.75;  ///< [rad] of the path between checked points, where it nearly reverses
 constexpr double reversal_share =
-    1e-12;  ///< of the distance to a place where a path nearly reverses: how well it is known
-// Cuts to both sides of it: of the distance over which the path turns by 1 rad there, then each of the last one.
+    1e-12;  ///< of the distance to a place where a path nearly reverses: the accuracy of that distance
+// Distances of cuts to both sides of that place: the first in lengths over which the path turns by 1 rad, then as a factor
+// of the last.
 constexpr double first_distance = 2, distance_growth = 4;
-constexpr double least_pace = 0.1;   ///< of the shortest p′ seen, where no bound is known
-constexpr double nearly = 1 - 1e-9;  ///< of a limit, for rounding
+constexpr double least_pace = 0.1;   ///< share of the shortest checked p′, used if there is no bound
+constexpr double nearly = 1 - 1e-9;  ///< of a limit, to allow for rounding
 
 /// Adds factor · (a + b τ)(c + e τ)³ to a polynomial in τ.
 void add_product(std::array<Vec3, 5>& sum, const Vec3& factor, double a, double b, double c, double e) {
@@ -36,7 +37,8 @@ void add_product(std::array<Vec3, 5>& sum, const Vec3& factor, double a, double 
     }
 }
 
-/// Adds factor · (w − |d|)³ to a polynomial in τ, whose origin is `distance` after the corner, on one side of it: 1 behind, −1 before.
+/// Adds factor · (w − |d|)³ to a polynomial in τ, whose origin is `distance` after the corner. `side`: 1 after it, −1
+/// before it.
 template <std::size_t size>
 void add_cube(std::array<Vec3, size>& sum, const Vec3& factor, double width, double distance, double side) {
     const double left = width - side * distance;
@@ -46,17 +48,17 @@ void add_cube(std::array<Vec3, size>& sum, const Vec3& factor, double width, dou
     sum[3] -= side * factor;
 }
 
-/// Takes a derivative into the greatest values on a span.
+/// Updates the greatest values on a span with a derivative.
 void take(const Vec3& value, Vec3& greatest, double& greatest_length) {
     greatest = greatest.cwiseMax(value.cwiseAbs());
     greatest_length = std::max(greatest_length, value.squaredNorm());
 }
 
-/// Bounds of |p′|′ = p′·p″/|p′| and of |p′|″ = (|p″|² − |p′|′²)/|p′| + p′·p‴/|p′| by the Bézier points of p′, p″ and p‴: a
-/// product is no greater than the greatest of the products of its factors' points.
+/// Bounds of |p′|′ = p′·p″/|p′| and of |p′|″ = (|p″|² − |p′|′²)/|p′| + p′·p‴/|p′| from the Bézier points of p′, p″ and p‴:
+/// a product is at most the greatest product of the points of its factors.
 void bound_pace(Span& span, const std::array<Vec3, 4>& first, const std::array<Vec3, 3>& second,
                 const std::array<Vec3, 2>& third) {
-    // |p′| is no less than p′ in any direction: in that where it is shortest, this is all of it.
+    // |p′| is at least the component of p′ in any direction; the direction of the shortest point is used.
     const Vec3& shortest = *std::min_element(
         first.begin(), first.end(), [](const Vec3& a, const Vec3& b) { return a.squaredNorm() < b.squaredNorm(); });
     const double length = shortest.norm();
@@ -73,7 +75,7 @@ void bound_pace(Span& span, const std::array<Vec3, 4>& first, const std::array<V
     span.pace_curve = span.swing + twist / least;
 }
 
-/// Greatest values on a rounded line, where derivatives are polynomials: below those of their Bézier points.
+/// Greatest values on a rounded line, where derivatives are polynomials: at most those of their Bézier points.
 void bound_line(Span& span) {
     const double l = span.length;
     const std::array<Vec3, 5>& c = span.rounding;
@@ -96,7 +98,7 @@ void bound_line(Span& span) {
         {bend, bend + 0.5 * bend_linear, bend + bend_linear + bend_square}, {6 * c[3], 6 * c[3] + 24 * l * c[4]});
 }
 
-/// Cuts a spline where a span would turn too far, or its curvature vary too much for one speed.
+/// Divides a spline if a span would turn too far, or if its curvature would vary too much for one speed.
 void divide_spline(const PathElement& base, double from, double to, int depth, std::vector<double>& cuts) {
     if (depth == most_spline_halvings) return;
     double least = infinite, most = 0;
@@ -113,9 +115,9 @@ void divide_spline(const PathElement& base, double from, double to, int depth, s
     divide_spline(base, middle, to, depth + 1, cuts);
 }
 
-/// Greatest values on an arc or a cubic, rounded or not. The third derivative of what is rounded is linear, that of
-/// an arc as good as: its greatest value is at a checked point; those below change between them by no more than
-/// the next one allows.
+/// Greatest values on an arc or a cubic, rounded or not. The third derivative of the rounding is linear, that of an arc
+/// nearly so: its greatest value is at a checked point. Between checked points, the lower derivatives change by at most
+/// what the next derivative allows.
 void bound_curve(Span& span) {
     const double step = span.length / (checked_points - 1);
     std::array<Vec3, checked_points> thirds;
@@ -140,7 +142,8 @@ void bound_curve(Span& span) {
     }
     span.fourth = 24 * span.rounding[4].norm() + (span.base.arc ? span.base.radius * std::pow(span.base.rate, 4) : 0.0);
     if (span.base.cubic || span.base.spline) {
-        // By arc length a cubic is no polynomial: its differences stand for the derivatives, with as much again.
+        // As a function of arc length a cubic is no polynomial: differences replace the derivatives, and are doubled for
+        // safety.
         Vec3 margin = Vec3::Zero();
         for (std::size_t k = 1; k < thirds.size(); ++k) {
             span.fourth = std::max(span.fourth, 2 * (thirds[k] - thirds[k - 1]).norm() / step);
@@ -149,7 +152,7 @@ void bound_curve(Span& span) {
         }
         span.third += 0.25 * margin;
     }
-    // Between checked points a function is at most its values there plus step²/8 of its second derivative.
+    // Between checked points a function exceeds its values there by at most step²/8 of its second derivative.
     const double curve = step * step / 8;
     span.first += curve * span.third;
     span.greatest_first += curve * span.third.norm();
@@ -159,7 +162,7 @@ void bound_curve(Span& span) {
     for (const Pace& pace : paces) least = std::min(least, pace.value);
     span.swing = span.greatest_second * span.greatest_second / least;
     if (!span.rounded) return;
-    // The pace's derivatives are as good as quadratic: their second differences stand for what lies between.
+    // The derivatives of the pace are nearly quadratic: second differences bound the values between the points.
     double slope_play = 0, curve_play = 0;
     for (std::size_t k = 0; k < paces.size(); ++k) {
         span.pace_slope = std::max(span.pace_slope, std::abs(paces[k].slope));
@@ -172,9 +175,9 @@ void bound_curve(Span& span) {
     span.pace_curve += 0.25 * curve_play;
 }
 
-/// Cuts around the places where a rounded curve nearly reverses. There |p′| falls and rises by |p″| times the distance, as by a
-/// kink: |p′|″ is |p″|²/|p′| at the place, and falls with the third power of the distance from it. Checked points that are
-/// farther apart than this do not see it.
+/// Cuts around the places where a rounded curve nearly reverses. There |p′| falls and rises by |p″| times the distance, as
+/// at a kink: |p′|″ is |p″|²/|p′| at the place and falls with the third power of the distance from it. Checked points that
+/// are farther apart miss this peak.
 void cut_at_reversals(const Span& span, std::vector<double>& cuts) {
     const auto fall = [&](double tau) {
         const PathDerivatives d = span.derivatives(tau);
@@ -204,7 +207,7 @@ void cut_at_reversals(const Span& span, std::vector<double>& cuts) {
 
 Pace pace_of(const PathDerivatives& derivatives) {
     const double value = derivatives.first.norm();
-    // The path reverses where p′ is 0: on both sides the direction is that of p″.
+    // The path reverses at p′ = 0: on both sides its direction is that of p″.
     if (!(value > 0)) return {0, derivatives.second.norm(), derivatives.third.norm()};
     const double slope = derivatives.first.dot(derivatives.second) / value;
     return {value, slope,
@@ -221,7 +224,7 @@ PathDerivatives Span::derivatives(double tau) const {
     return d;
 }
 
-/// The joints whose roundings reach into an element.
+/// Finds the joints whose roundings reach into an element.
 void PathStream::find_roundings(std::int64_t element, double begin, double end) {
     reaching_.clear();
     covering_.fill(Vec3::Zero());
@@ -293,7 +296,7 @@ void PathStream::make_spans(std::int64_t element) {
     }
 }
 
-/// What the joints within reach add from `begin` on, and the bounds of all derivatives.
+/// Adds the roundings of the joints within reach, from `begin` on, and computes the bounds of all derivatives.
 void PathStream::add_roundings(Span& span, double begin) const {
     const double middle = begin + 0.5 * span.length;
     std::array<Vec3, 5>& sum = span.rounding;
@@ -326,7 +329,7 @@ void PathStream::add_roundings(Span& span, double begin) const {
     }
 }
 
-/// Next to the step of an arc: a change of the speed in a bend costs jerk, too, 3 y″ v a.
+/// Limits next to the step of an arc: on a bend a change of the speed causes jerk, too, 3 y″ v a.
 void PathStream::hold_back(Span& span) const {
     span.free_cap = span.cap;
     span.free_limiting = span.limiting;
@@ -374,7 +377,7 @@ void PathStream::set_limits(Span& span) const {
             if (axis.max_jerk > 0)
                 span.jerk = std::min(span.jerk, span.base.jerk_share * axis.max_jerk / span.first[i]);
         }
-        // Roots only of what may be broken.
+        // Roots are computed only for limits that may be exceeded.
         if (span.second[i] * span.cap * span.cap > nearly * axis.max_acceleration)
             limit(std::sqrt(axis.max_acceleration / span.second[i]), LimitingFactor::axis_acceleration);
         const double jerk = twist_share * axis.max_jerk;

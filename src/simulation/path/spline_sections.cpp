@@ -8,13 +8,13 @@
 namespace clsurf {
 namespace {
 
-constexpr double no_height = 1e-9;         ///< [mm] that a span in a principal plane may leave it
+constexpr double no_height = 1e-9;         ///< [mm] greatest distance of a span in a principal plane from that plane
 constexpr double no_section_turn = 1e-7;   ///< [rad] a section that turns less is a line
 constexpr double most_section_turn = 1.5;  ///< [rad] of one section
 constexpr int compared_places = 8;         ///< of a pair of arcs
 constexpr int most_section_halvings = 12;
 
-/// The arc from a point in a direction to another point; a line where it does not turn.
+/// The arc from a point in a direction to another point; a line if it does not turn.
 PathElement tangent_arc(const Vec3& begin, const Vec3& tangent, const Vec3& end, const Vec3& normal) {
     const Vec3 chord = end - begin;
     const Vec3 left = normal.cross(tangent);
@@ -24,7 +24,7 @@ PathElement tangent_arc(const Vec3& begin, const Vec3& tangent, const Vec3& end,
     e.arc = true;
     e.begin = begin;
     e.end = end;
-    const double radius = chord.norm() / (2 * std::sin(half_turn));  // left: positive
+    const double radius = chord.norm() / (2 * std::sin(half_turn));  // positive: to the left
     e.centre = begin + radius * left;
     e.radius = std::abs(radius);
     e.first = (begin - e.centre) / e.radius;
@@ -34,7 +34,7 @@ PathElement tangent_arc(const Vec3& begin, const Vec3& tangent, const Vec3& end,
     return e;
 }
 
-/// Two arcs between two points with tangents there; their lengths to the joint along the tangents are equal.
+/// Two arcs between two points with given tangents; the tangent lengths to their joint are equal.
 std::optional<std::array<PathElement, 2>> pair_of_arcs(const Vec3& begin, const Vec3& tangent, const Vec3& end,
                                                        const Vec3& last_tangent, const Vec3& normal) {
     const Vec3 v = end - begin, t = tangent + last_tangent;
@@ -50,7 +50,7 @@ std::optional<std::array<PathElement, 2>> pair_of_arcs(const Vec3& begin, const 
     return std::array<PathElement, 2>{first, second};
 }
 
-/// How far a point is from an arc or a line [mm].
+/// Distance of a point from an arc or a line [mm].
 double distance_from_section(const PathElement& e, const Vec3& p) {
     if (e.arc) return std::abs((p - e.centre).norm() - e.radius);
     const double along = std::clamp((p - e.begin).dot(e.direction), 0.0, e.length);

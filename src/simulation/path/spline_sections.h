@@ -1,6 +1,6 @@
 #pragma once
-// SplineSections: spans of splines as pairs of arcs that meet in a common tangent (biarcs), in which the trapezoidal
-// planner drives them, as LinuxCNC does. A span that lies in no principal plane becomes lines.
+// SplineSections: converts spans of splines into pairs of arcs with a common tangent (biarcs), as the trapezoidal planner
+// of LinuxCNC runs them. A span that is in no principal plane becomes lines.
 
 #include <deque>
 
@@ -10,9 +10,9 @@ namespace clsurf {
 
 class SplineSections final : public ElementSource {
 public:
-    static constexpr double error = 1e-4;  ///< [mm] of a section from its span
+    static constexpr double error = 1e-4;  ///< [mm] greatest distance of a section from its span
 
-    /// Must outlive it.
+    /// Must outlive the object.
     explicit SplineSections(ElementSource& source) : source_(&source) {}
 
     [[nodiscard]] bool next(PathElement& element) override;

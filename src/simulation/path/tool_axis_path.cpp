@@ -7,11 +7,11 @@
 namespace clsurf {
 namespace {
 
-constexpr double least_angle = 1e-9;  ///< [rad] below it the axis does not turn
-constexpr double opposite = 1e-6;     ///< [rad] to a half turn: the plane is not defined
+constexpr double least_angle = 1e-9;  ///< [rad] a smaller turn of the axis is none
+constexpr double opposite = 1e-6;     ///< [rad] from half a turn: the plane is not defined
 constexpr int judged_places = 200;    ///< of a passage over the other branch
 
-/// Rotation along a great circle that comes within `tilt` of the pole, from there on.
+/// Rotation along a great circle whose least distance from the pole is `tilt`, counted from the nearest point.
 double rotation_at(double s, double tilt) { return std::atan2(std::sin(s), std::cos(s) * std::sin(tilt)); }
 double rotation_slope(double s, double tilt) {
     const double sine = std::sin(tilt) * std::cos(s);
@@ -63,12 +63,12 @@ ToolAxisPath::ToolAxisPath(const Kinematics& kinematics, const RotaryAngles& fro
       angle_(angle_between(begin_, end_)) {
     const bool turns = angle_ > least_angle && angle_ < std::numbers::pi - opposite;
     if (kinematics.interpolation == ToolAxisInterpolation::linear || !turns) return;
-    // From the pole every great circle begins with a rotation of its own: that is turned on the way.
+    // From the pole, every great circle begins at its own rotation: the rotation is interpolated linearly instead.
     if (std::abs(from.tilt) <= least_angle) return;
     mode_ = Mode::great_circle;
     branch_ = sign_of(from.tilt);
     if (kinematics.interpolation != ToolAxisInterpolation::safe) return;
-    // Windows are for axes that cross at right angles, the tool along the rotation where tilt is 0.
+    // Windows need axes at right angles, and the tool parallel to the axis of rotation at tilt 0.
     const Vec3& pole = kinematics.rotation.direction;
     const bool square = std::abs(kinematics.tilt.direction.dot(pole)) < least_angle &&
                         kinematics.tool_axis.cross(pole).norm() < least_angle;
@@ -79,7 +79,7 @@ ToolAxisPath::ToolAxisPath(const Kinematics& kinematics, const RotaryAngles& fro
     nearest_ = std::atan2(place.dot(normal.cross(begin_)), place.dot(begin_));
     const bool passes = nearest_ > 0 && nearest_ < angle_;
     if (!passes || std::sin(least) * ratio >= 1) return;
-    // Over to the other side, if the tilt may and the axis stays near enough.
+    // To the other side, if the tilt permits it and the axis deviates little enough.
     const RotarySolutions solutions = solve_rotary(kinematics, end_, from);
     for (int i = 0; i < solutions.count; ++i) {
         RotaryAngles other = solutions.angles[static_cast<std::size_t>(i)];

@@ -14,16 +14,16 @@ namespace {
 constexpr double collinear = 0.01 * rad_per_deg;
 constexpr double reversal = 179.0 * rad_per_deg;
 constexpr double least_arc_length = 1e-7;  ///< [mm] a shorter tangent is rounding
-constexpr double plane_tolerance = 1e-9;   ///< of the chord: how far it may leave the plane of its tangents
-constexpr double most_of_turn = 0.9;       ///< of what a block may turn until the arc would be a half circle
+constexpr double plane_tolerance = 1e-9;   ///< of the chord: greatest distance from the plane of the tangents
+constexpr double most_of_turn = 0.9;       ///< share of a block's turn until the arc would be a half circle
 
-/// Of a way between 0, where f is negative, and `high`, where it is not.
+/// The root of f between 0, where f is negative, and `high`, where it is not.
 template <typename F>
 double arc_length_to_root(double high, const F& f) {
     return root_between(0, f(0), high, f(high), 1e-14, 0, f);
 }
 
-/// One block seen from the corner outwards.
+/// One block, measured from the corner outwards.
 class Arm {
 public:
     Arm(const PathElement& element, bool before) : element_(&element), before_(before) {}
@@ -34,7 +34,7 @@ public:
     [[nodiscard]] Vec3 tangent(double arc_length) const {
         return element_->tangent(before_ ? element_->length - arc_length : arc_length).normalized();
     }
-    /// Half the block, and no more than a half circle leaves of its bend.
+    /// Half the block, and on a curved block less than the length at which the arc would be a half circle.
     [[nodiscard]] double share(double deflection) const {
         const double bend = element_->second_derivative(before_ ? element_->length : 0).norm();
         const double half = 0.5 * element_->length;
@@ -46,7 +46,7 @@ private:
     bool before_;
 };
 
-/// Two blocks at their corner; angles are in the plane of their tangents there.
+/// Two blocks at their corner; angles are measured in the plane of their tangents there.
 class Corner {
 public:
     Corner(const PathElement& before, const PathElement& after, double deflection)
@@ -56,7 +56,8 @@ public:
           share_before_(before_.share(deflection)),
           share_after_(after_.share(deflection)) {}
 
-    /// How much too far on `after` the way is for a circle through both places: half the turning between the tangents less that of the chord.
+    /// Positive if the place on `after` is too far out for a circle through both places: the turn of the chord minus half
+    /// the turn between the tangents.
     [[nodiscard]] double imbalance(double arc_length_before, double arc_length_after) const {
         const Vec3 t0 = before_.tangent(arc_length_before);
         const Vec3 chord = after_.point(arc_length_after) - before_.point(arc_length_before);
@@ -70,7 +71,7 @@ public:
         return arc_length_to_root(share_before_,
                                   [&](double arc_length) { return -imbalance(arc_length, arc_length_after); });
     }
-    /// The circle through a place on each block.
+    /// The circle through one place on each block.
     [[nodiscard]] TransitionArc circle(double arc_length_before, double arc_length_after) const {
         TransitionArc arc;
         arc.arc_length_before = arc_length_before;
@@ -92,7 +93,7 @@ public:
         arc.kind = tangent_to_both && arc.sweep > 0 ? CornerKind::arc : CornerKind::none;
         return arc;
     }
-    /// The greatest that the shares allow; `none` where there is none.
+    /// The greatest arc that the shares allow; kind `none` if there is none.
     [[nodiscard]] TransitionArc longest() const {
         if (imbalance(share_before_, share_after_) >= 0) return circle(share_before_, arc_length_after(share_before_));
         return circle(arc_length_before(share_after_), share_after_);
@@ -111,7 +112,7 @@ private:
 }  // namespace
 
 double radius_at_error(double deflection, double error) {
-    // 1 − cos by the sine, which does not cancel.
+    // 1 − cos from the sine, which has no cancellation.
     const double s = std::sin(0.25 * deflection);
     return error * std::cos(0.5 * deflection) / (2 * s * s);
 }

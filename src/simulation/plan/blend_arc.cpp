@@ -9,24 +9,24 @@ namespace clsurf {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double no_angle = 1e-6;             ///< [rad] of a corner or an arc
+constexpr double no_angle = 1e-6;             ///< [rad] a smaller angle of a corner or an arc is none
 constexpr double least_arc = 1e-6;            ///< [mm]
 constexpr double least_radius = 1e-12;        ///< [mm]
-constexpr double sharpest_of_arcs = pi / 12;  ///< half angle of a corner between two arcs [rad]
-constexpr double tangent_share = 0.25;        ///< of the normal acceleration, for what a blend misses of a tangent
-constexpr double tolerance_share = 0.25;      ///< of a block's length: the deviation of a parabola over half of it
+constexpr double sharpest_of_arcs = pi / 12;  ///< smallest half angle of a corner between two arcs [rad]
+constexpr double tangent_share = 0.25;        ///< of the normal acceleration, for direction errors of a blend
+constexpr double tolerance_share = 0.25;  ///< of a block's length: the deviation of a parabola over half of the block
 
-/// One of the two blocks, as the corner sees it.
+/// One of the two blocks of a corner.
 struct Side {
     const BlendSegment* segment = nullptr;
     bool first = true;
     Vec3 tangent = Vec3::Zero();    ///< at the corner, in the direction of travel
-    Vec3 direction = Vec3::Zero();  ///< of the line that stands for the block: the tangent or a chord
+    Vec3 direction = Vec3::Zero();  ///< of the line that approximates the block: the tangent or a chord
     Vec3 centre = Vec3::Zero();     ///< of an arc
     double radius = 0;
     bool turns_away = false;    ///< the arc curves away from the inside of the corner
-    double greatest_angle = 0;  ///< that the blend may take from an arc [rad]
-    double length = 0;          ///< that it may take from the block [mm]
+    double greatest_angle = 0;  ///< greatest angle of an arc that the blend may replace [rad]
+    double length = 0;          ///< greatest length of the block that it may replace [mm]
 };
 
 Side side_of(const BlendSegment& segment, bool first) {
@@ -38,7 +38,7 @@ Side side_of(const BlendSegment& segment, bool first) {
     return side;
 }
 
-/// Takes an arc for its chord beside the corner where it curves away; lowers the half angle for it.
+/// Replaces an arc that curves away from the corner by its chord; lowers the half angle accordingly.
 void take_arc(Side& side, const Vec3& corner, const Vec3& other_tangent, double half_angle, double& effective) {
     const PathElement& arc = side.segment->path;
     if (!side.segment->curved()) return;
@@ -57,7 +57,7 @@ void take_arc(Side& side, const Vec3& corner, const Vec3& other_tangent, double 
     side.length = std::sin(0.25 * side.greatest_angle) * side.radius;
 }
 
-/// Whether the arc lies in the plane of the corner.
+/// Whether the arc is in the plane of the corner.
 bool lies_in_plane(const Side& side, const Vec3& binormal) {
     if (!side.segment->curved()) return true;
     const Vec3 normal = side.segment->path.first.cross(side.segment->path.second);
@@ -72,8 +72,8 @@ double limited_feed(const BlendSegment& segment, double override_factor) {
     return std::min(segment.feed * override_factor, segment.max_speed);
 }
 
-/// The speed that two lines allow in the corner between them: the shortest vector from the corner of the triangle of
-/// both velocities to its third side.
+/// The speed at a corner between two lines: the altitude of the triangle of both velocities, from the corner to the third
+/// side.
 double speed_between(const BlendSegment& before, const BlendSegment& after, const Vec3& in, const Vec3& out,
                      double turning) {
     const double cosine = std::cos(std::min(turning, 0.49 * pi));
@@ -86,19 +86,19 @@ Vec3 of_axes(const Machine& machine, double MachineAxis::*limit) {
     return {machine.axes[0].*limit, machine.axes[1].*limit, machine.axes[2].*limit};
 }
 
-/// Where the arc's centre lies: it touches both blocks on the inside of the corner. NaN: nowhere.
+/// The centre of the arc that touches both blocks on the inside of the corner. NaN: there is none.
 Vec3 centre_of(const Side& in, const Side& out, const Vec3& corner, const Vec3& binormal, double radius,
                double half_angle) {
     const auto distance = [&](const Side& side) { return side.radius + (side.turns_away ? -radius : radius); };
     if (!in.segment->curved() && !out.segment->curved())
         return corner + radius / std::sin(half_angle) * (out.tangent - in.tangent).normalized();
     if (in.segment->curved() && out.segment->curved()) {
-        // Two circles about the centres of both blocks; of their two points the one nearer the corner.
+        // Circles about the centres of both blocks. Of their two intersections the one nearer to the corner is used.
         const Vec3 between = out.centre - in.centre;
         const double apart = between.norm();
         const double r1 = distance(in), r2 = distance(out);
         const double along = (r1 * r1 - r2 * r2 + apart * apart) / (2 * apart);
-        const double aside = std::sqrt(r1 * r1 - along * along);  // NaN where they do not meet
+        const double aside = std::sqrt(r1 * r1 - along * along);  // NaN if they do not intersect
         const Vec3 unit = between / apart;
         const Vec3 projection = in.centre + along * unit;
         const Vec3 offset = aside * binormal.cross(unit).normalized();
@@ -106,7 +106,7 @@ Vec3 centre_of(const Side& in, const Side& out, const Vec3& corner, const Vec3& 
                    ? Vec3(projection + offset)
                    : Vec3(projection - offset);
     }
-    // A line beside which the centre lies at the radius, and a circle about the centre of the arc.
+    // A parallel of the line at the distance of the radius, and a circle about the centre of the other block.
     const bool line_first = !in.segment->curved();
     const Side& line = line_first ? in : out;
     const Side& arc = line_first ? out : in;
@@ -118,14 +118,14 @@ Vec3 centre_of(const Side& in, const Side& out, const Vec3& corner, const Vec3& 
     return corner + (line_first ? -trim : trim) * line.tangent + radius * inward;
 }
 
-/// What the arc takes from a block, along it [mm].
+/// Length of a block that the arc replaces [mm].
 double trim_of(const Side& side, const Vec3& corner, const Vec3& centre) {
     if (!side.segment->curved()) return std::abs((centre - corner).dot(side.tangent));
     const Vec3 a = (corner - side.centre).normalized(), b = (centre - side.centre).normalized();
     return std::acos(std::clamp(a.dot(b), -1.0, 1.0)) / side.segment->path.rate;
 }
 
-/// The arc from one point to another about a centre; its radius may grow on the way.
+/// The arc from one point to another about a centre; its radius may grow along it.
 PathElement arc_between(const Vec3& from, const Vec3& to, const Vec3& centre, const Vec3& binormal) {
     PathElement arc;
     arc.arc = true;
@@ -143,7 +143,7 @@ PathElement arc_between(const Vec3& from, const Vec3& to, const Vec3& centre, co
     return arc;
 }
 
-/// Whether the arc meets a block in its direction, but for what a share of the acceleration takes.
+/// Whether the arc and a block have the same direction where they meet, up to what a share of the acceleration permits.
 bool meets(const Side& side, const PathElement& block, const PathElement& arc, double speed, double acceleration,
            double period) {
     if (!side.segment->curved()) return true;
@@ -153,7 +153,7 @@ bool meets(const Side& side, const PathElement& block, const PathElement& arc, d
     return angle <= normal_share * tangent_share * acceleration * period / speed;
 }
 
-/// A block less what the arc takes.
+/// Shortens a block by what the arc replaces.
 void cut(BlendSegment& segment, double from, double to) {
     segment.path = segment.path.part(from, to);
     segment.length = segment.path.length;
@@ -168,7 +168,7 @@ struct CornerSides {
     [[nodiscard]] bool of_lines() const { return !in.segment->curved() && !out.segment->curved(); }
 };
 
-/// What bounds the arc of a corner. None: the corner is straight on, a reversal or not in one plane.
+/// The data that limit the arc of a corner. nullopt: the corner is straight, a reversal, or not in one plane.
 std::optional<CornerSides> corner_of(const BlendSegment& before, const BlendSegment& after, const Machine& machine) {
     CornerSides corner;
     Side& in = corner.in = side_of(before, true);
@@ -217,7 +217,8 @@ void finish_arc(BlendSegment& arc, const CornerSides& corner, double speed, doub
     arc.finish_length(period);
 }
 
-/// The arc of a size in its corner. None: it leaves the tolerance or its part of a block, or is not tangent.
+/// Places an arc of a given size in its corner. nullopt: it exceeds the tolerance or its share of a block, or is not
+/// tangent.
 std::optional<BlendedCorner> place_arc(const CornerSides& corner, const BlendSize& size, const Machine& machine) {
     const Side& in = corner.in;
     const Side& out = corner.out;
@@ -260,7 +261,7 @@ BlendSize blend_size(const BlendCorner& corner) {
     const double greatest = std::tan(theta) * distance;
     BlendSize size;
     size.speed = std::min(std::sqrt(corner.normal_acceleration * greatest), corner.speed);
-    // Not longer than what two overlapping ramps at half of the acceleration would take of the blocks.
+    // At most the length that two overlapping ramps with half of the acceleration would need on the blocks.
     const double ramp = 0.5 * corner.acceleration;
     const double time = std::min(std::sqrt(2 * ramp * distance), size.speed) / ramp;
     const double of_ramps = std::min(time * size.speed / (pi - 2 * theta), greatest);

@@ -8,7 +8,7 @@
 namespace clsurf {
 namespace {
 
-/// The greatest value along a direction that keeps each axis within its own.
+/// The greatest value along a direction for which each axis stays within its own limit.
 template <typename Limit>
 double along(const Vec3& direction, const Machine& machine, Limit limit) {
     double greatest = std::numeric_limits<double>::infinity();
@@ -22,7 +22,7 @@ double along(const Vec3& direction, const Machine& machine, Limit limit) {
 double speed_limit(const MachineAxis& axis) { return axis.max_speed; }
 double acceleration_limit(const MachineAxis& axis) { return axis.max_acceleration; }
 
-/// Radius of the curvature of a spiral or helix where it is the tightest.
+/// Smallest radius of curvature of a spiral or helix.
 double tightest_radius(const PathElement& arc, double sweep) {
     const double radius = std::min(arc.radius, arc.radius + arc.growth * sweep);
     const double squared = arc.growth * arc.growth + radius * radius;
@@ -31,7 +31,7 @@ double tightest_radius(const PathElement& arc, double sweep) {
     return flat + rise * rise / flat;
 }
 
-/// Limits of an arc or a helix: the slower of its plane, in whatever direction, and of the straight distance.
+/// Limits of an arc or a helix: the lower of those in its plane, for any direction, and those along its axis.
 void limit_arc(BlendSegment& segment, const Machine& machine) {
     const PathElement& arc = segment.path;
     int normal = 0;
@@ -118,7 +118,7 @@ BlendSegment segment_of(const PathElement& element, const Machine& machine) {
 }
 
 double half_corner_angle(const Vec3& in, const Vec3& out) {
-    // atan2 is good near straight on and near a reversal, where acos is not.
+    // atan2 is accurate near both ends of the range, unlike acos.
     return std::atan2((in + out).norm(), (in - out).norm());
 }
 

@@ -7,11 +7,11 @@
 namespace clsurf {
 namespace {
 
-constexpr double near_limit = 0.95;  ///< share from which on the greatest is looked for
+constexpr double near_limit = 0.95;  ///< share from which a maximum is refined
 constexpr int peak_halvings = 3;     ///< of the two intervals next to a local maximum of the share
-constexpr int dip_halvings = 24;     ///< of the way in which the pace is least
-constexpr double dip_step = 0.125;   ///< between places, of the way over which it is
-constexpr int dip_places = 16;       ///< on each side of it
+constexpr int dip_halvings = 24;     ///< to find the minimum of the pace
+constexpr double dip_step = 0.125;   ///< distance of places, as a share of the width of the dip
+constexpr int dip_places = 16;       ///< on each side of the minimum
 
 }  // namespace
 
@@ -28,11 +28,11 @@ BrokenPlaces::BrokenPlaces(const FiveAxisLimits& limits, const AxisSpeedProblem<
     const std::size_t of_cells = places_.size();
     for (std::size_t k = 1; k < of_cells; ++k) {
         if (places_[k - 1].sample.pace.slope < 0 && places_[k].sample.pace.slope > 0)
-            add_dip(Between(places_[k - 1]), Between(places_[k]));  // copies, as places are added
+            add_dip(Between(places_[k - 1]), Between(places_[k]));  // copies, because places are added
     }
 }
 
-/// A place within a cell, with what the limits say there.
+/// A place within a cell, with the limits there.
 BrokenPlaces::Between BrokenPlaces::place_at(std::size_t cell, double u) const {
     Between place{cell, {}};
     place.sample.cap = limits_->at(u, place.sample).free_cap;
@@ -40,12 +40,12 @@ BrokenPlaces::Between BrokenPlaces::place_at(std::size_t cell, double u) const {
     return place;
 }
 
-/// In the cell of one or the other, which follow each other.
+/// In one of two consecutive cells.
 BrokenPlaces::Between BrokenPlaces::place_between(const Between& before, const Between& after, double u) const {
     return place_at(u < cells_[after.cell].begin ? before.cell : after.cell, u);
 }
 
-/// The samples of a cell, the places within it, and what lies halfway between these.
+/// Adds the samples of a cell, the places within it, and the points halfway between them.
 void BrokenPlaces::add_cell(std::size_t cell, std::span<const LimitPlace> places) {
     const double begin = cells_[cell].begin, length = cells_[cell].length;
     const std::size_t first = places_.size();
@@ -67,8 +67,8 @@ void BrokenPlaces::add_cell(std::size_t cell, std::span<const LimitPlace> places
     sequences_.push_back({first, places_.size()});
 }
 
-/// Where the tip nearly reverses, its pace falls to next to nothing over a way that may be far shorter than those between
-/// the places: it is √(m² + k² d²) at d from where it is least, and √(m/its second derivative) is the length of that way.
+/// If the tip nearly reverses, its pace falls almost to 0 over a distance that may be far shorter than that between the
+/// places. At the distance d from the minimum it is √(m² + k² d²), and the width of the dip is √(m/its second derivative).
 void BrokenPlaces::add_dip(const Between& before, const Between& after) {
     const double begin = u_of(before), end = u_of(after);
     double from = begin, to = end;
@@ -95,8 +95,8 @@ BrokenPlaces::Seen BrokenPlaces::see(const Between& place) const {
     return {place, problem_->greatest_share(place.cell, place.sample)};
 }
 
-/// The greatest share near a place whose share is greater than those of the places before and after it. The limit may be exceeded
-/// on a small part of the path between two places that keep it.
+/// Finds the greatest share near a local maximum of the share. The limit may be exceeded on a small section of the path
+/// between two places that keep it.
 BrokenPlaces::Seen BrokenPlaces::look_around(Seen before, Seen peak, Seen after) const {
     const auto halfway = [this](const Seen& a, const Seen& b) {
         return see(place_between(a.place, b.place, 0.5 * (u_of(a.place) + u_of(b.place))));
@@ -129,7 +129,7 @@ std::vector<BrokenPlaces::Between> BrokenPlaces::find() const {
             if (peak.share > 1) broken.push_back(peak.place);
         }
     }
-    // Dips stand behind the cells that they are in.
+    // Dips were added after the cells that contain them.
     std::ranges::stable_sort(broken, {}, &Between::cell);
     return broken;
 }

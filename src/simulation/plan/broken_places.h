@@ -1,6 +1,6 @@
 #pragma once
-// BrokenPlaces: where the speeds of an AxisSpeedProblem break a limit between the samples of their cells. On a FiveAxisPath
-// derivatives vary within a cell, with every rounded joint.
+// BrokenPlaces: finds where the speeds of an AxisSpeedProblem exceed a limit between the samples of the cells. On a
+// FiveAxisPath derivatives vary within a cell, at every rounded joint.
 
 #include <cstddef>
 #include <span>
@@ -12,32 +12,34 @@
 
 namespace clsurf {
 
-/// Of the parameter u of a path [mm]; `why`: what limits its speed.
+/// A cell of the path parameter u [mm]; `why`: the factor that limits its speed.
 struct FiveAxisCell {
     double begin = 0, length = 0;
     LimitingFactor why = LimitingFactor::none;
 };
 
-inline constexpr std::size_t samples_of_cell = 4;  ///< its end not counted, equally far apart
+inline constexpr std::size_t samples_of_cell = 4;  ///< equally spaced, the end of the cell not counted
 
 class BrokenPlaces {
 public:
     using Between = AxisSpeedProblem<5>::Between;
 
-    /// All must outlive it. `cells`: those of the problem, in order; `places`: those of the path from the first to the last.
+    /// All arguments must outlive the object. `cells`: the cells of the problem, in order; `places`: the places of the path
+    /// from the first to the last cell.
     BrokenPlaces(const FiveAxisLimits& limits, const AxisSpeedProblem<5>& problem, std::span<const FiveAxisCell> cells,
                  std::span<const LimitPlace> places);
 
-    /// In the order of cells. The problem's values may change from call to call. Looked at are samples, places of the path, what
-    /// lies halfway between them, dips of the pace, and what is around the greatest shares of a limit among these.
+    /// The places in the order of the cells. The values of the problem may change between calls. Examined are samples,
+    /// places of the path, the points halfway between them, minima of the pace, and the surroundings of the greatest shares
+    /// of a limit.
     [[nodiscard]] std::vector<Between> find() const;
 
 private:
     struct Seen {
         Between place;
-        double share = 0;  ///< of the limit that the values take most of
+        double share = 0;  ///< greatest share of a limit that the values use
     };
-    /// Places that follow each other.
+    /// Consecutive places.
     struct Sequence {
         std::size_t begin, end;
     };
@@ -53,8 +55,8 @@ private:
     const FiveAxisLimits* limits_;
     const AxisSpeedProblem<5>* problem_;
     std::span<const FiveAxisCell> cells_;
-    std::vector<Between> places_;      ///< where it is looked
-    std::vector<Sequence> sequences_;  ///< of each cell, then of each dip
+    std::vector<Between> places_;      ///< places to examine
+    std::vector<Sequence> sequences_;  ///< of each cell, then of each minimum of the pace
 };
 
 }  // namespace clsurf

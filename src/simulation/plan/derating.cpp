@@ -6,15 +6,15 @@
 namespace clsurf {
 namespace {
 
-constexpr double share_of_bend = 0.5;  ///< of the jerk that a twist leaves: for accelerating in a bend
-// Parts of the tangential limits: much, for long ramps through bends; little, where speeds stay nearly the same.
+constexpr double share_of_bend = 0.5;  ///< of the axis jerk that remains on a bend: for tangential acceleration there
+// Shares of the tangential limits: large for long ramps on bends, small where speeds are nearly constant.
 struct LeastLeft {
     double acceleration, jerk;
 };
 constexpr std::array<LeastLeft, deratings> least_left{{{0.5, 0.5}, {0.2, 0.3}, {0.1, 0.15}}};
 
-/// What a speed leaves of the tangential limits. In a bend an acceleration costs jerk too, 3 y″ v a,
-/// as much at once as the tangential jerk itself: what the twist leaves is shared between them.
+/// The tangential limits that remain at a speed. On a bend an acceleration causes jerk, too, 3 y″ v a, in addition to the
+/// tangential jerk: the remaining axis jerk is divided between them.
 Derating left_at(double speed, const Span& span, const Machine& machine) {
     Derating left{speed, span.acceleration, span.jerk};
     for (int i = 0; i < 3; ++i) {

@@ -8,12 +8,12 @@
 namespace clsurf {
 namespace {
 
-constexpr double steady_share = 0.8;  ///< of the limits, that bends alone may take of them
-constexpr double turn_in_ramp = 0.1;  ///< of ramp(): the least time of the first speeds for a way of two radii
+constexpr double steady_share = 0.8;  ///< greatest share of the limits that bends alone may use
+constexpr double turn_in_ramp = 0.1;  ///< of ramp(): least time of the first speeds for a distance of two radii
 
-/// The speed of u at which the steps of a period stay within the chord error. Between two places h apart a curve is off its
-/// chord by at most h²/8 of the second derivative. Where the tip nearly reverses, the radius is next to nothing over a way that
-/// is shorter than a step: the rule for arcs would all but stop the tip there, the longer the period the more.
+/// The speed of u at which the steps of a period stay within the chord error. Between two places at the distance h a curve
+/// is at most h²/8 of the second derivative from its chord. If the tip nearly reverses, the radius is almost 0 over a
+/// distance shorter than a step: the rule for arcs would nearly stop the tip there, and more so with a longer period.
 double chord_cap(double radius, double pace, double second, const ControllerSettings& controller) {
     const double error = controller.chord_tolerance, period = controller.period;
     return std::max(chord_speed(radius, error, period) / pace, std::sqrt(8 * error / second) / period);
@@ -56,7 +56,7 @@ LimitPlace FiveAxisLimits::at(double u, AxisSample<5>& d) const {
             const double radius = d.pace.value * d.pace.value * d.pace.value / cross_product;
             cap(arc_speed(radius, machine_->path.max_normal_acceleration) / d.pace.value,
                 LimitingFactor::axis_acceleration);
-            // Where the tip nearly reverses, first speeds are low enough for cells as short as the turn.
+            // If the tip nearly reverses, first speeds are so low that cells are as short as the turn.
             place.cap = 2 * radius / (d.pace.value * ramp_ * turn_in_ramp);
             cap(chord_cap(radius, d.pace.value, tip.second.norm(), machine_->controller), LimitingFactor::chord_error);
         }

@@ -1,6 +1,6 @@
 #pragma once
-// What the limits of a machine with five axes say at a place of a FiveAxisPath: speeds, and the acceleration and jerk of its
-// parameter.
+// The limits of a five-axis machine at a place of a FiveAxisPath, as limits of the speed, acceleration and jerk of the path
+// parameter u.
 
 #include <vector>
 
@@ -11,30 +11,31 @@
 
 namespace clsurf {
 
-/// What the limits say at a place.
+/// The limits at a place.
 struct LimitPlace {
     double u = 0;
-    double free_cap = infinite, cap = infinite;  ///< of u's speed: without bends, and for first speeds with them
-    double acceleration = 0, jerk = 0;           ///< of u, on a straight path with these slopes
-    double square = 0;                           ///< v² to begin with
+    double free_cap = infinite, cap = infinite;  ///< of u's speed: without bends; with bends, for the first speeds
+                                                 ///< speeds
+    double acceleration = 0, jerk = 0;           ///< of u, as on a straight path with the same slopes
+    double square = 0;                           ///< first value of v²
     LimitingFactor why = LimitingFactor::none;
 };
 
 class FiveAxisLimits {
 public:
-    /// Both must outlive it.
+    /// Both arguments must outlive the object.
     FiveAxisLimits(const FiveAxisPath& path, const Machine& machine);
 
-    /// At a place of the path; `d`: the derivatives there.
+    /// The limits at a place of the path; `d`: output, the derivatives there.
     [[nodiscard]] LimitPlace at(double u) const;
     LimitPlace at(double u, AxisSample<5>& d) const;
-    /// At all places of the path, in order.
+    /// The limits at all places of the path, in order.
     [[nodiscard]] std::vector<LimitPlace> at_places() const;
-    /// Whether a speed, acceleration and jerk of u hold all limits at a place. `side` -1: u is counted backwards.
+    /// Whether a speed, acceleration and jerk of u stay within all limits at a place. `side` −1: u is counted backward.
     [[nodiscard]] bool hold(double u, int side, double speed, double acceleration, double jerk) const;
 
     [[nodiscard]] const ProblemLimits<5>& of_axes() const { return limits_; }
-    /// Least time in which a jerk reaches an acceleration [s].
+    /// Shortest time in which the jerk limit permits an acceleration to reach its limit [s].
     [[nodiscard]] double ramp() const { return ramp_; }
 
 private:

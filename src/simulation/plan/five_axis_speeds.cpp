@@ -18,17 +18,17 @@ namespace clsurf {
 namespace {
 
 constexpr double first_share = 0.5;      ///< of the limits, for the first speeds
-constexpr double cells_in_ramp = 10;     ///< over the time in which the jerk reaches the acceleration
-constexpr double cell_growth = 0.15;     ///< of the time from or to a rest or a rounding: longest cell
-constexpr double most_cell_turn = 0.05;  ///< [rad] of the angles in a cell that is longer
-constexpr double slow_approach = 0.5;    ///< of the way to a slow place: longest cell before it
+constexpr double cells_in_ramp = 10;     ///< in the time in which the jerk limit reaches the acceleration limit
+constexpr double cell_growth = 0.15;     ///< longest cell, as a share of the time from or to a rest or a rounding
+constexpr double most_cell_turn = 0.05;  ///< [rad] of the angles in a cell that is longer than the shortest
+constexpr double slow_approach = 0.5;    ///< longest cell before a slow place, as a share of the distance to it
 constexpr std::size_t window_cells = 1500;
-constexpr std::size_t least_cells = 100;                                       ///< of a window whose end is moved
-constexpr double kept_share = 0.6;                                             ///< of a window
-constexpr std::array<double, 6> slower_tries{1, 0.5, 0.25, 0.1, 0.03, 0.003};  ///< first v², tried in turn
-constexpr std::size_t most_cells = 12000;  ///< of a window: one that has more is planned in shorter ones
-constexpr double held_share = 0.7;         ///< of the v² that would just hold every limit
-constexpr int most_halvings = 30;          ///< of v² that breaks a limit between samples
+constexpr std::size_t least_cells = 100;                                       ///< of a window that is shortened
+constexpr double kept_share = 0.6;                                             ///< of a window that is run
+constexpr std::array<double, 6> slower_tries{1, 0.5, 0.25, 0.1, 0.03, 0.003};  ///< of the first v², tried in turn
+constexpr std::size_t most_cells = 12000;  ///< of a window; if it has more, a shorter window is planned
+constexpr double held_share = 0.7;         ///< of the greatest v² that satisfies every limit
+constexpr int most_halvings = 30;          ///< of v², if it exceeds a limit between samples
 
 class FiveAxisPlanner {
 public:
@@ -50,20 +50,20 @@ public:
     }
 
 private:
-    /// v² of a rest `way` away, at constant jerk.
+    /// v² at a distance from a rest, at constant jerk.
     [[nodiscard]] static double square_at(double distance, double jerk) {
         const double time = std::cbrt(6 * distance / jerk);
         return 0.25 * jerk * jerk * time * time * time * time;
     }
 
-    /// Plans from rest at `from` to the next rest. Where it is.
+    /// Plans from rest at `from` to the next rest. Returns the position of that rest.
     double window(double from) {
         state_ = {};
         at_ = from;
         while (true) {
             double end = horizon(window_cells);
             bool solved = solve(end);
-            // A window ends at rest, wherever that is: in a bend that may be impossible, and possible a little before it.
+            // A window must end at rest. On a bend that may be infeasible, but feasible a little before it.
             for (std::size_t cells = window_cells / 2; !solved && cells >= least_cells; cells /= 2) {
                 const double earlier = horizon(cells);
                 if (earlier >= end) continue;
@@ -73,7 +73,7 @@ private:
             if (!solved && tail_.empty()) solved = solve_held(end);
             const bool last = end >= path_->length();
             if (!solved) {
-                // What was planned before comes to rest.
+                // The motion that was planned before comes to rest.
                 if (tail_.empty()) {
                     throw InputError((*place_of_)(path_->chord(path_->chord_at(at_)).block),
                                      "no speed satisfies all axis limits here");
@@ -90,7 +90,7 @@ private:
         }
     }
 
-    /// Where a window of about so many cells ends.
+    /// The end of a window of about `most` cells.
     [[nodiscard]] double horizon(std::size_t most) {
         double cells = 0;
         auto place = std::lower_bound(places_.begin(), places_.end(), at_,
@@ -106,7 +106,7 @@ private:
         return place == places_.end() ? path_->length() : place->u;
     }
 
-    /// First speeds of the places from at_ to `end`, v² times `scale`.
+    /// First speeds at the places from at_ to `end`, with v² multiplied by `scale`.
     void scan(double end, double scale) {
         first_ = static_cast<std::size_t>(std::upper_bound(places_.begin(), places_.end(), at_,
                                                            [](double u, const LimitPlace& p) { return u < p.u; }) -
@@ -151,9 +151,9 @@ private:
         return problem_.solve(start_, stop_, [&broken] { return broken.find(); });
     }
 
-    /// Where no first speeds lead to a solution: from speeds that hold every limit. These exist on every path between rests, as a
-    /// run whose v² is everywhere lower by one factor has accelerations that are lower by it, and lower jerks. `end` becomes
-    /// where the window ends; where nothing faster is found, it is as short as can be.
+    /// Used if no first speeds lead to a solution: starts from speeds that satisfy every limit. These exist on every path
+    /// between rests: if v² is lower by one factor everywhere, accelerations are lower by that factor and jerks are lower,
+    /// too. Sets `end` to the end of the window. If nothing faster is found, the window is as short as possible.
     bool solve_held(double& end) {
         for (std::size_t cells = window_cells; cells >= least_cells; cells /= 2) {
             end = horizon(cells);
@@ -167,7 +167,7 @@ private:
         return false;
     }
 
-    /// Lowers all v² of the window by one factor, so that all limits hold.
+    /// Lowers all v² of the window by one factor until all limits are satisfied.
     bool hold_everywhere() {
         slow_down(held_share * problem_.holding_share(start_, stop_));
         const BrokenPlaces broken = broken_places();
@@ -183,10 +183,11 @@ private:
         const double root = std::sqrt(share);
         for (KnotState* state : {&start_, &stop_}) *state = {root * state->speed, share * state->acceleration};
         for (FiveAxisMotion* piece : {&first_piece_, &last_piece_})
-            piece->jerk *= share * root, piece->duration /= root;  // their lengths stay
+            piece->jerk *= share * root, piece->duration /= root;  // their lengths do not change
     }
 
-    /// The cells up to a rest at `end`, with their first speeds, and the pieces next to the rests; false: there is no room.
+    /// Makes the cells up to a rest at `end`, with first speeds, and the pieces next to the rests. False: there is no space
+    /// for cells.
     bool divide_window(double end) {
         problem_.clear();
         cells_.clear();
@@ -206,7 +207,7 @@ private:
         }
         last_piece_ = {last_u, last.time, {}, -last.jerk, LimitingFactor::lookahead_end};
         if (!(last_u > u)) return false;
-        // In the middle of a way cells grow as from a rest that is far enough away for the first.
+        // If the window begins in motion, cells grow as after a rest, starting with the shortest cell.
         if (start_time == 0) start_time = ramp_ / cells_in_ramp / cell_growth;
         divide(u, last_u, start, stop, start_time, last.time);
         start_ = start;
@@ -214,12 +215,12 @@ private:
         return true;
     }
 
-    /// Of the window's cells.
+    /// For the cells of the window.
     [[nodiscard]] BrokenPlaces broken_places() const {
         return {limits_, problem_, cells_, {places_.data() + first_, last_ - first_}};
     }
 
-    /// v² to begin with at u; `cursor`: the first place behind it.
+    /// First value of v² at u; `cursor`: the first place after u.
     [[nodiscard]] double square_near(double u, std::size_t cursor, double from, double from_square, double to,
                                      double to_square) const {
         double a = from, b = to, x = from_square, y = to_square;
@@ -228,7 +229,7 @@ private:
         return b > a ? x + (y - x) * std::clamp((u - a) / (b - a), 0.0, 1.0) : x;
     }
 
-    /// The longest cell from u on at a speed: far from roundings little changes.
+    /// The longest cell from u on at a speed: far from roundings the limits change little.
     [[nodiscard]] double longest_step(double u, double speed) const {
         const double clear = cell_growth * path_->clearance(u) / speed;
         const double turn = most_cell_turn / std::max(1e-9, path_->turning(u)) / speed;
@@ -238,7 +239,7 @@ private:
     void divide(double from, double to, const KnotState& start, const KnotState& stop, double since, double until) {
         std::size_t cursor = first_;
         const double from_square = start.speed * start.speed, to_square = stop.speed * stop.speed;
-        // Times to the end come first: cells shorten before it.
+        // The step lengths are computed first, because cells become shorter before the end.
         std::vector<double> steps;
         double u = from;
         while (u < to) {
@@ -248,7 +249,8 @@ private:
             double step = std::min(longest_step(u, speed), cell_growth * since);
             step = std::min(step, cell_growth * (until + 1.5 * way_left / std::max(speed, stop.speed)));
             double next = u + step * speed;
-            // A corner that nearly reverses wants far less speed than the place a cell before it: cells shorten towards it.
+            // A near-reversal requires a far lower speed than the place one cell before it: cells become shorter towards
+            // it.
             for (std::size_t k = cursor; k < last_ && places_[k].u < next; ++k) {
                 const double slow = step * std::sqrt(std::max(1e-18, places_[k].square));
                 next = std::min(next, u + std::max(slow, slow_approach * (places_[k].u - u)) + slow);
@@ -261,7 +263,7 @@ private:
         u = from;
         cursor = first_;
         for (const double step : steps) {
-            // What a cell begins with, it can reach at its slowest place.
+            // The first v² of a cell is feasible at its slowest place.
             double square = infinite;
             for (; cursor < last_ && places_[cursor].u <= u + 0.5 * step; ++cursor)
                 square = std::min(square, places_[cursor].square);
@@ -282,7 +284,7 @@ private:
             const LimitPlace place = limits_.at(begin + at, samples[k]);
             samples[k].at = at;
             if (place.free_cap < limits.cap) limits.cap = place.free_cap, why = place.why;
-            // Beside bends an axis allows more than on a straight path: its rows say how much.
+            // Near bends an axis may permit more than on a straight path; the exact limit is in its rows.
             limits.acceleration = std::min(limits.acceleration, 2 * place.acceleration);
             limits.jerk = std::min(limits.jerk, 3 * place.jerk);
         }
@@ -291,7 +293,7 @@ private:
         cells_.push_back({begin, length, why});
     }
 
-    /// The solution as motions: all to the end, or most.
+    /// Outputs the solution as motions: all of it, or most.
     void run(bool last) {
         const std::size_t n = cells_.size();
         std::vector<FiveAxisMotion> plan;
@@ -328,7 +330,7 @@ private:
         tail_end_ = stop.begin - stop.jerk * stop.duration * stop.duration * stop.duration / 6;
     }
 
-    /// Whether the joint nearest to u is one of the chords of a block: its rounding is no choice of a tolerance.
+    /// Whether the joint nearest to u is between chords of one block: then its rounding does not depend on a tolerance.
     [[nodiscard]] bool bends_as_programmed(double u) const {
         const std::size_t i = path_->chord_at(u), last = path_->chord_at(path_->length());
         const FiveAxisChord& chord = path_->chord(i);
@@ -357,8 +359,8 @@ private:
     std::size_t first_ = 0, last_ = 0;  ///< places of the window
     std::vector<FiveAxisCell> cells_;
     AxisSpeedProblem<5> problem_;
-    double ramp_;    ///< of the limits [s]
-    double at_ = 0;  ///< where the window begins
+    double ramp_;    ///< shortest ramp of the limits [s]
+    double at_ = 0;  ///< begin of the window
     KnotState state_, start_, stop_;
     FiveAxisMotion first_piece_, last_piece_;
     std::vector<FiveAxisMotion> motions_, tail_;

@@ -1,11 +1,12 @@
 #pragma once
-// The speeds along a FiveAxisPath: as fast as the limits of speed, acceleration and jerk of all five axes and the feed of
-// the tip allow, from rest to rest.
+// Speeds along a FiveAxisPath, from rest to rest: as fast as the limits of speed, acceleration and jerk of all five axes
+// and the feed of the tip allow.
 //
-// A scan with part of the accelerations gives first speeds, and they the cells. AxisSpeedProblem optimises them, in
-// windows that end at rest; most of a window is run, and the next one begins in its state. Derivatives vary within a cell,
-// with every rounded joint: where a solution breaks a limit between the samples of its cells, it is mended. Next to a
-// rest, where v² is no quadratic of u, the jerk is constant. Nothing here knows the interpolation period but the chord error.
+// A scan with a part of the accelerations gives first speeds, from which the cells are made. AxisSpeedProblem optimises
+// the speeds in windows that end at rest. Most of a window is run, and the next window begins in the state where it
+// stopped. Derivatives vary within a cell, at every rounded joint: if a solution exceeds a limit between the samples of its
+// cells, it is corrected. Next to a rest v² is not a quadratic of u, and the jerk is constant. Only the chord error depends
+// on the interpolation period.
 
 #include <functional>
 #include <vector>
@@ -17,19 +18,19 @@
 
 namespace clsurf {
 
-/// A part of the plan.
+/// A section of the plan.
 struct FiveAxisMotion {
     double begin = 0;     ///< u [mm]
     double duration = 0;  ///< [s]
-    CellMotion cell;      ///< without a jerk of its own
-    double jerk = 0;      ///< otherwise: constant, from rest; less than 0: to rest
+    CellMotion cell;      ///< if the jerk is 0
+    double jerk = 0;      ///< not 0: constant jerk, positive from rest, negative to rest
     LimitingFactor limit = LimitingFactor::none;
 
-    /// u after a time [mm]; `speed`: its derivative there.
+    /// u after a time [mm]; `speed`: output, its derivative there.
     [[nodiscard]] double at(double time, double& speed) const;
 };
 
-/// `place_of`: the line of a block, for errors. Throws InputError where nothing holds the limits. O(chords).
+/// `place_of`: the line of a block, for errors. Throws InputError if no speeds satisfy the limits. O(chords).
 [[nodiscard]] std::vector<FiveAxisMotion> plan_speeds(const FiveAxisPath& path, const Machine& machine,
                                                       const std::function<Place(std::size_t block)>& place_of);
 

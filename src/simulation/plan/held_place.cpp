@@ -35,7 +35,7 @@ HeldPlace held_place(const CellPart& part, double arc_length, const Machine& mac
     place.sample.first = d.first;
     place.sample.second = d.second;
     place.sample.third = d.third;
-    if (part.span->rounded) place.sample.pace = pace;  // otherwise the cell's limits say all
+    if (part.span->rounded) place.sample.pace = pace;  // if not rounded, the cell's limits are complete
     place.sample.cap = place.bend.speed;
     return place;
 }

@@ -13,12 +13,12 @@ double sum_of(const double* lanes) { return lanes[0] + lanes[1] + lanes[2] + lan
 
 }  // namespace
 
-/// What runs over all groups. The sides' gradients are fall v ∓ w. What a cell's groups add to the Newton system is
-/// summed lane by lane, and across the lanes once.
+/// Loops over all groups. The gradients of the sides are fall v ∓ w. The contributions of a cell's groups to the Newton
+/// system are summed per lane, and across the lanes once.
 struct LimitRows::Kernels {
     using Thirds = std::array<Four, 3>;
 
-    /// What belongs to the three coefficients about a cell, in every lane.
+    /// Loads the values of the three coefficients of a cell into every lane.
     static Thirds spread(const double* of, std::uint32_t cell) {
         return {Four{} + of[cell], Four{} + of[cell + 1], Four{} + of[cell + 2]};
     }
@@ -30,7 +30,7 @@ struct LimitRows::Kernels {
         for (std::size_t q = 0; q < 3; ++q) to[q] += across(sums[q]);
     }
 
-    /// Value of the rows, and their bounds by m.
+    /// Values of the rows, and their bounds, which depend on m.
     static void follow(Group& g, const double* value, Four& at, Four& root, Four& bound) {
         const Thirds about = spread(value, g.cell);
         multiply(g.w, about, at);
@@ -194,7 +194,7 @@ void LimitRows::keep(const LimitRows& before, std::uint32_t cell) {
 }
 
 void LimitRows::begin(const double* value, double centre, double slack, const LimitRows* before) {
-    // The next row of those before, as both are in the order of cells and numbers.
+    // Finds the next row in `before`; both are in the order of cells and numbers.
     std::size_t old = 0, lane = 0;
     for (Group& g : groups_) {
         if (g.begun) continue;

@@ -6,7 +6,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double holds = 1 + 1e-9;          ///< part of a limit that counts as held
+constexpr double holds = 1 + 1e-9;          ///< share of a limit that counts as kept
 constexpr double braking_tolerance = 1e-9;  ///< of a start speed, for rounding in reach()
 
 /// The greatest speed and acceleration of a profile between two times.
@@ -22,7 +22,7 @@ Extremes extremes(const SCurve& profile, double from, const MotionState& at_from
     e.speed = from <= cruise_ends && to >= cruise_begins ? profile.peak_speed() : std::max(at_from.speed, at_to.speed);
     e.ramping = from < cruise_begins || to > cruise_ends;
     e.acceleration = std::max(std::abs(at_from.acceleration), std::abs(at_to.acceleration));
-    for (const int peak : {1, 5}) {  // the acceleration is greatest where its jerk part ends
+    for (const int peak : {1, 5}) {  // the acceleration is greatest at the end of its jerk phase
         const double begins = profile.end_of(peak - 1);
         if (from <= profile.end_of(peak) && to >= begins)
             e.acceleration = std::max(e.acceleration, std::abs(profile.start_of(peak).acceleration));
@@ -70,7 +70,8 @@ void WindowPlanner::set_limits(SpeedRun& run, std::span<const Span> spans) {
     run.checked = false;
 }
 
-/// The greatest part of a limit of an axis, or of the path's acceleration and jerk, at a speed and an acceleration anywhere on a span.
+/// The greatest share of a limit of an axis, or of the path's acceleration and jerk, at a speed and an acceleration on a
+/// span.
 double WindowPlanner::part_of_limits(const Span& span, double speed, double acceleration, double jerk) const {
     double worst = 0;
     if (span.rounded) {
@@ -100,7 +101,7 @@ WindowPlanner::Verdict WindowPlanner::judge(const SpeedRun& run, std::span<const
     double end = 0;
     double from = 0;
     MotionState at_from = profile.at(0);
-    bool known = true;  // from and at_from are those of the span's begin
+    bool known = true;  // from and at_from are those at the begin of the span
     for (std::size_t i = run.first; i < run.last; ++i) {
         const Span& s = spans[i];
         const double begin = end;
@@ -111,7 +112,7 @@ WindowPlanner::Verdict WindowPlanner::judge(const SpeedRun& run, std::span<const
             known = false;
             continue;
         }
-        // A span that holds whatever the run does anywhere is not the worst of one that does not hold.
+        // A span that satisfies the limits at every state of the run cannot be the worst span of an infeasible run.
         if (at_peak <= 1 && part_of_limits(s, profile.peak_speed(), steepest, profile.jerk()) <= 1) {
             known = false;
             continue;
@@ -134,7 +135,7 @@ WindowPlanner::Verdict WindowPlanner::judge(const SpeedRun& run, std::span<const
     return verdict;
 }
 
-/// The worst span becomes a run of its own.
+/// The worst span becomes a separate run.
 void WindowPlanner::divide(const SpeedRun& run, const Verdict& verdict, std::vector<SpeedRun>& into) const {
     const auto part = [&](std::size_t first, std::size_t last) {
         if (first >= last) return;
@@ -166,7 +167,7 @@ bool WindowPlanner::plan(std::span<const Span> spans, double start_speed, std::s
             shortest = time;
             best_.swap(runs_);
         }
-        if (!bent) break;  // the others would be the same
+        if (!bent) break;  // the other deratings would give the same
     }
     return std::isfinite(shortest);
 }
@@ -177,7 +178,8 @@ void WindowPlanner::cut(std::span<const Span> spans, std::span<const std::size_t
     for (std::size_t n = 0; n <= nodes.size(); ++n) {
         const std::size_t last = n < nodes.size() ? nodes[n] : spans.size();
         while (begin < last) {
-            // A corner that is not rounded is a node, too. What lies next to the step of an arc would slow the ramps beside it.
+            // A corner that is not rounded is a node, too. So is the end of a section next to an arc's step: its limits
+            // would slow the rest.
             const auto joins = [&](std::size_t span) {
                 return spans[span].begin_cap >= std::min(spans[span - 1].cap, spans[span].cap) &&
                        spans[span].base.jerk_share == spans[span - 1].base.jerk_share;
@@ -221,7 +223,7 @@ bool WindowPlanner::plan_with(std::size_t derating, std::span<const Span> spans,
             if (!run.checked || run.start_speed != speeds_[r] || run.end_speed != speeds_[r + 1]) {
                 run.start_speed = speeds_[r];
                 run.end_speed = speeds_[r + 1];
-                // A start speed that was planned with other limits may be above these by rounding.
+                // A start speed that was planned with other limits may exceed these by rounding.
                 run.speed = std::max({run.speed, run.start_speed, run.end_speed});
                 run.profile = plan_scurve(run.length, run.start_speed, run.end_speed,
                                           {run.speed, run.acceleration, run.acceleration, run.jerk})
@@ -237,7 +239,7 @@ bool WindowPlanner::plan_with(std::size_t derating, std::span<const Span> spans,
                         for (std::size_t k = before; k < next_.size(); ++k) set_limits(next_[k], spans);
                         continue;
                     }
-                    if (run.derated) return false;  // the start speed is above what this span allows while braking
+                    if (run.derated) return false;  // the start speed exceeds the limit of this span while braking
                     run.derated = true;
                     set_limits(run, spans);
                 }

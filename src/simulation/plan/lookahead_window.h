@@ -1,5 +1,5 @@
 #pragma once
-// LookaheadWindow: which part of the path a controller knows when it plans, and how much of it runs before it plans
+// LookaheadWindow: which part of the path a controller knows when it plans, and how much of it is run before it plans
 // again.
 
 #include <algorithm>
@@ -13,28 +13,28 @@ namespace clsurf {
 
 class LookaheadWindow {
 public:
-    /// `blocks`: known at most after the one that runs.
+    /// `blocks`: greatest number of known blocks after the running one.
     LookaheadWindow(const ControllerSettings& controller, std::int64_t blocks)
         : blocks_(blocks),
           replan_blocks_(controller.replan_blocks),
           distance_(controller.lookahead_distance > 0 ? controller.lookahead_distance
                                                       : std::numeric_limits<double>::infinity()) {}
 
-    /// Counts the spans that are known already. O(spans), which planning them takes anyway.
+    /// Counts the spans that are known already. O(spans), no more than planning them takes.
     template <typename Spans>
     void begin(const Spans& spans) {
         ahead_ = 0;
         for (const Span& span : spans) count(spans.front(), span);
     }
-    /// A span joins those known.
+    /// Adds a span to the known ones.
     void count(const Span& front, const Span& span) {
         if (span.base.block != front.base.block) ahead_ += span.length;
     }
-    /// Whether one more is known; `back`: the last so far.
+    /// Whether another span may become known; `back`: the last known one.
     [[nodiscard]] bool takes_more(const Span& front, const Span& back) const {
         return back.base.block - front.base.block < blocks_ && ahead_ < distance_;
     }
-    /// The number of the first block that does not run before the next plan.
+    /// The number of the first block that is not run before the next plan.
     [[nodiscard]] std::int64_t first_kept(const Span& front, const Span& back) const {
         const std::int64_t known = std::min(blocks_, back.base.block - front.base.block);
         const std::int64_t run = replan_blocks_ > 0 ? replan_blocks_ : known / 2;
@@ -44,7 +44,7 @@ public:
 private:
     std::int64_t blocks_, replan_blocks_;
     double distance_;
-    double ahead_ = 0;  ///< known after the first block [mm]
+    double ahead_ = 0;  ///< known path after the first block [mm]
 };
 
 }  // namespace clsurf

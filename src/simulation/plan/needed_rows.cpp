@@ -1,4 +1,4 @@
-// Which limits of a SpeedProblem are rows, and the rows: a limit is left out until a solution without it breaks it.
+// Which limits of a SpeedProblem become rows, and the rows. A limit is left out until a solution without it exceeds it.
 
 #include <algorithm>
 #include <cmath>
@@ -8,16 +8,17 @@
 namespace clsurf {
 namespace {
 
-// Where a limit is broken, standing still mends it too, as J/√b grows: b may not fall to that.
-constexpr double least_coefficient = 0.2;  ///< of a coefficient, of what it began with
-// The spline holds the limits at samples; a little is left for what lies between them.
+// An exceeded limit could also be satisfied at standstill, as J/√b grows: this bound keeps b away from 0.
+constexpr double least_coefficient = 0.2;  ///< share of the first value of a coefficient
+// The spline satisfies the limits at samples; a margin is left for the places between them.
 constexpr double acceleration_share = 0.9995, jerk_share = 0.997;
-constexpr double path_acceleration_share = 0.998;  ///< on a rounded path, whose pace varies fast where it bends sharply
-constexpr double lowering = 0.998;                 ///< of a limit that is broken between its rows, besides
-// In from the beginning is what comes near its limit with the speeds to begin with, or could with some more speed and acceleration.
+constexpr double path_acceleration_share = 0.998;  ///< on a rounded path, whose pace varies fast on sharp bends
+constexpr double lowering = 0.998;                 ///< additional factor for a limit that is exceeded between its rows
+// Rows from the beginning: limits that are nearly reached at the first speeds, or could be at somewhat more speed and
+// acceleration.
 constexpr double near_limit = 0.6;
 constexpr double faster = 1.1, steeper = 0.15;
-constexpr double path_likely = 0.85;  ///< of the jerk along the path: the rest is what its rounding takes of it
+constexpr double path_likely = 0.85;  ///< of the jerk along the path; the rest is for its rounding
 
 using Three = std::array<double, 3>;
 
@@ -45,7 +46,8 @@ constexpr std::uint32_t rows_of_sample = 2 * Axes + 3;
 
 }  // namespace
 
-/// Whether an axis or the path may be above a part of a limit at a sample of a cell where v², acceleration and jerk along the path are at most these.
+/// Whether an axis or the path may exceed a share of a limit at a sample of a cell. v², acceleration and jerk are upper
+/// bounds.
 template <int Axes>
 bool AxisSpeedProblem<Axes>::may_break(const Cell& cell, double part, double acceleration, double square, double jerk,
                                        double path_jerk) const {
@@ -66,14 +68,14 @@ bool AxisSpeedProblem<Axes>::may_break(const Cell& cell, double part, double acc
     return false;
 }
 
-/// The tangential acceleration allowed at the end of a cell: the next cell begins with the same one.
+/// The tangential acceleration allowed at the end of a cell, which is also the begin of the next one.
 template <int Axes>
 double AxisSpeedProblem<Axes>::acceleration_at_end(std::size_t cell) const {
     const double here = cells_[cell].limits.acceleration;
     return cell + 1 < cells_.size() ? std::min(here, cells_[cell + 1].limits.acceleration) : here;
 }
 
-/// Rows for what may come to its limit, judged by the values to begin with.
+/// Marks rows for limits that are likely to be reached, judged by the first values.
 template <int Axes>
 void AxisSpeedProblem<Axes>::need_likely_rows() {
     for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -85,14 +87,14 @@ void AxisSpeedProblem<Axes>::need_likely_rows() {
             if (dot(along[k].b, c) > dot(along[fastest].b, c)) fastest = k;
         }
         const double b = dot(along[fastest].b, c);
-        cell.jerk[fastest] = std::isfinite(cell.limits.jerk);  // its bound is least there
+        cell.jerk[fastest] = std::isfinite(cell.limits.jerk);  // its bound is lowest there
         const double acceleration = 0.5 * std::max(std::abs(dot(along[0].slope, c)), std::abs(dot(along[2].slope, c)));
         if (acceleration > near_limit * acceleration_at_end(i)) cell.acceleration = true;
         const double speed = std::min(faster * std::sqrt(b), cell.limits.cap);
         const double steep =
             std::max(acceleration, steeper * std::min(cell.limits.acceleration, limits_.path_acceleration));
         const double jerk = std::min(cell.limits.jerk, limits_.path_jerk);
-        if (!std::isfinite(cell.limits.jerk))  // one of them, as they hardly differ where the path is hardly rounded
+        if (!std::isfinite(cell.limits.jerk))  // one sample is enough: they hardly differ if the path is hardly rounded
             samples_[(cell.first_sample + cell.end_sample) / 2].needed |= path_jerk_bit<Axes>;
         if (!may_break(cell, 1, steep, speed * speed, jerk, path_likely * jerk)) continue;
         for (std::uint32_t s = cell.first_sample; s < cell.end_sample; ++s) {
@@ -125,7 +127,7 @@ typename AxisSpeedProblem<Axes>::AtBegin AxisSpeedProblem<Axes>::at_begin(std::s
     return {dot(begin.b, c), dot(begin.slope, c), dot(begin.curve, c)};
 }
 
-/// The magnitudes of what has limits, at a sample of a cell.
+/// The magnitudes of the limited quantities at a sample of a cell.
 template <int Axes>
 struct AxisSpeedProblem<Axes>::SampleMotion {
     const Sample& sample;
@@ -153,7 +155,7 @@ struct AxisSpeedProblem<Axes>::SampleMotion {
     }
 };
 
-/// What is above a part of its limit at a sample of a cell, as bits of HeldSample::needed.
+/// The limits of which more than a share is used at a sample of a cell, as bits of HeldSample::needed.
 template <int Axes>
 std::uint16_t AxisSpeedProblem<Axes>::broken_at(const Sample& sample, const AtBegin& at, double part) const {
     const SampleMotion motion(sample, at);
@@ -189,7 +191,7 @@ double AxisSpeedProblem<Axes>::holding_share(const KnotState& start, const KnotS
     const auto hold_acceleration = [&](double acceleration, double limit) {
         share = std::min(share, limit / acceleration);
     };
-    const auto hold_jerk = [&](double jerk, double limit) {  // of a share s of v²: s √s times as great
+    const auto hold_jerk = [&](double jerk, double limit) {  // multiplying v² by s multiplies a jerk by s √s
         if (limit > 0 && limit < jerk) share = std::min(share, std::pow(limit / jerk, 2.0 / 3));
     };
     for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -221,7 +223,7 @@ void AxisSpeedProblem<Axes>::scale(double factor) {
     limiting_.assign(cells_.size(), Row::axis_jerk);
 }
 
-/// Rows for what is above a part of its limit and has none; false: nothing is.
+/// Marks rows for limits of which more than a share is used and which have none. False: there are none.
 template <int Axes>
 bool AxisSpeedProblem<Axes>::need_broken_rows(double part) {
     for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -232,7 +234,7 @@ bool AxisSpeedProblem<Axes>::need_broken_rows(double part) {
         const double b = dot(begin.b, c), curve = dot(begin.curve, c), slope = dot(begin.slope, c);
         const double last_slope = slope + cell.length * curve, last = b + 0.5 * cell.length * (slope + last_slope);
         if (0.5 * std::abs(last_slope) > part * acceleration_at_end(i)) need(cell.acceleration);
-        // The tangential jerk is greatest where the speed is: at an end, or where b turns over.
+        // The tangential jerk is greatest where the speed is: at an end, or at the maximum of b.
         double fastest = slope + 0.5 * cell.length * curve > 0 ? cell.length : 0;
         if (slope > 0 && last_slope < 0) fastest = -slope / curve;
         const double greatest = std::max({b, last, b + fastest * (slope + 0.5 * fastest * curve)});
@@ -281,7 +283,7 @@ void AxisSpeedProblem<Axes>::add_jerk(std::uint32_t number, Row kind, std::size_
     rows_.add({{w[0] / limit, w[1] / limit, w[2] / limit}, b, 0, 1, static_cast<std::uint32_t>(cell), number, kind});
 }
 
-/// Anew, or but for cells that have changed as they are in the middle of in `before`.
+/// Makes all rows. With `before`, the rows of unchanged cells are taken from there with their slacks and multipliers.
 template <int Axes>
 void AxisSpeedProblem<Axes>::make_rows(const LimitRows* before) {
     rows_.clear();
@@ -301,7 +303,7 @@ void AxisSpeedProblem<Axes>::make_rows_of(std::size_t i) {
     const bool last_cell = i + 1 == cells_.size();
     const std::array<Weights, 3> along = weights_along(i);
     const Weights& last = along[2];
-    // A cell's b lies below the greatest of its coefficient and b at its ends (they are its Bézier points).
+    // A cell's b is at most the greatest of its coefficient and b at its ends (its Bézier points).
     if (i > 0 && !last_cell) add_cap(0, i, {0, 1, 0}, cell.limits.cap);
     if (!last_cell) {
         const CellLimits& next = cells_[i + 1].limits;
@@ -348,7 +350,7 @@ void AxisSpeedProblem<Axes>::make_rows_of(std::size_t i) {
     }
 }
 
-// What speed_problem.cpp and five_axis_speeds.cpp call of these, and what they call of each other.
+// Functions that speed_problem.cpp and five_axis_speeds.cpp call, and that call each other.
 template bool AxisSpeedProblem<3>::may_break(const Cell& cell, double part, double acceleration, double square,
                                              double jerk, double path_jerk) const;
 template bool AxisSpeedProblem<5>::may_break(const Cell& cell, double part, double acceleration, double square,

@@ -6,12 +6,12 @@
 namespace clsurf {
 namespace {
 
-constexpr double least_angle = 1e-6;  ///< [rad] below it the first term of the series is exact
+constexpr double least_angle = 1e-6;  ///< [rad] for smaller angles the first term of the series is exact
 
 }  // namespace
 
-// u″ = acceleration + curve u is linear: with ω² = |curve|, u is a hyperbola or a circle's function of ω t,
-// and tanh(ω t/2) or tan(ω t/2) = ω length/(v0 + v1).
+// u″ = acceleration + curve u is linear: with ω² = |curve|, u is a hyperbolic or circular function of ω t, and tanh(ω t/2)
+// or tan(ω t/2) = ω length/(v0 + v1).
 double CellMotion::duration() const {
     const double end = std::sqrt(std::max(0.0, speed * speed + length * (2 * acceleration + curve * length)));
     const double half = length / (speed + end);
@@ -22,14 +22,14 @@ double CellMotion::duration() const {
 }
 
 double CellMotion::arc_length_at(double time, double& v) const {
-    if (curve == 0) {  // as without a jerk limit
+    if (curve == 0) {  // as on a machine without a jerk limit
         v = speed + time * acceleration;
         return speed * time + acceleration * (0.5 * time * time);
     }
     const double omega = std::sqrt(std::abs(curve));
     const double x = omega * time;
     if (x < 0.05) {
-        // To x⁶ of the series: rounding of the next term is below that of the sum.
+        // Series up to x⁶: the next term is below the rounding of the sum.
         const double q = curve * time * time;
         const double s = time * (1 + q / 6 * (1 + q / 20 * (1 + q / 42)));
         const double c = 0.5 * time * time * (1 + q / 12 * (1 + q / 30 * (1 + q / 56)));

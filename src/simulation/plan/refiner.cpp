@@ -10,21 +10,21 @@ namespace clsurf {
 namespace {
 
 constexpr std::size_t most_cells_of_window = 350;
-constexpr double run_share = 0.85;   ///< of a window, before it is planned again
-constexpr double rest_share = 0.35;  ///< of the jerk phase next to a rest: run as planned, as v² is no quadratic there
-constexpr double growth = 0.15;      ///< of the time from or to a rest: longest cell
-constexpr double cells_a_ramp = 14;  ///< over the time in which the jerk reaches the greatest acceleration
-constexpr double most_change = 0.05;        ///< of the speed in a cell, by the jerk
+constexpr double run_share = 0.85;          ///< of a window that is run before it is planned again
+constexpr double rest_share = 0.35;         ///< of the jerk phase next to a rest: v² is no quadratic there
+constexpr double growth = 0.15;             ///< longest cell, as a share of the time from or to a rest
+constexpr double cells_a_ramp = 14;         ///< in the time in which the jerk limit reaches the greatest acceleration
+constexpr double most_change = 0.05;        ///< share by which the jerk may change the speed in a cell
 constexpr double most_turn_of_cell = 0.05;  ///< [rad] of the path in a cell
-constexpr double approach = 0.5;            ///< of the way over which the pace would fall to nothing
-constexpr double turn_share = 0.7;          ///< of it, after which a cell ends
-// Spans share a cell until it lasts as long as that, and their samples hold the limits of each: a part of the
-// same time, as in less of it a speed hardly changes. Where a straight way meets a bent one limits switch: a shorter cell ends there, too.
+constexpr double approach = 0.5;            ///< share of the distance over which the pace would fall to 0
+constexpr double turn_share = 0.7;          ///< share of that turn after which a cell ends
+// Spans share a cell until it has the least duration. Their samples are equally far apart in time, since the speed hardly
+// changes in less. Where a straight section meets a curved one, limits change: a shorter cell ends there, too.
 constexpr double least_cells_a_ramp = 28, least_periods = 0.4, most_periods = 3, least_at_bend = 0.3;
-// The places where a part of a span is held, by the periods that it lasts: two, three, five, nine.
+// The places at which a part of a span is checked, by its duration in periods: two, three, five, nine.
 constexpr double briefest = 0.5, brief = 1, middling = 2.5;
-constexpr double slight = 0.01;  ///< [rad] that it turns
-// A window that cannot be solved is tried with an end in its last part, so many times.
+constexpr double slight = 0.01;  ///< [rad] a small turn
+// A window that cannot be solved is tried with an end in its last part, at most so often.
 constexpr double shortening = 0.3;
 constexpr int most_shortenings = 2;
 constexpr std::size_t fewest_cells = 8;
@@ -36,20 +36,20 @@ LimitingFactor limiting_of(Row row, LimitingFactor at_cap, LimitingFactor in_ben
         case Row::bend: return in_bend;
         case Row::tangential_acceleration:
         case Row::axis_acceleration: return LimitingFactor::axis_acceleration;
-        // A wider tolerance rounds a corner more gently; the bend of an arc or a spline is the program's own.
+        // A wider tolerance rounds a corner more gently; the bend of an arc or a spline is part of the program.
         case Row::bend_jerk: return rounded ? LimitingFactor::corner_tolerance : LimitingFactor::jerk;
         default: return LimitingFactor::jerk;
     }
 }
 
-/// How fast the direction turns over the programmed arc length [rad/mm].
+/// Change of direction over the programmed arc length [rad/mm].
 double turn_rate(const PathDerivatives& d) {
     const double square = d.first.squaredNorm();
     return square > 0 ? d.first.cross(d.second).norm() / square : 0;
 }
 
-/// The length from a place of a span over which the direction turns by an angle, about [mm]. Where the path nearly reverses, the
-/// pace falls towards the place at which it turns fastest: no step goes past it.
+/// The approximate length from a place on a span over which the direction turns by an angle [mm]. If the path nearly
+/// reverses, the pace falls towards the place where it turns fastest: no step goes beyond that place.
 double length_of_turn(const Span& span, double from, double turn) {
     const PathDerivatives here = span.derivatives(from);
     const Pace pace = pace_of(here);
@@ -75,7 +75,7 @@ Refiner::Refiner(const Machine& machine, MotionSink& sink, std::int64_t blocks)
     problem_.clear();
 }
 
-/// A long way at a speed that no limit but those of bends is above.
+/// Whether a run has a long section at the greatest speed that all limits except those of bends permit.
 bool Refiner::cruises_at_the_cap(const KeptRun& run) const {
     const SCurve& profile = run.profile;
     if (profile.durations()[3] < long_cruise * knot_time_) return false;
@@ -99,7 +99,7 @@ void Refiner::push(const SpeedRun& run, std::span<const Span> spans) {
     if (blocks_ == 0) {
         run_as_planned({number, 0, profile.end_of(6)});
     } else if (cruises_at_the_cap(kept_run)) {
-        // Next to the ramps some of it is left, so that other ramps than the planned ones fit.
+        // A part of it next to the ramps is kept, so that other ramps than the planned ones fit.
         const double begins = profile.end_of(2) + cruise_left * knot_time_;
         const double ends = profile.end_of(3) - cruise_left * knot_time_;
         add({number, 0, begins});
@@ -122,7 +122,7 @@ void Refiner::add(const Section& section) {
     if (!(section.to > section.from)) return;
     waiting_.push_back(section);
     ends_at_rest_ = kept(section.run).to_rest && section.to == kept(section.run).profile.duration();
-    if (waiting_.size() == 1 && cells_.empty()) {  // it may stand alone
+    if (waiting_.size() == 1 && cells_.empty()) {  // it may be run alone
         divided_ = false;
         return;
     }
@@ -134,7 +134,7 @@ void Refiner::add(const Section& section) {
     if (full && !ends_at_rest_) solve(false);
 }
 
-/// Into cells, but for what lies next to a rest.
+/// Divides a section into cells, without the parts next to a rest.
 void Refiner::divide(Section& section) {
     const KeptRun& run = kept(section.run);
     const SCurve& profile = run.profile;
@@ -207,7 +207,7 @@ void Refiner::add_cells(const Section& section) {
     }
 }
 
-/// Ends the open cell where a straight way meets a bent one, unless it would be very short.
+/// Ends the open cell where a straight section meets a curved one, unless it would be very short.
 void Refiner::end_cell_before(const Span& span) {
     if (open_.length == 0 || parts_.back().span->straight() == span.straight()) return;
     if (open_.length >= least_at_bend * least_time_ * std::max(open_.end.speed, end_.speed)) close_cell();
@@ -216,7 +216,7 @@ void Refiner::end_cell_before(const Span& span) {
 void Refiner::close_cell() {
     if (open_.length == 0) return;
     open_.at_cap = LimitingFactor::none;
-    CellLimits limits{infinite_speed, infinite_speed, infinite_speed};  // along a bent path its samples say more
+    CellLimits limits{infinite_speed, infinite_speed, infinite_speed};  // on a bent path the samples contain them
     samples_.clear();
     least_bend_speed_ = infinite_speed;
     double begin = 0;
@@ -232,7 +232,7 @@ void Refiner::close_cell() {
     open_ = {};
 }
 
-/// What a part of the open cell, `begin` after its begin, leaves of the limits; where it is bent, its samples.
+/// Limits from a part of the open cell, `begin` after its begin; on a bend also its samples.
 void Refiner::add_part(CellPart& part, double begin, CellLimits& limits) {
     const Span& span = *part.span;
     open_.rounded = open_.rounded || span.rounded;
@@ -263,7 +263,7 @@ void Refiner::add_part(CellPart& part, double begin, CellLimits& limits) {
     }
 }
 
-/// Places halfway between the samples of the cells at which the solution breaks a limit.
+/// Places halfway between the samples of the cells at which the solution exceeds a limit.
 std::vector<SpeedProblem::Between> Refiner::broken_between() const {
     std::vector<SpeedProblem::Between> broken;
     auto part = parts_.begin();
@@ -281,7 +281,7 @@ std::vector<SpeedProblem::Between> Refiner::broken_between() const {
     return broken;
 }
 
-/// Makes the window fast and runs most of it, or all.
+/// Solves the window and runs most of it, or all.
 void Refiner::solve(bool to_the_end) {
     close_cell();
     const auto run_most = [&] {
@@ -308,7 +308,7 @@ void Refiner::solve(bool to_the_end) {
     }
     steepest_lead_ = steepest_tail_ = {};
     run_lead();
-    // What was found before goes on to where the plan begins that was not refined.
+    // The previous solution is continued up to the begin of the plan that was not refined.
     cells_.resize(solved_);
     if (solved_ > 0) end_ = state_at(kept(waiting_.front().run).profile, waiting_.front().from);
     run_cells(solved_, false);
@@ -318,8 +318,8 @@ void Refiner::solve(bool to_the_end) {
     problem_.clear();
 }
 
-/// The plan's speed at the end may be more than the cells next to it can come to, most often where feeds differ from block to block. To
-/// an earlier place where the plan is slow there is a way.
+/// The planned speed at the end may be higher than the adjacent cells can reach, mostly if feeds differ from block to
+/// block. An earlier end, where the plan is slow, is feasible.
 bool Refiner::solve_in_part() {
     for (int k = 0; k < most_shortenings; ++k) {
         const std::size_t fewest =
@@ -341,7 +341,7 @@ bool Refiner::solve_in_part() {
     return false;
 }
 
-/// From and to the states next to rests that the greatest jerk leads to, or where no speeds are found, the planned ones.
+/// Solves between the states next to rests at the greatest jerk. If that fails, between the planned states.
 bool Refiner::solve_from_rests(bool to_rest) {
     const KnotState start = start_, end = end_;
     const bool leads = lead_.to > lead_.from && steepest_lead_.jerk > 0;
@@ -363,7 +363,7 @@ bool Refiner::solve_from_rests(bool to_rest) {
     return false;
 }
 
-/// The way from rest to the first cell.
+/// The section from rest to the first cell.
 void Refiner::run_lead() {
     if (!(lead_.to > lead_.from)) return;
     if (steepest_lead_.jerk > 0) {
@@ -378,7 +378,7 @@ void Refiner::run_lead() {
     steepest_lead_ = {};
 }
 
-/// The way from the last cell to rest.
+/// The section from the last cell to rest.
 void Refiner::run_tail() {
     if (!(tail_.to > tail_.from)) return;
     if (steepest_tail_.jerk > 0) {
@@ -394,7 +394,7 @@ void Refiner::run_tail() {
     steepest_tail_ = {};
 }
 
-/// The waiting sections behind a cell are divided anew.
+/// Divides the waiting sections after a cell into cells again.
 void Refiner::wait_from(const Cell& cell) {
     while (waiting_.front().run != cell.end_run) waiting_.erase(waiting_.begin());
     waiting_.front().from = cell.end_time;
@@ -417,7 +417,7 @@ void Refiner::run_cells(std::size_t count, bool to_rest) {
         at = next;
     }
     start_ = at;
-    // Braking to the end of what is known.
+    // Braking to the end of the known path.
     std::size_t braking = count;
     while (to_rest && braking > 0 && motions[braking - 1].acceleration < 0) --braking;
     std::size_t part = 0;

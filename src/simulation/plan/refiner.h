@@ -2,11 +2,11 @@
 // Refiner: turns the runs of the look-ahead, whose acceleration is zero at every node, into nearly
 // time-optimal speeds that carry acceleration through the nodes.
 //
-// A window of runs is divided into cells. SpeedProblem finds the fastest speeds between the states at its
-// ends; places between its samples at which they break a limit become samples. Most of a window is then run; the
-// rest begins the next window. The runs are the fallback: they keep every limit, and each window ends in one of
-// their states. Runs that cannot become faster pass unchanged: a run on straight spans between rests, and a long
-// cruise at the permitted speed.
+// A window of runs is divided into cells. SpeedProblem finds the fastest speeds between the states at the ends of the
+// window. If they exceed a limit between samples, that place becomes a sample. Most of a window is then run; the rest
+// begins the next window. The runs are the fallback: they satisfy every limit, and each window ends in one of their states.
+// Runs that cannot become faster pass unchanged: a run on straight spans between rests, and a long cruise at the permitted
+// speed.
 
 #include <deque>
 #include <vector>
@@ -20,11 +20,12 @@ namespace clsurf {
 
 class Refiner {
 public:
-    /// `blocks`: most that a window may span; 0: runs stay as they are planned. Both must outlive it.
+    /// `blocks`: greatest number of blocks in a window; 0: runs are passed on as planned. Both references must outlive the
+    /// object.
     Refiner(const Machine& machine, MotionSink& sink, std::int64_t blocks);
 
-    /// The next run, whose profile begins where that of the last one ended; `spans` are the run's own.
-    /// A run that ends at rest ends its window.
+    /// Takes the next run. Its profile begins where the last one ended; `spans` are its own spans. A run that ends at rest
+    /// ends its window.
     void push(const SpeedRun& run, std::span<const Span> spans);
 
 private:
@@ -34,7 +35,7 @@ private:
         bool derated = false, plain = true;
         bool from_rest = false, to_rest = false;
     };
-    /// A part of a run, by time on its profile [s].
+    /// A section of a run, by time on its profile [s].
     struct Section {
         std::int64_t run = 0;
         double from = 0, to = 0;
@@ -42,11 +43,11 @@ private:
     struct Cell {
         double length = 0, turning = 0;  ///< [mm, rad]
         std::size_t parts = 0;           ///< how many
-        std::int64_t run = 0;            ///< that it begins on
+        std::int64_t run = 0;            ///< on which it begins
         std::int64_t block = 0;
         LimitingFactor at_cap = LimitingFactor::feed, in_bend = LimitingFactor::axis_acceleration;
-        bool rounded = false;  ///< a corner rounding is in it
-        // Where it ends in the plan.
+        bool rounded = false;  ///< it contains a corner rounding
+        // The end of the cell in the plan.
         KnotState end;
         std::int64_t end_run = 0;
         double end_time = 0;
@@ -77,25 +78,26 @@ private:
     const Machine* machine_;
     MotionSink* sink_;
     std::int64_t blocks_;
-    double knot_time_, least_time_;  ///< longest cell, and the shortest where spans are shorter [s]
+    double knot_time_, least_time_;  ///< [s] of cells: the longest, and the shortest if spans are shorter
 
     std::deque<KeptRun> runs_;
     std::int64_t first_run_ = 0;
-    std::vector<Section> waiting_;  ///< since the window was last solved
+    std::vector<Section> waiting_;  ///< since the last solution of the window
     bool divided_ = false;          ///< the waiting sections are in cells
     bool ends_at_rest_ = false;
-    // Next to a rest v² is no quadratic: these ways are run by the jerk, the greatest one if it leads anywhere.
+    // Next to a rest v² is not a quadratic: these sections run at constant jerk, the greatest possible one if it is
+    // feasible.
     Section lead_, tail_;
     RestRamp steepest_lead_, steepest_tail_;
 
     std::vector<Cell> cells_;
-    std::vector<CellPart> parts_;  ///< of the cells in turn, then of the one being made
-    std::size_t solved_ = 0;       ///< first cells, whose values hold the limits
+    std::vector<CellPart> parts_;  ///< of the cells in order, then of the cell that is being made
+    std::size_t solved_ = 0;       ///< number of leading cells whose values satisfy the limits
     SpeedProblem problem_;
     KnotState start_, end_;                     ///< of the cells
-    Cell open_;                                 ///< the cell being made
-    std::vector<PathSample> samples_;           ///< of the cell being made
-    double least_bend_speed_ = infinite_speed;  ///< of them [mm/s]
+    Cell open_;                                 ///< the cell that is being made
+    std::vector<PathSample> samples_;           ///< of the cell that is being made
+    double least_bend_speed_ = infinite_speed;  ///< of the samples [mm/s]
 };
 
 }  // namespace clsurf

@@ -9,17 +9,17 @@
 namespace clsurf {
 namespace {
 
-constexpr double rest_part = 0.25;     ///< of the jerk phase next to a rest: the jerk is constant there
-constexpr double rest_jerk = 0.95;     ///< of what the axes allow at the rest
-constexpr double rest_held = 0.9;      ///< of that jerk: less makes the piece shorter
-constexpr double settled_share = 0.7;  ///< of the speed in a bend behind it that the piece may lead to
-constexpr std::array<double, 2> settling_jerks{1, 0.5};  ///< of the jerk from the rest, tried to get there
+constexpr double rest_part = 0.25;     ///< share of the jerk phase next to a rest that has constant jerk
+constexpr double rest_jerk = 0.95;     ///< share of the jerk that the axes allow at the rest
+constexpr double rest_held = 0.9;      ///< share of that jerk that is required; a shorter piece is tried for it
+constexpr double settled_share = 0.7;  ///< of the speed limit of a following bend that the piece may lead to
+constexpr std::array<double, 2> settling_jerks{1, 0.5};  ///< of the jerk from the rest, tried in turn
 constexpr std::size_t settling_samples = 12, piece_samples = 4;
-constexpr double least_rest_piece = 0.01;  ///< of its time without joints
+constexpr double least_rest_piece = 0.01;  ///< of the time of a piece without joints
 
 }  // namespace
 
-/// The places from one to the other, in whichever order they are given.
+/// The places between two values of u, in any order.
 std::span<const LimitPlace> RestPieces::between(double a, double b) const {
     const auto first_from = [&](double u) {
         return std::lower_bound(places_.begin(), places_.end(), u,
@@ -43,7 +43,7 @@ RestPiece RestPieces::at(double rest, int side, double length) const {
     return best.jerk > 0 ? best : shortest;
 }
 
-/// Whether the acceleration at the end of a piece can vanish again before a bend, at a share of the jerk.
+/// Whether the acceleration at the end of a piece can return to zero before a bend, at a share of the jerk.
 bool RestPieces::settles(double rest, int side, const RestPiece& piece, double share) const {
     const double first = piece.jerk * piece.time, jerk = -share * piece.jerk, time = piece.time / share;
     const double from = 0.5 * first * piece.time;
@@ -60,7 +60,7 @@ bool RestPieces::settles(double rest, int side, const RestPiece& piece, double s
            slows_for_bends(rest, side, distance_after(time), speed, settling_jerks.back() * piece.jerk);
 }
 
-/// Whether a motion away from a rest can brake for what bends behind `from`, at a jerk and without acceleration at first.
+/// Whether a motion away from a rest can brake for the bends after `from`, at a jerk and with zero acceleration at first.
 bool RestPieces::slows_for_bends(double rest, int side, double from, double speed, double jerk) const {
     const double begin = rest + side * from, reach = begin + side * speed * std::sqrt(speed / jerk);
     for (const LimitPlace& place : between(begin, reach)) {

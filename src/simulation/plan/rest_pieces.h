@@ -1,6 +1,6 @@
 #pragma once
-// RestPieces: next to a rest, where v² is no quadratic of u, the jerk is constant. How long such a piece may be: its
-// acceleration has to vanish again, and its speed to fall, before the bends behind it.
+// RestPieces: the sections next to a rest, where v² is not a quadratic of u and the jerk is constant. Their length is
+// limited: after a section, the acceleration has to return to zero and the speed has to fall before the next bends.
 
 #include <span>
 
@@ -8,7 +8,7 @@
 
 namespace clsurf {
 
-/// From or to a rest at constant jerk.
+/// Motion from or to a rest at constant jerk.
 struct RestPiece {
     double jerk = 0, time = 0;  ///< of u
     [[nodiscard]] double length() const { return jerk * time * time * time / 6; }
@@ -16,11 +16,11 @@ struct RestPiece {
 
 class RestPieces {
 public:
-    /// Both must outlive it.
+    /// Both references must outlive the object.
     RestPieces(const FiveAxisLimits& limits, std::span<const LimitPlace> places) : limits_(&limits), places_(places) {}
 
-    /// `side`: 1 for the piece behind a rest, -1 for that before one; `length`: to the next rest. Where joints
-    /// near the rest want less jerk, the piece ends before them.
+    /// `side`: 1 for the section after a rest, −1 for the section before it; `length`: to the next rest. If joints near the
+    /// rest permit less jerk, the section ends before them.
     [[nodiscard]] RestPiece at(double rest, int side, double length) const;
 
 private:

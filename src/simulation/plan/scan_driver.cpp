@@ -9,16 +9,16 @@
 namespace clsurf {
 namespace {
 
-constexpr double periods_a_cell = 0.5;  ///< of a bent span, at the speed that it may be passed with
+constexpr double periods_a_cell = 0.5;  ///< cells per period on a bent span, at its greatest speed
 constexpr int most_cells_of_span = 16;
-// An acceleration x′ a + x″ v² differs between two places, Δ apart, from the line through it there by at most Δ²/8 of its
-// second derivative, 5 x‴ a + x⁗ v². So much is left at the places, and they are that near to each other:
-constexpr double left_over = 0.005;         ///< of an acceleration
-constexpr double least_acceleration = 0.5;  ///< of an acceleration, whatever is left of it
+// Between two places at the distance Δ an acceleration x′ a + x″ v² differs from linear interpolation by at most Δ²/8 of
+// its second derivative, 5 x‴ a + x⁗ v². This margin is left at the places, and their distance is chosen accordingly:
+constexpr double left_over = 0.005;         ///< of an acceleration, for the margin
+constexpr double least_acceleration = 0.5;  ///< of an acceleration that remains in any case
 constexpr double most_turn = 0.1;           ///< [rad] of the path between two places
 constexpr int most_parts = 8;               ///< of a cell, between its places
-constexpr double share_held = 1 + 1e-9;     ///< of an acceleration, that counts as held halfway between two places
-constexpr int most_scan_looks = 8;          ///< for those that are not
+constexpr double share_held = 1 + 1e-9;     ///< share of an acceleration that counts as kept halfway between two places
+constexpr int most_scan_looks = 8;          ///< for those that exceed it
 
 }  // namespace
 
@@ -30,14 +30,15 @@ bool ScanDriver::take_span() {
     return true;
 }
 
-/// How much an axis' acceleration may bend over the way, x‴ and x⁗ at their greatest [1/s²].
+/// Upper bound of the second derivative of an axis' acceleration, from the greatest x‴ and x⁗ [1/s²].
 Vec3 ScanDriver::curving(const Span& span) const {
     const double fastest =
         std::min(span.free_cap, arc_speed(1 / span.greatest_second, machine_->path.max_normal_acceleration));
     return (5 * machine_->path.max_acceleration * span.third).array() + fastest * fastest * span.fourth;
 }
 
-/// Neither an axis nor the path comes to its limit on a span, as long as the acceleration along the path keeps to that of a straight one.
+/// Whether no limit of an axis or the path is reached on a span while the tangential acceleration stays within that of a
+/// straight path.
 bool ScanDriver::gentle(const Span& span) const {
     if (span.straight()) return true;
     if (span.cap < span.free_cap) return false;
@@ -60,7 +61,7 @@ void ScanDriver::divide(const Span& span) {
         cells_.push_back({&span, 0, span.free_limiting, span.length, 0});
         return;
     }
-    // From rest to rest there is no way in a single cell.
+    // A single cell cannot lead from rest to rest.
     const double fewest = cells_.empty() || std::isfinite(span.begin_cap) ? 2 : 1;
     const int count =
         static_cast<int>(std::clamp(std::ceil(span.length / (span.cap * machine_->controller.period * periods_a_cell)),
@@ -90,7 +91,7 @@ void ScanDriver::divide(const Span& span) {
     }
 }
 
-/// A cell with places_ along it, where the axes keep to these accelerations.
+/// Adds a cell with places_ along it, at which the axes keep these accelerations.
 void ScanDriver::add_cell(Cell cell, const Vec3& accelerations) {
     const PathLimits& path = machine_->path;
     double cap = cell.span->free_cap;
@@ -115,7 +116,7 @@ void ScanDriver::add_cell(Cell cell, const Vec3& accelerations) {
     if (cell.span->rounded) limit_path(*cell.span, part);
 }
 
-/// The tangential acceleration of the last cell, at places_ that are `part` apart.
+/// Adds the limit of the tangential acceleration to the last cell, at places_ with the distance `part`.
 void ScanDriver::limit_path(const Span& span, double part) {
     const double greatest = machine_->path.max_acceleration;
     const double held = std::max(greatest - part * part / 8 * curving(span).norm(), least_acceleration * greatest);
@@ -123,7 +124,7 @@ void ScanDriver::limit_path(const Span& span, double part) {
         limit_path_at(cells_.size() - 1, part * static_cast<double>(p), places_[p], part, held);
 }
 
-/// At a place of a cell; the next one is `part` away.
+/// Adds the limit at a place of a cell; the distance to the next place is `part`.
 void ScanDriver::limit_path_at(std::size_t cell, double at, const PathDerivatives& place, double part,
                                double acceleration) {
     const Pace pace = pace_of(place);
@@ -132,12 +133,12 @@ void ScanDriver::limit_path_at(std::size_t cell, double at, const PathDerivative
         scan_.add_limit(cell, at, pace.value, pace.slope, acceleration);
         return;
     }
-    // Where the path nearly reverses, |p′|′ changes its sign between two places: its bound counts.
+    // If the path nearly reverses, |p′|′ changes its sign between two places: its bound is used.
     scan_.add_limit(cell, at, pace.value, bend, acceleration);
     scan_.add_limit(cell, at, pace.value, -bend, acceleration);
 }
 
-/// Whether the plan holds the limits of acceleration at a place of a cell.
+/// Whether the plan keeps the limits of acceleration at a place of a cell.
 bool ScanDriver::holds(std::size_t cell, double at, const PathDerivatives& place) const {
     const double acceleration = scan_.acceleration(cell), before = scan_.speed(cell);
     const double square = before * before + 2 * acceleration * at;
@@ -151,7 +152,7 @@ bool ScanDriver::holds(std::size_t cell, double at, const PathDerivatives& place
     return std::abs(pace.value * acceleration + pace.slope * square) <= share_held * machine_->path.max_acceleration;
 }
 
-/// Limits at the places halfway between those of the cells at which the plan breaks one; false: it breaks none.
+/// Adds limits halfway between the places of the cells if the plan exceeds them there. False: it exceeds none.
 bool ScanDriver::limit_between() {
     bool broken = false;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -172,13 +173,13 @@ bool ScanDriver::limit_between() {
     return broken;
 }
 
-/// An exchange method (Hettich and Kortanek 1993): limits join until the plan breaks none of them.
+/// An exchange method (Hettich and Kortanek 1993): limits are added until the plan exceeds none.
 void ScanDriver::plan(double speed) {
     for (int look = 0; look < most_scan_looks; ++look) {
         scan_.plan(speed);
         if (!limit_between()) return;
     }
-    scan_.plan(speed);  // with all limits that have joined
+    scan_.plan(speed);  // with all added limits
 }
 
 void ScanDriver::run_section(const std::function<void()>& report) {
@@ -208,9 +209,9 @@ void ScanDriver::run_section(const std::function<void()>& report) {
     }
 }
 
-/// The first cells; then they are forgotten.
+/// Runs the first cells and removes them.
 void ScanDriver::run(std::size_t count) {
-    // What brakes to the end of what is known.
+    // The cells that brake to the end of the known path.
     std::size_t braking = scan_.size();
     while (braking > 0 && scan_.speed(braking) < scan_.speed(braking - 1)) --braking;
     for (std::size_t i = 0; i < count; ++i) {

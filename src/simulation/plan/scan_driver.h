@@ -1,9 +1,10 @@
 #pragma once
 // ScanDriver: runs sections of a path on a machine without a jerk limit, with SpeedScan.
 //
-// The spans of a window of blocks are divided into cells. Half of the window is run, then it is planned again.
-// Where a plan breaks a limit between the places of a cell, the limit joins, and the plan is made again. The cells do not
-// change otherwise, each plan holds at the same places and ends at rest, so a plan that continues the last one always exists.
+// The spans of a window of blocks are divided into cells. Half of the window is run, then it is planned again. If a plan
+// exceeds a limit between the places of a cell, that limit is added and the plan is made again. The cells do not change
+// otherwise, and each plan satisfies the limits at the same places and ends at rest. Therefore the last plan can always be
+// continued.
 
 #include <deque>
 #include <functional>
@@ -17,21 +18,21 @@ namespace clsurf {
 
 class ScanDriver {
 public:
-    /// All must outlive it.
+    /// All references must outlive the object.
     ScanDriver(const Machine& machine, PathStream& stream, MotionSink& sink)
         : machine_(&machine), stream_(&stream), sink_(&sink) {}
 
-    /// Runs a section, from rest to rest; `report` is called after each part of it.
+    /// Runs a section from rest to rest; `report` is called after each part of it.
     void run_section(const std::function<void()>& report);
 
 private:
-    /// What a cell of the scan lies on.
+    /// The place of a cell of the scan on a span.
     struct Cell {
         const Span* span = nullptr;
         double from = 0;  ///< on the span [mm]
         LimitingFactor at_cap = LimitingFactor::none;
         double length = 0;      ///< [mm]
-        std::size_t parts = 0;  ///< equal ones, at whose ends its limits are held; 0: they hold anyway
+        std::size_t parts = 0;  ///< number of equal parts, at whose ends the limits are checked; 0: no check is needed
     };
 
     [[nodiscard]] bool take_span();
@@ -52,7 +53,7 @@ private:
     std::deque<Span> spans_;   ///< of the window
     std::vector<Cell> cells_;  ///< those of scan_
     SpeedScan scan_;
-    // Scratch: of a cell, from its begin to its end, and how it is driven.
+    // Scratch: the places of a cell from begin to end, and its motions.
     std::vector<PathDerivatives> places_;
     std::vector<CellMotion> motions_;
 };

@@ -10,8 +10,8 @@
 namespace clsurf {
 namespace {
 
-// A distance is long enough for a ramp when it misses less than this: speeds that come from reach()
-// carry rounding relative to the distance.
+// A distance is long enough for a ramp if less than this is missing: speeds from reach() have rounding errors relative to
+// the distance.
 constexpr double relative_tolerance = 1e-9;
 constexpr double absolute_tolerance = 1e-12;  ///< [mm]
 constexpr double speed_tolerance = 4 * std::numeric_limits<double>::epsilon();
@@ -32,7 +32,8 @@ MotionState advance(const MotionState& from, double t, double jerk) {
             from.speed + t * (from.acceleration + 0.5 * t * jerk), from.acceleration + t * jerk};
 }
 
-/// The peak speed v ≥ both ends for which the two ramps take the whole arc length: rises strictly there.
+/// The peak speed v, at least both end speeds, for which the two ramps cover the arc length. Their length increases
+/// strictly with v.
 double peak_speed(double arc_length, double vs, double ve, const RampLimits& limits) {
     const auto excess = [&](double v) {
         return ramp_distance(vs, v, limits.acceleration, limits.jerk) +
@@ -65,7 +66,7 @@ double reach(double v0, double arc_length, double acceleration, double jerk) {
     const double p = 2 * v0 / jerk;
     const double q = arc_length / jerk;
     double t = 0;
-    // Below this p³ is lost beside q²: the cubic is then t³ = q.
+    // Below this p³ is lost in rounding against q²: the cubic is then t³ = q.
     if (p * p * p < 1e-30 * q * q) {
         t = std::cbrt(q);
     } else {
@@ -84,7 +85,7 @@ SCurve::SCurve(double start_speed, double jerk, const std::array<double, 7>& dur
     for (std::size_t i = 0; i < 7; ++i) {
         starts_[i] = state;
         state = advance(state, durations[i], jerk_signs[i] * jerk);
-        if (i == 2 || i == 6) state.acceleration = 0;  // exactly, not up to rounding
+        if (i == 2 || i == 6) state.acceleration = 0;  // exactly, without rounding
         time += durations[i];
         ends_[i] = time;
     }
@@ -117,7 +118,7 @@ double SCurve::time_at(double arc_length) const {
     const MotionState& start = starts_[phase];
     const double begin = ends_[phase] - durations_[phase];
     const double jerk = jerk_signs[phase] * jerk_;
-    // With the acceleration that the phase begins with: exact where there is no jerk.
+    // With the acceleration at the begin of the phase: exact without jerk.
     const double left = arc_length - start.arc_length;
     double t =
         2 * left / (start.speed + std::sqrt(std::max(0.0, start.speed * start.speed + 2 * start.acceleration * left)));
@@ -143,7 +144,7 @@ PlannedProfile plan_scurve(double arc_length, double start_speed, double end_spe
     double ve = end_speed;
     const double towards = ve > vs ? limits.acceleration : limits.deceleration;
     plan.needed_arc_length = ramp_distance(vs, ve, towards, limits.jerk);
-    // A difference of speeds carries their rounding: over a distance so short that it is no more than that, the ramp fits.
+    // A difference of speeds contains their rounding. If the distance is within that rounding, the ramp fits.
     const double rounding = speed_tolerance * std::max(vs, ve);
     const double least_arc_length =
         0.5 * (vs + ve) * ramp_time(std::max(0.0, std::abs(ve - vs) - rounding), towards, limits.jerk);

@@ -11,21 +11,21 @@
 namespace clsurf {
 namespace {
 
-constexpr double sharp = 2 * rad_per_deg;  ///< this near a reversal it comes to rest
-constexpr double flat_corner = 1e-3;       ///< [rad] of a corner that a tolerance limits
-constexpr double segment_periods = 1.02;   ///< of a segment, at its highest speed
-constexpr double no_overlap_left = 0.25;   ///< part of a segment after which its end is settled
-constexpr int settled_peaks = 4;           ///< ends at their limits before a scan back is finished
+constexpr double sharp = 2 * rad_per_deg;  ///< at a turn closer than this to a reversal the axes stop
+constexpr double flat_corner = 1e-3;       ///< [rad] of a corner that a tolerance limits; flatter ones need no blend
+constexpr double segment_periods = 1.02;   ///< least duration of a segment at its highest speed
+constexpr double no_overlap_left = 0.25;   ///< share of a segment after which its end is not changed any more
+constexpr int settled_peaks = 4;           ///< ends at their limits before a backward scan stops
 
 /// The speed in the middle of a segment that starts and ends at rest [mm/s].
 double peak_speed(double acceleration, double length) { return std::sqrt(acceleration * length); }
 
 double peak_of(const BlendSegment& segment) {
-    // A later blend may take half of what is not final.
+    // A later blend may take half of a length that is not final.
     return peak_speed(segment.tangential_acceleration(), segment.final_length ? segment.length : 0.5 * segment.length);
 }
 
-/// Direction of the acceleration at the begin of a segment: that of an arc also has what is normal to it.
+/// Direction of the acceleration at the begin of a segment; for an arc including the normal acceleration.
 Vec3 first_acceleration(const BlendSegment& segment) {
     if (!segment.curved()) return segment.path.direction;
     const PathElement& arc = segment.path;
@@ -64,7 +64,7 @@ OverlapSpeeds overlap_speeds(const BlendSegment& before, const BlendSegment& aft
     const double theta = half_corner_angle(last_acceleration(before), first_acceleration(after));
     const double cosine = std::cos(theta);
     if (before.tolerance > 0 && cosine > std::sin(flat_corner)) {
-        // Both halves of the overlap at half of the acceleration leave the corner by the tolerance.
+        // With half of the acceleration for each half of the overlap, the deviation from the corner is the tolerance.
         const double limit = 2 * std::sqrt(a1 * before.tolerance / cosine);
         speeds.before = std::min(speeds.before, limit);
         speeds.after = std::min(speeds.after, limit);
@@ -89,8 +89,8 @@ double SegmentQueue::target_end_speed(const BlendSegment& segment, const BlendSe
     return std::min({segment.final_speed, target_speed(segment), target_speed(*next)});
 }
 
-/// Whether a step of direction is small enough to be passed at speed, from the acceleration that it takes in one
-/// period; sets the speed that it allows and what it leaves of the acceleration.
+/// Whether a direction step is small enough to be passed at speed, judged by the acceleration that it requires in one
+/// period. Sets the permitted speed and the share of the acceleration that the step uses.
 SegmentQueue::Junction SegmentQueue::join(BlendSegment& before, BlendSegment& after) const {
     const ControllerSettings& controller = machine_->controller;
     if (controller.lookahead_blocks < 2 || before.end == SegmentEnd::stop) return Junction::settled;
@@ -107,7 +107,7 @@ SegmentQueue::Junction SegmentQueue::join(BlendSegment& before, BlendSegment& af
     for (int i = 0; i < 3; ++i)
         share = std::max(
             share, step * std::abs(out[i] - in[i]) / machine_->axes[static_cast<std::size_t>(i)].max_acceleration);
-    if (before.curved() || after.curved()) share /= 0.5;  // the other half is what arcs take
+    if (before.curved() || after.curved()) share /= 0.5;  // arcs use the other half
     const double allowed = std::clamp(controller.trapezoid.kink_ratio, 0.001, 0.7071);
     const bool tangent = share < allowed;
     before.junction_speed = tangent ? speed : speed * allowed / share;
@@ -118,14 +118,13 @@ SegmentQueue::Junction SegmentQueue::join(BlendSegment& before, BlendSegment& af
     return Junction::settled;
 }
 
-/// How the last segment passes into a new one: whatever is the fastest at the corner of an overlap, a slow tangent
-/// passage and an arc.
+/// How the last segment passes into a new one: the fastest at the corner of an overlap, a slow tangent passage and an arc.
 void SegmentQueue::blend(BlendSegment& after) {
     BlendSegment& before = segments_.back();
     if (before.progress > 0.5 * before.length || join(before, after) == Junction::settled) return;
     if (before.end != SegmentEnd::parabolic) return;
     const std::optional<BlendedCorner> arc = blend_corner(before, after, *machine_);
-    // Both blocks of an overlap have half of the acceleration only, which slows the corners next to it as well.
+    // Both blocks of an overlap have only half of the acceleration, which slows the adjacent corners, too.
     const double overlap = 0.5 * overlap_speeds(before, after, greatest_speed(before), greatest_speed(after)).along;
     const double tangent = before.junction_speed;
     const double of_arc = arc ? arc->arc.max_speed : 0;
@@ -162,7 +161,7 @@ void SegmentQueue::add(const PathElement& element) {
     scan_back();
 }
 
-/// The speed at the end of a segment from which the next one can brake.
+/// The speed at the end of a segment from which the next segment can brake.
 void SegmentQueue::limit_end(BlendSegment& before, BlendSegment& segment) const {
     const double acceleration = segment.tangential_acceleration();
     const bool junction = before.junction_speed >= 0 && before.end == SegmentEnd::tangent;
@@ -176,12 +175,12 @@ void SegmentQueue::limit_end(BlendSegment& before, BlendSegment& segment) const 
     const double reached = std::sqrt(segment.final_speed * segment.final_speed + 2 * acceleration * segment.length);
     double limit = std::min(segment.max_speed, before.max_speed);
     if (junction) limit = std::min(limit, before.junction_speed);
-    if (reached >= limit) before.at_limit = true;  // more look-ahead only raises what can be reached
+    if (reached >= limit) before.at_limit = true;  // more look-ahead only raises the reachable speed
     before.final_speed = std::min(reached, limit);
     segment.limit_speed_by_length(segment_periods * machine_->controller.period);
 }
 
-/// From the back to the front, over the look-ahead, until what is known can no longer raise a speed.
+/// Scans backward over the look-ahead, until the known blocks can no longer raise a speed.
 void SegmentQueue::scan_back() {
     bool passed_rest = false;
     int peaks = 0;

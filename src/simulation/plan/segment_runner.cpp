@@ -10,8 +10,8 @@ constexpr double no_speed = 1e-8;      ///< [mm/s]
 constexpr double no_distance = 1e-12;  ///< [mm]
 constexpr double no_time = 1e-12;      ///< [s]
 
-/// Distance of a point from a segment nearby [mm]. A line needs one step, an arc fewer than four if the point is within a few
-/// periods of its progress.
+/// Distance of a point from a nearby segment [mm]. A line needs one step, an arc fewer than four if the point is within a
+/// few periods of its progress.
 double distance_to(const BlendSegment& segment, const Vec3& point) {
     constexpr int most_steps = 4;
     double at = segment.progress;
@@ -28,7 +28,7 @@ double distance_to(const BlendSegment& segment, const Vec3& point) {
 SegmentRunner::SegmentRunner(SegmentQueue& queue, const Machine& machine, const Vec3& position)
     : queue_(&queue), machine_(&machine), period_(machine.controller.period), position_(position) {}
 
-/// A short segment between others that are passed at speed runs at one acceleration.
+/// A short segment between others that are passed at speed has one constant acceleration.
 void SegmentRunner::activate(BlendSegment& segment) const {
     if (segment.active) return;
     segment.active = true;
@@ -38,8 +38,8 @@ void SegmentRunner::activate(BlendSegment& segment) const {
     segment.blending_next = segment.braking = false;
 }
 
-/// With the speed w after a period T and the distance s left before it, s = ½ (v + w) T + (w² − u²)/(2 a) brakes to u
-/// at the end: w = −½ a T + √(u² + a (2 s − v T) + (½ a T)²).
+/// With the speed w after a period T and the distance s left before the period, s = ½ (v + w) T + (w² − u²)/(2 a) brakes to
+/// u at the end: w = −½ a T + √(u² + a (2 s − v T) + (½ a T)²).
 SegmentRunner::Step SegmentRunner::trapezoid(const BlendSegment& segment, const BlendSegment* next) const {
     const double a = segment.tangential_acceleration();
     const double end = queue_->target_end_speed(segment, next);
@@ -50,7 +50,7 @@ SegmentRunner::Step SegmentRunner::trapezoid(const BlendSegment& segment, const 
     return {std::clamp((wanted - segment.speed) / std::max(segment.cycle, no_time), -a, a), highest};
 }
 
-/// One acceleration to the speed at the end. False: it ends at rest.
+/// Constant acceleration to the speed at the end. False: the segment ends at rest.
 bool SegmentRunner::ramp(const BlendSegment& segment, const BlendSegment* next, Step& step) const {
     const double end = queue_->target_end_speed(segment, next);
     if (end < no_speed) return false;
@@ -61,7 +61,7 @@ bool SegmentRunner::ramp(const BlendSegment& segment, const BlendSegment* next, 
     return true;
 }
 
-/// Runs a segment for its cycle; the position moves by what it covers.
+/// Runs a segment for its cycle and moves the position by the distance covered.
 void SegmentRunner::update(BlendSegment& segment, const BlendSegment* next) {
     const Vec3 before = segment.at(segment.progress);
     if (!segment.blending_next) segment.speed_at_blend = segment.speed;
@@ -82,7 +82,7 @@ void SegmentRunner::update(BlendSegment& segment, const BlendSegment* next) {
     position_ += segment.at(segment.progress) - before;
 }
 
-/// Whether the segment ends inside the next period; when, and at what speed.
+/// Finds whether the segment ends within the next period, when, and at what speed.
 void SegmentRunner::look_for_end(BlendSegment& segment, const BlendSegment* next) const {
     segment.cycle = period_;
     const bool rests = segment.end == SegmentEnd::stop || segment.end == SegmentEnd::exact;
@@ -106,7 +106,7 @@ void SegmentRunner::look_for_end(BlendSegment& segment, const BlendSegment* next
     const double a = segment.tangential_acceleration();
     const double asked = (end - segment.speed) / time;
     if (std::abs(asked) > a) {
-        // The end is reached at another speed: s = v t ± ½ a t².
+        // The end is reached at another speed than requested: s = v t ± ½ a t².
         const double signed_a = std::copysign(a, asked);
         const double square = segment.speed * segment.speed + 2 * signed_a * left;
         if (square < 0) return;
@@ -121,7 +121,7 @@ void SegmentRunner::look_for_end(BlendSegment& segment, const BlendSegment* next
     }
 }
 
-/// The last part of a segment, and the rest of the period on the next one.
+/// Runs the last part of a segment, and the rest of the period on the next one.
 void SegmentRunner::finish(BlendSegment& segment, BlendSegment* next) {
     position_ += segment.at(segment.length) - segment.at(segment.progress);
     segment.progress = segment.length;
@@ -134,7 +134,7 @@ void SegmentRunner::finish(BlendSegment& segment, BlendSegment* next) {
     update(*next, queue_->size() > 2 ? &(*queue_)[2] : nullptr);
 }
 
-/// A whole period of a segment, and of the next one where both overlap.
+/// Runs a segment for a whole period, and the next one if they overlap.
 void SegmentRunner::run_whole(BlendSegment& segment, BlendSegment* next) {
     segment.cycle = period_;
     update(segment, next);
@@ -168,7 +168,7 @@ LimitingFactor SegmentRunner::limiting_of(const BlendSegment& segment) const {
     return segment.curved() ? LimitingFactor::axis_acceleration : LimitingFactor::axis_speed;
 }
 
-/// How far a point of an arc between blocks is from the nearer one of them.
+/// Distance between a point of an arc between blocks and the nearer block.
 double SegmentRunner::deviation_of(const BlendSegment& segment) const {
     if (!segment.blend) return segment.path.deviation;
     const double angle = (segment.progress - segment.lead) * segment.path.rate;
@@ -176,7 +176,7 @@ double SegmentRunner::deviation_of(const BlendSegment& segment) const {
     return segment.path.deviation + segment.path.radius * (1 - std::cos(nearer));
 }
 
-/// How far the point is from the programmed path: where two blocks overlap, from the nearer one.
+/// Distance of the point from the programmed path: if two blocks overlap, from the nearer one.
 void SegmentRunner::measure(const BlendSegment& segment, const BlendSegment* next, const BlendSegment& shown,
                             PlannedPoint& point) const {
     const bool overlap =
@@ -186,7 +186,8 @@ void SegmentRunner::measure(const BlendSegment& segment, const BlendSegment* nex
     if (overlap) point.deviation += std::min(distance_to(segment, position_), distance_to(*next, position_));
 }
 
-/// The faster one of two that overlap; the next one where it takes the rest of a period, unless it ends even sooner.
+/// The reported segment: the faster one of two that overlap. If the segment ends within the period, the next one, unless
+/// a tangent end leaves it the shorter part of the period.
 const BlendSegment& SegmentRunner::reported(const BlendSegment& segment, const BlendSegment* next, bool ended) const {
     if (next == nullptr) return segment;
     if (!ended) return segment.blending_next && segment.speed <= next->speed ? *next : segment;

@@ -1,35 +1,35 @@
 #pragma once
 // SegmentRunner: runs the queue of the trapezoidal planner, one period at a time. Speeds change by constant
-// accelerations; a segment that ends inside a period gives the rest of the period to the next one.
+// accelerations; a segment that ends within a period leaves the rest of the period to the next one.
 
 #include "simulation/path/path_stream.h"
 #include "simulation/plan/segment_queue.h"
 
 namespace clsurf {
 
-/// A set point, and what it belongs to.
+/// A set point with its data.
 struct PlannedPoint {
     Vec3 position = Vec3::Zero();  ///< [mm]
     double speed = 0;              ///< [mm/s]
     double deviation = 0;          ///< from the programmed path [mm]
-    bool tolerated = true;         ///< the program or the machine has a tolerance there
+    bool tolerated = true;         ///< the program or the machine defines a tolerance there
     LineNumber line = 0;
     LimitingFactor limiting = LimitingFactor::none;
 };
 
 class SegmentRunner {
 public:
-    /// Both must outlive it. `position`: where the axes stand.
+    /// Both references must outlive the object. `position`: of the axes at the start.
     SegmentRunner(SegmentQueue& queue, const Machine& machine, const Vec3& position);
 
-    /// The next period. False: the queue is empty, nothing moves.
+    /// Runs the next period. False: the queue is empty and nothing moves.
     [[nodiscard]] bool run(PlannedPoint& point);
     [[nodiscard]] const Vec3& position() const { return position_; }
-    /// Ends differences of rounding size to where the program stands.
+    /// Corrects differences of rounding size to the program's position.
     void stand_at(const Vec3& position) { position_ = position; }
 
 private:
-    /// The acceleration of a period, and the highest speed from which the segment's end is reached.
+    /// The acceleration in a period, and the highest speed from which braking reaches the segment's end.
     struct Step {
         double acceleration = 0, speed = 0;
     };
@@ -51,7 +51,7 @@ private:
     const Machine* machine_;
     double period_;
     Vec3 position_;
-    double overlap_speed_ = 0;  ///< of the next segment while it overlaps the present one
+    double overlap_speed_ = 0;  ///< of the next segment while it overlaps the present one [mm/s]
 };
 
 }  // namespace clsurf

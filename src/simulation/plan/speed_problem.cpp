@@ -8,20 +8,21 @@ namespace clsurf {
 namespace {
 
 constexpr int most_steps = 90;
-constexpr double end_gap = 4e-3;         ///< of the time: how far from the optimum it stops
-constexpr double boundary_share = 0.97;  ///< of the way to a limit in one step
-// A start far from every limit, as its slacks say, converges best.
-constexpr double first_slack = 1.0;  ///< of a bound, at least
+constexpr double end_gap = 4e-3;         ///< of the time: distance from the optimum at which the iteration stops
+constexpr double boundary_share = 0.97;  ///< share of a step to the bound that is taken
+// Convergence is best if the slacks say that the start is far from every limit.
+constexpr double first_slack = 1.0;  ///< least slack, as a share of the bound
 constexpr double first_gap = 1.0;    ///< of the time
-constexpr double diverged = 1e3;     ///< of the time: a gap of a problem without a solution
-constexpr double mended = 1e-4;      ///< of a bound
-constexpr double held = 1 + 3e-4;    ///< part of a limit that counts as held
-constexpr int most_rounds = 6;       ///< with rows for what the last solution broke
-constexpr int most_looks = 8;        ///< for places between samples at which a solution breaks a limit
-// On the way to a solution rows are looked for, too: first at a gap, then whenever it has shrunk to a part of itself, until it is small.
+constexpr double diverged = 1e3;     ///< of the time: a larger gap means that there is no solution
+constexpr double mended = 1e-4;      ///< greatest violation, as a share of a bound
+constexpr double held = 1 + 3e-4;    ///< share of a limit that counts as kept
+constexpr int most_rounds = 6;       ///< each adds rows for limits that the last solution exceeds
+constexpr int most_looks = 8;        ///< for places between samples at which a solution exceeds a limit
+// Rows are also added during the iteration: at a first gap, then whenever the gap has shrunk by a factor, until it is
+// small.
 constexpr double early_gap = 0.3, look_step = 0.7, last_look = 0.005;  ///< of the time; of the gap; of the time
-constexpr double nearly_held = 0.8;                                    ///< part of a limit that gets a row there
-constexpr double later_slack = 0.05;                                   ///< of a bound, of a row that joins
+constexpr double nearly_held = 0.8;   ///< share of a limit from which a row is added there
+constexpr double later_slack = 0.05;  ///< slack of an added row, as a share of its bound
 
 }  // namespace
 
@@ -66,7 +67,7 @@ void AxisSpeedProblem<Axes>::clear() {
 template <int Axes>
 void AxisSpeedProblem<Axes>::add_cell(double length, double value, const CellLimits& limits) {
     const auto at = static_cast<std::uint32_t>(samples_.size());
-    value_.resize(cells_.size() + 1);  // without the one beyond the end
+    value_.resize(cells_.size() + 1);  // without the value beyond the end
     Cell cell;
     cell.length = length;
     cell.limits = limits;
@@ -93,7 +94,7 @@ void AxisSpeedProblem<Axes>::widen(Cell& cell, const Sample& sample) {
     cell.least_cap = std::min(cell.least_cap, sample.cap);
 }
 
-/// Places become the last samples of their cells, so that the rows of the others keep their numbers; false: there are none.
+/// Appends places to the samples of their cells, so that existing rows keep their numbers. False: there are no places.
 template <int Axes>
 bool AxisSpeedProblem<Axes>::join(const std::vector<Between>& places) {
     if (places.empty()) return false;
@@ -138,7 +139,8 @@ void AxisSpeedProblem<Axes>::drop_front(std::size_t count) {
     for (Cell& cell : cells_) cell.first_sample -= samples, cell.end_sample -= samples;
 }
 
-/// The states at the ends set the first and last cell, and one beyond, as long, that gives b there.
+/// Sets the coefficients of the first and last cell, and one beyond each end with equal length, from the states at the
+/// ends.
 template <int Axes>
 void AxisSpeedProblem<Axes>::fix_ends(const KnotState& start, const KnotState& end) {
     const double first = cells_.front().length, last = cells_.back().length;
@@ -150,8 +152,8 @@ void AxisSpeedProblem<Axes>::fix_ends(const KnotState& start, const KnotState& e
     value_[n + 1] = value_[n] + 2 * end.acceleration * last;
 }
 
-/// Where a path nearly reverses, a cap is low over a way that first speeds hardly see: b at both ends of such a cell
-/// depends on its neighbours' coefficients, too.
+/// If a path nearly reverses, a cap is low over a distance that first speeds hardly resolve. b at both ends of such a cell
+/// also depends on the coefficients of adjacent cells.
 template <int Axes>
 void AxisSpeedProblem<Axes>::lower_to_caps() {
     for (std::size_t i = 1; i + 1 < cells_.size(); ++i) {
@@ -160,7 +162,7 @@ void AxisSpeedProblem<Axes>::lower_to_caps() {
     }
 }
 
-/// The weights at the begins of all cells.
+/// Computes the weights at the begins of all cells.
 template <int Axes>
 void AxisSpeedProblem<Axes>::weigh() {
     begins_.resize(cells_.size());
@@ -199,7 +201,7 @@ double AxisSpeedProblem<Axes>::time() const {
     return sum;
 }
 
-/// No speeds take less [s].
+/// A lower bound of the time [s].
 template <int Axes>
 double AxisSpeedProblem<Axes>::time_at_caps() const {
     double sum = 0;
@@ -207,7 +209,7 @@ double AxisSpeedProblem<Axes>::time_at_caps() const {
     return sum;
 }
 
-/// Rows that have become needed, beside those that are there with what they are in the middle of.
+/// Adds rows that have become needed; existing rows keep their slacks and multipliers.
 template <int Axes>
 void AxisSpeedProblem<Axes>::add_needed_rows() {
     std::swap(rows_before_, rows_);
@@ -215,7 +217,7 @@ void AxisSpeedProblem<Axes>::add_needed_rows() {
     rows_.begin(value_.data(), gap_ / rows_before_.sides(), later_slack, &rows_before_);
 }
 
-/// The Newton matrix, and its right side but for the barrier.
+/// The Newton matrix, and its right side without the barrier.
 template <int Axes>
 void AxisSpeedProblem<Axes>::assemble() {
     const std::size_t n = cells_.size();
@@ -231,7 +233,7 @@ void AxisSpeedProblem<Axes>::assemble() {
     broken_ = gap.broken;
 }
 
-/// The diagonals of the coefficients that are free: those at the ends are known.
+/// The diagonals of the free coefficients; those at the ends are known.
 template <int Axes>
 BandedDiagonals<2> AxisSpeedProblem<Axes>::free_diagonals() {
     const std::size_t first = 2, count = cells_.size() - 2;
@@ -239,7 +241,7 @@ BandedDiagonals<2> AxisSpeedProblem<Axes>::free_diagonals() {
             std::span(newton_.d2).subspan(first, count)};
 }
 
-/// step_ becomes the solution for the right side that is in it.
+/// Replaces the right side in step_ by the solution.
 template <int Axes>
 void AxisSpeedProblem<Axes>::substitute() {
     solve_banded<2>(free_diagonals(), std::span(step_).subspan(2, cells_.size() - 2));
@@ -290,7 +292,7 @@ bool AxisSpeedProblem<Axes>::optimise(const KnotState& start, const KnotState& e
     return false;
 }
 
-/// Newton's steps to the optimum for the rows; false: it was not found.
+/// Newton steps to the optimum for the present rows. False: it was not found.
 template <int Axes>
 bool AxisSpeedProblem<Axes>::iterate() {
     double look_at = early_gap;
@@ -300,7 +302,7 @@ bool AxisSpeedProblem<Axes>::iterate() {
         if (gap < end_gap && broken_ < mended) return true;
         if (!(gap < diverged)) return false;
         if (gap < look_at) {
-            // While slacks are large, rows can join without ado.
+            // While slacks are large, rows can be added without a restart.
             look_at = gap > last_look ? look_step * gap : 0;
             if (need_broken_rows(nearly_held)) {
                 add_needed_rows();

@@ -6,11 +6,11 @@
 //
 //     |x′ b′/2 + x″ b| ≤ A,      |x′ b″/2 + 3/2 x″ b′ + x‴ b| ≤ J/√b.
 //
-// The acceleration and jerk along the rounded path have the same form as those of an axis, with |p′| and its
-// derivatives. The first limit is linear. The second has a right side that is convex in b: its tangent lies below it, so
-// every step that keeps the linearised limits keeps the limits themselves. The time ∫ du/√b is convex. A
-// primal-dual interior-point method solves the problem. Each c is coupled to two neighbours on either side, so
-// the Newton matrix has five diagonals, and a step costs time linear in cells.
+// The acceleration and jerk along the rounded path have the same form as those of an axis, with |p′| and its derivatives.
+// The first limit is linear. The right side of the second one is convex in b and is therefore never below its tangent:
+// every step that satisfies the linearised limits satisfies the limits themselves. The time ∫ du/√b is convex. A
+// primal-dual interior-point method solves the problem. Each c is coupled to two neighbours on either side, so the Newton
+// matrix has five diagonals, and the time of a step is linear in the number of cells.
 
 #include <array>
 #include <cmath>
@@ -32,13 +32,13 @@ struct KnotState {
     double speed = 0, acceleration = 0;
 };
 
-/// A cell's limits of the speed [mm/s], and of acceleration and jerk along the programmed path; infinite: its samples say
-/// all.
+/// Limits of a cell: of the speed [mm/s], and of acceleration and jerk along the programmed path. Infinite: the samples
+/// contain all limits.
 struct CellLimits {
     double cap = 0, acceleration = 0, jerk = 0;
 };
 
-/// Of each axis, and of the acceleration along the path. A jerk of 0 is not limited.
+/// Limits of each axis, and along the path. A jerk of 0 is not limited.
 template <int Axes>
 struct ProblemLimits {
     AxisVector<Axes> acceleration, jerk;
@@ -47,13 +47,13 @@ struct ProblemLimits {
 [[nodiscard]] ProblemLimits<3> linear_limits(const Machine& machine);
 [[nodiscard]] ProblemLimits<5> five_axis_limits(const Machine& machine);
 
-/// What the solution is compared with.
+/// The meaning of the first speeds of a problem.
 enum class FirstSpeeds : std::uint8_t {
-    hold,   ///< the values to begin with hold every limit: a solution that is not faster is none
-    guess,  ///< they need not
+    hold,   ///< they satisfy every limit: a solution that is not faster is rejected
+    guess,  ///< they may exceed limits
 };
 
-/// `Axes`: 3, or 5 with the rotary ones (speed_problem.cpp).
+/// `Axes`: 3, or 5 with the rotary axes (speed_problem.cpp).
 template <int Axes>
 class AxisSpeedProblem {
 public:
@@ -64,13 +64,13 @@ public:
         : limits_(limits), first_(first) {}
 
     void clear();
-    /// A cell after the last one; `value`: its coefficient to begin with [mm²/s²], greater than 0.
+    /// Appends a cell; `value`: its first coefficient [mm²/s²], greater than 0.
     void add_cell(double length, double value, const CellLimits& limits);
-    /// A place of the last cell where the limits of the axes are held.
+    /// Adds a place of the last cell at which the limits of the axes have to be satisfied.
     void add_sample(const Sample& sample);
 
-    /// The fastest speeds from one state to another. False: none was found that holds every limit, or none much
-    /// faster; the values are then what they were. At least four cells.
+    /// Finds the fastest speeds from one state to another. False: no solution satisfies every limit, or none is much
+    /// faster; the values are then unchanged. Needs at least four cells.
     [[nodiscard]] bool solve(const KnotState& start, const KnotState& end) { return solve(start, end, {}); }
 
     /// A place between the samples of a cell.
@@ -78,27 +78,28 @@ public:
         std::size_t cell = 0;
         Sample sample;
     };
-    /// Places, in the order of cells, at which the values break a limit; none: they hold everywhere.
+    /// Returns places, in the order of cells, at which the values exceed a limit; empty: there are none.
     using LookBetween = std::function<std::vector<Between>()>;
-    /// The same where derivatives vary between samples: what `look` finds in a solution become samples, until it finds no more
-    /// (an exchange method, Hettich and Kortanek 1993). After `most_looks` (speed_problem.cpp) the rest stays.
+    /// The same if derivatives vary between samples. The places that `look` finds in a solution become samples, until it
+    /// finds none (an exchange method, Hettich and Kortanek 1993). After `most_looks` (speed_problem.cpp) the remaining
+    /// places are ignored.
     [[nodiscard]] bool solve(const KnotState& start, const KnotState& end, const LookBetween& look);
-    /// Whether the values break a limit of an axis, of the path, or of the speed at a place of a cell.
+    /// Whether the values exceed a limit of an axis, of the path, or of the speed at a place of a cell.
     [[nodiscard]] bool breaks(std::size_t cell, const Sample& sample) const {
         return broken_at(sample, at_begin(cell), 1) != 0;
     }
-    /// The greatest share that the values take of any of these limits there; of the speed its square.
+    /// The greatest share of any of these limits that the values use there; for the speed the share of its square.
     [[nodiscard]] double greatest_share(std::size_t cell, const Sample& sample) const;
 
-    /// The factor, at most 1, by which v² is to be lower everywhere, at the states of both ends too, so that the values hold
-    /// every limit at the samples.
+    /// The factor, at most 1, by which v² has to be lowered everywhere, including the states at both ends, so that the
+    /// values satisfy every limit at the samples.
     [[nodiscard]] double holding_share(const KnotState& start, const KnotState& end);
-    /// All values times a factor.
+    /// Multiplies all values by a factor.
     void scale(double factor);
 
-    /// Forgets all cells but the first ones.
+    /// Removes all cells except the first `left`.
     void drop_back(std::size_t left);
-    /// Forgets the first cells.
+    /// Removes the first cells.
     void drop_front(std::size_t count);
     /// Coefficient of a cell [mm²/s²].
     [[nodiscard]] double value(std::size_t cell) const { return value_[cell + 1]; }
@@ -113,20 +114,20 @@ private:
         double length = 0;
         CellLimits limits;
         std::uint32_t first_sample = 0, end_sample = 0;
-        // Greatest of its samples.
+        // Greatest values of its samples.
         Vector first = Vector::Zero(), second = Vector::Zero(), third = Vector::Zero();
         Pace pace{0, 0, 0};
         double least_cap = infinite_speed;  ///< of its samples
-        // Rows found to be needed: of the acceleration at the end; of the jerk at begin, middle and end.
+        // Rows found to be needed: acceleration at the end; jerk at begin, middle and end.
         bool acceleration = false;
         std::array<bool, 3> jerk{};
-        double jerk_share = 1;  ///< of the jerk along the path, lowered where it is broken between rows
-        bool changed = false;   ///< rows have become needed since they were made
+        double jerk_share = 1;  ///< of the jerk limit along the path, lowered if it is exceeded between rows
+        bool changed = false;   ///< rows have become needed since the rows were made
     };
     struct HeldSample {
         Sample sample;
-        /// A bit for the acceleration of each axis, then one for the jerk of each, then for the acceleration of the path,
-        /// its jerk, and the speed.
+        /// One bit each for: the acceleration of each axis, the jerk of each axis, the acceleration of the path, its jerk,
+        /// and the speed.
         std::uint16_t needed = 0;
     };
     /// Weights of a cell's three coefficients for b, b′ and b″ at a place.
@@ -168,7 +169,7 @@ private:
     void add_row(std::uint32_t number, Row kind, std::size_t cell, const std::array<double, 3>& w, double limit);
     void add_jerk(std::uint32_t number, Row kind, std::size_t cell, const std::array<double, 3>& w,
                   const std::array<double, 3>& b, double limit);
-    /// At begin, middle and end.
+    /// Weights at begin, middle and end.
     [[nodiscard]] std::array<Weights, 3> weights_along(std::size_t cell) const;
     [[nodiscard]] Weights weights_at(std::size_t cell, double at) const;
 
@@ -177,13 +178,13 @@ private:
     std::vector<Cell> cells_;
     std::vector<HeldSample> samples_;
     std::vector<Weights> begins_;  ///< weights at the begin of each cell
-    std::vector<double> value_;    ///< of the cells, with one beyond each end
+    std::vector<double> value_;    ///< of the cells, with one more beyond each end
     std::vector<Row> limiting_;    ///< of the cells
     LimitRows rows_, rows_before_;
     NewtonSystem newton_;
     std::vector<double> step_;
     double gap_ = 0,
-           broken_ = 0;  ///< sum of slack times multiplier; greatest part of a bound that a limit is broken by
+           broken_ = 0;  ///< sum of slack times multiplier; greatest violation of a limit, as a share of its bound
 };
 
 using SpeedProblem = AxisSpeedProblem<3>;

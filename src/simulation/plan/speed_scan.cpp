@@ -6,7 +6,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double same = 1e-9;       ///< part of a limit that does not count
+constexpr double same = 1e-9;       ///< share of a limit that is neglected
 constexpr double rounding = 1e-12;  ///< of a b
 
 }  // namespace
@@ -25,10 +25,10 @@ void SpeedScan::limit_begin(double speed) { cells_.back().begin_cap = speed * sp
 
 void SpeedScan::add_limit(std::size_t number, double at, double slope, double bend, double acceleration) {
     Cell& cell = cells_[number];
-    // At its place b is what it is at the begin, and 2 a at.
+    // At the place, b is the value at the begin plus 2 a at.
     const double of_a = slope + 2 * bend * at;
     const double steep = std::abs(of_a);
-    // What never comes to its limit is none.
+    // A limit that is never reached is omitted.
     if (steep * cell.acceleration + std::abs(bend) * cell.cap <= acceleration) return;
     if (steep * cell.acceleration < same * acceleration) {
         cell.cap = std::min(cell.cap, acceleration / std::abs(bend));
@@ -40,7 +40,7 @@ void SpeedScan::add_limit(std::size_t number, double at, double slope, double be
 
 SpeedScan::Bounds SpeedScan::bounds(std::size_t cell, double b, double next) const {
     const Cell& c = cells_[cell];
-    // The next b is neither below 0 nor above what it may be.
+    // The next b is neither below 0 nor above its limit.
     const double rate = 0.5 / c.length;
     Bounds bounds{{-c.acceleration, 0}, {c.acceleration, 0}};
     double low = -c.acceleration, high = c.acceleration;
@@ -54,8 +54,8 @@ SpeedScan::Bounds SpeedScan::bounds(std::size_t cell, double b, double next) con
     return bounds;
 }
 
-/// The lowest a is convex over b, the greatest one concave, and at b = 0 there is room between them: from the
-/// right, Newton's steps on the lines end where they cross.
+/// The lowest a is convex over b, the greatest one concave, and at b = 0 there is space between them: starting from the
+/// right, Newton steps on the lines converge to their intersection.
 double SpeedScan::greatest_before(std::size_t cell, double next) const {
     double b = std::min(cells_[cell].cap, cells_[cell].begin_cap);
     if (cell > 0) b = std::min(b, cells_[cell - 1].cap);

@@ -17,37 +17,38 @@ namespace clsurf {
 class SpeedScan {
 public:
     void clear();
-    /// A cell after the last one: its length [mm], greatest speed [mm/s] and acceleration along the path [mm/s²].
+    /// Appends a cell: its length [mm], greatest speed [mm/s] and acceleration along the path [mm/s²].
     void add_cell(double length, double cap, double acceleration);
-    /// The greatest speed at the begin of the last cell [mm/s].
+    /// Limits the speed at the begin of the last cell [mm/s].
     void limit_begin(double speed);
-    /// At a place of the last cell, `at` after its begin [mm]: |slope a + bend v²| ≤ acceleration, of one axis;
-    /// slope none, bend 1/mm.
+    /// Adds the limit |slope a + bend v²| ≤ acceleration of one axis, at a place of the last cell, `at` after its begin
+    /// [mm]. slope has no unit, bend is in 1/mm.
     void add_limit(double at, double slope, double bend, double acceleration) {
         add_limit(cells_.size() - 1, at, slope, bend, acceleration);
     }
-    /// The same of any cell, by its number from 0. O(limits behind it).
+    /// The same for any cell, by its number from 0. O(limits of the cells after it).
     void add_limit(std::size_t number, double at, double slope, double bend, double acceleration);
 
-    /// The fastest speeds from `speed` at the first knot [mm/s] to rest at the last one. A speed from which the
-    /// limits lead to no rest is lowered.
+    /// Finds the fastest speeds from `speed` at the first knot [mm/s] to rest at the last one. A start speed from which the
+    /// limits permit no stop is lowered.
     void plan(double speed);
 
     [[nodiscard]] std::size_t size() const { return cells_.size(); }
-    /// At the knot before a cell, or after the last one [mm/s].
+    /// The speed at the knot before a cell, or after the last cell [mm/s].
     [[nodiscard]] double speed(std::size_t knot) const;
-    /// How a cell is driven. One that only the acceleration along the path limits goes up to its cap and down again.
+    /// The motions of a cell. If only the acceleration along the path limits it, the speed rises to the cap and falls
+    /// again.
     void motions(std::size_t cell, std::vector<CellMotion>& into) const;
-    /// Whether limits at its places, not only its own, say how it is driven: at a constant acceleration.
+    /// Whether limits at places of the cell determine its motion, which then has constant acceleration.
     [[nodiscard]] bool has_limits(std::size_t cell) const { return first_row(cell) != cells_[cell].end_row; }
     /// The acceleration of such a cell [mm/s²].
     [[nodiscard]] double acceleration(std::size_t cell) const {
         return 0.5 * (squares_[cell + 1] - squares_[cell]) / cells_[cell].length;
     }
-    /// It keeps to the cell's greatest speed.
+    /// Whether a motion runs at the cell's greatest speed.
     [[nodiscard]] bool at_cap(std::size_t cell, const CellMotion& motion) const;
 
-    /// Forgets the first cells.
+    /// Removes the first cells.
     void drop_front(std::size_t count);
 
 private:
@@ -60,7 +61,7 @@ private:
     struct Row {
         double width = 0, tilt = 0;
     };
-    /// Lowest and greatest a, as lines over b: those that hold nearest to a given b.
+    /// The least and greatest a as functions of b: the lines that are active at a given b.
     struct Line {
         double at_rest = 0, by_b = 0;
         [[nodiscard]] double at(double b) const { return at_rest + by_b * b; }

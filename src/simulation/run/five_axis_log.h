@@ -1,5 +1,5 @@
 #pragma once
-// FiveAxisLog: set points of five axes in, their records out: servo loops, limits measured by differences, travel.
+// FiveAxisLog: makes records from the set points of five axes: servo loops, limits measured by differences, travel.
 
 #include <array>
 #include <functional>
@@ -12,12 +12,12 @@
 
 namespace clsurf {
 
-/// An axis, the value of a derivative of it, its limit that is exceeded, and the order: 1 … 3.
+/// Receives an exceeded limit: the axis, the value of its derivative, the limit, and the order of the derivative, 1 … 3.
 using LimitExcess = std::function<void(std::size_t axis, double value, double limit, int order)>;
 
 class FiveAxisLog {
 public:
-    /// All must outlive it.
+    /// All references must outlive the object.
     FiveAxisLog(const Program& program, const Machine& machine, const std::array<AxisLimits, 5>& limits,
                 const FiveAxisSink& sink)
         : program_(&program),
@@ -27,7 +27,7 @@ public:
           period_(machine.controller.period),
           normal_(period_) {}
 
-    /// The set point of the next period; its feedback follows from it.
+    /// Adds the set point of the next period and computes its feedback.
     void add(FiveAxisPoint point, const LimitExcess& exceeds = {});
     void note_orientation(double error) { summary_.orientation_error = std::max(summary_.orientation_error, error); }
     void note_deviation(double error) { summary_.run.path_deviation = std::max(summary_.run.path_deviation, error); }
@@ -49,7 +49,7 @@ private:
     std::vector<ServoLoop> servos_;
     std::array<std::array<double, 5>, 3> last_{};
     Vec3 last_tip_ = Vec3::Zero();
-    double last_speed_ = 0, last_change_ = 0;  ///< of the tip [mm/s]; in a period
+    double last_speed_ = 0, last_change_ = 0;  ///< speed of the tip [mm/s], and its change in a period
     NormalAcceleration normal_;
     std::array<bool, 5> outside_{};
     bool held_ = true;

@@ -1,5 +1,5 @@
 #pragma once
-// What a simulation on five axes gives for each period, and the summary of all of them.
+// The result of a simulation on five axes for each period, and its summary.
 
 #include <array>
 #include <functional>
@@ -18,12 +18,12 @@ struct FiveAxisPoint {
 };
 
 struct FiveAxisSummary {
-    SimulationSummary run;  ///< speeds, accelerations and jerks of the linear axes, the path's speed that of the tip
+    SimulationSummary run;  ///< speeds, accelerations and jerks of the linear axes; the path speed is that of the tip
     std::array<double, 2> max_speed{}, max_acceleration{}, max_jerk{};  ///< of tilt and rotation [rad/s^d]
     double orientation_error =
         0;                ///< greatest angle between a set point at feed and the great circle of its block [rad]
-    bool axes_ok = true;  ///< of run.limits_ok: the limits of the axes
-    int rounds = 0;       ///< 0: planned on one path
+    bool axes_ok = true;  ///< part of run.limits_ok: the limits of the axes
+    int rounds = 0;       ///< of derating (simulate_five_axis()); 0: planned on one path
 };
 
 using FiveAxisSink = std::function<void(std::span<const FiveAxisPoint>)>;

@@ -19,10 +19,10 @@
 namespace clsurf {
 namespace {
 
-constexpr int places_of_spline = 32;  ///< of a span, where its bend is looked at
-constexpr double chords_off = 0.03;   ///< of a tolerance, that the chords of a curved block may be off
+constexpr int places_of_spline = 32;  ///< of a span, at which its curvature is evaluated
+constexpr double chords_off = 0.03;   ///< greatest deviation of the chords of a curved block, as a share of a tolerance
 constexpr int most_chords = 4096;     ///< of a block
-constexpr int judged_parts = 8;       ///< of a block's angles, for whether they change in proportion to its way
+constexpr int judged_parts = 8;       ///< of a block, to check whether its angles are proportional to arc length
 
 class FiveAxisRun {
 public:
@@ -32,7 +32,7 @@ public:
           program_name_(program.main().name()),
           log_(program, machine, blocks.limits(), sink) {}
 
-    /// Between two rests of the program.
+    /// Runs a section between two rests of the program.
     void run_section(ElementSource& source, const Vec3& at) {
         tip_ = at;
         chords_.clear();
@@ -47,7 +47,7 @@ public:
         run_chords();
     }
 
-    /// What the tip waits for up to a block: turns and dwells.
+    /// Runs the dwells and turns before a block, during which the tip is at rest.
     void wait_until(LineNumber line) {
         for (; next_block_ < line; ++next_block_) {
             const std::size_t block = next_block_;
@@ -62,7 +62,7 @@ public:
             turn.feed = infinite_feed;
             turn.line = static_cast<LineNumber>(block + 1);
             add(turn, 0);
-            // A line that turns about the tip is one turn, however many blocks were made of it.
+            // A line that turns about the tip is one turn, even if it consists of several blocks.
             if (!goes_on(block, line)) run_chords();
         }
     }
@@ -99,7 +99,7 @@ private:
             tip_ = k == count ? element.end : element.at(part * element.length);
             angles_ = axis_path.at(part);
             chord.end = joined(tip_, angles_);
-            // A rapid, whose feed is infinite, is not overridden.
+            // The override does not apply to a rapid, whose feed is infinite.
             chord.feed = element.feed * machine_->controller.feed_override;
             chord.turn_speed = blocks_->turn_speed(block) * machine_->controller.feed_override;
             chord.inside = k > 1;
@@ -117,11 +117,11 @@ private:
         return both;
     }
 
-    /// How many are needed; may be more than an int holds.
+    /// Number of chords; may be more than an int can represent.
     static double chords_of_tip(const PathElement& element, double tolerance) {
         if (element.straight()) return 1;
         if (element.spline) {
-            // Chords are equally long, and the sharpest bend decides.
+            // Chords are equally long, so the sharpest bend decides.
             double bend = 0;
             for (int k = 0; k <= places_of_spline; ++k)
                 bend = std::max(bend, element.second_derivative(element.length * k / places_of_spline).norm());
@@ -211,7 +211,7 @@ private:
     double time_ = 0;
 };
 
-/// Settings of the controller that only a planner of three axes knows, where they are not their defaults.
+/// Reports settings of the controller that only a three-axis planner uses, if they are not at their defaults.
 void note_settings_without_effect(const ControllerSettings& c, const std::string& program, Diagnostics& diagnostics) {
     std::string names;
     const auto add = [&](bool set, const char* name) {

@@ -19,11 +19,11 @@ namespace {
 
 constexpr int most_slower_rounds = 32;
 constexpr int half_width = 8;             ///< of the smoothing of angles [periods]
-constexpr int carry_periods = 16;         ///< over which angles make up for what a rounded corner skips
-constexpr int patient_rounds = 8;         ///< before the tip's own jerk is lowered
-constexpr double most_lowering = 0.97;    ///< of that, in a round
+constexpr int carry_periods = 16;         ///< over which angles catch up after a rounded corner skipped a part of them
+constexpr int patient_rounds = 8;         ///< before the jerk limit of the tip is lowered
+constexpr double most_lowering = 0.97;    ///< factor of that limit, at most, in a round
 constexpr double nearly_greatest = 0.95;  ///< a rate that counts as the greatest
-/// Takes the samples of the tip, and makes those of the axes.
+/// Takes the samples of the tip and makes those of the axes.
 class FiveAxisRecorder {
 public:
     FiveAxisRecorder(const FiveAxisBlocks& blocks, const Program& program, const Machine& machine,
@@ -54,7 +54,7 @@ public:
     }
 
     [[nodiscard]] const std::vector<BlockExcess>& excesses() const { return excesses_; }
-    /// Limit over value of what exceeds its limit most; 1: nothing does.
+    /// The least ratio of limit to value; 1: no limit is exceeded.
     [[nodiscard]] double share() const { return share_; }
 
 private:
@@ -88,7 +88,7 @@ private:
             of_block_ = axis_path->at(part);
             sample.angles = of_block_;
             if (changed && waiting_.size() > 1) {
-                // From where the angles would be had they gone on.
+                // Continues from the extrapolated angles.
                 const RotaryAngles& a = waiting_[waiting_.size() - 2].angles;
                 const RotaryAngles& b = waiting_.back().angles;
                 carry_ = {2 * b.tilt - a.tilt - sample.angles.tilt,
@@ -105,15 +105,15 @@ private:
         put(sample);
     }
 
-    /// A rounded corner skips the end of one block and the begin of the next, and what the angles do there: they make up
-    /// for it over some periods instead of a step, which no lower speed would make smaller.
+    /// A rounded corner skips the end of one block and the begin of the next one, with their change of the angles. The
+    /// angles catch up over some periods. A step would not become smaller at lower speed.
     [[nodiscard]] RotaryAngles carried() const {
         const double part = static_cast<double>(carry_left_) / carry_periods;
         return {part * carry_.tilt, part * carry_.rotation};
     }
 
-    /// Waits that follow each other are one to the planner, with the number of the last: the way and part of it
-    /// at which the wait now is.
+    /// Consecutive dwells are one for the planner, with the number of the last one. Returns the path of the current turn
+    /// and the current part of it.
     std::pair<const ToolAxisPath*, double> turn_now() {
         elapsed_ += period_;
         while (waiting_block_ < block_ &&
@@ -127,14 +127,14 @@ private:
     }
 
     void put(const Sample& sample) {
-        if (waiting_.empty()) waiting_.assign(half_width, sample);  // before the first, all stood there
+        if (waiting_.empty()) waiting_.assign(half_width, sample);  // before the first sample: at rest
         waiting_.push_back(sample);
         if (waiting_.size() < 2 * half_width) return;
         emit();
         waiting_.erase(waiting_.begin());
     }
 
-    /// The sample in the middle of those waiting, with the mean of their angles under a triangle.
+    /// Outputs the middle one of the waiting samples, with the triangle-weighted mean of their angles.
     void emit() {
         const Sample& sample = waiting_[half_width];
         RotaryAngles angles{0, 0};
@@ -161,20 +161,20 @@ private:
                  [&](std::size_t axis, double value, double limit, int order) { hold(axis, value, limit, order); });
     }
 
-    /// Where a derivative of an axis (its order: 1 … 3) exceeds its limit, blocks are to be slower: a run as a whole
-    /// at half the speed has an eighth of the jerk.
+    /// Marks blocks to be slowed down if a derivative of an axis (order 1 … 3) exceeds its limit. At half the speed, a
+    /// whole run has an eighth of the jerk.
     void hold(std::size_t axis, double value, double limit, int order) {
         const double share = limit / value;
         share_ = std::min(share_, share);
         const double scale = order == 1 ? share : order == 2 ? std::sqrt(share) : std::cbrt(share);
         if (axis < 3 || order == 1) {
-            // Whatever takes part in the smoothing may be what is too fast.
+            // Any block that takes part in the smoothing may be the one that is too fast.
             for (const Sample& sample : waiting_) derate(sample.block, scale);
             return;
         }
-        // Where blocks meet, the rate of an angle jumps by Δ, and the smoothing turns that into an acceleration and a
-        // jerk in proportion to Δ: the block with the higher rate must come down by the part of Δ that is too much. To
-        // slow down the others as well would keep their difference, and push the jump from block to block.
+        // Where blocks meet, the rate of an angle jumps by Δ. The smoothing turns that into an acceleration and a jerk in
+        // proportion to Δ. The block with the higher rate is slowed down by the excess part of Δ. If the other blocks were
+        // slowed down as well, the difference would remain and the jump would move from block to block.
         const auto rate = [&](std::size_t j) {
             const RotaryAngles& a = waiting_[j - 1].angles;
             const RotaryAngles& b = waiting_[j].angles;
@@ -203,17 +203,17 @@ private:
     std::size_t block_ = 0;
     double part_ = 0;
     std::size_t waiting_block_ = 0;
-    double elapsed_ = 0;  ///< of its wait [s]
+    double elapsed_ = 0;  ///< since the begin of the dwell [s]
     bool begun_ = false;
-    RotaryAngles of_block_;  ///< of the last sample, without what is carried
-    RotaryAngles carry_;     ///< what the angles had to make up for at the last change of blocks
+    RotaryAngles of_block_;  ///< of the last sample, without the angles that are carried
+    RotaryAngles carry_;     ///< angles to catch up with at the last change of blocks
     int carry_left_ = 0;     ///< [periods]
     std::vector<Sample> waiting_;
     double share_ = 1;
     FiveAxisLog log_;
 };
 
-/// The machine that the tip's arc length is planned for: its axes may lie anyhow to those of the workpiece.
+/// The machine for which the arc length of the tip is planned; its axes may have any orientation to those of the workpiece.
 Machine machine_of_tip(const Machine& machine) {
     Machine tip = machine;
     MachineAxis least = machine.axes[0];
@@ -229,10 +229,10 @@ Machine machine_of_tip(const Machine& machine) {
     return tip;
 }
 
-/// The planner of all axes divides the ramps of the acceleration; shorter ones would cost too many cells.
+/// The planner of all axes divides acceleration ramps into cells; shorter ramps would need too many cells.
 constexpr double shortest_resolved_ramp = 0.0005;  // s
 
-/// The shortest time in which a jerk limit lets an axis or the path reach its acceleration [s].
+/// The shortest time in which a jerk limit permits an axis or the path to reach its acceleration [s].
 double shortest_ramp_of(const Machine& machine) {
     double ramp = machine.path.max_acceleration / machine.path.max_jerk;
     const auto shorten = [&](double acceleration, double jerk) {
@@ -248,7 +248,7 @@ double shortest_ramp_of(const Machine& machine) {
 FiveAxisSummary simulate_five_axis(const Program& program, const Machine& machine, const Vec3& zero, const Vec3& start,
                                    const FiveAxisSink& sink, const Progress& progress) {
     FiveAxisBlocks blocks(program, machine, zero, start);
-    // Planners whose corners are no curve of continuous curvature plan the tip.
+    // Planners whose corners have no continuous curvature plan the tip alone.
     const bool plans_tip = machine.controller.planner == PlannerKind::trapezoidal ||
                            machine.controller.corner == CornerMode::junction ||
                            shortest_ramp_of(machine) < shortest_resolved_ramp;
@@ -271,7 +271,7 @@ FiveAxisSummary simulate_five_axis(const Program& program, const Machine& machin
     for (bool slower = true; slower && rounds < most_slower_rounds; ++rounds) {
         const FiveAxisSummary tried = run({}, &excesses);
         slower = !tried.axes_ok && blocks.derate(excesses);
-        // Between blocks of different speed the tip takes as much jerk as it may, however slow they are.
+        // Between blocks of different speed the tip uses its whole jerk limit, however slow they are.
         if (slower && rounds >= patient_rounds) tip.path.max_jerk *= std::max(most_lowering, share);
     }
     FiveAxisSummary summary = run(sink, nullptr);

@@ -6,7 +6,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double same_instant = 1e-6;  ///< of a period: a stop this near after a sample falls on it
+constexpr double same_instant = 1e-6;  ///< of a period: a stop that is less than this after a sample coincides with it
 
 LimitingFactor limiting_of(const ProfileSegment& section, const Span& span, int phase) {
     if (phase == 3) return span.limiting;
@@ -18,7 +18,7 @@ LimitingFactor limiting_of(const ProfileSegment& section, const Span& span, int 
 
 void Interpolator::run(const ProfileSegment& section) {
     const SCurve& profile = *section.profile;
-    const double begin = time_ - section.from;  // when the profile would have begun
+    const double begin = time_ - section.from;  // time at which the whole profile would have begun
     const double end = begin + section.to;
     std::size_t at = 0;
     double before = 0;

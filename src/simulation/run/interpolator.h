@@ -1,6 +1,6 @@
 #pragma once
-// Interpolator: runs planned speeds against one clock for the whole program. Sample k is the position at k T;
-// the rest of a period at the end of a section continues in the next one.
+// Interpolator: samples planned speeds with one clock for the whole program. Sample k is the position at time k T; the rest
+// of a period at the end of a section continues in the next section.
 
 #include <span>
 
@@ -13,10 +13,10 @@ class Interpolator final : public MotionSink {
 public:
     Interpolator(double period, Recorder& recorder) : recorder_(&recorder), period_(period) {}
 
-    /// All samples that fall into a section, from its start on, its end not included.
+    /// Adds all samples within a section, including its start, without its end.
     void run(const ProfileSegment& section) override;
     void run(const CellMotion& motion, std::span<const CellPart> parts, LimitingFactor limiting) override;
-    /// At rest until `wait` seconds after the next sample.
+    /// Adds samples at rest until `wait` seconds after the next sample.
     void rest(const Vec3& position, double wait, LineNumber line);
     /// Line of the last motion.
     [[nodiscard]] LineNumber line() const { return line_; }

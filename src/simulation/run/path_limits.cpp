@@ -11,8 +11,8 @@
 namespace clsurf {
 namespace {
 
-/// Arcs in corners are for drives that bear steps of the curvature: where one meets the rounding of another corner, the
-/// tangential acceleration steps, too.
+/// Arcs in corners are for drives that tolerate steps of the curvature. Where an arc meets the rounding of another corner,
+/// the tangential acceleration steps, too.
 bool limits_tangential_jerk(const Machine& machine) {
     const bool arcs = drives_arcs(machine) && only_path_jerk(machine);
     return machine.controller.planner == PlannerKind::time_optimal && !arcs;
@@ -27,10 +27,10 @@ bool limits_normal_acceleration(const Machine& machine) {
 void NormalAcceleration::measure() {
     const Vec3 bend = out_ - in_, chord = in_ + out_;
     const double length = chord.norm(), before = in_.norm(), after = out_.norm();
-    if (!(length > 0 && before > 0 && after > 0)) return;  // from or to a rest, or straight back: no direction
+    if (!(length > 0 && before > 0 && after > 0)) return;  // from or to a rest, or a full reversal: no direction
     const Vec3 direction = chord / length;
     const double across = (bend - bend.dot(direction) * direction).norm() * rate_ * rate_;
-    const double half_turn = 0.5 * (in_ / before - out_ / after).norm();  // its sine
+    const double half_turn = 0.5 * (in_ / before - out_ / after).norm();  // sine of half the turn
     const double along = *std::max_element(changes_.begin(), changes_.end()) * rate_;
     const double proved = across - along * half_turn;
     if (!(proved > greatest_)) return;

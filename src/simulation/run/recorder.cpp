@@ -30,9 +30,9 @@ void Recorder::flush() {
     block_.clear();
 }
 
-/// What the servo loops make of the points.
+/// Runs the servo loops for the points.
 void Recorder::follow() {
-    std::array<ServoLoop, 3> servos = servos_;  // in registers
+    std::array<ServoLoop, 3> servos = servos_;  // local copy, kept in registers
     for (SimulatedPoint& point : block_) {
         for (int i = 0; i < 3; ++i) point.feedback[i] = servos[static_cast<std::size_t>(i)].follow(point.commanded[i]);
         ++summary_.limited_by[static_cast<std::size_t>(point.limit)];
@@ -40,7 +40,7 @@ void Recorder::follow() {
     servos_ = servos;
 }
 
-/// Before the first point the axes stand at the start.
+/// Before the first point the axes are at the start.
 void Recorder::measure() {
     Vec3 last = last_, last_step = last_step_, last_bend = last_bend_;
     double last_speed = last_speed_, last_change = last_change_;
@@ -116,7 +116,7 @@ SimulationSummary Recorder::finish() {
     return std::move(s);
 }
 
-/// Whether all limits were kept, and by how much they were not.
+/// Checks whether all limits were kept, and reports those that were not.
 void Recorder::judge_limits() {
     SimulationSummary& s = summary_;
     LimitExcessOfPath worst = excess_of_path(s, *machine_);
@@ -125,7 +125,7 @@ void Recorder::judge_limits() {
         worst = {value / limit, what};
     };
     const std::array<const Vec3*, 4> greatest{nullptr, &s.max_axis_speed, &s.max_acceleration, &s.max_jerk};
-    // At a corner that is not rounded the speeds of the axes step, which is no excess.
+    // At corners that are not rounded the axis speeds step, which does not count as an excess.
     const int highest_order = machine_->controller.corner == CornerMode::junction ? 1 : 3;
     for (const LimitTableRow& row : limit_table) {
         if (row.of_axis == nullptr || row.order > highest_order) continue;

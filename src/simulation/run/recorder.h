@@ -1,6 +1,6 @@
 #pragma once
-// Recorder: receives the commanded position of each period, runs the servo loops, measures both and passes
-// them on in blocks.
+// Recorder: receives the commanded position of each period, runs the servo loops, measures both, and passes the points on
+// in blocks.
 
 #include <algorithm>
 #include <array>
@@ -15,10 +15,11 @@ namespace clsurf {
 
 class Recorder {
 public:
-    /// All must outlive it.
+    /// All references must outlive the object.
     Recorder(const Program& program, const Machine& machine, const Vec3& start, const PointSink& sink);
 
-    /// The position at the end of the next period [mm], its path speed [mm/s], how far rounding took it from the path [mm].
+    /// Adds the position at the end of the next period [mm], its path speed [mm/s], and its deviation from the path by
+    /// rounding [mm].
     void add(const Vec3& position, double speed, LineNumber line, LimitingFactor limiting, double deviation) {
         block_.push_back({position, Vec3::Zero(), speed, line, limiting});
         summary_.path_deviation = std::max(summary_.path_deviation, deviation);
@@ -26,11 +27,11 @@ public:
         if (block_.size() == points_at_once) flush();
     }
     [[nodiscard]] PointIndex points() const { return summary_.points; }
-    /// What is left goes to the sink; the summary of all.
+    /// Passes the remaining points to the sink and returns the summary.
     SimulationSummary finish();
 
 private:
-    static constexpr std::size_t points_at_once = 1024;  ///< they stay in a core's own cache
+    static constexpr std::size_t points_at_once = 1024;  ///< so that they fit into the cache of a core
 
     void flush();
     void follow();
@@ -41,11 +42,11 @@ private:
     const Program* program_;
     const Machine* machine_;
     const PointSink* sink_;
-    double rate_;  ///< periods a second
+    double rate_;  ///< periods per second
     std::array<ServoLoop, 3> servos_;
     std::vector<SimulatedPoint> block_;
     Vec3 last_, last_step_ = Vec3::Zero(), last_bend_ = Vec3::Zero();  ///< position and its differences
-    // Of the path [mm/s]: speed and its change in a period; the greatest such change, and the greatest change of that.
+    // Path speed and its change in a period [mm/s]; the greatest change, and the greatest difference of two changes.
     double last_speed_ = 0, last_change_ = 0, speed_change_ = 0, second_change_ = 0;
     double greatest_step_ = 0;                                               ///< squared [mm²]
     Vec3 step_ = Vec3::Zero(), bend_ = Vec3::Zero(), twist_ = Vec3::Zero();  ///< greatest differences [mm]

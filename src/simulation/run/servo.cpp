@@ -15,7 +15,7 @@ double uniform(std::uint64_t& state) {
     return static_cast<double>(z >> 11U) * 0x1p-53;
 }
 
-/// Sum of twelve uniform numbers less six: mean 0, variance 1, bounded.
+/// Sum of twelve uniform numbers minus six: mean 0, variance 1, bounded.
 double noise_of_one(std::uint64_t& state) {
     double sum = -6;
     for (int i = 0; i < 12; ++i) sum += uniform(state);
@@ -31,13 +31,13 @@ bool integrates(const ServoModel& model) {
 VelocityStep velocity_step_of(const ServoModel& model, double period) {
     if (!(model.velocity_time_constant > 0)) return {};
     if (!integrates(model)) return {.by_error = 1 - std::exp(-period / model.velocity_time_constant)};
-    // exp(A T) of (v − v_ref)′ = (w − (v − v_ref))/T_v, w′ = (v_ref − v)/T_n, by the half trace of A and the root
-    // of its characteristic polynomial: e^{h T} (cosh(r T) + (A − h) sinh(r T)/r), where r may be imaginary.
+    // exp(A T) of (v − v_ref)′ = (w − (v − v_ref))/T_v, w′ = (v_ref − v)/T_n, from half the trace h of A and the root r of
+    // its characteristic polynomial: e^{h T} (cosh(r T) + (A − h) sinh(r T)/r), where r may be imaginary.
     const double fast = 1 / model.velocity_time_constant, slow = 1 / model.velocity_integral_time;
     const double half = -fast / 2, squared = half * half - fast * slow;
     const double root = std::sqrt(std::abs(squared)), angle = root * period, decay = std::exp(half * period);
     const double even = decay * (squared < 0 ? std::cos(angle) : std::cosh(angle));
-    double odd = decay * period;  // at a double root
+    double odd = decay * period;  // value for a double root
     if (angle > 0) odd *= (squared < 0 ? std::sin(angle) : std::sinh(angle)) / angle;
     return {.by_error = 1 - (even + (-fast - half) * odd),
             .by_integral = fast * odd,
@@ -75,7 +75,7 @@ double ServoLoop::delayed(double commanded) {
     return (1 - late_share_) * delay_line_[next] + late_share_ * delay_line_[oldest];
 }
 
-/// Of a reading [mm].
+/// Noise of a reading [mm].
 double ServoLoop::noise() { return noise_ * noise_of_one(random_); }
 
 }  // namespace clsurf

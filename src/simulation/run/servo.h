@@ -6,12 +6,12 @@
 //     v_ref = Kv (cmd − x) + c_ff · cmd′,    T_v v′ = v_ref − v + w,    T_n w′ = v_ref − v,    x′ = v
 //
 // w is what a PI controller of the velocity has integrated, 0 without an integral time T_n.
-// At constant speed v the lag is v (1 − c_ff)/Kv. The loop compares position and command of one record. A dead time
-// delays the whole command; between records it is linear. Coulomb friction subtracts f from v_ref in the direction of
-// motion and holds an axis at rest while |v_ref| ≤ f: the lag grows by f/Kv, and after a reversal the axis
-// rests until the loop has built up enough error. The loop closes on the drive; the encoder is on the table,
-// which follows with the lost motion of the backlash. An integrating velocity loop makes up for friction within
-// some T_n: then only reversals show it.
+// At constant speed v the lag is v (1 − c_ff)/Kv. The loop compares position and command of the same record. A dead time
+// delays the whole command; between records the command is linear. Coulomb friction subtracts f from v_ref in the direction
+// of motion and keeps an axis at rest while |v_ref| ≤ f: the lag grows by f/Kv, and after a reversal the axis rests until
+// the error is large enough. The loop uses the position of the drive. The encoder is on the table, which follows with the
+// lost motion of the backlash. An integrating velocity loop compensates friction within about T_n: then friction shows at
+// reversals only.
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@
 
 namespace clsurf {
 
-/// What the velocity loop makes of an error v_ref − v and of w in a period in which v_ref is constant (exact).
+/// The response of the velocity loop to an error v_ref − v and to w in a period with constant v_ref (exact).
 struct VelocityStep {
     double by_error = 1, by_integral = 0;             ///< change of the speed
     double integral_by_error = 0, integral_kept = 1;  ///< w at the period's end
@@ -31,17 +31,17 @@ struct VelocityStep {
 
 class ServoLoop {
 public:
-    /// `seed` tells axes apart: the noise of a run is the same each time.
+    /// `seed` gives each axis different noise, which is the same in every run.
     ServoLoop(const ServoModel& model, double period, double start, std::uint64_t seed);
 
-    /// The commanded position of the next period [mm] → the encoder's position at its end [mm].
+    /// Takes the commanded position of the next period [mm], returns the encoder's position at its end [mm].
     double follow(double commanded) {
         if (!delay_line_.empty()) commanded = delayed(commanded);
         const double reference = gain_ * (commanded_ - position_) + feedforward_ * (commanded - commanded_) / period_;
         const double before = velocity_;
         velocity_ = integral_per_period_ > 0 ? integrated(reference)
                                              : velocity_ + step_.by_error * (less_friction(reference) - velocity_);
-        // Friction stops an axis, it does not drive it back.
+        // Friction stops an axis; it does not reverse it.
         if (friction_ > 0 && before * velocity_ < 0 && std::abs(reference + integral_) <= friction_) velocity_ = 0;
         position_ += velocity_ * period_;
         commanded_ = commanded;
@@ -56,8 +56,8 @@ private:
         if (velocity_ == 0 && std::abs(reference) <= friction_) return 0;
         return reference - std::copysign(friction_, direction);
     }
-    /// The speed after a period, of a velocity loop that integrates. w acts against the friction, whose direction is that of the
-    /// period's beginning.
+    /// The speed after a period of an integrating velocity loop. w acts against the friction, whose direction is that at
+    /// the begin of the period.
     double integrated(double reference) {
         const double push = reference + integral_;
         if (friction_ > 0 && velocity_ == 0 && std::abs(push) <= friction_) {
@@ -69,14 +69,14 @@ private:
         integral_ = step_.integral_by_error * error + step_.integral_kept * rest + friction;
         return velocity_ + step_.by_error * error + step_.by_integral * rest;
     }
-    /// std::round() without a call: where there is something behind the point, by a whole number.
+    /// std::round() without a call: truncates after adding almost 0.5.
     [[nodiscard]] static double rounded(double x) {
         constexpr double nearly_half = 0x1.fffffffffffffp-2;  // 0.5 would take the number before 0.5 to 1
         if (!(std::abs(x) < 0x1p52)) return x;
         return std::copysign(static_cast<double>(static_cast<std::int64_t>(x + std::copysign(nearly_half, x))), x);
     }
     [[nodiscard]] double noise();
-    /// The command of the dead time ago.
+    /// The command one dead time ago.
     double delayed(double commanded);
 
     double gain_, feedforward_, quantum_, noise_, period_, play_, friction_;
@@ -87,7 +87,7 @@ private:
     std::uint64_t random_;
     std::vector<double> delay_line_;  ///< the last commands, a ring; empty: no dead time
     std::size_t newest_ = 0;          ///< in the ring
-    double late_share_ = 0;           ///< of a period, beyond whole ones
+    double late_share_ = 0;           ///< fractional part of the dead time [periods]
 };
 
 }  // namespace clsurf

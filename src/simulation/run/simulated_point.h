@@ -1,5 +1,5 @@
 #pragma once
-// SimulatedPoint: what a controller simulation gives for each period, and the summary of all of them.
+// SimulatedPoint: the result of a controller simulation for each period, and the summary of all periods.
 
 #include <array>
 #include <functional>
@@ -18,22 +18,22 @@ struct SimulatedPoint {
     LimitingFactor limit = LimitingFactor::none;
 };
 
-inline constexpr double limit_tolerance = 1.001;  ///< a limit counts as held within this factor: values are differences
+inline constexpr double limit_tolerance = 1.001;  ///< a limit counts as kept within it, because values are differences
 
-/// What a run was like, measured on the points themselves by differences.
+/// Measurements of a run, from differences of its points.
 struct SimulationSummary {
     PointIndex points = 0;
     double duration = 0;                     ///< [s]
     double max_speed = 0;                    ///< of the path [mm/s]
     double max_tangential_acceleration = 0;  ///< change of the path speed in a period [mm/s²]
-    double max_tangential_jerk = 0;          ///< change of that in a period [mm/s³]
-    double max_normal_acceleration = 0;      ///< that differences prove (path_limits.h) [mm/s²]
+    double max_tangential_jerk = 0;          ///< change of that acceleration in a period [mm/s³]
+    double max_normal_acceleration = 0;      ///< that differences establish (path_limits.h) [mm/s²]
     Vec3 max_axis_speed = Vec3::Zero(), max_acceleration = Vec3::Zero(), max_jerk = Vec3::Zero();
-    double path_deviation = 0;  ///< greatest distance that rounding took a point from the path [mm]
-    /// No limit of an axis or of the path (excess_of_path()) is exceeded by more than limit_tolerance. Where corners are not
-    /// rounded (CornerMode::junction), accelerations and jerks of axes do not count.
+    double path_deviation = 0;  ///< greatest deviation of a point from the path by rounding [mm]
+    /// No limit of an axis or of the path (excess_of_path()) is exceeded by more than limit_tolerance. If corners are not
+    /// rounded (CornerMode::junction), accelerations and jerks of axes are not checked.
     bool limits_ok = true;
-    std::array<PointIndex, 10> limited_by{};  ///< points by LimitingFactor
+    std::array<PointIndex, 10> limited_by{};  ///< number of points by LimitingFactor
     Diagnostics diagnostics;
 };
 

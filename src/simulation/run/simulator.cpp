@@ -19,10 +19,10 @@
 namespace clsurf {
 namespace {
 
-/// The window of spans that is planned, and how much of the plan is run before it is planned again.
+/// The window of spans that is planned. A part of the plan is run before the window is planned again.
 class Controller {
 public:
-    // The blocks that are known ahead are shared between the plan and its refinement.
+    // The known blocks are divided between the plan and its refinement.
     Controller(const Machine& machine, PathStream& stream, Interpolator& interpolator, Planning planning)
         : known_(machine.controller, planning == Planning::by_nodes ? machine.controller.lookahead_blocks
                                                                     : (machine.controller.lookahead_blocks + 1) / 2),
@@ -31,7 +31,7 @@ public:
           refiner_(machine, interpolator,
                    planning == Planning::by_nodes ? 0 : std::max(1, machine.controller.lookahead_blocks / 2)) {}
 
-    /// Runs a section, from rest to rest.
+    /// Runs a section from rest to rest.
     void run_section(const std::function<void()>& report) {
         window_.clear();
         pending_.clear();
@@ -48,7 +48,7 @@ public:
                 }
             }
             if (window_.empty()) return;
-            // A part of the window is run, the rest is what it looks ahead.
+            // A part of the window is run; the rest is the look-ahead.
             std::size_t half = window_.size();
             std::vector<std::size_t> nodes;
             if (!ended) {
@@ -65,7 +65,7 @@ public:
                 throw std::logic_error(fmt::format("no plan exists from {} mm/s in the block of line {}", speed,
                                                    window_.front().base.line));
             } else {
-                // The plan before goes on: it ends at rest, whatever comes after.
+                // The previous plan continues: it ends at rest, independent of the following blocks.
                 run(pending_[ran++], speed, done);
             }
             for (std::size_t i = 0; i < done; ++i) window_.pop_front();
@@ -103,7 +103,7 @@ SimulationSummary simulate(MotionSource& source, const Machine& machine, const V
     if (machine.controller.planner == PlannerKind::trapezoidal)
         return simulate_trapezoids(source, machine, start, sink, progress);
     const bool scans = planning == Planning::nearly_optimal && jerks_freely(machine);
-    // Where axis speeds step at corners, no acceleration can be carried through them.
+    // If axis speeds step at corners, acceleration cannot be carried through them.
     if (machine.controller.corner == CornerMode::junction) planning = Planning::by_nodes;
     PathStream stream(source, machine, start);
     const Vec3 from = stream.blocks().position();

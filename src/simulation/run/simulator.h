@@ -11,15 +11,15 @@ namespace clsurf {
 /// How speeds are planned.
 enum class Planning : std::uint8_t {
     nearly_optimal,  ///< accelerations are carried through the nodes (refiner.h)
-    by_nodes,        ///< acceleration is zero at every node: slower, and gentler to whatever moves along
+    by_nodes,        ///< acceleration is zero at every node: slower, and gentler to everything that moves
 };
 
-/// Plans, interpolates and follows a program; points go to `sink` in order, block by block.
-/// Memory: of the look-ahead and of the source. Throws InputError (feed 0, rotary axes).
+/// Plans, interpolates and follows a program; passes points to `sink` in order, in blocks.
+/// Memory: for the look-ahead and the source. Throws InputError (feed 0, rotary axes).
 [[nodiscard]] SimulationSummary simulate(MotionSource& source, const Machine& machine, const Vec3& start,
                                          const PointSink& sink, const Progress& progress = {},
                                          Planning planning = Planning::nearly_optimal);
-/// The same of a program in memory.
+/// The same for a program in memory.
 [[nodiscard]] SimulationSummary simulate(const Program& program, const Machine& machine, const Vec3& start,
                                          const PointSink& sink, const Progress& progress = {},
                                          Planning planning = Planning::nearly_optimal);

@@ -15,7 +15,7 @@
 namespace clsurf {
 namespace {
 
-/// The set points of the axes: with cubic interpolation the joints of a cubic B-spline over the planned points,
+/// The set points of the axes. With cubic interpolation they are the joints of a cubic B-spline over the planned points,
 /// (p₋₁ + 4 p + p₊₁)/6, one period later.
 class SetPoints {
 public:
@@ -33,18 +33,18 @@ public:
         before_ = last_;
         last_ = point;
     }
-    /// The point that waits for the next one.
+    /// Writes the point that waits for the next one.
     void finish() {
         if (smooth_ && begun_) write_between(last_);
         begun_ = false;
     }
-    /// Where the path has no tolerance: the point that is farthest from it.
+    /// The point that is farthest from a path without tolerance.
     [[nodiscard]] const PlannedPoint& untolerated() const { return untolerated_; }
 
 private:
     void write_between(const PlannedPoint& next) {
         PlannedPoint point = last_;
-        point.line = next.line;  // that of the newest point that counts
+        point.line = next.line;  // line of the newest point involved
         write(point, (before_.position + 4 * last_.position + next.position) / 6);
     }
     void write(const PlannedPoint& point, const Vec3& position) {
@@ -76,11 +76,11 @@ SimulationSummary simulate_trapezoids(MotionSource& source, const Machine& machi
     SetPoints points(machine, recorder, from);
     SegmentQueue queue(machine);
     SegmentRunner runner(queue, machine, from);
-    // Twice what a scan back reaches: a block's end no longer changes when it runs.
+    // Twice the reach of a backward scan: the end of a block no longer changes when it runs.
     const std::size_t known = 2 * static_cast<std::size_t>(machine.controller.lookahead_blocks) + 4;
     PlannedPoint point;
     point.position = from;
-    // At rest from one period before the first on: the spline of the second begins where the axes stand.
+    // The axes are at rest for one period before the first point, so that the spline begins at their position.
     points.add(point);
     points.add(point);
     PathElement element;

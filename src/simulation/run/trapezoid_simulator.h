@@ -1,10 +1,10 @@
 #pragma once
 // The trapezoidal planner (PlannerKind::trapezoidal), after LinuxCNC 2.9: constant accelerations, blocks that overlap at
-// corners, arcs in corners, blocks of whole periods.
+// corners, arcs in corners, block times that are whole periods.
 //
-// What it does, and where: segment_of() derives the limits of a block from those of the axes along it; SegmentQueue
-// decides how each block passes into the next and scans back over the look-ahead; blend_corner() makes the arcs;
-// SegmentRunner moves, a period at a time; BlockMerging joins blocks before (G64 Q).
+// Its parts: segment_of() derives the limits of a block from those of the axes along it; SegmentQueue decides how each
+// block passes into the next one and scans back over the look-ahead; blend_corner() makes the arcs; SegmentRunner moves the
+// axes, one period at a time; BlockMerging joins blocks first (G64 Q).
 
 #include "core/progress.h"
 #include "machine/machine.h"
