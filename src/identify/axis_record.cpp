@@ -9,10 +9,10 @@
 namespace clsurf {
 namespace {
 
-constexpr double gap = 1.5;               ///< periods between two records that are no longer consecutive
+constexpr double gap = 1.5;               ///< periods between two records from which they are not consecutive
 constexpr PointIndex piece_size = 32768;  ///< records of a piece
 
-/// Marks where a channel jumps. `at(i)`: the value of a record.
+/// Marks the jumps of a channel. `at(i)`: the value of a record.
 template <typename At>
 void mark_jumps(PointIndex first, std::span<char> joined, PointIndex records, double period, At&& at) {
     const double limit = longest_step(period);

@@ -1,5 +1,5 @@
 #pragma once
-// AxisRecord: what a run tells of one axis: the commanded and the fed-back position of each period.
+// AxisRecord: the commanded and the feedback position of one axis in each period of a run.
 
 #include <span>
 #include <vector>
@@ -16,12 +16,11 @@ struct AxisRecord {
     std::vector<PointRange> sections;  ///< of consecutive records, each with both positions
 };
 
-/// The longest ranges without a gap in the time channel, without a missing value in `channels`, all of one size, and
-/// without a jump that no axis makes.
-/// O(records).
+/// The longest ranges in which the time channel has no gap, `channels` have no missing value, and no value jumps farther
+/// than an axis can move. All ranges have one size. O(records).
 [[nodiscard]] std::vector<PointRange> find_sections(const Log& log, std::span<const ChannelView> channels);
 
-/// Evenly spaced pieces of the sections with about `most` records together; all of them where they are fewer.
+/// Evenly spaced pieces of the sections with about `most` records in total; all records if there are fewer.
 [[nodiscard]] std::vector<PointRange> sample_pieces(std::span<const PointRange> sections, PointIndex most);
 
 }  // namespace clsurf

@@ -27,7 +27,7 @@ const UnidentifiedParameter* Identification::find_missing(std::string_view name,
 double rounded_to(double value, double standard_error) {
     if (!(standard_error > 0) || !std::isfinite(standard_error) || !std::isfinite(value)) return value;
     const double decimals = std::clamp(1 - std::floor(std::log10(standard_error)), -6.0, 12.0);
-    // Powers of ten below 1 are not exact: divided by the whole one, 0.1 stays 0.1.
+    // Powers of ten below 1 are not exact: division by the integer power keeps 0.1 exactly 0.1.
     const double unit = std::pow(10.0, std::abs(decimals));
     return decimals >= 0 ? std::round(value * unit) / unit : std::round(value / unit) * unit;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Identification: what recorded runs tell of a machine, value by value.
+// Identification: what recorded runs show of a machine, value by value.
 
 #include <optional>
 #include <string>
@@ -21,16 +21,16 @@ struct IdentifiedParameter {
     std::optional<double> standard_error;  ///< in `unit`
     std::optional<bool> reached;           ///< of limits; false: a lower bound
     std::string note;                      ///< evidence, a few words; may be empty
-    double shown = 0;                      ///< of lower bounds: the value with what rounding may have added, in `unit`
+    double shown = 0;  ///< for lower bounds: the value including what rounding may have added, in `unit`
 };
 
-/// A value that they do not determine.
+/// A value that the runs do not determine.
 struct UnidentifiedParameter {
     std::string name, axis;
     std::string reason;
 };
 
-/// A value that a rule of the planner may have, simulated and compared with the runs.
+/// A possible value of a planner rule, simulated and compared with the runs.
 struct RuleCandidate {
     std::string rule;        ///< "planner", "arc_blends", "lookahead_blocks" …
     std::string value;       ///< as a machine file has it
@@ -42,13 +42,13 @@ struct RuleCandidate {
 };
 
 struct Identification {
-    Machine machine;  ///< what was known before, with the identified values in it
+    Machine machine;  ///< the values known before, with the identified values
     std::vector<IdentifiedParameter> parameters;
     std::vector<UnidentifiedParameter> unidentified;
     std::vector<RuleCandidate> rules;
-    std::vector<RunFidelity> fit;               ///< of the runs, each simulated with the machine
-    std::vector<RunFidelity> tests;             ///< of runs that were not used
-    std::vector<RunFidelity> cross_validation;  ///< of the runs, each simulated with what the others gave
+    std::vector<RunFidelity> fit;               ///< of the runs, each simulated with `machine`
+    std::vector<RunFidelity> tests;             ///< of runs that the fit does not use
+    std::vector<RunFidelity> cross_validation;  ///< of the runs, each simulated with the values of the others
     std::vector<std::string> runs;              ///< the logs, as the user named them
     Diagnostics diagnostics;
 
@@ -56,7 +56,7 @@ struct Identification {
     [[nodiscard]] const UnidentifiedParameter* find_missing(std::string_view name, std::string_view axis) const;
 };
 
-/// A value with the digits that its standard error leaves it, two of which are uncertain.
+/// Rounds a value to the digits that its standard error supports, two of which are uncertain.
 [[nodiscard]] double rounded_to(double value, double standard_error);
 
 }  // namespace clsurf

@@ -19,7 +19,7 @@ namespace {
 /// Puts the period of the runs into the machine.
 void identify_period(std::span<const IdentifyRun> runs, Identification& result) {
     constexpr double same = 1e-6;  // relative
-    // Controllers count nanoseconds; times of a text have rounding errors.
+    // Controllers count nanoseconds; times in text have rounding errors.
     const double period = std::round(runs.front().log->period * 1e9) * 1e-9;
     for (const auto& [log, lines, tips] : runs) {
         if (std::abs(log->period - period) > same * period)
@@ -32,8 +32,8 @@ void identify_period(std::span<const IdentifyRun> runs, Identification& result) 
     result.parameters.push_back({"period", "controller", period, "s", {}, {}, "of the records"});
 }
 
-/// Adds to `list` how a machine drives a run, or names the reason in `result` why that cannot be said: limits that the runs of
-/// the fit never reached may be too low for it.
+/// Adds the fidelity of a machine in a run to `list`, or the reason why there is none to `result`: limits that the runs of
+/// the fit never reached may be too low for this run.
 void add_fidelity(const RecordedRun& run, const Machine& machine, std::vector<RunFidelity>& list,
                   Identification& result) {
     const std::string& name = run.part().log.name;

@@ -9,8 +9,8 @@ namespace clsurf {
 
 struct IdentifyRun {
     const Log* log = nullptr;
-    const LineMap* lines = nullptr;    ///< nullptr: which motions are rapids is not known
-    const Trajectory* tips = nullptr;  ///< of the tool in the workpiece; nullptr: what moves is the linear axes alone
+    const LineMap* lines = nullptr;    ///< nullptr: unknown which motions are rapids
+    const Trajectory* tips = nullptr;  ///< of the tool in the workpiece; nullptr: only linear axes move
 };
 
 }  // namespace clsurf

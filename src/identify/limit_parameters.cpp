@@ -17,9 +17,9 @@ namespace {
 
 constexpr PointIndex most_records = 4'000'000;
 constexpr std::size_t least_places = 3;
-constexpr double parallel = 0.98;  ///< share of the path's value that an axis-parallel path gives its axis
+constexpr double parallel = 0.98;  ///< share of the path's value that counts as parallel to the axis
 
-/// Commanded positions of a piece of a run, by axis, those of the tool's tip where rotary axes turn, and which records are
+/// Commanded positions of a piece of a run, by axis; with rotary axes also those of the tool tip; and which records are
 /// rapids.
 struct MotionPiece {
     std::vector<std::vector<double>> positions, tips;
@@ -30,15 +30,15 @@ struct Motion {
     std::string letters;  ///< of the axes; linear ones first
     double period = 0;
     double rounding = 0;             ///< step of the commanded positions [mm or deg]
-    std::vector<double> resolution;  ///< what their stored numbers resolve, by axis [mm or deg]
+    std::vector<double> resolution;  ///< resolution of their stored numbers, by axis [mm or deg]
     bool has_tips = false;
-    double reach = 0;  ///< of the tips, from the workpiece's zero [mm]
+    double reach = 0;  ///< greatest distance of the tips from the workpiece's zero [mm]
     std::vector<MotionPiece> pieces;
 
     [[nodiscard]] std::size_t linear() const {
         return static_cast<std::size_t>(std::count_if(letters.begin(), letters.end(), [](char c) { return c >= 'x'; }));
     }
-    /// What the positions of a quantity resolve: those of an axis, or of the path.
+    /// The resolution of a quantity's positions: those of an axis, or of the path.
     [[nodiscard]] double resolution_along(std::size_t q) const {
         if (q < resolution.size()) return resolution[q];
         const auto end = resolution.begin() + static_cast<std::ptrdiff_t>(linear());
@@ -47,7 +47,7 @@ struct Motion {
     }
 };
 
-/// The step that positions were rounded to when they were written: the channel's own, or a power of ten.
+/// The step to which positions were rounded when they were written: that of the channel, or a power of ten.
 double rounding_of(const ChannelView& channel, std::span<const PointRange> sections) {
     if (const double step = quantum_of(channel); step > 0) return step;
     for (const double step : {1e-5, 1e-6, 1e-7}) {
@@ -107,7 +107,7 @@ Motion gather_motion(std::span<const IdentifyRun> runs) {
     return motion;
 }
 
-/// Differences of an order, over `stride` records each.
+/// Differences of an order, each over `stride` records.
 std::vector<double> differences(std::vector<double> values, int order, std::size_t stride, double period) {
     const double per_time = 1 / (static_cast<double>(stride) * period);
     for (int k = 0; k < order; ++k) {
@@ -119,8 +119,8 @@ std::vector<double> differences(std::vector<double> values, int order, std::size
     return values;
 }
 
-/// Sets the values of the path to 0 where it bends within the records of a difference: there a change of speed along
-/// chords is not one along the path.
+/// Sets the values of the path to 0 if it bends within the records of a difference: there a change of speed along chords is
+/// not one along the path.
 void drop_bends(const std::vector<std::vector<double>>& velocities, std::span<const double> speeds, std::size_t reach,
                 std::vector<double>& values) {
     constexpr double straight = 1e-6;  // 1 − cos of the angle
@@ -132,7 +132,7 @@ void drop_bends(const std::vector<std::vector<double>>& velocities, std::span<co
     }
 }
 
-/// All quantities of an order: one an axis, then that of the path: its speed, or the change of it.
+/// All quantities of an order: one per axis, then that of the path, which is its speed or the change of the speed.
 struct Quantities {
     std::vector<std::vector<double>> values;
     std::vector<double> speeds;
@@ -161,11 +161,11 @@ Quantities quantities_of(const MotionPiece& piece, const Motion& motion, int ord
     return made;
 }
 
-/// What an order of differences is called and where it belongs.
+/// Name of an order of differences, and its members in a machine.
 struct LimitKind {
     const char* name;
     int order;
-    PointIndex least;  ///< records of a plateau
+    PointIndex least;  ///< fewest records of a plateau
     const char* unit;  ///< after mm or deg
     double factor;     ///< of the reported unit
     double margin;     ///< least standard error, share of the value
@@ -207,10 +207,10 @@ std::vector<double> greatest_of(const Motion& motion, int order, std::size_t str
     return greatest;
 }
 
-/// What rounding to `step` makes of a difference at most: 2^order halves of a step.
+/// The greatest error of a difference if positions are rounded to `step`: 2^order half steps.
 double error_of(double step, double time, int order) { return std::pow(2.0, order - 1) * step / std::pow(time, order); }
 
-/// The shortest differences that rounding leaves exact to a percent.
+/// The shortest differences whose rounding error is below a percent.
 std::size_t stride_of(const Motion& motion, int order) {
     constexpr double exact = 0.01;
     std::size_t stride = 1;
@@ -219,7 +219,7 @@ std::size_t stride_of(const Motion& motion, int order) {
     return stride;
 }
 
-/// What speaks for a limit.
+/// The evidence for a limit.
 enum class Evidence : std::uint8_t {
     lower_bound,  ///< the motion stays below it, or another limit explains its greatest values
     shared,       ///< reached, but only where the limits of the path and of an axis have the same effect
@@ -273,15 +273,15 @@ public:
 
 private:
     [[nodiscard]] std::size_t path_number() const { return motion_.letters.size(); }
-    /// Whether a quantity is as great in a plateau as it gets.
+    /// Whether a quantity is at its greatest value in a plateau.
     [[nodiscard]] bool at_limit(const Plateau& plateau, std::size_t q) const {
         constexpr double alike = 0.005;
         return plateau.beside[q] > (1 - alike) * (levels_[q] ? levels_[q]->value : greatest_[q]) &&
                plateau.beside[q] > 0;
     }
 
-    /// Whether the quantity is at its level where no other limit explains it. On a path parallel to an axis, the limit of the
-    /// path explains what the axis does, and the other way round.
+    /// Whether the quantity is at its level in places where no other limit explains it. On a path parallel to an axis, the
+    /// limit of the path explains the motion of the axis, and vice versa.
     [[nodiscard]] bool holds_alone(std::size_t q) const {
         if (!levels_[q]) return false;
         std::size_t alone = 0;
@@ -297,7 +297,7 @@ private:
             least_share = std::min(least_share, share);
             greatest_share = std::max(greatest_share, share);
         }
-        // All in one direction that is not the axis' own: a limit of the path may be the reason.
+        // All in one direction that is not parallel to the axis: a limit of the path may be the reason.
         constexpr double same_direction = 0.02;
         return alone >= 2 && (greatest_share >= parallel || greatest_share - least_share > same_direction);
     }
@@ -320,7 +320,7 @@ private:
             return;
         }
         if (evidence == Evidence::reached) {
-            // A planner fits ramps to whole periods and stays a little below its limits.
+            // A planner fits ramps to whole periods and stays slightly below its limits.
             const double margin = kind_.margin * levels_[q]->value;
             const double error = std::max(levels_[q]->standard_error, margin) * kind_.factor;
             p.value = rounded_to(levels_[q]->value * kind_.factor, error);
@@ -328,7 +328,7 @@ private:
             p.note = fmt::format("held in {} places", levels_[q]->plateaus.size());
             target = p.value / kind_.factor * to_machine;
         } else if (kind_.order == 3 && reverses_at_once(of, q, result)) {
-            // A path's jerk must be a number; this one limits nothing.
+            // The path's jerk limit must be a number; this one has no effect.
             target = q == path_number() ? 1e8 : 0;
             p.value = target;
             p.reached.reset();
@@ -349,7 +349,7 @@ private:
         result.parameters.push_back(std::move(p));
     }
 
-    /// What the motion shows of a limit that is not known: without what rounding of the positions and of the result may add.
+    /// The lower bound of an unknown limit that the motion shows, reduced by the rounding of positions and of the result.
     [[nodiscard]] double lower_bound(std::size_t q) const {
         constexpr double part = 1e-3;
         const double rounding = std::max(rounding_[q], error_of(motion_.rounding, time_, kind_.order));
@@ -363,7 +363,7 @@ private:
         return greatest_[q] * motion_.period < 1e-9 || greatest_[q] <= several * rounding_[q];
     }
 
-    /// Whether the acceleration goes to its limit within the time of a difference.
+    /// Whether the acceleration reaches its limit within the time of a difference.
     [[nodiscard]] bool reverses_at_once(const std::string& of, std::size_t q, const Identification& result) const {
         constexpr double most_of_it = 0.6;
         const IdentifiedParameter* acceleration = result.find("max_acceleration", of);
@@ -373,7 +373,7 @@ private:
     const Motion& motion_;
     const LimitKind& kind_;
     double time_ = 0;               ///< of a difference [s]
-    std::vector<double> rounding_;  ///< what rounding of the positions makes of a value at most
+    std::vector<double> rounding_;  ///< greatest error of a value from rounded positions
     std::vector<double> greatest_, bounds_;
     std::vector<std::optional<PlateauFinder::Level>> levels_;
 };

@@ -11,7 +11,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double limits_no_path = 1e6;  ///< mm/s²: the axes alone limit it
+constexpr double limits_no_path = 1e6;  ///< mm/s²: only the axes limit the path
 
 std::optional<double> number_in(const std::string& text) {
     double value = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// How well an identification knows the values that plan the motion.
+// How accurately an identification knows the values that plan the motion.
 
 #include <vector>
 
@@ -7,8 +7,8 @@
 
 namespace clsurf {
 
-/// Standard errors, lower bounds and values that the runs did not tell apart, of the values that is_planning_value()
-/// names. Rules whose values are words have no row.
+/// Standard errors, lower bounds and values that the runs did not distinguish, for the values that is_planning_value()
+/// names. Rules with words as values have no row.
 [[nodiscard]] std::vector<ParameterUncertainty> uncertainty_of(const Identification& result);
 
 }  // namespace clsurf

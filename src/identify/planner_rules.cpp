@@ -18,9 +18,9 @@ namespace clsurf {
 namespace {
 
 constexpr int most_passes = 4;                 // over all rules
-constexpr double gain_of_later_passes = 0.25;  // of the speed error: they correct what other rules hid, no details
+constexpr double gain_of_later_passes = 0.25;  // of the speed error: later passes correct wrong rules, not details
 
-/// The value that leaves the machine's rule as it is.
+/// The value that leaves the rule of the machine unchanged.
 std::size_t present_value(const Rule& rule, const Machine& machine) {
     const auto same = [&](const RuleValue& value) {
         Machine changed = machine;
@@ -30,8 +30,8 @@ std::size_t present_value(const Rule& rule, const Machine& machine) {
     return static_cast<std::size_t>(std::find_if(rule.values.begin(), rule.values.end(), same) - rule.values.begin());
 }
 
-/// Takes back a value that explains the runs better but not well. Of merging tolerances that are all wrong, or with other
-/// rules wrong, one is always the best by chance. `before`: with the present value.
+/// Rejects a value that explains the runs better but not well. If all merging tolerances are wrong, or other rules are
+/// wrong, one value is always the best by chance. `before`: with the present value.
 void refuse_half_right(const Rule& rule, std::size_t present, const Machine& before, const RuleScores& scores,
                        Identification& result) {
     const auto rows = result.rules.end() - static_cast<std::ptrdiff_t>(rule.values.size());
@@ -44,15 +44,15 @@ void refuse_half_right(const Rule& rule, std::size_t present, const Machine& bef
         {rule.name, rule.axis, "no value explains the runs; kept " + rule.values[present].name});
 }
 
-/// The machine with the merging of lines that was known before any search: of another planner nothing is.
+/// The machine with the merging of lines that was known before any search; with another planner it is unknown.
 Machine with_known_merging(Machine machine, const Machine& known) {
     const bool same = known.controller.planner == machine.controller.planner;
     machine.controller.merging_tolerance = same ? known.controller.merging_tolerance : std::nullopt;
     return machine;
 }
 
-/// Searches the merging of lines. A little more or less of it may make up for a limit that is a little wrong, so each time it must
-/// explain clearly more than what was known before any search.
+/// Searches the merging of lines. A slightly different merging may compensate for a slightly wrong limit. Therefore a new
+/// value must always explain clearly more than the value known before any search.
 void search_merging(const Rule& rule, const Machine& known, RuleScores& scores, Identification& result) {
     result.machine = with_known_merging(result.machine, known);
     const Machine before = result.machine;
@@ -61,8 +61,8 @@ void search_merging(const Rule& rule, const Machine& known, RuleScores& scores, 
     refuse_half_right(rule, present, before, scores, result);
 }
 
-/// Searches every rule but the planner's once, each with the others as they are. `known`: before any rule, with the limits that the
-/// motion shows.
+/// Searches every rule except the planner's once, with the others unchanged. `known`: the machine before any rule, with the
+/// limits that the motion shows.
 void search_rules(const Machine& known, double least_gain, RuleScores& scores, Identification& result) {
     if (is_trapezoidal(result.machine)) {
         const bool some_overlap = !scores.explains(scores.mean_error(result.machine));
@@ -79,7 +79,7 @@ void search_rules(const Machine& known, double least_gain, RuleScores& scores, I
     }
 }
 
-/// Takes a merging of lines back if other limits explain the runs about as well without it.
+/// Rejects a merging of lines if other limits explain the runs about as well without it.
 void confirm_merging(const Machine& known, RuleScores& scores, Identification& result) {
     Identification other = result;
     other.machine = with_known_merging(result.machine, known);
@@ -99,8 +99,8 @@ void confirm_merging(const Machine& known, RuleScores& scores, Identification& r
         {"merging_tolerance", "controller", "other limits explain the runs as well without it; kept " + name});
 }
 
-/// The families, each with the kind that explains the runs best with the machine's other rules, and those families first
-/// that explain them better.
+/// For each family, the kind that explains the runs best with the machine's other rules. Families that explain the runs
+/// better come first.
 std::vector<RuleValue> best_of_families(RuleScores& scores, const Machine& machine) {
     std::vector<std::pair<double, RuleValue>> best;
     for (const PlannerFamily& family : planner_families(machine)) {
@@ -117,9 +117,9 @@ std::vector<RuleValue> best_of_families(RuleScores& scores, const Machine& machi
     return values;
 }
 
-/// Compares the families, each with its own rules: with those of the machine, a wrong kind of planner may explain the runs
-/// better than the right one with a wrong look-ahead. A family that explains the runs well is the last one. Returns the rows
-/// of those that are not chosen.
+/// Compares the families, each with its own rules: with the machine's rules, a wrong kind of planner may explain the runs
+/// better than the right one with a wrong look-ahead. The comparison ends at a family that explains the runs well. Returns
+/// the rows of the families that are not chosen.
 std::vector<RuleCandidate> choose_family(RuleScores& scores, Identification& result) {
     const Machine known = result.machine;
     std::vector<Identification> found;
@@ -153,7 +153,7 @@ void restate_value_of_file(IdentifiedParameter& p, double now) {
         p.note.replace(at + words.size(), std::string::npos, fmt::format("{:.6g}", now));
 }
 
-/// Parameters of limits that the searches have changed.
+/// Updates the parameters of limits that the searches have changed.
 void restate_limits(Identification& result) {
     for (IdentifiedParameter& p : result.parameters) {
         if (p.name == "max_speed" && p.reached == false) {
@@ -189,7 +189,7 @@ bool identify_rules(std::span<const RecordedRun> runs, Identification& result) {
         return false;
     }
     search_limits(0, scores, result);
-    // One rule may hide another: a short look-ahead slows short lines down, as a block time does.
+    // One rule may hide another: a short look-ahead slows short lines, as a block time does.
     for (int pass = 1; pass < most_passes; ++pass) {
         const Machine before = result.machine;
         if (pass > 1 && scores.mean_error(before) <= scores.resolution()) break;

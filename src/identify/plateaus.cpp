@@ -7,13 +7,13 @@
 namespace clsurf {
 namespace {
 
-constexpr double level_width = 0.003;    ///< a plateau's values are alike to this share, and rounding
-constexpr double most_exceeding = 0.01;  ///< share of the large values
-constexpr double least_large = 0.25;     ///< of a level: a large value
-constexpr double most_of_level = 1.02;   ///< a value above this exceeds a level
+constexpr double level_width = 0.003;    ///< the values of a plateau differ by at most this share, and rounding
+constexpr double most_exceeding = 0.01;  ///< share of the large values that may exceed a level
+constexpr double least_large = 0.25;     ///< share of a level from which a value is large
+constexpr double most_of_level = 1.02;   ///< factor of a level from which a value exceeds it
 
-/// Whether values rise to [first, last) and fall from there no faster than inside: the top of a ramp up and a ramp down, as a
-/// jerk limit makes it, is no level.
+/// Whether values rise to [first, last) and fall after it no faster than within it. The top of a ramp up and a ramp down,
+/// which a jerk limit causes, is no level.
 bool is_peak(const std::vector<double>& values, std::size_t first, std::size_t last) {
     constexpr double steeper = 4;
     const std::size_t reach = (last - first) / 2;
@@ -27,7 +27,7 @@ bool is_peak(const std::vector<double>& values, std::size_t first, std::size_t l
     return before > inside && after > inside && std::max(before, after) < steeper * inside;
 }
 
-/// Equal moves have equal plateaus, whatever limits them.
+/// Equal moves have equal plateaus, for any reason.
 bool at_varied_speeds(const std::vector<Plateau>& plateaus) {
     constexpr double varied = 0.05;
     const auto [slowest, fastest] = std::minmax_element(
@@ -55,7 +55,7 @@ void PlateauFinder::add(std::span<const std::vector<double>> all, std::size_t ow
             sum += values[last++];
         }
         const auto count = static_cast<PointIndex>(last - first);
-        // Both ends may be on the way to the level.
+        // At both ends the values may still change towards the level.
         const auto quarter = static_cast<std::ptrdiff_t>((last - first) / 4);
         const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first) + quarter;
         const auto end = values.begin() + static_cast<std::ptrdiff_t>(last) - quarter;
@@ -127,12 +127,12 @@ std::optional<PlateauFinder::Level> PlateauFinder::highest(std::size_t places, b
         }
         found.value = sum / records;
         const double spread = std::sqrt(std::max(0.0, squares / records - found.value * found.value));
-        // Levels differ for reasons that more plateaus do not average out.
-        // Where the motion goes a little beyond the level, the planner stays below its limit in plateaus.
+        // Differences between levels have causes that averaging does not remove. If the motion slightly exceeds the level,
+        // the planner keeps its plateaus below the limit.
         found.standard_error =
             std::max({spread, 0.3 * error_ / std::sqrt(records), 1e-6 * found.value, excess(found.value)});
         if (exceeding(found.value) > most_exceeding) return std::nullopt;
-        // What the motion holds elsewhere is beyond no limit, however seldom.
+        // A higher level that is kept in other places refutes the limit, however rare it is.
         constexpr std::size_t refuting = 2;
         if (top >= refuting && sorted[refuting - 1].level > most_of_level * found.value + 2 * error_)
             return std::nullopt;

@@ -14,12 +14,12 @@
 namespace clsurf {
 namespace {
 
-/// Whether corners are not rounded, so that no tolerance counts.
+/// Whether corners are not rounded, so that the tolerance has no effect.
 bool passes_corners(const Machine& machine) {
     return !is_trapezoidal(machine) && machine.controller.corner == CornerMode::junction;
 }
 
-/// A rule of numbers, the present one among them. `unit`: of the machine file, in ours.
+/// A rule with numbers as values, including the present one. `unit`: of the machine file, in internal units.
 template <typename Number, typename Member>
 Rule rule_of_numbers(const char* name, const char* axis, const Machine& machine, std::vector<Number> numbers,
                      Member member, Number unit = 1) {
@@ -34,7 +34,7 @@ Rule rule_of_numbers(const char* name, const char* axis, const Machine& machine,
     return rule;
 }
 
-/// A rule of numbers between which others are possible. `unit`: of the machine file, in ours.
+/// The same with numbers between which others are possible.
 template <typename Member>
 Rule continuous_rule(const char* name, const char* axis, const Machine& machine, std::vector<double> numbers,
                      Member member, double unit = 1) {
@@ -53,7 +53,7 @@ PlannerFamily rounded_corners(const Machine& machine) {
     PlannerFamily family;
     const ControllerSettings& now = machine.controller;
     if (machine.kinematics.has_rotary()) {
-        // Arcs and splines are one rounding there.
+        // Arcs and splines are the same rounding there.
         const CornerMode rounded = rounds_corners(now) ? now.corner : CornerMode::spline;
         for (const CornerMode corner : {rounded, CornerMode::stop})
             family.add(fmt::format("time-optimal, corner {}", name_of(corner)), now.corner == corner,
@@ -72,7 +72,7 @@ PlannerFamily rounded_corners(const Machine& machine) {
                    });
     };
     for (const CornerMode corner : {CornerMode::arc, CornerMode::spline, CornerMode::stop}) add(corner, 0);
-    // Without jerk limits of axes it is the first one.
+    // Without jerk limits of the axes it equals the first one.
     if (only_path_jerk(machine)) return family;
     const double time = std::max(now.arc_step_time, now.period);
     add(CornerMode::arc, time, fmt::format(", steps in {} s", time));
@@ -87,8 +87,8 @@ void add_junction(PlannerFamily& family, const std::string& name, const Junction
     });
 }
 
-/// Corners that are not rounded, at speeds of which the next rules find the right one. Either rule may hide the other, so
-/// each has a family.
+/// Corners that are not rounded. The first speeds need not be right: other rules find them. Either rule may hide the other,
+/// so each has a family.
 std::vector<PlannerFamily> passed_corners(const Machine& machine) {
     if (passes_corners(machine)) {
         PlannerFamily own;
@@ -107,7 +107,7 @@ PlannerFamily trapezoidal_planners(const Machine& machine) {
     for (const bool arcs : {true, false}) {
         family.add(arcs ? "trapezoidal, arc blends" : "trapezoidal, parabolic blends",
                    is_trapezoidal(machine) && machine.controller.trapezoid.arc_blends == arcs, [arcs](Machine& m) {
-                       // Another planner's tolerance says nothing of what this one merges.
+                       // The tolerance of another planner does not determine what this one merges.
                        if (!is_trapezoidal(m)) m.controller.merging_tolerance.reset();
                        m.controller.planner = PlannerKind::trapezoidal;
                        m.controller.trapezoid.arc_blends = arcs;
@@ -128,9 +128,10 @@ Rule path_acceleration_rule(const PathLimits& identified) {
             {}};
 }
 
-/// Values that the acceleration of an axis may have, the present one first. A limit that the runs never reached may be the
-/// greatest acceleration that they show. Where blocks overlap, each has half of the acceleration, and the runs may show
-/// half of a limit as if it were one: all blocks of a planner without arc blends do, and with `some_overlap` those that no arc joins.
+/// Possible values of an axis acceleration, the present one first. A limit that the runs never reached may be the greatest
+/// acceleration that they show. Where blocks overlap, each has half of the acceleration, and the runs may show half of a
+/// limit as if it were one: this concerns all blocks of a planner without arc blends, and with `some_overlap` the blocks
+/// that no arc joins.
 std::vector<double> possible_accelerations(std::size_t axis, bool some_overlap, const Identification& found) {
     const double now = found.machine.axes[axis].max_acceleration;
     std::vector<double> values{now};
@@ -177,7 +178,7 @@ Rule whole_periods_rule() {
             {}};
 }
 
-/// How fast corners are passed that are not rounded.
+/// The speed at corners that are not rounded.
 Rule junction_deviation_rule(const Machine& machine) {
     return continuous_rule("junction_deviation", "controller", machine, {0, 0.002, 0.005, 0.01, 0.02, 0.05},
                            [](Machine& m) -> double& { return m.controller.junction.deviation; });
@@ -197,8 +198,9 @@ Rule tolerance_rule(const Machine& machine) {
                            [](Machine& m) -> double& { return m.controller.tolerance; });
 }
 
-/// Of short lines that become one; the trapezoidal planner may take it from the program. A little more or less merges other
-/// lines, so that no number between two is nearly right: round ones are tried, as controls have them.
+/// Merging of short lines; the trapezoidal planner may take the tolerance from the program. A slightly different tolerance
+/// merges other lines, so a number between two candidates is not nearly right: round numbers are tried, as controls have
+/// them.
 Rule merging_rule(const Machine& machine) {
     std::vector<double> tolerances{0, 0.001, 0.002, 0.003, 0.004, 0.005, 0.006, 0.008, 0.01, 0.015, 0.02};
     const double present = machine.controller.merging_tolerance.value_or(0);
@@ -217,7 +219,7 @@ Rule normal_acceleration_rule(const Machine& machine) {
                            [](Machine& m) -> double& { return m.path.max_normal_acceleration; });
 }
 
-/// How far the angles may leave those of the program where blocks meet.
+/// The greatest deviation of the angles from the program where blocks meet.
 Rule axis_tolerance_rule(const Machine& machine) {
     std::vector<double> tolerances;
     for (const double degrees : {0.02, 0.05, 0.1, 0.2, 0.5}) tolerances.push_back(degrees * rad_per_deg);
@@ -229,7 +231,7 @@ Rule axis_tolerance_rule(const Machine& machine) {
 std::vector<std::function<Rule(const Machine&)>> rules_of_five_axes(const Machine& machine) {
     std::vector<std::function<Rule(const Machine&)>> rules;
     if (rounds_corners(machine.controller)) {
-        // The roundings of the angles show more than those of the tip, which could hide them.
+        // The roundings of the angles show more than those of the tip, which could hide them: they come first.
         rules.emplace_back(axis_tolerance_rule);
         rules.emplace_back(tolerance_rule);
         rules.emplace_back([](const Machine&) { return curve_rule(); });
@@ -303,7 +305,7 @@ std::vector<std::function<Rule(const Machine&)>> rules_of(const Machine& machine
         rules.emplace_back([](const Machine&) { return feed_rule(); });
         rules.emplace_back([](const Machine&) { return whole_periods_rule(); });
     }
-    // Last, because too few blocks ahead or a block time slow short lines down, too.
+    // Last, because a short look-ahead or a block time slows short lines, too.
     if (is_trapezoidal(machine) || rounds_corners(machine.controller)) rules.emplace_back(merging_rule);
     return rules;
 }

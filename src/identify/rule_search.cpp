@@ -21,7 +21,7 @@ namespace {
 
 constexpr PointIndex sample_every = 32;  // records
 
-/// Puts the explanations by residuals into the candidates.
+/// Computes the explanations from residuals and puts them into the candidates.
 void score(const std::vector<std::vector<float>>& residuals, const RuleScores& scores,
            std::span<RuleCandidate> candidates) {
     const std::vector<Explanation> found = compare(residuals, scores);
@@ -31,10 +31,10 @@ void score(const std::vector<std::vector<float>>& residuals, const RuleScores& s
     }
 }
 
-/// Share of the mean error by which a value must be better than the present one where the criterion tells neither apart.
+/// Share of the mean error by which a value must be better than the present one if the criterion does not distinguish them.
 constexpr double gain_of_equal = 0.1;
 
-/// The candidates that the runs explain about as well as the best one.
+/// The candidates that explain the runs about as well as the best one.
 std::vector<std::size_t> equal_to_best(std::span<const RuleCandidate> candidates) {
     double best = std::numeric_limits<double>::infinity();
     for (const RuleCandidate& c : candidates) best = std::min(best, c.score);
@@ -50,7 +50,7 @@ double rounded(double value) {
     return std::round(value * scale) / scale;
 }
 
-/// Seeks a better number between the neighbours of the chosen value, and adds it to the candidates.
+/// Searches a better number between the neighbours of the chosen value and adds it to the candidates.
 void refine(const Rule& rule, std::size_t chosen, RuleScores& scores, Machine& machine,
             std::vector<RuleCandidate>& candidates) {
     const std::vector<double>& numbers = rule.continuous.numbers;
@@ -84,7 +84,7 @@ void refine(const Rule& rule, std::size_t chosen, RuleScores& scores, Machine& m
     rule.continuous.set(machine, best);
 }
 
-/// With what the planner does where the controller says nothing, if that is a number.
+/// Replaces unset values by the planner's defaults, if these are numbers.
 ControllerSettings settled(ControllerSettings controller) {
     if (controller.planner != PlannerKind::trapezoidal && !controller.merging_tolerance)
         controller.merging_tolerance = 0;
@@ -156,7 +156,7 @@ void RuleScores::simulate_unknown(std::span<const Machine> machines) {
     }
 }
 
-/// The machine with the first tolerance asked for that merges the same lines.
+/// The machine with the first requested tolerance that merges the same lines.
 Machine RuleScores::merging_alike(const Machine& machine) {
     const ControllerSettings& c = machine.controller;
     const bool merges = c.planner == PlannerKind::trapezoidal || rounds_corners(c);
@@ -183,7 +183,7 @@ RuleScores::Residuals RuleScores::simulated(const RecordedRun& run, const Machin
     try {
         simulation = run.simulated(machine);
     } catch (const InputError&) {
-        // A machine that cannot drive the program did not record the run: it is apart everywhere.
+        // A machine that cannot run the program did not record the run: all samples differ.
         const std::size_t samples = (run.surface().positions.size() + sample_every - 1) / sample_every;
         result.of_speed.assign(samples, std::numeric_limits<float>::quiet_NaN());
         return result;
@@ -236,8 +236,8 @@ bool RuleScores::explains(double mean_error) const {
 }
 
 double RuleScores::resolution() const {
-    constexpr double of_positions = 0.005;   // mm/s: differences of rounded positions are no better …
-    constexpr double of_the_model = 0.0005;  // … nor is any model, of the speed
+    constexpr double of_positions = 0.005;   // mm/s: the resolution of differences of rounded positions …
+    constexpr double of_the_model = 0.0005;  // … and of any model, of the speed
     return std::max(of_positions, of_the_model * usual_speed());
 }
 

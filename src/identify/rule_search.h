@@ -12,17 +12,17 @@
 
 namespace clsurf {
 
-/// A value of a rule, and how a machine gets it.
+/// A value of a rule, and how it is set in a machine.
 struct RuleValue {
     std::string name;
     std::function<void(Machine&)> apply;
 };
 
-/// The numbers of a rule's values, in their order and rising, where other numbers between them are possible.
+/// The values of a rule as increasing numbers, if numbers between them are possible.
 struct ContinuousValues {
-    std::vector<double> numbers{};  ///< empty: there are no others
+    std::vector<double> numbers{};  ///< empty: there are none
     std::function<void(Machine&, double)> set{};
-    double unit = 1;  ///< of the machine file, in ours
+    double unit = 1;  ///< of the machine file, in internal units
 };
 
 struct Rule {
@@ -37,25 +37,26 @@ struct Rule {
 /// Scores machines against the runs.
 class RuleScores {
 public:
-    /// `runs` must outlive it; long ones beyond 2·10^5 records in all are left out, beyond 5·10^4 with rotary axes.
+    /// `runs` must outlive the object. The longest runs are left out above 2·10^5 records in total, with rotary axes above
+    /// 5·10^4.
     explicit RuleScores(std::span<const RecordedRun> runs);
 
-    /// |difference of speed| at every sample [mm/s]; NaN: not compared. Machines that plan alike, and those that merge the same
-    /// lines, are simulated once.
+    /// |difference of speed| at every sample [mm/s]; NaN: not compared. Machines with the same plan, and those that merge
+    /// the same lines, are simulated only once.
     [[nodiscard]] std::vector<float> residuals(const Machine& machine);
-    /// Mean |difference of speed| over the samples that the machine has [mm/s].
+    /// Mean |difference of speed| over the compared samples [mm/s].
     [[nodiscard]] double mean_error(const Machine& machine);
-    /// Simulates those of the machines that are not known yet, in parallel, so that residuals() finds them.
+    /// Simulates the machines that are not known yet, in parallel, for use by residuals().
     void prepare(std::span<const Machine> machines);
-    /// The speed that a place counts as wrong by where the simulation does not go there [mm/s].
+    /// The error that a sample counts with if the simulation does not pass it [mm/s].
     [[nodiscard]] double usual_speed() const { return static_cast<double>(usual_speed_); }
-    /// No smaller mean difference [mm/s] tells planners apart.
+    /// Smaller mean differences do not distinguish planners [mm/s].
     [[nodiscard]] double resolution() const;
-    /// Whether any simulation so far goes where a run goes: otherwise no rule explains less than another.
+    /// Whether any simulation so far shares a part of the path with a run: if not, rules cannot be compared.
     [[nodiscard]] bool has_compared() const;
     /// Whether a run has arcs.
     [[nodiscard]] bool has_arcs() const;
-    /// Whether a mean difference [mm/s] is what the right planner with the right values may leave.
+    /// Whether the right planner with the right values may leave this mean difference [mm/s].
     [[nodiscard]] bool explains(double mean_error) const;
 
 private:
@@ -63,7 +64,7 @@ private:
         Machine machine;
         std::vector<float> residuals;
     };
-    /// A tolerance of a planner, and the lines of all runs that merging within it leaves.
+    /// A tolerance of a planner, and the lines of all runs that remain after merging within it.
     struct Merging {
         PlannerKind planner;
         std::optional<double> tolerance;
@@ -74,9 +75,9 @@ private:
         float usual_speed = 0;
     };
     [[nodiscard]] static Residuals simulated(const RecordedRun& run, const Machine& machine);
-    /// Of machines that merging_alike() has returned.
+    /// `machines`: results of merging_alike().
     void simulate_unknown(std::span<const Machine> machines);
-    /// Of one that plans alike; the number of all: there is none.
+    /// The index of a machine with the same plan; the number of machines if there is none.
     [[nodiscard]] std::size_t index_of_scored(const Machine& machine) const;
     [[nodiscard]] Machine merging_alike(const Machine& machine);
 
@@ -92,17 +93,17 @@ struct Explanation {
     double speed_error = 0;  ///< [mm/s] mean |difference| of the speed
 };
 
-/// A difference of scores that tells two machines apart: "very strong" evidence (Kass and Raftery 1995).
+/// A difference of scores that distinguishes two machines: "very strong" evidence (Kass and Raftery 1995).
 inline constexpr double decisive = 10;
 
-/// How well machines explain the runs, by their residuals, over the samples that any of these has.
+/// How well machines explain the runs, from their residuals, over the samples that any of them has.
 [[nodiscard]] std::vector<Explanation> compare(const std::vector<std::vector<float>>& residuals,
                                                const RuleScores& scores);
 
-/// Searches one rule and keeps the value that explains the runs best. Another value than the present one must lower the mean
-/// error of the speed by more than the share `least_gain`, and by more than a tenth where the runs do not distinguish them.
-/// `present`: the index of the value that the machine has, size() where it has none of them. Between the values of a continuous
-/// rule the best number is sought by Brent's method, to three digits, where the runs tell the values apart.
+/// Searches one rule and keeps the value that explains the runs best. A value other than the present one must lower the
+/// mean error of the speed by more than the share `least_gain`, and by more than a tenth if the runs do not distinguish
+/// them. `present`: the index of the machine's value, size() if it has none of them. Between the values of a continuous
+/// rule the best number is searched by Brent's method, to three digits, if the runs distinguish the values.
 void search_rule(const Rule& rule, std::size_t present, double least_gain, RuleScores& scores, Identification& result);
 
 }  // namespace clsurf

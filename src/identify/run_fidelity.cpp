@@ -35,9 +35,9 @@ ComparedRun compared(const Part& part, const Part& other) {
     return run;
 }
 
-/// From the first to the last motion; the rests before and after are no part of a run.
+/// Range from the first to the last motion; the rests before and after do not belong to a run.
 PointRange moving(const Positions& p) {
-    constexpr float still = 1e-3F;  // mm: beyond any rounding of a commanded position
+    constexpr float still = 1e-3F;  // mm: above any rounding of a commanded position
     PointRange range{0, p.size() - 1};
     while (range.size() > 1 && !((p[range.first] - p[0]).norm() > still)) ++range.first;
     while (range.size() > 1 && !((p[range.last] - p[p.size() - 1]).norm() > still)) --range.last;
@@ -54,7 +54,8 @@ double arc_length(const Positions& p) {
     return sum;
 }
 
-/// Of the whole runs where both are aligned, else of the sections that are: a log may have a part of the program only.
+/// Durations of the whole runs if both are aligned, else of the aligned sections: a log may contain only a part of the
+/// program.
 Durations durations_of(const Part& a, const Part& b, const RunAlignment& alignment) {
     constexpr double whole = 0.99;
     const Positions of_b = gather(b.path);
@@ -76,21 +77,21 @@ Durations durations_of(const Part& a, const Part& b, const RunAlignment& alignme
     return sum;
 }
 
-/// Values along a path, each with the length that it stands for.
+/// Values along a path, each weighted with its length.
 class AlongPath {
 public:
     void add(double value, double length) {
         if (value == value && length > 0) values_.push_back({std::abs(value), length});
     }
     [[nodiscard]] bool empty() const { return values_.empty(); }
-    /// What |value| stays below over a share of the path. Domain: not empty.
+    /// The |value| that is not exceeded on a share of the path. Domain: not empty.
     [[nodiscard]] double quantile(double share) { return weighted_quantile(values_, share); }
 
 private:
     std::vector<std::pair<double, double>> values_;
 };
 
-/// The following error of the log where it is compared.
+/// The following error of the log on the compared sections.
 std::optional<double> following_error(const Part& part, const RunDifferences& differences, const Positions& positions) {
     const std::optional<Role> measured = measured_role(part.log, part.path);
     if (!measured || !part.log.has(Role::commanded) || !differences.has(RunQuantity::lag)) return std::nullopt;
@@ -121,7 +122,7 @@ public:
         }
     }
 
-    /// How many of these defects `others` has within a cell. One that covers the part is found in one that does.
+    /// Number of these defects that `others` has within a cell.
     [[nodiscard]] std::size_t found_in(const DefectPlaces& others) const {
         std::size_t found = 0;
         for (const Defect& defect : report_->defects) {
@@ -138,7 +139,7 @@ private:
         CellGrid::for_each_near(at, 1, [&](CellGrid::Key cell) { found = found || cells_.contains(cell); });
         return found;
     }
-    /// f(cell) of each point at fault, until it returns true.
+    /// Calls f(cell) for each point at fault, until it returns true.
     template <typename F>
     bool visit(const Defect& defect, F&& f) const {
         for (const DefectSection& section : defect.sections)

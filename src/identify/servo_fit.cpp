@@ -13,11 +13,11 @@ namespace clsurf {
 namespace {
 
 constexpr int dead_periods_searched = 8;
-constexpr PointIndex least_records = 200;  ///< that a fit must compare
-constexpr double least_quantum = 1e-6;     ///< [unit] positions are rounded at least so when a log is written
-constexpr double least_change = 1e-4;      ///< [unit] of the following error beside a lag: less is a step of an encoder
+constexpr PointIndex least_records = 200;  ///< fewest compared records
+constexpr double least_quantum = 1e-6;     ///< [unit] positions in a log are rounded at least to this step
+constexpr double least_change = 1e-4;      ///< [unit] of the following error without the lag: less is an encoder step
 
-/// Records until what was before a piece is forgotten.
+/// Number of records after which the state before a piece has no influence.
 PointIndex settling_of(const ServoParameters& p, double period) {
     constexpr double time_constants = 25;
     return static_cast<PointIndex>(time_constants / (std::exp(p[ServoTerm::log_gain]) * period)) + 20;
@@ -40,7 +40,7 @@ bool is_moved(std::span<const AxisRecord> records) {
     return false;
 }
 
-/// The lag that explains the following error best, as if the speed never changed.
+/// The lag that explains the following error best, as if the speed were constant.
 struct ConstantLag {
     double lag = 0, error = 0;  ///< [s]
     double residual = 0;        ///< [unit] rms
@@ -69,7 +69,7 @@ ConstantLag constant_lag(std::span<const AxisRecord> records, double period) {
     return {ve / vv, residual / std::sqrt(vv), residual};
 }
 
-/// Of the gain and the feed-forward only the lag is known.
+/// Sets gain and feed-forward from the lag, which alone is known.
 void take_lag(const ConstantLag& known, double period, ServoFit& fit) {
     ServoModel model;
     model.velocity_feedforward = 1 - known.lag * model.position_gain;
@@ -87,7 +87,7 @@ double ServoFit::time_constant(double period) const { return model_of(parameters
 double ServoFit::time_constant_error(double period) const {
     const double step = parameters[ServoTerm::velocity_step];
     const double error = standard_error[index_of(ServoTerm::velocity_step)];
-    // T_v = −T/ln(1 − s). At s = 1 the slope is not bounded: the time constant is below that of the error.
+    // T_v = −T/ln(1 − s). At s = 1 the slope is not bounded: the time constant is then below that of the error.
     if (step >= 1) return error < 1 ? -period / std::log(std::min(error, 0.9)) : INFINITY;
     const double logarithm = std::log1p(-step);
     return period * error / (logarithm * logarithm * (1 - step));
@@ -112,15 +112,15 @@ ServoFit fit_servo(std::span<const AxisRecord> records, double period) {
     if (!fit.moves || problem.count() < least_records) return fit;
     const std::vector<ServoStart> starts = servo_starts(problem, 0);
     const ServoParameters usual = parameters_of(ServoModel{}, period);
-    // With backlash or a dead time the regression may take any gain for a very low one, whose settling would leave no records.
+    // With backlash or a dead time the regression may give far too low a gain, whose settling time would leave no records.
     const PointIndex longest_settling = problem.count() / 10;
     problem.set_settling(
         std::min(settling_of(starts.empty() ? usual : starts.front().parameters, period), longest_settling));
-    // At constant speed the regression knows no gain, and may take it for a very low one.
+    // At constant speed the regression does not determine the gain, and may give a very low one.
     if (problem.count() < least_records) problem.set_settling(settling_of(usual, period));
     fit.records = problem.count();
     if (fit.records < least_records) return fit;
-    // Where the speed hardly changes, any loop of that lag explains the records.
+    // If the speed hardly changes, any loop with that lag explains the records.
     if (const ConstantLag lag = constant_lag(records, period); lag.residual < least_change) {
         take_lag(lag, period, fit);
         return fit;
@@ -137,7 +137,7 @@ ServoFit fit_servo(std::span<const AxisRecord> records, double period) {
     fit.explained = std::sqrt(solution.unexplainable());
     const ServoModel model = model_of(fit.parameters, period);
     fit.lag = (1 - model.velocity_feedforward) / model.position_gain + model.dead_time;
-    // The lag's own error: of the derivative by feed-forward and gain together.
+    // The standard error of the lag, from its derivatives by feed-forward and gain.
     ServoVector slope = ServoVector::Zero();
     slope[index_of(ServoTerm::log_gain)] = -(1 - model.velocity_feedforward) / model.position_gain;
     slope[index_of(ServoTerm::feedforward)] = -1 / model.position_gain;

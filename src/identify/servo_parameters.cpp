@@ -16,7 +16,7 @@ namespace {
 /// An axis with its records in the runs that have both of its positions.
 struct AxisData {
     char letter = 'x';
-    bool commanded = false, feedback = false;  ///< some run has it
+    bool commanded = false, feedback = false;  ///< recorded in some run
     std::vector<AxisRecord> records;
     ServoFit fit;
 
@@ -45,7 +45,7 @@ std::vector<AxisData> gather_axes(std::span<const Log* const> runs) {
     return axes;
 }
 
-/// Where the machine has this axis; nullptr: it does not.
+/// The servo model of this axis in the machine; nullptr: the machine has no such axis.
 ServoModel* servo_of(Machine& machine, char letter) {
     if (letter >= 'x') return &machine.axes[static_cast<std::size_t>(letter - 'x')].servo;
     const Kinematics& k = machine.kinematics;
@@ -58,7 +58,7 @@ constexpr std::array loop_keys{
     "position_gain", "velocity_feedforward", "velocity_time_constant", "velocity_integral_time", "friction", "backlash",
     "dead_time"};
 
-/// Names every value of a loop that cannot be known for one reason.
+/// Lists every value of a loop as unidentified, for one reason.
 void miss_loop(const AxisData& axis, const std::string& reason, Identification& result) {
     for (const char* key : loop_keys) result.unidentified.push_back({key, axis.name(), reason});
 }
@@ -95,7 +95,7 @@ public:
                                           {},
                                           "of the position at constant speed, per speed"});
         const double angle = axis_.rotary() ? rad_per_deg : 1;
-        // Together the values of the fit give the lag and the residual, of each alone too little is known.
+        // Together, the values of the fit give the lag and the residual; each alone is not known well enough.
         if (gain && !fit.knows(ServoTerm::feedforward))
             target.velocity_feedforward = rounded_to(std::max(0.0, model_.velocity_feedforward), 1e-6);
         put_term(ServoTerm::friction, "friction", axis_.unit("/min"), target.friction, angle / seconds_per_minute);
@@ -107,7 +107,7 @@ public:
 private:
     [[nodiscard]] double error(ServoTerm term) const { return axis_.fit.standard_error[index_of(term)]; }
 
-    /// `to_machine`: from the reported unit to that of Machine.
+    /// `to_machine`: factor from the reported unit to that of Machine.
     void put(const char* name, bool known, double standard_error, double value, const std::string& unit, double& target,
              double to_machine, const std::string& reason, const std::string& note = {}) {
         if (!known) {
@@ -119,7 +119,7 @@ private:
         result_.parameters.push_back({name, axis_.name(), settled, unit, standard_error, {}, note});
     }
 
-    /// The value of an optional term in the unit that is reported.
+    /// The value of an optional term in its reported unit.
     [[nodiscard]] double reported(ServoTerm term, double value) const {
         switch (term) {
             case ServoTerm::friction: return value * seconds_per_minute;
@@ -135,7 +135,7 @@ private:
         return term == ServoTerm::integral_step ? period_ * error(term) / (value * value) : reported(term, error(term));
     }
 
-    /// A term that is in the loop only with evidence.
+    /// Reports a term that is in the loop only if there is evidence.
     void put_term(ServoTerm term, const char* name, const std::string& unit, double& target, double to_machine) {
         const ServoFit& fit = axis_.fit;
         const auto found = std::find_if(fit.evidence.begin(), fit.evidence.end(),
@@ -170,7 +170,7 @@ private:
 
     void put_resolution(ServoModel& target, double angle) {
         const ServoFit& fit = axis_.fit;
-        // It is a difference of doubles.
+        // The quantum is a difference of doubles.
         const double quantum = rounded_to(fit.quantum, 1e-5 * fit.quantum);
         target.quantum = quantum * angle;
         result_.parameters.push_back(
@@ -181,7 +181,7 @@ private:
              {},
              {},
              fit.quantum > 0 ? "step of the fed-back positions" : "the fed-back positions have no step above 5 nm"});
-        // Below the rounding of a file noise has no meaning.
+        // Noise below the rounding of a file has no meaning.
         constexpr double least_noise = 2e-6;
         const double noise =
             fit.noise > std::max(least_noise, 0.2 * fit.quantum) ? rounded_to(fit.noise, 0.01 * fit.noise) : 0;
@@ -196,9 +196,9 @@ private:
         state_residual();
     }
 
-    /// The loop leaves more than quantum and noise do.
+    /// Whether the loop leaves a larger residual than quantum and noise explain.
     [[nodiscard]] bool another_form() const {
-        constexpr double most = 2;  // times what quantum and noise leave
+        constexpr double most = 2;  // factor of what quantum and noise explain
         return axis_.fit.residual > most * axis_.fit.explained;
     }
 

@@ -8,7 +8,7 @@
 
 namespace clsurf {
 
-/// Fits the loop of every axis that a run has, and puts it into the machine. O(records), parallel.
+/// Fits the loop of every axis of the runs and puts it into the machine. O(records), parallel.
 void identify_servos(std::span<const Log* const> runs, Identification& result);
 
 }  // namespace clsurf

@@ -10,11 +10,12 @@ namespace clsurf {
 namespace {
 
 constexpr PointIndex most_fit_records = 1'000'000;
-/// Groups whose sums of scores give the covariance: residuals of a model that is not exact are alike over a while.
+/// Size of the groups whose sums of scores give the covariance: residuals of an inexact model are correlated over some
+/// records.
 constexpr PointIndex group_size = 512;
 
-/// The size of a parameter's change that its derivative is taken over. An axis sticks and comes loose at a period's end, so with
-/// friction the changes are large enough to move some of these instants; the same for backlash.
+/// The change of a parameter over which its derivative is taken. An axis sticks and comes loose at the end of a period.
+/// With friction the changes are therefore large enough to move some of these instants; likewise for backlash.
 double size_of_step(const ServoParameters& p, ServoTerm term, double width) {
     const double smooth = p[ServoTerm::friction] > 0 ? std::max(3e-3 * width, 1e-5) : 1e-5;
     constexpr double least = 1e-5;
@@ -28,7 +29,7 @@ double size_of_step(const ServoParameters& p, ServoTerm term, double width) {
     }
 }
 
-/// The same with the sign of `width`, unless no loop has such a value: one faster than ideal, or with a friction, backlash or
+/// The same with the sign of `width`, unless no loop has such a value: faster than ideal, or with a friction, backlash or
 /// dead time below 0.
 double difference_step(const ServoParameters& p, ServoTerm term, double width) {
     const double step = std::copysign(size_of_step(p, term, std::abs(width)), width);
@@ -42,7 +43,7 @@ double difference_step(const ServoParameters& p, ServoTerm term, double width) {
     }
 }
 
-/// Loops that run side by side: the one of the parameters, and one a parameter with a small change, unless `width` is 0.
+/// Loops that run in parallel: one with the parameters, and one per parameter with a small change, unless `width` is 0.
 class LoopBundle {
 public:
     LoopBundle(const ServoParameters& parameters, double period, double width, double start)
@@ -58,7 +59,7 @@ public:
         }
     }
 
-    /// What the loop gives for a commanded position.
+    /// The response to a commanded position.
     double follow(double commanded, ServoVector& derivatives) {
         const double position = base_.follow(commanded);
         for (Changed& c : changed_)

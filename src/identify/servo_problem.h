@@ -1,7 +1,7 @@
 #pragma once
-// ServoProblem: the difference between the fed-back positions of an axis and what ServoLoop (simulation/run/servo.h) makes of
-// the commanded ones, as a least-squares problem in the loop's parameters (output error; Ljung, System Identification,
-// 2nd ed., ch. 7). Derivatives are differences between loops that run side by side.
+// ServoProblem: the difference between the feedback positions of an axis and the response of ServoLoop
+// (simulation/run/servo.h) to the commanded positions, as a least-squares problem in the loop's parameters (output error;
+// Ljung, System Identification, 2nd ed., ch. 7). Derivatives are differences between loops that run in parallel.
 
 #include <algorithm>
 #include <array>
@@ -15,8 +15,8 @@
 
 namespace clsurf {
 
-/// The unknowns. The gain is searched as its logarithm, the velocity loop's time constant as the step 1 − exp(−T/T_v) that the
-/// loop would make without an integral, the integral time as its inverse T/T_n.
+/// The unknowns. The gain is searched as its logarithm. The time constant of the velocity loop is searched as the step 1 −
+/// exp(−T/T_v) of the loop without an integral, and the integral time as its inverse T/T_n.
 enum class ServoTerm : unsigned char {
     log_gain,
     feedforward,
@@ -38,11 +38,11 @@ struct ServoParameters {
     double& operator[](ServoTerm term) { return value[index_of(term)]; }
     double operator[](ServoTerm term) const { return value[index_of(term)]; }
     [[nodiscard]] bool has(ServoTerm term) const { return active[index_of(term)]; }
-    /// How many are searched.
+    /// Number of parameters that are searched.
     [[nodiscard]] int count() const;
 };
 
-/// The loop of these parameters; no quantum, no noise.
+/// The loop with these parameters, without quantum and noise.
 [[nodiscard]] ServoModel model_of(const ServoParameters& parameters, double period);
 /// The parameters of a loop.
 [[nodiscard]] ServoParameters parameters_of(const ServoModel& model, double period);
@@ -56,13 +56,13 @@ struct ServoSums {
     double squared_changes = 0;                  ///< of the residuals, from one record to the next [unit²]
     PointIndex count = 0;                        ///< residuals
     double along = 0;                            ///< Σ residual · sign of the commanded speed [unit]
-    PointIndex moving = 0;                       ///< terms of it
+    PointIndex moving = 0;                       ///< number of its terms
     ServoMatrix normal = ServoMatrix::Zero();    ///< Jᵀ J
-    ServoMatrix scatter = ServoMatrix::Zero();   ///< Σ over groups of records of s sᵀ, s = Jᵀ e of the group
+    ServoMatrix scatter = ServoMatrix::Zero();   ///< Σ s sᵀ over groups of records, s = Jᵀ e of the group
     ServoVector gradient = ServoVector::Zero();  ///< Jᵀ e
 
     [[nodiscard]] double mean_square() const { return count > 0 ? squares / static_cast<double>(count) : 0; }
-    /// Half the mean square of the residuals' changes: the variance of residuals that were independent [unit²].
+    /// Half the mean square of the residuals' changes: the variance if residuals were independent [unit²].
     [[nodiscard]] double variance_of_changes() const {
         return squared_changes / (2 * static_cast<double>(std::max<PointIndex>(count - 1, 1)));
     }
@@ -70,10 +70,10 @@ struct ServoSums {
 
 class ServoProblem {
 public:
-    /// Pieces of the records are sampled to at most 10^6. `settling`: records at the start of a piece that do not
-    /// count, because the state before them is not known. The views must outlive it.
+    /// The records are sampled in pieces, at most 10^6 of them. `settling`: number of records at the start of a piece that
+    /// do not count, because the state before them is unknown. The views must outlive the object.
     ServoProblem(std::span<const AxisRecord> records, double period, PointIndex settling);
-    /// About `most` records of another problem, in pieces of `piece`: those with the most changes of speed.
+    /// Takes about `most` records of another problem, in pieces of `piece`: those with the greatest changes of speed.
     ServoProblem(const ServoProblem& of, PointIndex most, PointIndex piece);
     ServoProblem(const ServoProblem&) = delete;
     ServoProblem& operator=(const ServoProblem&) = delete;
@@ -84,13 +84,13 @@ public:
     [[nodiscard]] PointIndex settling() const { return settling_; }
     void set_settling(PointIndex settling);
 
-    /// Sums with derivatives. `width` of the differences that these are taken over: with friction, 1 moves some of the instants at
-    /// which the axis sticks, less moves few; below 0: backward. O(records · active terms).
+    /// Sums with derivatives. `width`: of the differences that replace the derivatives. With friction, 1 moves some of the
+    /// instants at which the axis sticks, and less moves few; negative: backward. O(records · active terms).
     [[nodiscard]] ServoSums linearise(const ServoParameters& parameters, double width) const;
-    /// The same without derivatives. O(records).
+    /// The same sums without derivatives. O(records).
     [[nodiscard]] ServoSums evaluate(const ServoParameters& parameters) const;
 
-    /// body(commanded, feedback) of every piece; the spans live as long as the call.
+    /// Calls body(commanded, feedback) for every piece; the spans are valid during the call.
     template <typename Body>
     void for_each_piece(Body&& body) const {
         std::vector<double> commanded, feedback;
@@ -105,7 +105,7 @@ private:
         const AxisRecord* record;
         PointRange range;
     };
-    /// Positions relative to the first commanded one: derivatives are small differences.
+    /// Positions relative to the first commanded one, because derivatives are small differences.
     static void gather(const Piece& piece, std::vector<double>& commanded, std::vector<double>& feedback);
 
     std::vector<AxisRecord> records_;

@@ -9,8 +9,8 @@
 namespace clsurf {
 namespace {
 
-constexpr double needless = 10;  ///< a term of no certain value must lower the criterion by more
-// The integral comes last: it is tried only where no loop without it explains the records.
+constexpr double needless = 10;  ///< decrease of the criterion that an uncertain term must exceed
+// The integral is last: it is tried only if no loop without it explains the records.
 constexpr std::array optional_terms{ServoTerm::friction, ServoTerm::backlash, ServoTerm::dead_time,
                                     ServoTerm::integral_step};
 constexpr unsigned all_terms = (1U << optional_terms.size()) - 1;
@@ -38,7 +38,7 @@ ServoParameters with_terms(ServoParameters p, unsigned set) {
     return p;
 }
 
-/// Values that a term may begin with, next to a loop that leaves a residual of `apart` rms.
+/// First values of a term, for a loop with a residual of `apart` rms.
 std::vector<double> first_values(ServoTerm term, const ServoParameters& loop, double apart) {
     if (term == ServoTerm::dead_time) return {0.3, 1, 2, 4};
     if (term == ServoTerm::integral_step) return {0.03, 0.1, 0.3};
@@ -61,7 +61,7 @@ public:
         search_all();
     }
 
-    /// Those that any combination has.
+    /// The terms of which any combination may consist.
     [[nodiscard]] std::span<const ServoTerm> considered() const {
         return std::span<const ServoTerm>(optional_terms).first(considered_);
     }
@@ -78,7 +78,7 @@ public:
     [[nodiscard]] const std::optional<ServoSolution>& of(unsigned set) const { return found_[set]; }
 
 private:
-    /// Combinations of the considered terms that have not been searched, those of few terms first.
+    /// Searches the remaining combinations of the considered terms, those with few terms first.
     void search_all() {
         for (std::size_t count = 0; count <= considered_; ++count) {
             for (unsigned set = 0; set < bit_of(considered_); ++set) {
@@ -86,14 +86,14 @@ private:
                 found_[set] = search(set);
                 if (found_[set]) found_[set]->rounding = rounding_;
             }
-            // Noise that one loop leaves no other one explains.
+            // If the residual of one loop is noise, no other loop explains it.
             if (explained()) break;
         }
     }
 
-    /// Whether some loop leaves residuals that are independent of each other: those of quantum and noise.
+    /// Whether some loop leaves independent residuals: those of quantum and noise.
     [[nodiscard]] bool is_white() const {
-        constexpr double nearly = 1.1;  // less is below a third of the noise
+        constexpr double nearly = 1.1;  // factor; the excess is below a third of the noise
         return std::any_of(found_.begin(), found_.end(), [&](const auto& each) {
             return each && each->sums.mean_square() <= nearly * each->unexplainable();
         });
@@ -125,21 +125,21 @@ private:
         return best;
     }
 
-    /// Starts from which a search would end alike.
+    /// Whether searches from both starts would have the same result.
     [[nodiscard]] static bool are_near(const ServoParameters& one, const ServoParameters& other) {
         constexpr double of_gain = 0.3, of_dead_time = 0.8;
         return std::abs(one[ServoTerm::log_gain] - other[ServoTerm::log_gain]) < of_gain &&
                std::abs(one[ServoTerm::dead_time] - other[ServoTerm::dead_time]) < of_dead_time;
     }
 
-    /// Loops of usual gains that have the lags of the records.
+    /// Adds loops with usual gains that have the lags of the records.
     void add_with_lags(unsigned set, std::vector<ServoParameters>& all) const {
         constexpr double gain_ratio = 1.4, least_gain = 5;
         const bool sticks = includes(set, ServoTerm::friction), plays = includes(set, ServoTerm::backlash),
                    delays = includes(set, ServoTerm::dead_time);
         for (double gain = least_gain; gain * problem_.period() < 0.9; gain *= gain_ratio) {
             for (double dead = 0; dead <= (delays ? 8.0 : 0.0); dead += 0.5) {
-                // Of what hinders a reversal the play may have any share.
+                // Friction and backlash share the delay at reversals in an unknown ratio.
                 for (const double share : {0.2, 0.8}) {
                     if (!(sticks && plays) && share > 0.5) continue;
                     ServoParameters p = with_terms(lags_, set);
@@ -154,7 +154,7 @@ private:
         }
     }
 
-    /// The same with an integrating velocity loop, of which the lag at constant speed says only the feed-forward: usual time
+    /// The same with an integrating velocity loop, whose lag at constant speed determines only the feed-forward: usual time
     /// constants and integral times.
     void add_integrating(unsigned set, std::vector<ServoParameters>& all) const {
         constexpr double gain_ratio = 1.4, least_gain = 5;
@@ -180,7 +180,7 @@ private:
         }
     }
 
-    /// From the regression, from a usual loop, and from the combinations with one term less.
+    /// Starts from the regression, from a usual loop, and from the combinations with one term fewer.
     [[nodiscard]] std::vector<ServoParameters> starts(unsigned set) const {
         std::vector<ServoParameters> all;
         const bool delays = includes(set, ServoTerm::dead_time);
@@ -275,8 +275,9 @@ public:
     }
 
 private:
-    /// Errors cover the values of another loop by the odds that the criterion gives it, since which of the two the axis has is not
-    /// known (unconditional variance; Burnham and Anderson, Model Selection and Multimodel Inference, 2nd ed., ch. 4.3).
+    /// Widens the errors by the difference to another loop, weighted with the odds of the criterion, because it is not
+    /// known which of the loops the axis has (unconditional variance; Burnham and Anderson, Model Selection and Multimodel
+    /// Inference, 2nd ed., ch. 4.3).
     static void widen(const ServoSolution& now, const ServoSolution& other,
                       std::array<double, servo_terms>& standard_error) {
         const double ratio = std::exp(std::min(0.0, now.criterion() - other.criterion()) / 2),
@@ -289,7 +290,7 @@ private:
         }
     }
 
-    /// A combination with a term more or less that is better; `now`: none is.
+    /// A better combination with one term more or fewer; `now`: there is none.
     unsigned better_than(unsigned now) {
         for (std::size_t k = 0; k < terms_.size(); ++k) {
             if ((now & bit_of(k)) == 0) continue;
@@ -302,15 +303,15 @@ private:
             if ((now & bit_of(k)) != 0) continue;
             const unsigned with = now | bit_of(k);
             if (!(solution_of(with).criterion() < solution_of(now).criterion() - needless)) continue;
-            // A term of no certain value that explains more than every other one is added, too: without it another would
-            // stand for it.
+            // An uncertain term that explains more than every other term is added, too: without it another term would take
+            // its place.
             any_certain |= is_certain(solution_of(with), terms_[k]);
             if (!best || solution_of(with).criterion() < solution_of(*best).criterion()) best = with;
         }
         return best && any_certain ? *best : now;
     }
 
-    /// From what the rough search found, and from the solutions of all records with a term more or less.
+    /// Starts from the results of the rough search, and from the solutions on all records with one term more or fewer.
     const ServoSolution& solution_of(unsigned set) {
         if (found_[set]) return *found_[set];
         std::vector<ServoParameters> starts;
@@ -329,7 +330,8 @@ private:
         for (const ServoParameters& start : starts) sorted.emplace_back(problem_.evaluate(start).squares, start);
         std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
         for (const auto& [squares, start] : sorted) {
-            // What fewer terms explain more explain, too: a search that ends above that has not found the minimum.
+            // More terms never explain less than fewer terms: a search that ends above that value has not found the
+            // minimum.
             if (found_[set] && found_[set]->sums.squares <= (1 + thorough.enough) * least_of_fewer(set)) break;
             ServoSolution solution = solved(start);
             if (!found_[set] || solution.sums.squares < found_[set]->sums.squares) found_[set] = std::move(solution);
@@ -337,7 +339,7 @@ private:
         return *found_[set];
     }
 
-    /// The nearest minimum without a feed-forward below 0.
+    /// The nearest minimum with a feed-forward of at least 0.
     [[nodiscard]] ServoSolution solved(const ServoParameters& start) const {
         ServoSolution solution = minimise(problem_, start, thorough);
         if (solution.parameters[ServoTerm::feedforward] < 0) {
@@ -349,8 +351,9 @@ private:
         return solution;
     }
 
-    /// Minima at dead times beside that of `now`. Within a period the dead time smooths the command as well, so there is one for
-    /// nearly every period, where feed-forward and gain stand for the rest of the delay.
+    /// Minima at other dead times than that of `now`. The fractional part of a dead time smooths the command as well.
+    /// Therefore there is a minimum in nearly every period, in which feed-forward and gain compensate for the rest of the
+    /// delay.
     [[nodiscard]] std::vector<ServoSolution> delayed_otherwise(const ServoSolution& now) const {
         std::vector<ServoSolution> found;
         if (!now.parameters.has(ServoTerm::dead_time)) return found;
@@ -364,7 +367,7 @@ private:
         return found;
     }
 
-    /// The least squares of the combinations with one term less that have been solved.
+    /// The least squares of the solved combinations with one term fewer.
     [[nodiscard]] double least_of_fewer(unsigned set) const {
         double least = INFINITY;
         for (std::size_t k = 0; k < terms_.size(); ++k) {

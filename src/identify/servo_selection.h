@@ -1,5 +1,5 @@
 #pragma once
-// Which of friction, backlash, dead time and an integrating velocity loop an axis has.
+// Selects which of friction, backlash, dead time and an integrating velocity loop an axis has.
 
 #include <array>
 #include <span>
@@ -10,27 +10,27 @@
 
 namespace clsurf {
 
-/// Standard errors above zero from which an optional term is certain.
+/// Number of standard errors above zero from which an optional term is certain.
 inline constexpr double certain_errors = 4;
 
-/// What an additional term of the loop explains.
+/// The evidence for an additional term of the loop.
 struct TermEvidence {
     ServoTerm term = ServoTerm::friction;
-    double value = 0;   ///< as ServoParameters has it
-    double gain = 0;    ///< by how much the Bayesian information criterion falls with it
-    bool kept = false;  ///< it falls, and the value exceeds `certain_errors` standard errors
+    double value = 0;   ///< as in ServoParameters
+    double gain = 0;    ///< decrease of the Bayesian information criterion with the term
+    bool kept = false;  ///< the criterion decreases, and the value exceeds `certain_errors` standard errors
 };
 
 struct SelectedLoop {
     ServoSolution solution;
     std::vector<TermEvidence> evidence;  ///< of each term
-    /// See standard_errors(); with what other loops that explain the records would change.
+    /// As standard_errors(), widened by the differences to other loops that explain the records.
     std::array<double, servo_terms> standard_error{};
 };
 
-/// The loop with the terms that the records show. Terms hide each other, so every combination of them is searched, from several
-/// starts, on a part of the records; the best are then compared on all of them, and terms that have become unnecessary are
-/// removed again. `rounding`: variance of the fed-back positions [unit²].
+/// The loop with the terms that the records show. Terms hide each other. Therefore every combination of them is searched,
+/// from several starts, on a part of the records. The best combinations are then compared on all records, and terms that
+/// have become unnecessary are removed. `rounding`: variance of the feedback positions [unit²].
 [[nodiscard]] SelectedLoop select_loop(const ServoProblem& problem, std::span<const ServoStart> regressions,
                                        double rounding);
 

@@ -16,7 +16,7 @@ struct Bounds {
 Bounds bounds_of(ServoTerm term, double period) {
     switch (term) {
         case ServoTerm::log_gain: return {std::log(0.1), std::log(0.95 / period)};
-        case ServoTerm::feedforward: return {-0.5, 2};  // below 0 on the way only: a bound would hinder the search
+        case ServoTerm::feedforward: return {-0.5, 2};  // below 0 only during the search: a bound would hinder it
         case ServoTerm::velocity_step: return {0.002, 1};
         case ServoTerm::dead_time: return {0, 99};
         case ServoTerm::integral_step: return {0, 1};
@@ -36,12 +36,12 @@ LoopLags lags_without_dead_time(const ServoParameters& p, double period) {
     return {alpha, (period * (1 / p[ServoTerm::velocity_step] - 1) - alpha) / gain};
 }
 
-/// Coordinates in which a search goes straight: what the records determine at low frequencies. The position lags by A v + B a
-/// + C sign(v) at the speed v and the acceleration a. With the gain K, the feed-forward c, the step s of the velocity loop, the
-/// dead time d periods of T, the friction f and the backlash b,
+/// Coordinates in which a search takes straight steps: the values that the records determine at low frequencies. The
+/// position lags by A v + B a + C sign(v) at the speed v and the acceleration a. With the gain K, the feed-forward c, the
+/// step s of the velocity loop, the dead time d periods of T, the friction f and the backlash b,
 ///     α = A − d T = (1 − c)/K,   β = B + α d T + (d T)²/2 = (T (1/s − 1) − α)/K,   C = f/K + b/2
-/// (steady motion of the difference equation of ServoLoop; half a period of α in B is left out). They stand in the places
-/// of c, s and f. With an integral these are coordinates like others: then β says nothing of s at low frequencies.
+/// (steady motion of the difference equation of ServoLoop; half a period of α in B is neglected). They replace c, s and f.
+/// With an integral they are still valid coordinates, but β does not determine s at low frequencies.
 class ServoLags {
 public:
     ServoLags(const ServoParameters& p, double period)
@@ -96,7 +96,7 @@ private:
     ServoMatrix slope_;
 };
 
-/// The matrix that a step or a covariance is solved with: scaled to a diagonal of 1, inactive terms decoupled.
+/// The matrix for a step or a covariance: scaled to a diagonal of 1, inactive terms decoupled.
 struct ScaledNormal {
     ServoMatrix matrix;
     ServoVector scale;
@@ -119,15 +119,15 @@ struct ScaledNormal {
 constexpr std::array bounded_below{ServoTerm::feedforward, ServoTerm::friction, ServoTerm::backlash,
                                    ServoTerm::dead_time, ServoTerm::integral_step};
 
-/// The parameters after a step. A term at its bound that the step would take beyond it stays there; one that would cross its
-/// bound stops the whole step at it.
+/// The parameters after a step. A term at its bound stays there if the step would take it beyond. A term that would cross
+/// its bound shortens the whole step, so that it ends at the bound.
 ServoParameters stepped(const ServoSolution& at, std::span<const ServoTerm> bounded, double damping, double period) {
     const ServoLags lags(at.parameters, period);
     std::array<bool, servo_terms> active = at.parameters.active;
     for (int round = 0;; ++round) {
         ServoMatrix slope = lags.slope();
         for (std::size_t k = 0; k < servo_terms; ++k) {
-            // A term that is held: the coordinates move without it.
+            // A fixed term: the coordinates move without it.
             if (!active[k]) slope.row(static_cast<Eigen::Index>(k)).setZero();
         }
         ScaledNormal scaled(slope.transpose() * at.sums.normal * slope, active);
@@ -158,19 +158,19 @@ ServoParameters stepped(const ServoSolution& at, std::span<const ServoTerm> boun
     }
 }
 
-/// The recorded commands are rounded, too, in step with the motion: no error is stated smaller than this share.
+/// The recorded commands are rounded, too, in phase with the motion: no stated error is smaller than this share.
 constexpr double least_error = 1e-5;
 
 /// The covariance of parameters whose residuals are correlated within groups of records, by the derivatives of `sums`.
 ServoMatrix covariance_of(const ServoSolution& at, const ServoSums& sums) {
     const ScaledNormal scaled(sums.normal, at.parameters.active);
-    constexpr double ridge = 1e-13;  // what is not seen at all gets a variance that says so
+    constexpr double ridge = 1e-13;  // terms without any effect get a very large variance
     ServoMatrix inverse = (scaled.matrix + ridge * ServoMatrix::Identity()).inverse();
     inverse = scaled.scale.asDiagonal() * inverse * scaled.scale.asDiagonal();
     const ServoMatrix correlated = inverse * sums.scatter * inverse;
-    // Rounding may hide in residuals of nothing, as at constant speed.
+    // Rounding may be hidden in residuals of 0, for example at constant speed.
     const ServoMatrix independent = inverse * std::max(sums.mean_square(), at.rounding);
-    // Few groups give too small a variance: never less than that of independent residuals.
+    // Few groups give too small a variance: it is at least that of independent residuals.
     ServoMatrix covariance = correlated;
     for (Eigen::Index k = 0; k < covariance.rows(); ++k) {
         if (correlated(k, k) < independent(k, k)) covariance(k, k) = independent(k, k);
@@ -233,7 +233,7 @@ ServoSolution minimise(const ServoProblem& problem, const ServoParameters& start
             damping *= 20;
         }
         if (!arrived) continue;
-        // Only where an axis may stick do wide differences say something else.
+        // Wide differences give other results only if an axis may stick.
         if (!effort.fine || !at.parameters.has(ServoTerm::friction) || width < finest) break;
         width *= finer;
         damping = 1e-4;
@@ -263,7 +263,7 @@ std::array<double, servo_terms> standard_errors(const ServoSolution& at) {
         const auto i = static_cast<Eigen::Index>(k);
         const bool seen = at.parameters.active[k] && at.sums.normal(i, i) > 0;
         const double variance = variance_of(at, ServoVector::Unit(i));
-        // Not above 0: the terms are so much alike that the inverse is rounding.
+        // Not above 0: the terms are so similar that the inverse is rounding.
         errors[k] = seen && variance > 0 ? std::sqrt(variance) : INFINITY;
         if (static_cast<ServoTerm>(k) <= ServoTerm::velocity_step) errors[k] = std::max(errors[k], least_error);
     }

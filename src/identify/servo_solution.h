@@ -1,5 +1,5 @@
 #pragma once
-// The parameters of a servo loop that explain an axis' records best, for given terms, and how well they are known.
+// The parameters of a servo loop that explain the records of an axis best, for given terms, and their accuracy.
 
 #include <array>
 
@@ -10,42 +10,43 @@ namespace clsurf {
 struct ServoSolution {
     ServoParameters parameters;
     ServoSums sums;
-    /// With derivatives over changes so small that they hardly move an instant at which the axis sticks or comes loose:
-    /// forward and backward, since a change in one direction may still move one.
+    /// With derivatives over changes so small that they hardly move an instant at which the axis sticks or comes loose.
+    /// Forward and backward, because a change in one direction may still move an instant.
     std::array<ServoSums, 2> fine{};
-    double rounding = 0;  ///< variance of the fed-back positions' rounding [unit²]
+    double rounding = 0;  ///< variance of the feedback positions from rounding [unit²]
 
-    /// Bayesian information criterion of Gaussian residuals. Rounding of doubles explains residuals below 10⁻¹⁰.
+    /// Bayesian information criterion of Gaussian residuals. Residuals below 10⁻¹⁰ count as rounding of doubles.
     [[nodiscard]] double criterion() const;
-    /// What quantum and noise make of the residuals: the variance of their changes, at least the rounding [unit²].
+    /// The variance that quantum and noise explain: that of the residuals' changes, at least the rounding [unit²].
     [[nodiscard]] double unexplainable() const;
 };
 
-/// The parameters with the lags A, B and C (see servo_solution.cpp) in the places of feed-forward, step and friction.
+/// The parameters from the lags A, B and C (see servo_solution.cpp), which take the places of feed-forward, step and
+/// friction.
 [[nodiscard]] ServoParameters loop_of_lags(ServoParameters lags, double period);
 
-/// The reverse of loop_of_lags().
+/// The inverse of loop_of_lags().
 [[nodiscard]] ServoParameters lags_of_loop(ServoParameters parameters, double period);
 
-/// A loop that a machine file may describe (io/readers/machine_file.cpp).
+/// Whether a machine file may describe this loop (io/readers/machine_file.cpp).
 [[nodiscard]] bool settles(const ServoParameters& parameters, double period);
 
-/// How far a search goes.
+/// Limits of a search.
 struct ServoEffort {
     int most_steps = 60;
-    double enough = 1e-7;          ///< relative fall of the squares by which a search ends
-    bool fine = true;              ///< with ever smaller differences for derivatives
-    bool free_feedforward = true;  ///< it may fall below 0, which no machine file has: a bound hinders the search
+    double enough = 1e-7;          ///< relative decrease of the squares at which the search ends
+    bool fine = true;              ///< repeats with ever smaller differences for derivatives
+    bool free_feedforward = true;  ///< it may be below 0, which no machine file allows: a bound would hinder the search
 };
 
-/// Gauss–Newton with the damping of Levenberg and Marquardt. The steps are taken in the lags that the records determine
-/// (ServoLags), not in the parameters, whose valleys are narrow and curved. `start` must settle.
+/// Gauss–Newton with the damping of Levenberg and Marquardt. Steps are taken in the lags that the records determine
+/// (ServoLags): in the parameters the valleys are narrow and curved. `start` must settle.
 [[nodiscard]] ServoSolution minimise(const ServoProblem& problem, const ServoParameters& start,
                                      const ServoEffort& effort);
 
-/// The variance of the sum of the parameters times `weights`, whose residuals are correlated within groups of records. The
-/// greatest of those by `sums` and by both of `fine`: derivatives that move an instant at which the axis sticks take it for an
-/// exact measurement, although it is known to a period only.
+/// The variance of the sum of the parameters times `weights`, if residuals are correlated within groups of records. The
+/// greatest of the values by `sums` and by both of `fine`: derivatives that move an instant at which the axis sticks treat
+/// it as an exact measurement, although it is known only to a period.
 [[nodiscard]] double variance_of(const ServoSolution& at, const ServoVector& weights);
 
 /// Infinite: not identifiable.

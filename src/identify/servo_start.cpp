@@ -9,7 +9,7 @@
 namespace clsurf {
 namespace {
 
-constexpr std::size_t width = 8;  ///< records that are averaged
+constexpr std::size_t width = 8;  ///< number of averaged records
 constexpr int unknowns = 5;
 using Normal = Eigen::Matrix<double, unknowns, unknowns>;
 using Right = Eigen::Matrix<double, unknowns, 1>;
@@ -37,7 +37,7 @@ void add_piece(std::span<const double> commanded, std::span<const double> feedba
         const double before = (feedback[i - 1] - feedback[i - 1 - width]) * per_time;
         const double target = (feedback[i] - feedback[i - width]) * per_time;
         const double asked = (commanded[i - dead] - commanded[i - dead - width]) * per_time;
-        if (asked == 0 && before == 0) continue;  // at rest nothing is seen
+        if (asked == 0 && before == 0) continue;  // at rest nothing can be observed
         Right row;
         row << before, error / static_cast<double>(width), asked, before > 0 ? 1.0 : (before < 0 ? -1.0 : 0.0), 1.0;
         sums.normal += row * row.transpose();

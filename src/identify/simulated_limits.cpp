@@ -20,20 +20,20 @@ namespace clsurf {
 namespace {
 
 constexpr std::string_view speed_key = "max_speed";
-constexpr int most_rounds = 3;              ///< over all limits: the lowest one hides the others
-constexpr double beside = 0.02;             ///< a share, of values beside another one
-constexpr double range = 4;                 ///< of the machine's value, up to which others are tried
-constexpr std::size_t grid = 6;             ///< values of it, in equal ratios
-constexpr int bits = 10;                    ///< of the logarithm of the best value …
-constexpr std::uintmax_t most_steps = 12;   ///< … or so many steps
-constexpr double about_best = 0.05;         ///< a share, in which round values are tried …
-constexpr double round_steps = 20;          ///< … a twentieth of the first digit apart
-constexpr double first_share = 0.0025;      ///< of it, by which a search for the ends of its interval begins
-constexpr double share_of_interval = 0.25;  ///< to which they are known …
-constexpr double finest = 1e-4;             ///< … or to this share of the value
-constexpr double widest = 0.25;             ///< share of a value, to either end of its interval, that determines it
-constexpr double correlation = 2;           ///< of standard errors: differences of speed last for several samples
-constexpr double smallest_error = 5e-4;     ///< standard, a share: planners stay that far below their limits
+constexpr int most_rounds = 3;              ///< over all limits, because the lowest limit hides the others
+constexpr double beside = 0.02;             ///< relative distance of adjacent values
+constexpr double range = 4;                 ///< factor of the machine's value up to which values are tried
+constexpr std::size_t grid = 6;             ///< number of these values, in equal ratios
+constexpr int bits = 10;                    ///< accuracy of the logarithm of the best value …
+constexpr std::uintmax_t most_steps = 12;   ///< … or most steps
+constexpr double about_best = 0.05;         ///< relative range in which round values are tried …
+constexpr double round_steps = 20;          ///< … at a twentieth of the first digit
+constexpr double first_share = 0.0025;      ///< relative step at which a search for the ends of its interval begins
+constexpr double share_of_interval = 0.25;  ///< relative accuracy of the ends …
+constexpr double finest = 1e-4;             ///< … or this share of the value
+constexpr double widest = 0.25;    ///< greatest relative distance to either end of an interval that determines a value
+constexpr double correlation = 2;  ///< factor of standard errors: differences of speed are correlated over samples
+constexpr double smallest_error = 5e-4;  ///< least relative standard error: planners stay that far below their limits
 
 /// One limit, with all other values of the machine fixed.
 class LimitSlice {
@@ -41,8 +41,8 @@ public:
     LimitSlice(RuleScores& scores, const Machine& machine, std::string key, std::string of)
         : scores_(scores), machine_(machine), key_(std::move(key)), of_(std::move(of)) {}
 
-    /// The value that explains the runs best, or `now`, that of the machine, if it is nearly as good. `lowest`: the least value
-    /// that the motion allows.
+    /// The value that explains the runs best, or `now`, the machine's value, if it is nearly as good. `lowest`: the least
+    /// value that the motion allows.
     [[nodiscard]] double best(double lowest, double now, double least_gain) const {
         const double greatest = highest_tried(lowest, now);
         if (mean_error(now) <= scores_.resolution()) return now;
@@ -52,18 +52,18 @@ public:
         const double was = mean_error(now);
         if (is_flat_about(now) && scores_.explains(was)) return now;
         double best = lowest_in(bracket(lowest, greatest, now), now);
-        // The best one near the present one need not be the best of all.
+        // The best value near the present one may be a local optimum.
         for (const double end : {lowest, greatest}) {
             if (mean_error(end) < mean_error(best)) best = end;
         }
         best = of_round_values(best);
         const double is = mean_error(best);
-        // Where the model is not the machine's, a limit may stand for what else is wrong.
+        // If the model differs from the machine, a limit may compensate for other errors.
         return !as_good(now, best) && (is <= (1 - least_gain) * was || scores_.explains(is)) ? best : now;
     }
 
-    /// The values around the best one that the runs cannot distinguish from it. `exact`: the share of the value within which the
-    /// ends need not be known better.
+    /// The values around the best one that the runs cannot distinguish from it. `exact`: accuracy of the ends that is
+    /// sufficient, as a share of the value.
     [[nodiscard]] SimulatedLimit interval(double lowest, double best, double exact) const {
         SimulatedLimit found{key_, of_, best, {}, {}, scores_.explains(mean_error(best))};
         const double greatest = highest_tried(lowest, best);
@@ -93,7 +93,7 @@ private:
 
     [[nodiscard]] double mean_error(double value) const { return scores_.mean_error(machine_with(value)); }
 
-    /// By how much the score of `value` exceeds what would tell it from one that explains the runs better.
+    /// The excess of the score of `value` over the difference that distinguishes it from a better one.
     [[nodiscard]] double excess(double value, double better) const {
         const std::vector<Explanation> pair =
             compare({scores_.residuals(machine_with(value)), scores_.residuals(machine_with(better))}, scores_);
@@ -102,7 +102,7 @@ private:
     [[nodiscard]] bool as_good(double value, double better) const { return excess(value, better) <= 0; }
     [[nodiscard]] bool alike(double one, double other) const { return as_good(one, other) && as_good(other, one); }
 
-    /// Whether the runs fit as well with slightly smaller and slightly greater values.
+    /// Whether slightly smaller and slightly greater values fit the runs as well.
     [[nodiscard]] bool is_flat_about(double now) const {
         return mean_error(now) <= scores_.resolution() || (alike(below(now), now) && alike(above(now), now));
     }
@@ -124,7 +124,7 @@ private:
         return std::minmax({from, to});
     }
 
-    /// The same, if the values beside `now` are equally good and show no direction.
+    /// The same if values near `now` are equally good, so that there is no direction of descent.
     [[nodiscard]] std::pair<double, double> bracket_of_grid(double lowest, double greatest, double now) const {
         std::vector<double> values{now};
         for (std::size_t k = 0; k < grid; ++k)
@@ -145,8 +145,8 @@ private:
         return now * std::exp(share);
     }
 
-    /// A round value near `best` that explains the runs better, or else `best`. What a trapezoidal planner does changes by whole
-    /// periods, so that the mean error has many minima about that of the true value, which people have chosen.
+    /// A round value near `best` that explains the runs better, or else `best`. The motion of a trapezoidal planner changes
+    /// by whole periods. Therefore the mean error has many minima near the true value, and people choose round values.
     [[nodiscard]] double of_round_values(double best) const {
         if (!is_trapezoidal(machine_) || mean_error(best) <= scores_.resolution()) return best;
         std::vector<double> values;
@@ -163,15 +163,16 @@ private:
         return best;
     }
 
-    /// By how much a value is beyond those that may be the true one beside the best. What the best one leaves unexplained has
-    /// another reason, and that may as well have moved the best value: a value is beyond where it adds as much.
+    /// Above 0 if a value cannot be the true one. What the best value leaves unexplained has other causes, which may have
+    /// moved the best value, too: the error of `value` must also exceed the least error by as much.
     [[nodiscard]] double beyond_doubt(double value, double best) const {
         const double left = mean_error(best), resolution = scores_.resolution();
         const double other = std::sqrt(std::max(0.0, left * left - resolution * resolution));
         return std::min(excess(value, best) / decisive, mean_error(value) / (left + other) - 1);
     }
 
-    /// Where values begin to explain the runs less well than the best one, on the way to `worse`, which does.
+    /// The end of the interval of values that explain the runs as well as the best one, in the direction of `worse`, which
+    /// does not.
     [[nodiscard]] double end_between(double worse, double best, double exact) const {
         const auto beyond = [&](double share) {
             const double value = worse > best ? best * (1 + share) : best / (1 + share);
@@ -199,14 +200,14 @@ private:
     std::string key_, of_;
 };
 
-/// Whether the runs have arcs on which the highest speeds of the axes show. A trapezoidal planner gives an arc the tangential
-/// acceleration that the highest speed of its axes would leave.
+/// Whether the runs have arcs that show the highest speeds of the axes. A trapezoidal planner gives an arc the tangential
+/// acceleration that remains at the highest speed of its axes.
 bool arcs_depend_on_speeds(const RuleScores& scores, const Machine& machine) {
     return is_trapezoidal(machine) && scores.has_arcs();
 }
 
-/// Lower bounds of limits that the machine has, as far as the speeds of the runs may depend on them. On other paths than arcs,
-/// limits of speed hold in rapids alone.
+/// Limits of the machine that are lower bounds, if the speeds of the runs may depend on them. On paths other than arcs,
+/// limits of speed have an effect in rapids only.
 std::vector<const IdentifiedParameter*> searched_limits(const RuleScores& scores, const Identification& result) {
     std::vector<const IdentifiedParameter*> limits;
     if (result.machine.kinematics.has_rotary()) return limits;
@@ -220,7 +221,7 @@ std::vector<const IdentifiedParameter*> searched_limits(const RuleScores& scores
     return limits;
 }
 
-/// The relative error that every slice has: it takes the other limits as they are, and one that is a little wrong moves it.
+/// The relative error of every slice: it assumes that the other limits are right, and a slightly wrong one shifts it.
 double error_of_fixed(const Identification& result) {
     double error = smallest_error;
     for (const IdentifiedParameter& p : result.parameters) {
@@ -229,7 +230,7 @@ double error_of_fixed(const Identification& result) {
     return error;
 }
 
-/// Values that all limits of the list may have at once.
+/// The machine with all limits of the list multiplied by `factor`.
 Machine with_limits(const Machine& machine, std::span<const IdentifiedParameter* const> limits, double factor) {
     Machine changed = machine;
     for (const IdentifiedParameter* p : limits) {
@@ -239,14 +240,14 @@ Machine with_limits(const Machine& machine, std::span<const IdentifiedParameter*
     return changed;
 }
 
-/// The value of a limit that explains the runs best, all others being as `machine` has them.
+/// The value of a limit that explains the runs best, with all other values of `machine` unchanged.
 double best_value(const IdentifiedParameter& limit, const Machine& machine, double least_gain, RuleScores& scores) {
     const double now = *planning_value(machine, limit.name, limit.axis);
     return LimitSlice(scores, machine, limit.name, limit.axis).best(std::min(limit.value, now), now, least_gain);
 }
 
-/// Searches the highest speeds of the axes, each with the others as they are: the slower axis of its plane limits an arc. Where the
-/// runs do not tell which one that is, all that it may be get their values.
+/// Searches the highest speeds of the axes, each with the others unchanged: the slower axis of its plane limits an arc. If
+/// the runs do not show which axis that is, all possible ones get their values.
 void search_speeds_of_arcs(std::span<const IdentifiedParameter* const> limits, double least_gain, RuleScores& scores,
                            Machine& machine) {
     std::vector<const IdentifiedParameter*> found;
@@ -273,7 +274,7 @@ void search_speeds_of_arcs(std::span<const IdentifiedParameter* const> limits, d
     }
 }
 
-/// Either may make up for the other on an arc, so that the limits that are searched first may end at wrong values.
+/// On an arc either may compensate for the other, so the limits that are searched first may end at wrong values.
 enum class SearchedFirst : std::uint8_t { speeds, accelerations };
 
 void search_limits_in_order(SearchedFirst first, double least_gain, RuleScores& scores, Identification& result) {
@@ -311,7 +312,7 @@ void free_limits(RuleScores& scores, Identification& result) {
                                        [](const Explanation& a, const Explanation& b) { return a.score < b.score; });
     if (best->score > found.front().score - decisive) return;
     result.machine = machines[static_cast<std::size_t>(best - found.begin())];
-    // Those that were no hindrance keep their values.
+    // Limits that had no effect keep their values.
     for (const IdentifiedParameter* p : limits) {
         Machine kept = result.machine;
         set_planning_value(kept, p->name, p->axis, *planning_value(before, p->name, p->axis));
@@ -333,7 +334,7 @@ void search_limits(double least_gain, RuleScores& scores, Identification& result
 
 std::vector<SimulatedLimit> limit_intervals(RuleScores& scores, const Identification& result) {
     std::vector<SimulatedLimit> limits;
-    // Where less than the error of the other limits decides, their error is stated.
+    // Ends are not needed more accurately than the error from the other limits.
     const double exact = error_of_fixed(result) * std::sqrt(decisive) / correlation;
     for (const IdentifiedParameter* p : searched_limits(scores, result)) {
         const double now = *planning_value(result.machine, p->name, p->axis);
@@ -349,7 +350,7 @@ void state_limits(const std::vector<SimulatedLimit>& limits, Identification& res
         const auto p = std::find_if(result.parameters.begin(), result.parameters.end(),
                                     [&](const auto& each) { return each.name == limit.key && each.axis == limit.of; });
         const double shown = p->value;
-        // Below the motion's own values no simulation is needed.
+        // No simulation is needed below the values of the recorded motion.
         const double farther =
             std::max(limit.best - limit.lowest.value_or(shown), limit.highest.value_or(INFINITY) - limit.best);
         if (limit.explains && (limit.lowest || limit.exact) && farther <= widest * limit.best) {
