@@ -9,7 +9,7 @@ std::vector<float> interval_feeds(const Program& program, const Machine& machine
     std::vector<float> feeds(planned.speed_of_motion.size(), 0);
     for (std::size_t i = 0; i < feeds.size(); ++i) {
         const auto feed = static_cast<float>(planned.speed_of_motion[i] / machine.controller.feed_override);
-        if (feed < program.motions.feed[i]) feeds[i] = feed;  // NaN: on no cut pass
+        if (feed < program.motions.feed[i]) feeds[i] = feed;  // NaN: not on a cut pass
     }
     return feeds;
 }

@@ -8,11 +8,11 @@
 
 namespace clsurf {
 
-/// The feed of each motion [mm/s], below the programmed one; 0: the programmed one stays. The machine's feed override
-/// applies to them. O(points log points).
+/// The feed of each motion [mm/s], if it is below the programmed one; 0: the programmed feed remains. The machine's feed
+/// override applies to these feeds. O(points log points).
 [[nodiscard]] std::vector<float> interval_feeds(const Program& program, const Machine& machine);
 
-/// Lowers the feeds of a program to them: what a controller with `feed = "intervals"` does.
+/// Lowers the feeds of a program to these values, as a controller with `feed = "intervals"` does.
 void hold_interval_speeds(Program& program, const Machine& machine);
 
 }  // namespace clsurf

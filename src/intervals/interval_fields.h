@@ -14,7 +14,7 @@ namespace clsurf {
 
 class IntervalFields : public FieldProvider {
 public:
-    /// `program` is in the coordinates of the lines' log, and must outlive it.
+    /// `program` is in the coordinates of the log, and must outlive the object.
     IntervalFields(const Program& program, std::shared_ptr<const LineMap> lines, Machine machine = {})
         : program_(program), lines_(std::move(lines)), machine_(std::move(machine)) {}
 

@@ -13,8 +13,8 @@
 namespace clsurf {
 namespace {
 
-constexpr double shared_reach = 2;  ///< step-overs along the path, that boundaries of adjacent passes scatter
-constexpr double alike = 0.15;      ///< speeds side by side that differ by less (a share) become one
+constexpr double shared_reach = 2;  ///< scatter of boundaries of adjacent passes along the path, in step-overs
+constexpr double alike = 0.15;      ///< adjacent speeds that differ by less (relative) become one
 
 bool are_alike(double a, double b) { return std::max(a, b) < (1 + alike) * std::min(a, b); }
 
@@ -60,7 +60,7 @@ public:
 private:
     static constexpr std::uint32_t none = 0xffffffffU;
 
-    /// The pass' own boundaries; its ends lose repeated points.
+    /// The boundaries of one pass; repeated points at its ends are removed.
     std::vector<PointIndex> divide_pass(ProgrammedPass& pass) {
         PassPoints mine;
         std::vector<PointIndex> ends;
@@ -86,7 +86,7 @@ private:
         return static_cast<double>(motions_.feed[programmed_.motion_of(end)]);
     }
 
-    /// A few lines with a lower feed must not slow the whole interval down.
+    /// Adds changes of feed, so that a few lines with a lower feed do not slow the whole interval down.
     void add_changes_of_feed(const std::vector<PointIndex>& ends, std::vector<PointIndex>& boundaries) const {
         for (std::size_t i = 1; i + 1 < ends.size(); ++i) {
             if (!are_alike(programmed_feed(ends[i]), programmed_feed(ends[i + 1]))) boundaries.push_back(ends[i]);
@@ -95,8 +95,8 @@ private:
         boundaries.erase(std::unique(boundaries.begin(), boundaries.end()), boundaries.end());
     }
 
-    /// Boundaries in line with those of the adjacent passes, without those that no other pass has and that separate equal
-    /// speeds.
+    /// Aligns boundaries with those of the adjacent passes. Removes boundaries that no other pass has and that separate
+    /// equal speeds.
     void share(PassBoundaries& boundaries) const {
         if (!(programmed_.surface.step_over > 0)) return;
         const double reach = shared_reach * programmed_.surface.step_over;
@@ -119,7 +119,7 @@ private:
 
     /// Whether two consecutive intervals can be run at one speed.
     [[nodiscard]] bool alike_across(std::size_t k, const SpeedInterval& before, const SpeedInterval& after) const {
-        if (!std::isfinite(points_[k].curvature[before.last])) return false;  // turns back
+        if (!std::isfinite(points_[k].curvature[before.last])) return false;  // reversal
         return are_alike(planned_speed(before, machine_.path.max_speed, limits_),
                          planned_speed(after, machine_.path.max_speed, limits_)) &&
                are_alike(lowest_feed(k, before), lowest_feed(k, after));
@@ -164,7 +164,7 @@ private:
         slow_short_ones(first);
     }
 
-    /// Intervals that are too short to get faster and slower again keep the higher speed of both sides.
+    /// Intervals that are too short for a change of speed keep the higher speed of both sides.
     void slow_short_ones(std::size_t first) {
         for (std::size_t k = first + 1; k + 1 < result_.intervals.size(); ++k) {
             ProgramInterval& here = result_.intervals[k];
@@ -175,8 +175,8 @@ private:
         }
     }
 
-    /// A pass begins where its first motion ends, or inside it: that motion belongs to it from its own beginning on, unless
-    /// it comes from elsewhere (a plunge).
+    /// A pass begins at the end of its first motion, or within it. That motion belongs to the pass from its own begin on,
+    /// unless it comes from elsewhere (a plunge).
     void add_beginning(const ProgrammedPass& pass, std::vector<Vec3>& points, std::vector<PointIndex>& ends) const {
         constexpr double straight_on = 0.7;  // cosine
         const std::uint32_t motion = programmed_.motion_of(pass.ends.front());
@@ -223,9 +223,9 @@ private:
     IntervalRules rules_;
     const Machine& machine_;
     SpeedLimits limits_;
-    std::vector<ProgrammedPass> passes_;   ///< their ends without repeated points
+    std::vector<ProgrammedPass> passes_;   ///< without repeated points at the ends
     std::vector<PassPoints> points_;       ///< of each pass
-    std::vector<std::uint32_t> of_point_;  ///< index of its interval
+    std::vector<std::uint32_t> of_point_;  ///< index of the interval of each point
     ProgramIntervals result_;
 };
 

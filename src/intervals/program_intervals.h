@@ -14,9 +14,9 @@ struct ProgramInterval {
     LineNumber first_line = 0, last_line = 0;
     double length = 0;                                  ///< [mm]
     double mean_curvature = 0, greatest_curvature = 0;  ///< [1/mm]
-    double feed = 0;                                    ///< [mm/s] programmed, the lowest
+    double feed = 0;                                    ///< [mm/s] lowest programmed feed
     double own_speed = 0;                               ///< [mm/s] that feed, curvature and machine allow
-    double speed = 0;  ///< [mm/s] planned: also short intervals and the neighbours looked at
+    double speed = 0;  ///< [mm/s] planned, with short intervals and neighbours considered
 };
 
 struct ProgramIntervals {
@@ -26,8 +26,8 @@ struct ProgramIntervals {
     double step_over = 0;  ///< [mm]; 0: no neighbours
 };
 
-/// An interval that is faster than its predecessor and successor and too short to change speed gets the higher speed of
-/// both. Adjacent intervals whose speeds differ by less than 15 % get the lower one, in two sweeps over the passes,
+/// An interval that is faster than the previous and the next one and too short for a change of speed gets the higher speed
+/// of both. Adjacent intervals whose speeds differ by less than 15 % get the lower speed, in two sweeps over the passes,
 /// forward and backward. O(points log points).
 [[nodiscard]] ProgramIntervals plan_intervals(const Program& program, const ProgrammedSurface& programmed,
                                               const IntervalRules& rules, const Machine& machine);

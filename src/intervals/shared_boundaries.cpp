@@ -13,12 +13,13 @@ namespace {
 constexpr int passes_on_a_side = 2;
 constexpr std::array<Side, 2> sides{Side::left, Side::right};
 
-/// Direction of travel at a point. `first`: of its pass; what comes before it is the link from another one.
+/// Direction of travel at a point. `first`: it is the first of its pass; the previous point belongs to the link from
+/// another pass.
 Eigen::Vector3f feed_at(const Positions& p, PointIndex i, bool first = false) {
     return i > 0 && !first ? Eigen::Vector3f(p[i] - p[i - 1]) : Eigen::Vector3f(p[i + 1] - p[i]);
 }
 
-/// The end of a motion nearest to a point.
+/// The end of a motion that is nearest to a point.
 PointIndex nearest_end(const ProgrammedPass& pass, PointIndex point) {
     const auto after = std::lower_bound(pass.ends.begin(), pass.ends.end(), point);
     if (after == pass.ends.end()) return pass.ends.back();
@@ -26,7 +27,7 @@ PointIndex nearest_end(const ProgrammedPass& pass, PointIndex point) {
     return *(after - 1);
 }
 
-/// The end of a motion nearest to a place `offset` [mm] along the pass after a boundary.
+/// The end of a motion that is nearest to the place `offset` [mm] after a boundary, along the pass.
 PointIndex moved(const ProgrammedPass& pass, const Positions& p, PointIndex boundary, double offset) {
     auto at = std::lower_bound(pass.ends.begin(), pass.ends.end(), boundary);
     if (at == pass.ends.end() || *at != boundary) return boundary;
@@ -117,7 +118,7 @@ PassBoundaries share_boundaries(const ProgrammedSurface& programmed, const std::
             }
             std::vector<double> offsets = adjacent.around(own[b]).offsets;
             offsets.push_back(0);
-            // The mean of both in the middle, so that both directions of travel have the same.
+            // The median of an even number is the mean of the middle two, so that both directions of travel give the same.
             shared[k].push_back(moved(passes[k], p, own[b], midpoint_median(offsets)));
         }
     }

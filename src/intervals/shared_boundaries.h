@@ -1,6 +1,7 @@
 #pragma once
 // Boundaries of constant-speed intervals that adjacent passes share. Each pass is divided by its own points, so the
-// boundaries at one feature of the surface scatter from pass to pass, and speeds would change at another place on each.
+// boundaries at one feature of the surface scatter from pass to pass. Without shared boundaries, speeds would change at
+// another place on each pass.
 
 #include <vector>
 
@@ -9,32 +10,33 @@
 
 namespace clsurf {
 
-/// Per cut pass its boundaries: points of the surface where motions end, ascending, both ends of the pass among them.
+/// The boundaries of each cut pass: points of the surface where motions end, in ascending order, including both ends of the
+/// pass.
 using PassBoundaries = std::vector<std::vector<PointIndex>>;
 
-/// The boundaries of the passes next to a place.
+/// The boundaries on the passes next to a place.
 class AdjacentBoundaries {
 public:
-    /// `reach` [mm] along the path: two boundaries of adjacent passes that are closer are at the same place across the
-    /// feed. `programmed` must outlive it. O(boundaries).
+    /// `reach` [mm] along the path: boundaries of adjacent passes that are closer than this are at the same place across
+    /// the feed. `programmed` must outlive the object. O(boundaries).
     AdjacentBoundaries(const ProgrammedSurface& programmed, const PassBoundaries& boundaries, double reach);
 
     struct Places {
-        int passes = 0;               ///< how many of two passes on each side exist
-        std::vector<double> offsets;  ///< [mm] along the feed, of those that have a boundary at the same place
+        int passes = 0;               ///< number of existing passes, of two on each side
+        std::vector<double> offsets;  ///< [mm] along the feed, for passes with a boundary at the same place
     };
     /// O(log boundaries)
     [[nodiscard]] Places around(PointIndex point) const;
 
-    /// Places of the adjacent passes that have no boundary, while the passes on both their sides have one there. `first`: the
-    /// boundary is where its pass begins.
+    /// Places on the adjacent passes without a boundary, if the passes on both their sides have one there. `first`: the
+    /// boundary is at the begin of its pass.
     [[nodiscard]] std::vector<PointIndex> missing_beside(PointIndex boundary, bool first) const;
 
     /// Whether a boundary is within reach of a location on its own pass.
     [[nodiscard]] bool has_at(const PathLocation& at) const;
 
 private:
-    /// Of the nearest boundary along `feed` [mm]; NaN: none within reach.
+    /// Offset of the nearest boundary along `feed` [mm]; NaN: none is within reach.
     [[nodiscard]] double offset_from(const PathLocation& at, const Eigen::Vector3f& feed) const;
 
     const ProgrammedSurface& programmed_;
@@ -42,9 +44,9 @@ private:
     double reach_;
 };
 
-/// Brings boundaries into line with those of the adjacent passes: each moves to the median of the places that it and the
-/// boundaries around it have; a pass gets a boundary where the passes on both sides have one. Ends of passes stay.
-/// `passes`: in the order of the boundaries. O(boundaries · log boundaries).
+/// Aligns boundaries with those of the adjacent passes. Each boundary moves to the median of its own place and those around
+/// it. A pass gets a boundary where the passes on both sides have one. The ends of passes do not move. `passes`: in the
+/// order of the boundaries. O(boundaries · log boundaries).
 [[nodiscard]] PassBoundaries share_boundaries(const ProgrammedSurface& programmed,
                                               const std::vector<ProgrammedPass>& passes,
                                               const PassBoundaries& boundaries, double reach);

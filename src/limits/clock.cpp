@@ -12,12 +12,12 @@
 namespace clsurf {
 namespace {
 
-constexpr double lost_share = 0.5;   ///< of a period, that a clock's step is longer or shorter
+constexpr double lost_share = 0.5;   ///< of a period: difference of a clock step from which it is broken
 constexpr double beyond_limit = 20;  ///< times the limit of acceleration
-constexpr double slack = 0.02;       ///< share of a limit that motion at the limit may be over it
-constexpr double certain_jerk = 3;   ///< times its limit: steps that are even otherwise are then no violation
-constexpr double long_step = 1.6;    ///< times the steps beside it
-constexpr double short_step = 0.45;  ///< times the steps beside it
+constexpr double slack = 0.02;       ///< share of a limit by which a motion at the limit may exceed it
+constexpr double certain_jerk = 3;   ///< factor of the limit: if steps are otherwise even, more shows lost records
+constexpr double long_step = 1.6;    ///< factor of the adjacent steps
+constexpr double short_step = 0.45;  ///< factor of the adjacent steps
 
 void read_clock(const Log& log, const ClockRules& rules, PointIndex begin, StepClock& steps) {
     const Channel* time = log.find("time");
@@ -32,13 +32,13 @@ void read_clock(const Log& log, const ClockRules& rules, PointIndex begin, StepC
         const bool broken = !(std::abs(off) <= lost_share * log.period);
         if (broken) steps.broken[i] = 1;
         late[i] = late[i - 1] + (broken ? 0 : off);
-        // Rounding of the clock is not the machine's.
+        // Rounding of the clock is not caused by the machine.
         steady = steady && (broken || std::abs(off) <= 2 * rules.time_resolution + 1e-6 * log.period);
     }
     if (!steady) steps.late = std::move(late);
 }
 
-/// What lost and repeated records look like: one step is too long or too short, and the one after it is not.
+/// Detects lost and repeated records: one step is too long or too short, and the next one is not.
 bool looks_lost(const Vec3& before, const Vec3& step, const Vec3& after, double allowed) {
     const Vec3 in = step - before, out = after - step;
     if (!(in.squaredNorm() > allowed * allowed) || !(out.squaredNorm() > allowed * allowed)) return false;
@@ -48,7 +48,7 @@ bool looks_lost(const Vec3& before, const Vec3& step, const Vec3& after, double 
     return length > long_step * longer || length < short_step * shorter;
 }
 
-/// A whole number of the step before at once: several records are lost in a row.
+/// Detects a step that is a whole multiple of the previous one: several records are lost in succession.
 bool is_multiple(const Vec3& before, const Vec3& step, double allowed) {
     const double shorter = std::min(before.norm(), step.norm()), longer = std::max(before.norm(), step.norm());
     if (!(shorter > 2 * allowed)) return false;
@@ -58,15 +58,15 @@ bool is_multiple(const Vec3& before, const Vec3& step, double allowed) {
     return off.norm() < 0.5 * times * allowed;
 }
 
-/// A step that is what two or three steps make which a limit allows, between steps that keep it: `steps` are five in a
-/// row, the middle one is looked at. Near standstill nothing else tells a lost record from a short violation.
+/// Whether the middle one of five steps equals two or three steps that the limit allows, between steps that keep it. Near
+/// standstill, only this distinguishes a lost record from a short violation.
 bool fits_more_periods(const std::array<Vec3, 5>& steps, double allowed) {
     // Each axis has its own limit.
     const auto greatest = [](const Vec3& of_axes) { return of_axes.cwiseAbs().maxCoeff(); };
     const auto change = [&](std::size_t i) { return greatest(steps[i] - steps[i - 1]); };
     if (change(1) > allowed || change(4) > allowed) return false;
     for (const double periods : {2.0, 3.0}) {
-        const Vec3 sum = 0.5 * periods * (steps[1] + steps[3]);  // of steps that change evenly
+        const Vec3 sum = 0.5 * periods * (steps[1] + steps[3]);  // if the step changes at a constant rate
         const double bulge = periods == 2 ? 1.5 : 3.0;
         if (greatest(steps[2] - sum) <= bulge * allowed && greatest(steps[3] - steps[1]) <= (periods + 1) * allowed)
             return true;
@@ -74,10 +74,10 @@ bool fits_more_periods(const std::array<Vec3, 5>& steps, double allowed) {
     return false;
 }
 
-/// The middle one of the steps is divided into so many parts that the second differences of all are least: their root mean square,
-/// in the axis where it is greatest. 0 parts: the middle step is left out.
+/// Divides the middle step into parts so that the second differences of all steps are least. Returns their root mean
+/// square, of the axis with the greatest one. 0 parts: the middle step is left out.
 double unevenness(const std::array<Vec3, 5>& steps, int parts) {
-    // Unknown is by how much each part differs from an equal share. These differences add up to 0, so the last one follows.
+    // Unknowns: the differences of the parts from equal shares. They add up to 0, so the last one follows from the others.
     const int free = std::max(0, parts - 1), rows = parts + 2;
     Eigen::MatrixXd known(parts + 4, 3), by_free = Eigen::MatrixXd::Zero(parts + 4, free);
     known.row(0) = steps[0], known.row(1) = steps[1];
@@ -95,7 +95,8 @@ double unevenness(const std::array<Vec3, 5>& steps, int parts) {
     return std::sqrt(left.colwise().squaredNorm().maxCoeff() / rows);
 }
 
-/// Whether the middle one of five steps is what one to three lost records make of a motion that keeps its jerk, or a repeated one.
+/// Whether one to three lost records, or a repeated one, explain the middle one of five steps of a motion that keeps its
+/// jerk limit.
 bool hides_records(const std::array<Vec3, 5>& steps, double allowed, double resolution) {
     if (steps[2].cwiseAbs().maxCoeff() <= resolution) return unevenness(steps, 0) <= allowed;
     for (const int parts : {2, 3, 4}) {
@@ -127,7 +128,7 @@ StepClock judge_steps(const Log& log, const ClockRules& rules, PointIndex begin,
             steps.broken[i] = 1;
     }
     for (std::size_t i = 2; i < n; ++i) {
-        // Most records are clean, and this shows it at the least cost.
+        // Most records are clean; this is the least expensive check.
         const double second_x = x[i] - 2 * x[i - 1] + x[i - 2], second_y = y[i] - 2 * y[i - 1] + y[i - 2],
                      second_z = z[i] - 2 * z[i - 1] + z[i - 2];
         const double squared_difference = second_x * second_x + second_y * second_y + second_z * second_z;

@@ -7,12 +7,12 @@
 namespace clsurf {
 namespace {
 
-constexpr double arithmetic = 1e-6;  ///< share of a limit that sums of doubles are off, also those of a planner
+constexpr double arithmetic = 1e-6;  ///< share of a limit: rounding errors of sums of doubles, also those of a planner
 
 double proved(const JudgedLimit& limit) { return limit.factor - limit.uncertainty; }
 
-/// The greatest value counts, with rounding and the clock against it: of two alike the more exact one. A bend is none of
-/// chance, and where it makes a peak uncertain, the peak is all the same the greatest that was seen.
+/// The greatest value counts, reduced by rounding and the clock: of two similar values the more accurate one. The
+/// uncertainty from bends is not random and is not subtracted: the peak remains the greatest observed value.
 void extend(RecordRun& run, const RecordRun& next) {
     const PointRange points{run.finding.points.first, next.finding.points.last};
     run.proved = std::max(run.proved, next.proved);

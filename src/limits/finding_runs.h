@@ -1,5 +1,5 @@
 #pragma once
-// Records over a limit become findings: consecutive ones, and those between which the same excess may have gone on.
+// Combines records over a limit into findings: consecutive records, and those between which the excess may have continued.
 
 #include <functional>
 #include <limits>
@@ -13,30 +13,30 @@ namespace clsurf {
 /// Consecutive records over a limit.
 struct RecordRun {
     LimitFinding finding;
-    double proved = 0;  ///< the greatest factor less uncertainty
-    double clear = 0;   ///< of the finding: factor less what rounding and the clock make of it
-    /// How far any record between the run before and this one may at least have been over the limit: the least factor plus
-    /// uncertainty of them. Infinite: there are none.
+    double proved = 0;  ///< the greatest factor minus uncertainty
+    double clear = 0;   ///< of the finding: factor minus the effects of rounding and the clock
+    /// Upper bound of the excess in the gap to the previous run: the least factor plus uncertainty of the records between.
+    /// Infinite: there are none.
     double gap_reach = std::numeric_limits<double>::infinity();
 };
 
-/// What was found of one limit in consecutive records.
+/// The runs of one limit in consecutive records.
 struct RecordRuns {
     std::vector<RecordRun> runs;
     double gap_reach = std::numeric_limits<double>::infinity();  ///< of the records after the last run
     JudgedLimit greatest;
     bool any = false;  ///< whether any record was judged
 
-    /// Appends what was found in the records that follow.
+    /// Appends the runs of the following records.
     void append(const RecordRuns& next);
 };
 
-/// Takes records one after the other.
+/// Takes records one by one.
 class RunFinder {
 public:
     explicit RunFinder(const StatedLimit& limit) { found_.greatest.limit = limit; }
 
-    /// NaN: not known there. `limit` [as the limit]: what holds at this record.
+    /// NaN: not known. `limit` [unit of the limit]: its value at this record.
     void add(PointIndex point, const MeasuredValue& measured, double limit);
     [[nodiscard]] RecordRuns finish() { return std::move(found_); }
 
@@ -44,8 +44,8 @@ private:
     RecordRuns found_;
 };
 
-/// Joins runs that may be one, of which noise hides parts: between them, for at most `longest_gap` records on the same line,
-/// no record is certain to be below what is certain of both. O(runs).
+/// Joins runs that may be one, if noise hides parts of the excess: between them there are at most `longest_gap` records, on
+/// the same line, and no record that is certainly below the certain excess of both. O(runs).
 [[nodiscard]] std::vector<LimitFinding> findings_of(const RecordRuns& found, PointIndex longest_gap,
                                                     const std::function<LineNumber(PointIndex)>& line_at);
 

@@ -20,11 +20,11 @@
 namespace clsurf {
 namespace {
 
-/// Of a steady excess as small as its uncertainty some records show nothing. On circles 2 % too fast these were up to 0.06 s;
-/// what is farther apart counts as another place.
+/// If a steady excess is as small as its uncertainty, some records do not show it. On circles 2 % too fast, such gaps
+/// lasted up to 0.06 s. Excesses with longer gaps are different places.
 constexpr double longest_gap = 0.1;  // [s]
 
-/// A limit and how records are compared with it.
+/// A limit and its comparison with records.
 struct Comparison {
     StatedLimit limit;
     std::function<RecordRuns(PointRange, const MotionWindow&)> judge;
@@ -55,16 +55,16 @@ Comparison compare_following_error(const StatedLimit& limit, const ChannelView& 
             }};
 }
 
-/// What the program's own rounding adds to a distance from its path [mm].
+/// Contribution of the program's rounding to a distance from its path [mm].
 constexpr double program_rounding = 5e-5;
 
-/// An offset that somebody stated; one that was fitted has other digits.
+/// Whether the offset was stated; a fitted one has other digits.
 bool is_stated(const Trajectory& path) {
     const Vec3 steps = path.offset * um_per_mm;
     return path.turn.isIdentity() && (steps - steps.array().round().matrix()).cwiseAbs().maxCoeff() < 1e-6;
 }
 
-/// How far the log's zero may be off the program's: half of all records are nearer to the path.
+/// Possible offset of the log's zero from that of the program: half of all records are nearer to the path.
 double pose_error(const Trajectory& path, const PathTolerance& tolerance) {
     if (is_stated(path)) return 0;
     const PointIndex count = path.count;
@@ -144,12 +144,12 @@ private:
         comparisons_.push_back(compare_following_error(limit, axis->positions, feedback->values));
     }
 
-    /// The program's own tolerances hold with any machine.
+    /// The program's tolerances apply on any machine.
     void prepare_tolerance(std::span<const StatedLimit> limits) {
         const auto own = std::find_if(limits.begin(), limits.end(), [](const StatedLimit& limit) {
             return limit.quantity == LimitedQuantity::tolerance;
         });
-        // The path of a tilting tool is known to chords only; lines of another program say nothing.
+        // The path of a tilting tool is known only as chords; lines of another program cannot be compared.
         if (run_.program.motions.size() == 0 || motion_.has_tip() || motion_.axes().empty() ||
             !run_.lines.match().doubts().empty())
             return;

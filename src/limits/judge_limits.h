@@ -1,5 +1,5 @@
 #pragma once
-// The comparison of every record of a log with the limits that a machine file or a budget states.
+// Compares every record of a log with the limits of a machine file or a budget.
 
 #include <span>
 
@@ -12,7 +12,7 @@
 
 namespace clsurf {
 
-/// What is compared: `path` has the commanded positions, in the coordinates of the program's motions.
+/// The compared data: `path` has the commanded positions, in the coordinates of the program's motions.
 struct LimitedRun {
     const Log& log;
     const Trajectory& path;
@@ -20,8 +20,7 @@ struct LimitedRun {
     const LineMap& lines;
 };
 
-/// Every limit is judged for which the log has the positions; others are named in the diagnostics. O(records · limits),
-/// parallel.
+/// Judges every limit for which the log has the positions; the diagnostics list the others. O(records · limits), parallel.
 [[nodiscard]] LimitReport judge_limits(const LimitedRun& run, std::span<const StatedLimit> limits);
 
 }  // namespace clsurf

@@ -1,5 +1,5 @@
 #pragma once
-// What a budget says of limits: keys of the same file as those of predictor/verdict.h.
+// The limits in a budget: keys of the same file as those of predictor/verdict.h.
 
 #include <optional>
 #include <span>
@@ -18,7 +18,7 @@ struct LimitBudget {
 [[nodiscard]] std::span<const BudgetLimit<LimitReport, LimitBudget>> limit_budget_limits();
 [[nodiscard]] std::vector<BudgetLine> hold(const LimitReport& report, const LimitBudget& budget);
 
-/// The limits of the following error of axes x, y, z that the budget states; none: it does not.
+/// The limits of the following error of axes x, y, z in the budget; empty: it has none.
 [[nodiscard]] std::vector<StatedLimit> following_error_limits(const LimitBudget& budget);
 
 }  // namespace clsurf

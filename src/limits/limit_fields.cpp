@@ -12,7 +12,7 @@
 namespace clsurf {
 namespace {
 
-/// Shares of some limits at points of a block: of the worst of them.
+/// Writes the greatest share of some limits at each point of a block.
 void write_shares(const MotionWindow& window, const CommandedMotion& motion, std::span<const StatedLimit> limits,
                   std::span<float> out) {
     std::fill(out.begin(), out.end(), missing<float>);

@@ -1,6 +1,6 @@
 #pragma once
-// Fields speed_share, acceleration_share and jerk_share: the commanded motion as a share of what the machine allows its
-// axes, of one axis (`acceleration_share.x`) or of the worst one.
+// Fields speed_share, acceleration_share and jerk_share: the commanded motion as a share of the limits of the axes, of one
+// axis (`acceleration_share.x`) or of the one with the greatest share.
 
 #include <memory>
 #include <vector>
@@ -12,14 +12,14 @@ namespace clsurf {
 
 class LimitFields : public FieldProvider {
 public:
-    /// Shares the columns of `log` and `path`, the commanded positions. Limits of the path are not used.
+    /// Shares the columns of `log` and `path`; `path`: the commanded positions. Limits of the path are not used.
     LimitFields(Log log, Trajectory path, std::vector<StatedLimit> limits);
 
     [[nodiscard]] std::vector<FieldInfo> fields() const override;
-    /// Whether a limit is stated for it and the log has the commanded positions.
+    /// Whether there is a limit for the field and the log has the commanded positions.
     [[nodiscard]] bool can_compute(std::string_view name) const override;
-    /// Shares as `check` has them: unsmoothed, without records that look lost. 1: at the limit. Throws UsageError: the
-    /// limit is not stated. O(points · axes), parallel.
+    /// Shares as in `check`: unsmoothed, without records that seem to be lost. 1: at the limit. Throws UsageError: there is
+    /// no limit. O(points · axes), parallel.
     [[nodiscard]] std::vector<Field> compute(std::span<const std::string_view> names, PointRange points) const override;
 
 private:

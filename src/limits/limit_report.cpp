@@ -12,7 +12,7 @@ double LimitReport::greatest_factor() const {
     for (const JudgedLimit& limit : judged) {
         if (!(greatest >= limit.factor)) greatest = limit.factor;
     }
-    return greatest > 1 ? 1.0 : greatest;  // by no more than its uncertainty
+    return greatest > 1 ? 1.0 : greatest;  // exceeded by at most its uncertainty
 }
 
 std::string_view name_of(LimitedQuantity quantity) { return row_of(quantity).name; }

@@ -10,7 +10,7 @@ namespace clsurf {
 namespace {
 
 constexpr PointIndex section_count = 64, section_length = 1600;  // records
-constexpr double most_off = 0.5;                                 ///< [mm] more is another matter than a lead
+constexpr double most_off = 0.5;                                 ///< [mm] a greater distance is not caused by a lead
 
 }  // namespace
 
@@ -22,7 +22,7 @@ PointIndex find_line_lead(const Trajectory& path, const Program& program, const 
     for (PointIndex first = longest_line_lead; first < path.count; first += step) {
         const PointIndex end = std::min(path.count, first + section_length);
         for (PointIndex point = first; point < end; ++point) {
-            // Only where the line changes do leads differ.
+            // Leads have different results only where the line changes.
             const std::int64_t now = lines.motion_at(point);
             const std::int64_t then = lines.motion_at(point - longest_line_lead);
             if (now == then || now < 0 || then < 0) continue;

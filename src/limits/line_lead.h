@@ -1,5 +1,5 @@
 #pragma once
-// By how many records the lines that a kernel reports lead its positions: the planner is ahead of the interpolator.
+// Number of records by which the lines that a kernel reports lead its positions: the planner is ahead of the interpolator.
 
 #include "mapping/line_map.h"
 #include "program/program.h"
@@ -9,8 +9,8 @@ namespace clsurf {
 
 inline constexpr PointIndex longest_line_lead = 4;
 
-/// The lead with which positions lie nearest to the motions of their lines, on at most 10^5 records; 0 where lines were
-/// found by geometry.
+/// The lead for which positions are nearest to the motions of their lines, on at most 10^5 records; 0 if lines were found
+/// by geometry.
 [[nodiscard]] PointIndex find_line_lead(const Trajectory& path, const Program& program, const LineMap& lines);
 
 }  // namespace clsurf

@@ -12,19 +12,20 @@ namespace {
 
 constexpr std::array<std::size_t, 8> stride_steps{1, 2, 3, 4, 6, 8, 12, 16};
 constexpr double small_share = 0.01;  ///< of a limit
-/// How many of the resolution a difference of each order is off at most.
+/// Greatest error of a difference of each order, in multiples of the resolution.
 constexpr std::array<double, 4> roundings{1, 1, 2, 4};
-/// Of the greatest coordinate: what arithmetic in doubles adds.
+/// Rounding error of double arithmetic, relative to the greatest coordinate.
 constexpr double last_places = 4 * std::numeric_limits<double>::epsilon();
 
-/// Positions, or vectors of them, at four instants [s] at most.
+/// Positions, or vectors of them, at up to four instants [s].
 template <typename T>
 struct Samples {
     std::array<T, 4> at;
     std::array<double, 4> times{};
 };
 
-/// The divided difference of the first order + 1 samples, times the factorial of the order: the derivative's mean.
+/// The divided difference of the first order + 1 samples times the factorial of the order, which is the mean of the
+/// derivative.
 template <typename T>
 T derivative_of(Samples<T> samples, std::size_t order) {
     for (std::size_t level = 1; level <= order; ++level) {
@@ -36,13 +37,13 @@ T derivative_of(Samples<T> samples, std::size_t order) {
     return samples.at[0];
 }
 
-/// A value if the records are a period apart, and the same by their times. Which of the two is right, or how much of each, is
-/// not known: the least of what lies between them is proved.
+/// `even`: a value for records one period apart, `timed`: the same by their times. It is not known which of them is right,
+/// or in which proportion: the least value between them is certain.
 double least_between(double even, double timed) {
     return even * timed <= 0 ? 0 : std::copysign(std::min(std::abs(even), std::abs(timed)), even);
 }
 
-/// The same of the length of a vector.
+/// The same for the length of a vector.
 double least_norm_between(const Vec3& even, const Vec3& timed) {
     const Vec3 change = timed - even;
     const double squared = change.squaredNorm();
@@ -50,7 +51,7 @@ double least_norm_between(const Vec3& even, const Vec3& timed) {
     return (even + share * change).norm();
 }
 
-/// 1 − cos of the angle between two steps; 1 where one of them has no direction.
+/// 1 − cos of the angle between two steps; 1 if one of them has no direction.
 double one_minus_cosine(const Vec3& a, const Vec3& b) {
     const double lengths = a.norm() * b.norm();
     return lengths > 0 ? std::max(0.0, 1 - a.dot(b) / lengths) : 1;
@@ -92,7 +93,7 @@ const CommandedAxis* CommandedMotion::find(char letter) const {
 double CommandedMotion::tip_resolution(const Vec3& linear, const Vec3& rotary) const {
     const Kinematics& kinematics = *path_->kinematics;
     const LeverArms arms = kinematics.lever_arms(linear, kinematics.angles_of(rotary));
-    // The tip of a ball that stands upright moves with its axis, too.
+    // Even if the axis of a ball end mill is vertical, its tip moves with the axis.
     return resolution() + find(kinematics.tilt.letter)->resolution * (arms.tilt + path_->ball) +
            find(kinematics.rotation.letter)->resolution * (arms.rotation + path_->ball);
 }
@@ -184,7 +185,7 @@ double MotionWindow::time_between(std::size_t first, std::size_t last) const {
     return static_cast<double>(last - first) * motion_->log().period + late;
 }
 
-/// By how much rounding grows where records are closer together than periods, for differences from `first` on.
+/// The factor by which rounding grows if records are closer together than a period, for differences from `first` on.
 double MotionWindow::crowding(std::size_t first, std::size_t stride, int order) const {
     if (!is_timed()) return 1;
     const double even = static_cast<double>(stride) * motion_->log().period;
@@ -194,7 +195,7 @@ double MotionWindow::crowding(std::size_t first, std::size_t stride, int order) 
     return std::pow(even / closest, order);
 }
 
-/// What rounding of the clock makes of a derivative: each time is off by half of its resolution.
+/// Contribution of the clock's rounding to a derivative: each time has an error of half its resolution.
 double MotionWindow::clock_noise(double speed, double rate, int order) const {
     if (!is_timed()) return 0;
     return roundings[static_cast<std::size_t>(order)] * speed * motion_->clock().time_resolution *
@@ -237,7 +238,7 @@ MotionWindow::Value MotionWindow::of_path(std::size_t i, std::size_t stride, Lim
     const double length = chord.norm();
     const double noise = 2 * places * rate * rate + clock_noise(std::max(speed, out.norm() * rate), rate, 2);
     const Vec3 acceleration = (out - in) * (rate * rate);
-    if (!(length > 0)) return {0, 0, acceleration.norm()};  // a turn on the spot has no direction
+    if (!(length > 0)) return {0, 0, acceleration.norm()};  // a reversal has no direction
     double along = acceleration.dot(chord) / length;
     Vec3 beside = acceleration - along / length * chord;
     double across = beside.norm();
@@ -249,9 +250,9 @@ MotionWindow::Value MotionWindow::of_path(std::size_t i, std::size_t stride, Lim
         across = least_norm_between(beside, timed - timed_along / length * chord);
         along = least_between(along, timed_along);
     }
-    // The direction turns within the difference, and rounding turns it: each part takes a share of the other.
+    // The direction turns within the difference, and rounding changes it: each component contains a share of the other.
     const double lengths = in.norm() * out.norm();
-    const bool is_sharp = !(lengths > 0) || in.dot(out) < 0;  // the sine falls again beyond a right angle
+    const bool is_sharp = !(lengths > 0) || in.dot(out) < 0;  // beyond a right angle the sine decreases again
     const double turn = is_sharp ? 1 : std::min(1.0, in.cross(out).norm() / lengths);
     const double slack = 0.5 * turn + std::min(1.0, rounding / (rate * rate) / length);
     if (quantity == LimitedQuantity::tangential_acceleration) return {std::abs(along), noise, across * slack};
@@ -259,9 +260,9 @@ MotionWindow::Value MotionWindow::of_path(std::size_t i, std::size_t stride, Lim
     return {across, noise, std::abs(along) * slack};
 }
 
-/// Whether the path may have stopped in a sharp corner between the records about one: then it has braked and leaves again along
-/// straight lines, and what looks like normal acceleration is tangential. At constant acceleration the step before is at
-/// least 5/3 of the step that leads to the corner, or the step after of that which leaves it.
+/// Whether the path may have stopped in a sharp corner between the records about i. It then brakes and leaves along
+/// straight lines, and tangential acceleration looks like normal acceleration. At constant acceleration the step before is
+/// at least 5/3 of the step that leads to the corner, or the step after it at least 5/3 of the step that leaves it.
 bool MotionWindow::may_stop(std::size_t i, std::size_t stride) const {
     if (i < 2 * stride || i + 2 * stride >= count_) return true;
     constexpr double braking = 1.5;
@@ -269,7 +270,7 @@ bool MotionWindow::may_stop(std::size_t i, std::size_t stride) const {
     return step(i - 2 * stride) > braking * step(i - stride) || step(i + stride) > braking * step(i);
 }
 
-/// The second difference of chords: along a bend they are shorter than the path, which changes no speed.
+/// The second difference of chords. On a bend they are shorter than the path, although the speed does not change.
 MotionWindow::Value MotionWindow::path_jerk(std::size_t i, std::size_t stride) const {
     if (i < 3 * stride || i + 2 * stride >= count_) return {missing<double>, 0};
     const double rate = 1 / (static_cast<double>(stride) * motion_->log().period);
@@ -287,7 +288,7 @@ MotionWindow::Value MotionWindow::path_jerk(std::size_t i, std::size_t stride) c
     }
     double value = (chords[3].norm() - 2 * chords[2].norm() + chords[1].norm()) * cubed_rate;
     if (is_timed()) {
-        // Speeds in the middle of three steps.
+        // Speeds at the middle of three steps.
         Samples<double> speeds;
         for (std::size_t step = 0; step < 3; ++step) {
             const std::size_t from = i + step * stride - 2 * stride;

@@ -8,7 +8,7 @@
 namespace clsurf {
 namespace {
 
-/// A kernel reports one line of many that it merged, or runs ahead of short ones.
+/// A kernel may report one line for many merged ones, or be ahead on short lines.
 constexpr std::int64_t reach = 128;  ///< motions to each side
 
 }  // namespace
@@ -67,7 +67,7 @@ std::vector<PathDeviation> PathTolerance::read(PointRange records) const {
     const auto near = [&](const Vec3& position, std::int64_t motion, std::int64_t behind, std::int64_t ahead) {
         return nearest(position, std::max<std::int64_t>(0, motion - behind), std::min(count - 1, motion + ahead));
     };
-    std::int64_t cursor = -1;  // where the record before was
+    std::int64_t cursor = -1;  // motion of the previous record
     for (std::size_t i = 0; i < n; ++i) {
         const PointIndex point = records.first + static_cast<PointIndex>(i);
         const std::int64_t motion = lines_->motion_at(std::max<PointIndex>(0, point - lead_));
@@ -80,7 +80,7 @@ std::vector<PathDeviation> PathTolerance::read(PointRange records) const {
         }
         if (found.distance > least_) found = near(position, motion, reach, reach);
         cursor = found.motion;
-        // Rapids may take another way, and so may what blends into them.
+        // Rapids may follow another path, and so may blends into them.
         if (found.motion < 0 || !cuts(found.motion)) continue;
         if (found.motion > 0 && !cuts(found.motion - 1) && found.distance > least_) continue;
         deviations[i] = {found.distance, tolerance_at(found.motion)};

@@ -1,5 +1,5 @@
 #pragma once
-// How far the commanded motion leaves the programmed path, against the tolerance that holds there: P of G64, that of a
+// The deviation of the commanded motion from the programmed path, compared with the tolerance in force: P of G64, that of a
 // cycle, or the machine's own.
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace clsurf {
 
-/// Of a record: how far off it is, and how far it may be.
+/// Deviation of a record, and the permitted deviation.
 struct PathDeviation {
     double distance = 0;   ///< [mm] NaN: not judged
     double tolerance = 0;  ///< [mm]
@@ -20,8 +20,8 @@ struct PathDeviation {
 
 class PathTolerance {
 public:
-    /// `own` [mm]: the machine's tolerance, where the program states none; nullopt: not judged there. All must outlive it.
-    /// O(motions + events).
+    /// `own` [mm]: the machine's tolerance, used if the program sets none; nullopt: such motions are not judged. All
+    /// references must outlive the object. O(motions + events).
     PathTolerance(const Trajectory& path, const Program& program, const LineMap& lines, PointIndex lead,
                   std::optional<double> own);
 
@@ -29,7 +29,7 @@ public:
     [[nodiscard]] bool any() const { return any_; }
     /// The smallest tolerance of any motion [mm]; infinite: none.
     [[nodiscard]] double least() const { return least_; }
-    /// Records [first, last]. Rapids and exact stops are not judged. A corner has the tolerance of the motion
+    /// Reads the records [first, last]. Rapids and exact stops are not judged. A corner has the tolerance of the motion
     /// that ends in it. O(records).
     [[nodiscard]] std::vector<PathDeviation> read(PointRange records) const;
 

@@ -41,7 +41,7 @@ LintReport lint(const Program& program, const ProgrammedSurface& programmed, con
     const PointIndex all = cutting_points(programmed.surface.passes) + programmed.surface.not_finishing;
     if (all > 0)
         report.not_finishing = static_cast<double>(programmed.surface.not_finishing) / static_cast<double>(all);
-    // What lies beside what by chance says nothing.
+    // If most of the cutting is not finishing, adjacent passes are accidental.
     if (report.not_finishing > 0.5) return report;
     for (const LintRule& rule : rules) {
         std::vector<LintFinding> found;

@@ -10,10 +10,10 @@
 namespace clsurf {
 namespace {
 
-constexpr double least_curvature = 1e-4;  ///< [1/mm] below it a line is straight
-constexpr std::size_t bridged_ends = 2;   ///< good points between bad ones that do not end a run
+constexpr double least_curvature = 1e-4;  ///< [1/mm] below it a line counts as straight
+constexpr std::size_t bridged_ends = 2;   ///< greatest number of good points within a run
 
-/// Direction of the feed at a point of a pass; 0: the tool stands.
+/// Direction of the feed at a point of a pass; 0: the tool is at rest.
 Eigen::Vector3f direction_at(const Positions& positions, const ProgrammedPass& pass, PointIndex i) {
     const Eigen::Vector3f chord =
         positions[std::min(pass.points.last, i + 1)] - positions[std::max(pass.points.first, i - 1)];
@@ -121,7 +121,7 @@ void find_runs(const LintContext& context, const LintRule& rule, const LintRunRu
         double worst = 0;
         std::vector<double> found, expected;
         const auto close = [&] {
-            // One pair of points that nearly coincide says little of a section.
+            // One pair of points that nearly coincide is not typical of a section.
             if (runs.medians && size > 0) {
                 finding.found = median(found);
                 finding.expected = median(expected);

@@ -1,5 +1,5 @@
 #pragma once
-// LintFinding: a problem that a rule of lint found, and LintThresholds: from where on it is one.
+// LintFinding: a problem that a rule of lint found, and LintThresholds: the values from which on something is a problem.
 
 #include "core/cutter_place.h"
 #include "surface/programmed_surface.h"
@@ -13,24 +13,23 @@ struct LintFinding {
     const LintRule* rule = nullptr;
     Severity severity = Severity::warning;
     LineNumber first_line = 0, last_line = 0;
-    LineNumber beside_first = 0, beside_last = 0;  ///< lines of a neighbour pass at that place; 0: none
+    LineNumber beside_first = 0, beside_last = 0;  ///< lines of an adjacent pass at that place; 0: none
     std::int64_t pass = 0;                         ///< number of the cut pass, from 1; 0: none
-    PointIndex point = 0;                          ///< of the programmed surface, where it is worst …
-    CutterPlace place;                             ///< … and what lies there
+    PointIndex point = 0;                          ///< of the programmed surface, at the worst place …
+    CutterPlace place;                             ///< … and the position there
     double found = 0,
-           expected =
-               0;  ///< mm, or mm/s for feeds: the worst value (of spacings the median) and what it is measured by
+           expected = 0;  ///< mm, or mm/s for feeds: the worst value (for spacings the median) and its reference
 };
 
 struct LintThresholds {
-    double spacing_ratio = 2;  ///< spacing against that of both neighbours, either way
-    double feed_ratio = 1.02;  ///< feeds, likewise
-    double tolerance = 0;      ///< [mm] of the controller; 0: what the program sets, else the chord rule is left out
-    /// The controller's tolerance over the program's chord error: below the first it copies the facets, above
-    /// the second it blurs what the points say.
+    double spacing_ratio = 2;  ///< ratio of the spacing to that of both neighbours, or its inverse
+    double feed_ratio = 1.02;  ///< ratio of feeds, likewise
+    double tolerance = 0;      ///< [mm] of the controller; 0: that of the program, or without one no chord rule
+    /// Ratio of the controller's tolerance to the program's chord error. Below the first value the controller reproduces
+    /// the facets; above the second one it smooths away details of the points.
     double least_tolerance_ratio = 1.1, most_tolerance_ratio = 2.0;
-    double reversed_share = 0.5;  ///< of the usual spacing: longer lines that run back are meant
-    double start_step_overs = 1;  ///< how far a pass's end may lie out of line
+    double reversed_share = 0.5;  ///< of the usual spacing: longer lines that run back are intentional
+    double start_step_overs = 1;  ///< greatest deviation of a pass's end from the line through adjacent ends
 };
 
 }  // namespace clsurf

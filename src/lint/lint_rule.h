@@ -1,5 +1,5 @@
 #pragma once
-// LintRule: one rule of lint as a row, and LintContext: what a rule can read.
+// LintRule: one rule of lint as a row, and LintContext: the data that a rule can read.
 
 #include <array>
 #include <functional>
@@ -15,13 +15,13 @@
 
 namespace clsurf {
 
-/// A value that does not suit, at one end of a line.
+/// An unsuitable value at one end of a line.
 struct LintMeasure {
     double found = 0, expected = 0;
-    PointIndex beside = -1;  ///< a point of an adjacent pass that it is compared with; −1: none
+    PointIndex beside = -1;  ///< a point of an adjacent pass, for comparison; −1: none
 };
 
-/// A program as the rules read it. Program and surface must outlive it.
+/// A program as the rules read it. Program and surface must outlive the object.
 class LintContext {
 public:
     LintContext(const Program& program, const ProgrammedSurface& programmed, const LintThresholds& thresholds);
@@ -34,9 +34,9 @@ public:
     [[nodiscard]] double tolerance() const { return tolerance_; }    ///< [mm] of the controller; 0: not known
     [[nodiscard]] double spacing() const { return usual_spacing_; }  ///< [mm] median length of the cutting lines
     [[nodiscard]] double chord_error() const { return usual_chord_error_; }  ///< [mm] 95th percentile
-    /// [mm] length of the line that a point lies on; NaN: not on a cut pass.
+    /// [mm] length of the line at a point; NaN: not on a cut pass.
     [[nodiscard]] double spacing_at(PointIndex point) const;
-    /// [mm] by which the line that ends at a point leaves the curve; 0: it does not bend.
+    /// [mm] distance between the curve and the line that ends at a point; 0: it does not bend.
     [[nodiscard]] double chord_error_at(PointIndex point) const;
     [[nodiscard]] double feed_at(PointIndex point) const {
         return motions_.feed[programmed_.motion_of(point)];
@@ -44,10 +44,10 @@ public:
 
     [[nodiscard]] Vec3 at(PointIndex point) const;
     [[nodiscard]] LineNumber line(PointIndex point) const { return motions_.line[programmed_.motion_of(point)]; }
-    /// The places on the two adjacent passes at a point; nullopt where one is not there.
+    /// The places on the two adjacent passes at a point; nullopt if one of them is missing.
     [[nodiscard]] std::optional<std::array<PathLocation, 2>> both_sides(const ProgrammedPass& pass,
                                                                         PointIndex point) const;
-    /// A value that lies on one side of those of both adjacent passes by more than `ratio`.
+    /// A value that is above or below those of both adjacent passes by more than `ratio`.
     [[nodiscard]] std::optional<LintMeasure> against_both(const ProgrammedPass& pass, PointIndex point, double ratio,
                                                           const std::function<double(PointIndex)>& read) const;
 
@@ -68,7 +68,7 @@ private:
     double tolerance_ = 0, usual_spacing_ = 0, usual_chord_error_ = 0;
 };
 
-/// How the found and the expected value of a finding are shown.
+/// How the found and the expected value of a finding are displayed.
 struct LintUnit {
     std::string_view name = "mm";
     double per_inside = 1;
@@ -79,22 +79,23 @@ struct LintRule {
     std::string_view name;         ///< "point-spacing", the name in reports
     std::string_view description;  ///< a short sentence, for SARIF
     LintUnit unit;
-    /// What is said of a finding, whose values are given with their unit.
+    /// The text of a finding; its values are given with their unit.
     std::string (*message)(const LintFinding& finding, const std::string& found, const std::string& expected) = nullptr;
-    /// Adds what breaks the rule.
+    /// Adds the findings of the rule.
     void (*check)(const LintContext& context, const LintRule& rule, std::vector<LintFinding>& findings) = nullptr;
 };
 
 /// The message of a finding in full.
 [[nodiscard]] std::string message_of(const LintFinding& finding);
 
-/// Of which runs of unsuitable ends findings are made.
+/// Which runs of unsuitable ends become findings.
 struct LintRunRule {
-    std::size_t fewest = 1;  ///< ends: a point or two may be meant
-    bool medians = false;    ///< found and expected are medians, else the values farthest from 1
+    std::size_t fewest = 1;  ///< ends: one or two points may be intentional
+    bool medians = false;    ///< found and expected are medians; if false, the values farthest from 1
 };
 
-/// Runs of a pass's line ends for which `measure` has a value, a finding each. Up to two good ends between do not end a run.
+/// Makes a finding of each run of line ends of a pass for which `measure` has a value. Up to two good ends do not interrupt
+/// a run.
 void find_runs(const LintContext& context, const LintRule& rule, const LintRunRule& runs,
                const std::function<std::optional<LintMeasure>(const ProgrammedPass&, PointIndex)>& measure,
                std::vector<LintFinding>& findings);

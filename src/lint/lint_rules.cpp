@@ -16,10 +16,10 @@ namespace {
 
 using Findings = std::vector<LintFinding>;
 
-constexpr std::size_t fewest_uneven = 3;   ///< ends: a point or two that a collinear line saves are no harm
-constexpr double reversing_cosine = -0.5;  ///< a line runs back that turns by more than 120°
-constexpr double scatter_of_starts = 6;    ///< times the median absolute residual: more is out of line
-constexpr double start_reach = 6;  ///< step-overs that the ends of adjacent passes may lie apart across the feed
+constexpr std::size_t fewest_uneven = 3;   ///< ends: saving one or two points on a collinear line is harmless
+constexpr double reversing_cosine = -0.5;  ///< a line that turns by more than 120° runs back
+constexpr double scatter_of_starts = 6;    ///< factor of the median absolute residual; a greater one is out of line
+constexpr double start_reach = 6;  ///< [step-overs] greatest distance between ends of adjacent passes across the feed
 
 void check_spacing(const LintContext& context, const LintRule& rule, Findings& findings) {
     find_runs(
@@ -89,7 +89,7 @@ void check_reversals(const LintContext& context, const LintRule& rule, std::vect
         findings);
 }
 
-/// An end of a pass, and the nearest ends of the passes before and after it in the program.
+/// An end of a pass, and the nearest ends of the previous and the next pass in the program.
 struct End {
     const ProgrammedPass* pass = nullptr;
     bool begins = false;
@@ -150,7 +150,7 @@ void check_starts(const LintContext& context, const LintRule& rule, std::vector<
     }
 }
 
-// ---- what is said of a finding ----
+// ---- messages ----
 
 std::string spacing_message(const LintFinding& f, const std::string& found, const std::string& expected) {
     return fmt::format("points {} apart on pass {}, {} on the adjacent passes", found, f.pass, expected);

@@ -47,7 +47,7 @@ void mark_front(std::vector<TradeoffRow>& rows) {
         rows[row].on_front = false;
         if (knows_all(rows[row].quality)) order.push_back(row);
     }
-    // A row is dominated by rows that come before it in this order only, and if so, by one of the front.
+    // A row can only be dominated by earlier rows in this order, and if it is, by one of the front.
     std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
         return objectives_of(rows[a].quality) < objectives_of(rows[b].quality);
     });
@@ -62,7 +62,7 @@ void mark_front(std::vector<TradeoffRow>& rows) {
 
 double weighted_cost(const MotionQuality& quality, const MotionQuality& reference, double weight) {
     const double surface = 0.5 * (ratio(quality.mismatch, reference.mismatch) + ratio(quality.jerk, reference.jerk));
-    // Not 0 times infinity.
+    // Avoids 0 times infinity.
     const double of_surface = weight > 0 ? weight * surface : 0;
     const double of_time = weight < 1 ? (1 - weight) * ratio(quality.duration, reference.duration) : 0;
     return of_time + of_surface;

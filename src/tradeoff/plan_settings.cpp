@@ -23,7 +23,7 @@ bool limits_jerk(const Machine& machine) {
     if (machine.controller.planner == PlannerKind::trapezoidal) return false;
     const bool of_an_axis =
         std::ranges::any_of(machine.axes, [](const MachineAxis& axis) { return axis.max_jerk > 0; });
-    // More than this reverses the acceleration in a period.
+    // A larger jerk limit lets the acceleration reverse within a period.
     return of_an_axis || machine.path.max_jerk < 2 * machine.path.max_acceleration / machine.controller.period;
 }
 

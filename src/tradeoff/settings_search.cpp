@@ -21,7 +21,7 @@ namespace {
 constexpr std::array jerk_steps{0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.42, 0.35, 0.3, 0.25};
 constexpr std::array acceleration_steps{0.9, 0.8, 0.7, 0.6, 0.5, 0.42, 0.35, 0.3, 0.25};
 constexpr std::array feed_steps{0.95, 0.9, 0.85, 0.8, 0.75, 0.7, 0.65, 0.6, 0.55, 0.5};
-constexpr std::size_t most_at_once = 8;  ///< runs of a round between neighbours on the front
+constexpr std::size_t most_at_once = 8;  ///< runs in one round between neighbours on the front
 constexpr double whole_percent = 100;
 
 double half_way(double a, double b) { return std::round(std::sqrt(a * b) * whole_percent) / whole_percent; }
@@ -55,7 +55,7 @@ public:
 
     SettingsTradeoff run() {
         try_all({PlanSettings{}});
-        if (!rows_.front().on_front)  // what is traded is not known
+        if (!rows_.front().on_front)  // time, mismatch or jerk is unknown
             throw InputError(Place::of_file(program_.main().name()),
                              "has no adjacent passes: there is no mismatch to trade time for");
         try_each_alone();
@@ -91,7 +91,8 @@ private:
                       report);
     }
 
-    /// Whether each of them is in time. Settings for which there is no room are left out, as if they were not.
+    /// Tries settings; returns for each whether it is in time. Settings beyond the greatest number of runs count as not in
+    /// time.
     std::vector<bool> try_all(std::span<const PlanSettings> wanted) {
         const std::size_t count = std::min(wanted.size(), room());
         std::vector<TradeoffRow> made(count);
@@ -118,7 +119,7 @@ private:
         return try_all(std::span(wanted.begin(), wanted.size()));
     }
 
-    /// Step by step, each until it takes too long.
+    /// Varies each setting alone, step by step, until the run takes too long.
     void try_each_alone() {
         struct Ladder {
             double PlanSettings::*share;
@@ -143,7 +144,7 @@ private:
         }
     }
 
-    /// New settings from neighbours on the front, those with the widest gap first.
+    /// New settings between neighbours on the front, those with the widest gap first.
     [[nodiscard]] std::vector<PlanSettings> between_neighbours() const {
         std::vector<std::size_t> front;
         for (std::size_t row = 0; row < rows_.size(); ++row) {
@@ -169,7 +170,7 @@ private:
         return wanted;
     }
 
-    /// How far two rows lie apart, in shares of what the machine file gives.
+    /// Distance between two rows, relative to the values of the machine file.
     [[nodiscard]] double width(std::size_t a, std::size_t b) const {
         const MotionQuality &p = rows_[a].quality, &q = rows_[b].quality, &reference = rows_.front().quality;
         const auto apart = [](double x, double y, double unit) { return unit > 0 ? std::abs(x - y) / unit : 0; };
@@ -199,7 +200,7 @@ private:
     const Progress& progress_;
     Program prepared_;  ///< as it is simulated
     Vec3 zero_;
-    std::vector<TradeoffRow> rows_;  ///< in time, in the order in which they were tried
+    std::vector<TradeoffRow> rows_;  ///< in time, in the order of the trials
     std::vector<PlanSettings> settings_;
     std::vector<PlanSettings> tried_;
 };
