@@ -11,12 +11,12 @@
 
 namespace clsurf {
 
-/// A formed surface with what it refers to; does not move once it is made.
+/// An as-machined surface with the data that it refers to; not movable.
 class AsMachinedPart {
 public:
-    /// Sweeps `tool` along the role's positions (none: the most truthful ones of the log) of the part,
-    /// whose path is the commanded one where the log has it. `report`: the defects of the part, whose programmed marks
-    /// are no form; nullptr: they are looked for. Part and surface must outlive it. Throws UsageError as upright_part()
+    /// Sweeps `tool` along the positions of `role` (nullopt: as measured_role() chooses). The path of the part
+    /// is the commanded one if the log has it. `report`: the defects of the part, whose programmed marks do not belong to
+    /// the form; nullptr: they are computed. Part and surface must outlive the object. Throws UsageError as upright_part()
     /// does. O(points), parallel.
     AsMachinedPart(const Part& part, const ClSurface& surface, std::optional<Role> role, const CuttingTool& tool,
                    const QualityReport* report = nullptr);
@@ -27,7 +27,7 @@ public:
     [[nodiscard]] const Signals& signals() const { return upright_ ? upright_->read.signals : read_.signals; }
 
 private:
-    std::unique_ptr<const UprightPart> upright_;  ///< of a tool that is tilted; then nothing is kept of the part itself
+    std::unique_ptr<const UprightPart> upright_;  ///< for a tilted tool; then nothing of the part itself is kept
     PartSignals read_;
     std::optional<AsMachinedSurface> as_machined_;
 };

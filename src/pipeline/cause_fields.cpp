@@ -26,8 +26,8 @@ FieldInfo cause_info() {
     return info;
 }
 
-/// Where two meet, the cause of the more local one stays: a region of lag would hide the slow pass in it. Of the same area the
-/// stronger one is last.
+/// Where two defects overlap, the smaller one determines the cause: a region of lag would hide the slow pass in it. Of
+/// equal areas the stronger defect is last.
 std::vector<const Defect*> smallest_last(const std::vector<Defect>& defects) {
     std::vector<const Defect*> order;
     for (std::size_t k = defects.size(); k-- > 0;) order.push_back(&defects[k]);

@@ -1,5 +1,5 @@
 #pragma once
-// The field `cause`: what `check` finds to be the cause of a defect, at the points of the passes at fault.
+// The field `cause`: the cause of a defect, as `check` finds it, at the points of the passes at fault.
 
 #include "field/field_provider.h"
 #include "pipeline/part.h"
@@ -8,11 +8,11 @@ namespace clsurf {
 
 class CauseFields : public FieldProvider {
 public:
-    /// Both must outlive it.
+    /// Both must outlive the object.
     CauseFields(const Part& part, const ClSurface& surface) : part_(part), surface_(surface) {}
 
     [[nodiscard]] std::vector<FieldInfo> fields() const override;
-    /// The defects of the whole part are found for it. NaN outside cut passes. O(points), parallel.
+    /// Computes the defects of the whole part. NaN outside cut passes. O(points), parallel.
     [[nodiscard]] std::vector<Field> compute(std::span<const std::string_view> names, PointRange points) const override;
 
 private:

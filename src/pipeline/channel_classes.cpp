@@ -21,7 +21,7 @@ ChannelClasses limiting_factors() {
 
 std::vector<ChannelClasses> channel_classes() {
     return {limiting_factors(),
-            // As motion.motion-type of LinuxCNC's motion controller has them.
+            // As motion.motion-type of LinuxCNC's motion controller.
             {"motion",
              "Kind of motion",
              {{0, "none"},

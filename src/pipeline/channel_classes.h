@@ -1,5 +1,5 @@
 #pragma once
-// What the values of channels mean whose values are names.
+// The meaning of values of channels whose values are classes.
 
 #include <vector>
 

@@ -8,7 +8,7 @@
 namespace clsurf {
 namespace {
 
-constexpr PointIndex bounds_points = 64;  ///< of a run, that tell its bounds
+constexpr PointIndex bounds_points = 64;  ///< points per run for its bounds
 
 template <typename Work>
 void for_each_index(std::size_t count, Work&& work) {
@@ -22,10 +22,10 @@ void for_each_index(std::size_t count, Work&& work) {
 PartContacts::PartContacts(const Log& log, const Trajectory& path, const LineMap& lines, const ClSurface& surface,
                            const CuttingTool& tool)
     : path_(path), surface_(surface) {
-    std::optional<ToolAxes> axes;  // of a tool that tilts
+    std::optional<ToolAxes> axes;  // for a tool with changing axis
     if (!path.axis_known || (!path.kinematics && find_rotary_motion(log, path.role))) return;
     if (tilts(log, path)) {
-        // On tilted planes the axis stays, and the surface of the tips is that of the centres, moved.
+        // On tilted planes the axis is constant, and the surface of the tips is that of the centres, shifted.
         if (tool.kind == ToolKind::ball && path.stated_axes == nullptr) {
             upright_path_ = upright_ball(log, path, tool.radius);
             upright_surface_ = stitch(gather(*upright_path_), lines);

@@ -1,5 +1,5 @@
 #pragma once
-// PartContacts: where the tool of a run touches the part.
+// PartContacts: the contact points of a run's tool on the part.
 
 #include <memory>
 #include <optional>
@@ -13,21 +13,21 @@
 
 namespace clsurf {
 
-/// Does not move once it is made.
+/// Not movable.
 class PartContacts {
 public:
-    /// `surface` is that of `path`. A ball that turns is followed by its centre: then a surface of its own is
-    /// made. Where rotary axes move and the path is not through kinematics, no contact point is known. All but
-    /// `lines` must outlive it. O(1), or O(points) where there are rotary axes.
+    /// `surface` is that of `path`. For a ball end mill with changing axis the centre is followed, with a separate surface.
+    /// If rotary axes move and `path` was made without kinematics, no contact point is known. All arguments except `lines`
+    /// must outlive the object. O(1), or O(points) with rotary axes.
     PartContacts(const Log& log, const Trajectory& path, const LineMap& lines, const ClSurface& surface,
                  const CuttingTool& tool);
-    /// The same of a part's own path.
+    /// The same for the path of a part.
     PartContacts(const Part& part, const ClSurface& surface, const CuttingTool& tool)
         : PartContacts(part.log, part.path, *part.lines, surface, tool) {}
     PartContacts(const PartContacts&) = delete;
     PartContacts& operator=(const PartContacts&) = delete;
 
-    /// False where nothing tells how the tool stands to the part.
+    /// False if the tool axis relative to the part is unknown.
     [[nodiscard]] bool known() const { return points_.has_value(); }
     [[nodiscard]] CutterPlace place(PointIndex point) const;
     /// As find_places(), by contact points.
@@ -44,7 +44,7 @@ private:
 
     const Trajectory& path_;
     const ClSurface& surface_;
-    std::optional<Trajectory> upright_path_;  ///< of a ball that turns
+    std::optional<Trajectory> upright_path_;  ///< for a ball end mill with changing axis
     std::optional<ClSurface> upright_surface_;
     std::optional<ContactPoints> points_;
 };

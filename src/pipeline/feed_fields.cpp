@@ -11,7 +11,7 @@
 namespace clsurf {
 namespace {
 
-/// Of a motion; NaN: it has none.
+/// Feed of a motion; NaN: it has none.
 float feed_of(const Motions& motions, std::int64_t motion) {
     const auto m = static_cast<std::size_t>(motion);
     return motion >= 0 && is_cut(motions.kind[m]) && motions.feed[m] > 0 ? motions.feed[m] : missing<float>;
@@ -24,7 +24,7 @@ FieldInfo feed_share_info() {
         "feed_share", "Path speed as a share of the programmed feed", unit::percent, FieldScale::sequential, {}};
     info.preference = FieldPreference::higher;
     info.usual_range = ValueRange{0, 1};
-    // What overshoot and noise of positions add is no higher speed.
+    // Excess from overshoot and noise of positions is no higher speed.
     info.slack = 0.05;
     info.report_rank = 1;
     return info;

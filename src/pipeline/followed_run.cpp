@@ -11,7 +11,7 @@
 namespace clsurf {
 namespace {
 
-constexpr std::int64_t most_edge_passes = 6;  ///< at the beginning of a window, whose neighbours it has lost
+constexpr std::int64_t most_edge_passes = 6;  ///< at the begin of a window, whose neighbours it no longer has
 
 PartRules without_refusal(PartRules rules) {
     rules.accept_foreign = true;
@@ -27,7 +27,7 @@ void shift_sections(std::vector<DefectSection>& sections, PointIndex points, std
     }
 }
 
-/// Makes the points and passes of a window's defect those of the log.
+/// Converts points and passes of a defect from the window to the log.
 void shift(Defect& defect, PointIndex points, std::int64_t passes) {
     defect.point += points;
     shift_sections(defect.sections, points, passes);
@@ -97,7 +97,7 @@ std::vector<ProvisionalDefect> FollowedRun::judge(Log window, PointIndex first) 
     return found;
 }
 
-/// Counts the cut passes that the window has lost since the one before, and puts the findings there aside.
+/// Counts the cut passes that have left the window, and moves their findings to left_.
 void FollowedRun::leave_behind(const ClSurface& surface, PointIndex first) {
     passes_before_ +=
         std::count_if(pass_ends_.begin(), pass_ends_.end(), [&](PointIndex last) { return last < first; });
@@ -125,7 +125,7 @@ void FollowedRun::choose_window(const ClSurface& surface, PointIndex first) {
     kept_from_ = first + std::max(from, count - rules_.most_points);
 }
 
-/// The finding that a defect is a part of, or has grown from; 0: none.
+/// The finding to which a defect belongs, or from which it has grown; 0: none.
 std::int64_t FollowedRun::finding_of(const Defect& defect) const {
     if (defect.systematic) return systematic_;
     for (const DefectSection& section : defect.sections) {
@@ -143,7 +143,7 @@ bool FollowedRun::at_fault(PointIndex point) const {
     });
 }
 
-/// A systematic lag is everywhere: it hides no other finding.
+/// A systematic lag is everywhere and must not hide other findings.
 void FollowedRun::remember(const Defect& defect, std::int64_t finding) {
     if (defect.systematic) {
         systematic_ = finding;
@@ -183,7 +183,7 @@ ResolvedFindings FollowedRun::resolve(const QualityReport& complete) const {
             auto at = std::lower_bound(all.begin(), all.end(), section.points.first,
                                        [](const Section& s, PointIndex point) { return s.points.last < point; });
             for (; at != all.end() && at->points.last - longest <= section.points.last; ++at) {
-                // A systematic lag, which lies nearly everywhere, explains other lags only.
+                // A systematic lag covers nearly everything, so it matches other lags only.
                 if (overlap(at->points, section.points) && !(defect.systematic && at->motion)) lies_at(at->finding);
             }
         }

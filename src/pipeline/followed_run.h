@@ -1,9 +1,10 @@
 #pragma once
-// FollowedRun: the defects of a run that is still being recorded. The last passes of the log are judged again and again by the
-// detector of complete logs (pipeline/judge.h), and each defect is reported once, when it is settled (settled_defect.h).
+// FollowedRun: the defects of a run that is still being recorded. The last passes of the log are judged repeatedly by the
+// detector for complete logs (pipeline/judge.h). Each defect is reported once, when it is settled (settled_defect.h).
 //
-// Such findings are provisional: the thresholds of a window are those of its passes, not of the whole run, and later passes
-// may lie beside what the window has lost. The verdict is that of the complete log; resolve() compares both.
+// These findings are provisional: the thresholds of a window are those of its passes, not of the whole run, and later
+// passes may be adjacent to passes that the window no longer has. The complete log gives the verdict; resolve() compares
+// both.
 
 #include <cstdint>
 #include <optional>
@@ -16,43 +17,43 @@ namespace clsurf {
 
 struct FollowRules {
     PartRules part;
-    std::optional<Role> measured;  ///< positions that heights are measured from
+    std::optional<Role> measured;  ///< positions from which heights are measured
     QualityRules quality;
-    std::int64_t passes = 18;     ///< that are kept as neighbours of those to come …
-    PointIndex points = 100'000;  ///< … but of long passes fewer, where these are more points
+    std::int64_t passes = 18;     ///< that are kept as neighbours of later passes …
+    PointIndex points = 100'000;  ///< … fewer if these have more points
     std::int64_t least_passes = 10;
-    PointIndex most_points = 400'000;  ///< that are kept at all
+    PointIndex most_points = 400'000;  ///< that are kept in any case
 };
 
-/// A defect that was found while the log was written. Its points and passes count from the beginning of the log.
+/// A defect that was found while the log was being written. Points and passes are counted from the begin of the log.
 struct ProvisionalDefect {
     std::int64_t number = 0;  ///< from 1
     Defect defect;
-    PointIndex needed = 0;    ///< the last point that it is judged by
-    PointIndex recorded = 0;  ///< records that there were when it was found
+    PointIndex needed = 0;    ///< the last point that is needed to judge it
+    PointIndex recorded = 0;  ///< number of records at the time it was found
 };
 
-/// What the complete log says of the provisional findings.
+/// The result of the complete log for the provisional findings.
 struct ResolvedFindings {
-    std::vector<std::vector<std::size_t>> defects;  ///< of each finding: indices of the report's defects that lie there
-    std::vector<std::size_t> late;                  ///< indices of the report's defects that no finding had
+    std::vector<std::vector<std::size_t>> defects;  ///< of each finding: indices of the report's defects at its place
+    std::vector<std::size_t> late;                  ///< indices of the report's defects without a finding
 
-    [[nodiscard]] std::size_t withdrawn() const;  ///< findings at whose places the complete log has no defect
+    [[nodiscard]] std::size_t withdrawn() const;  ///< number of findings without a defect in the complete log
 };
 
 class FollowedRun {
 public:
-    /// `program` as programmed, each motion in its own work system (assemble()); `first` decides how program and log lie to
-    /// each other. Throws InputError: as assemble(); a log of another program is none here (foreign()).
+    /// `program` as programmed, each motion in its own work system (assemble()); `first` determines the pose of program and
+    /// log. Throws InputError: as assemble(), but not for a log of another program (foreign()).
     FollowedRun(Program program, Log first, FollowRules rules);
 
-    /// Judges the records of the log from number `first` on, as many as `window` has, and returns the defects that are new.
-    /// Throws InputError: the window lacks channels. O(points + motions), parallel.
+    /// Judges the records of the log in `window`, which begins at number `first`, and returns the new defects. Throws
+    /// InputError: the window lacks channels. O(points + motions), parallel.
     [[nodiscard]] std::vector<ProvisionalDefect> judge(Log window, PointIndex first);
 
-    /// Records before that number are no neighbours of passes to come.
+    /// Records before that number are not needed as neighbours of later passes.
     [[nodiscard]] PointIndex kept_from() const { return kept_from_; }
-    /// Why the last window does not belong to the program; empty: it does.
+    /// The reason why the last window does not belong to the program; empty: it does.
     [[nodiscard]] const std::string& foreign() const { return part_.lines->match().foreign; }
     [[nodiscard]] std::int64_t findings() const { return findings_; }
 
@@ -62,7 +63,7 @@ private:
     struct Section {
         PointRange points;
         std::int64_t finding = 0;
-        bool motion = false;  ///< of speeds and accelerations, not of heights
+        bool motion = false;  ///< a defect of speeds and accelerations, not of heights
     };
 
     void leave_behind(const ClSurface& surface, PointIndex first);
@@ -73,13 +74,13 @@ private:
 
     FollowRules rules_;
     Part part_;
-    std::vector<PointIndex> pass_ends_;  ///< last points of the cut passes of the last window, from the log's beginning
+    std::vector<PointIndex> pass_ends_;  ///< last points of the cut passes of the last window, as points of the log
     std::int64_t passes_before_ = 0;     ///< cut passes before the window
     PointIndex kept_from_ = 0;
     std::int64_t findings_ = 0;
-    std::int64_t systematic_ = 0;    ///< the finding that is a systematic lag; 0: none
-    std::vector<Section> sections_;  ///< of findings, that the window still has …
-    std::vector<Section> left_;      ///< … and that it has not
+    std::int64_t systematic_ = 0;    ///< number of the finding that is a systematic lag; 0: none
+    std::vector<Section> sections_;  ///< of findings within the window …
+    std::vector<Section> left_;      ///< … and before it
 };
 
 }  // namespace clsurf

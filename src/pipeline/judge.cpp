@@ -12,7 +12,7 @@
 namespace clsurf {
 namespace {
 
-/// Roughness and scallops of the formed surface, and the places of its rough patches.
+/// Roughness and scallops of the as-machined surface, and the places of its rough patches.
 void measure_as_machined_surface(const Part& part, const ClSurface& surface, std::optional<Role> measured,
                                  const PartSignals& read, const PartContacts& contacts,
                                  const std::optional<FoundInShards>& found, Quality& quality) {

@@ -1,5 +1,5 @@
 #pragma once
-// Whether the commanded motion of a part keeps stated limits, and the fields of its shares.
+// Compares the commanded motion of a part with limits, and provides the fields of its shares.
 
 #include <memory>
 #include <span>
@@ -10,8 +10,8 @@
 
 namespace clsurf {
 
-/// The comparison of every record with each of these limits (limits/judge_limits.h). Without commanded positions nothing
-/// is judged, and a diagnostic says so.
+/// Compares every record with each of these limits (limits/judge_limits.h). Without commanded positions nothing is judged,
+/// and a diagnostic says so.
 [[nodiscard]] LimitReport judge_limits(const Part& part, std::span<const StatedLimit> limits);
 
 /// Shares of the limits of the part's machine, for fields_of(). Shares the columns of the part.

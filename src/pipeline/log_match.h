@@ -1,5 +1,5 @@
 #pragma once
-// Whether a log is one of a program's runs.
+// Whether a log is a run of a program.
 
 #include <memory>
 
@@ -12,8 +12,9 @@
 
 namespace clsurf {
 
-/// Compares the points of a log with the lines of a program, read with its motions as programmed. An empty match where one
-/// of them has nothing to compare. Adds `map.distance`, and what placing and mapping find. O(points + motions), parallel.
+/// Compares the points of a log with the lines of a program, read with its motions as programmed. The match is empty if one
+/// of them has nothing to compare. Adds `map.distance`, and the diagnostics of placing and mapping. O(points + motions),
+/// parallel.
 [[nodiscard]] ProgramMatch match_log(Program program, const Log& log, const FramePoses& given,
                                      const std::shared_ptr<const Kinematics>& kinematics, ProgramIdentity identity,
                                      Diagnostics& diagnostics);

@@ -15,13 +15,13 @@ LogVerdict log_verdict(const Log& log, const Diagnostics& diagnostics, const std
     if (warnings > 0) return {false, fmt::format("usable with care: {}, see below", counted(warnings, "warning"))};
     std::string text = "OK: ";
     if (!program.empty() && diagnostics.count("map.distance") > 0) {
-        // A part of the program, or another one, would have been a warning.
+        // If it covered only a part of the program, or belonged to another one, there would be a warning.
         text += fmt::format("a run of {}{}, all of it, ", identity == ProgramIdentity::same ? "the unmodified " : "",
                             program);
     } else if (!program.empty()) {
         text += fmt::format("not compared with {}, ", program);
     }
-    // Without a clock of its own, lost records show as jumps only.
+    // Without a clock, lost records are visible as jumps only.
     text +=
         fmt::format("a record every {:g} ms, no {}", log.period * 1e3, log.find("time") != nullptr ? "gaps" : "jumps");
     return {true, text};

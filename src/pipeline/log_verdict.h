@@ -1,5 +1,5 @@
 #pragma once
-// LogVerdict: in one line, whether a log can be used as it is.
+// LogVerdict: one line on whether a log can be used as it is.
 
 #include <string>
 
@@ -10,11 +10,11 @@
 namespace clsurf {
 
 struct LogVerdict {
-    bool ok = false;   ///< no warning and no error speaks against it
+    bool ok = false;   ///< there is no warning and no error
     std::string text;  ///< "OK: a run of part.nc, all of it, a record every 1 ms, no gaps"
 };
 
-/// Of the diagnostics of check_health() and, where the log was compared with a program (`map.distance`), of match_log().
+/// From the diagnostics of check_health() and, if the log was compared with a program (`map.distance`), of match_log().
 /// `program`: its name; empty: none was given.
 [[nodiscard]] LogVerdict log_verdict(const Log& log, const Diagnostics& diagnostics, const std::string& program,
                                      ProgramIdentity identity);

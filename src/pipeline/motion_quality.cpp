@@ -29,7 +29,7 @@ Spreads spreads_of(std::vector<float>& sizes) {
     return {quantile_below(sizes, share_below), std::sqrt(squares.value() / static_cast<double>(sizes.size()))};
 }
 
-/// Passes about some points, as far as a derivative may depend on what lies beside them.
+/// The passes around some points, as far as derivatives there may depend on them.
 Passes passes_about(const Passes& passes, const PointRange& points) {
     constexpr PointIndex reach = 8192;
     Passes about;

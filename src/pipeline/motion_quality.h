@@ -1,6 +1,6 @@
 #pragma once
-// MotionQuality: how long a run takes, how much adjacent passes differ and how hard the axes are jerked, in a few numbers
-// that runs can be compared by.
+// MotionQuality: the duration of a run, the differences between adjacent passes and the jerk of the motion, in a few
+// numbers by which runs can be compared.
 
 #include <memory>
 
@@ -14,7 +14,7 @@
 
 namespace clsurf {
 
-/// NaN: not known. Percentiles are those of absolute values over all points that have one.
+/// NaN: not known. Percentiles are those of absolute values over all points with a value.
 struct MotionQuality {
     double duration = missing<double>;      ///< [s] from the first to the last motion
     double mismatch = missing<double>;      ///< [mm/s] 95th percentile of the speed difference to the adjacent passes
@@ -23,16 +23,16 @@ struct MotionQuality {
     double jerk_rms = missing<double>;      ///< [mm/s³]
 };
 
-/// [s] from the first to the last motion: a recording may begin early and end late.
+/// [s] from the first to the last motion: a recording may begin before it and end after it.
 [[nodiscard]] double time_in_motion(const ClSurface& surface, double period);
 
-/// `speed_differences` [mm/s]: one value a point (predictor/quality_fields.h). `estimate`: what derives the jerk; nullptr: least
+/// `speed_differences` [mm/s]: one value per point (predictor/quality_fields.h). `estimate`: gives the jerk; nullptr: least
 /// squares over a window. O(points), parallel.
 [[nodiscard]] MotionQuality motion_quality(const Log& log, const Trajectory& path, const ClSurface& surface,
                                            const Column<float>& speed_differences,
                                            std::shared_ptr<const MotionEstimate> estimate = nullptr);
 
-/// The distributions behind percentiles and rms values, for a part of the points. Those of all parts are added.
+/// The distributions behind percentiles and rms values, for a part of the points; those of all parts can be added.
 struct MotionSizes {
     Distribution mismatch;  ///< [mm/s]
     Distribution jerk;      ///< [mm/s³]
@@ -43,12 +43,12 @@ struct MotionSizes {
     }
 };
 
-/// Of points that begin and end where passes do. Derivatives are those of windows. O(points among `points`), parallel.
+/// For points that begin and end at pass boundaries. Derivatives are window-based. O(points among `points`), parallel.
 [[nodiscard]] MotionSizes motion_sizes(const Log& log, const Trajectory& path, const ClSurface& surface,
                                        const Signals& signals, const PointRange& points);
 
-/// The quality of the whole from the distributions of all its points: percentiles within Distribution::quantile_error, all
-/// else exact. O(standstill before and after the motion).
+/// The quality of the whole run from the distributions of all its points: percentiles within Distribution::quantile_error,
+/// all other values exact. O(standstill before and after the motion).
 [[nodiscard]] MotionQuality motion_quality(const MotionSizes& sizes, const ClSurface& surface, double period);
 
 }  // namespace clsurf

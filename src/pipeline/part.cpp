@@ -16,14 +16,14 @@
 namespace clsurf {
 namespace {
 
-/// Of a five-axis log without the machine's kinematics: these may be all that is missing.
+/// For a five-axis log without the machine's kinematics, which may be all that is missing.
 void ask_for_kinematics(bool accept_unknown_tips, LineMap& lines) {
     ProgramMatch match = lines.match();
     if (accept_unknown_tips) {
         match.foreign.clear();
         return lines.set_match(std::move(match));
     }
-    constexpr double most_off = 0.5;  // known to be the run of this program, its points still lie elsewhere
+    constexpr double most_off = 0.5;  // the program is known to be the right one, but its points are elsewhere
     if (match.foreign.empty() && match.off > most_off)
         match.foreign = fmt::format("{:.0f} % of its points lie off their lines", 100 * match.off);
     if (match.foreign.empty()) return;
@@ -32,7 +32,7 @@ void ask_for_kinematics(bool accept_unknown_tips, LineMap& lines) {
     lines.set_match(std::move(match));
 }
 
-/// The part of a log before its path is known.
+/// The part of a log, before its path is known.
 Part part_of(Log log, const PartRules& rules) {
     if (log.records == 0) throw InputError(Place::of_file(log.name), "contains no records");
     Part part;

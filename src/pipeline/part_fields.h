@@ -9,13 +9,13 @@
 
 namespace clsurf {
 
-/// All that can be coloured, plotted and exported of a part. `more`: other providers, whose fields come before the log's
-/// channels. Part and surface must outlive it. O(points) where the part's derivatives are those of a Kalman smoother.
+/// All fields of a part that can be coloured, plotted and exported. `more`: other providers, whose fields come before the
+/// log's channels. Part and surface must outlive the result. O(points) with derivatives of a Kalman smoother.
 [[nodiscard]] FieldSet fields_of(const Part& part, const ClSurface& surface,
                                  const std::vector<std::shared_ptr<const FieldProvider>>& more = {});
 
-/// Those that depend only on a point and on what lies close to it on the path: not on adjacent passes, nor on the run as a
-/// whole. Part and surface must outlive it.
+/// The fields that depend only on a point and its vicinity on the path, not on adjacent passes or the whole run. Part and
+/// surface must outlive the result.
 [[nodiscard]] FieldSet path_fields_of(const Part& part, const ClSurface& surface);
 
 }  // namespace clsurf

@@ -15,8 +15,8 @@
 namespace clsurf {
 namespace {
 
-/// The program sets its offsets itself. Some controllers record positions of the machine, others those of the work
-/// system: the path says which.
+/// For a program that sets its offsets itself. Some controllers record machine positions, others those of the work system:
+/// the better fit to the path decides.
 Eigen::Isometry3d own_or_none(const Program& program, const Log& log, const Eigen::Isometry3d& own,
                               Diagnostics& diagnostics) {
     const Eigen::Isometry3d none = Eigen::Isometry3d::Identity();

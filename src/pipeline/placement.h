@@ -1,5 +1,5 @@
 #pragma once
-// Placement: how a program and a log come into one coordinate system.
+// Placement: transforms a program and a log into one coordinate system.
 
 #include <optional>
 
@@ -10,30 +10,30 @@
 
 namespace clsurf {
 
-/// The pose of the program's zero that a log's header gives; nullopt: it gives none.
+/// The pose of the program's zero in a log's header; nullopt: there is none.
 [[nodiscard]] std::optional<Eigen::Isometry3d> pose_of(const Log& log);
 
-/// The pose of the program's zero: what is given, else the log's own; a given default comes after the log's, with a
-/// note `config.overruled` where they differ. nullopt: neither tells it.
+/// The pose of the program's zero: the given one, else the log's own. A given default has lower priority than the log's
+/// own; if they differ, adds a note `config.overruled`. nullopt: neither is known.
 [[nodiscard]] std::optional<Eigen::Isometry3d> zero_of(const FramePoses& given, const Log& log,
                                                        Diagnostics& diagnostics);
 
-/// Brings a program, read with its motions as programmed, into the coordinates of the workpiece. The zero is that of
-/// zero_of(); it goes before the program's own offsets, which count unless the path fits better without
-/// (`map.coordinates`). Returns machine = pose · workpiece. Adds `program.work-offset` where the program cuts in
-/// several systems whose offsets are not known. O(motions), and O(points) where the program sets offsets.
+/// Transforms a program, read with its motions as programmed, into the coordinates of the workpiece. The zero is that of
+/// zero_of(). It has priority over the program's own offsets; these are used unless the path fits better without them
+/// (`map.coordinates`). Returns machine = pose · workpiece. Adds `program.work-offset` if the program cuts in several
+/// systems with unknown offsets. O(motions), and O(points) if the program sets offsets.
 [[nodiscard]] Eigen::Isometry3d place_with(Program& program, const Log& log, const FramePoses& given,
                                            const Kinematics* kinematics, Diagnostics& diagnostics);
 
-/// The same without a look at the path: the program's own offsets always count. O(motions).
+/// The same without checking the path: the program's own offsets are always used. O(motions).
 Eigen::Isometry3d place_program(Program& program, const Log& log, FramePoses given, const Kinematics* kinematics,
                                 Diagnostics& diagnostics);
 
-/// Where the axes stood in the first record [mm], as make_tip_motions() takes it (toolpath/tip_motions.h). NaN: the log has no
-/// positions.
+/// Position of the axes in the first record [mm], as input of make_tip_motions() (toolpath/tip_motions.h). NaN: the log has
+/// no positions.
 [[nodiscard]] Vec3 start_of(const Log& log, const Kinematics& kinematics, const Eigen::Isometry3d& pose);
 
-/// As place_with(), and with kinematics the motions are those of the tip: what the tips of the log are compared with.
+/// As place_with(); with kinematics the motions become those of the tip, for comparison with the tips of the log.
 [[nodiscard]] Eigen::Isometry3d place_tips_with(Program& program, const Log& log, const FramePoses& given,
                                                 const Kinematics* kinematics, Diagnostics& diagnostics);
 

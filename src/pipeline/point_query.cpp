@@ -8,9 +8,9 @@
 namespace clsurf {
 namespace {
 
-constexpr PointIndex window = 256;  ///< points to each side that the derivatives may look at
+constexpr PointIndex window = 256;  ///< points to each side that derivatives may use
 
-/// Pieces of passes with one line each.
+/// Pieces of passes that have one line each.
 Passes cut_by_lines(const Part& part, const Passes& passes) {
     Passes pieces;
     for (const Pass& pass : passes) {
@@ -30,7 +30,7 @@ Passes cut_by_lines(const Part& part, const Passes& passes) {
     return pieces;
 }
 
-/// The number of the cut pass that a point lies on.
+/// The number of the cut pass of a point.
 std::optional<std::int64_t> pass_at(const Passes& passes, PointIndex point) {
     std::int64_t number = 0;
     for (const Pass& pass : passes) {
@@ -41,7 +41,7 @@ std::optional<std::int64_t> pass_at(const Passes& passes, PointIndex point) {
     return std::nullopt;
 }
 
-/// The points round one that have the same line, or the same kind.
+/// The points around one that have the same line, or the same kind.
 template <typename Same>
 PointRange spread(PointIndex point, PointIndex count, PointIndex reach, Same&& same) {
     PointRange range{point, point};
@@ -97,7 +97,7 @@ QueryMatch PointQuery::match(PointIndex point) const {
 
 void PointQuery::add_motion(QueryMatch& match) const {
     const LineMap& lines = *part_.lines;
-    // Derivatives look no farther than this kind of motion lasts.
+    // Derivatives use only points of the same kind of motion.
     const auto kind_at = [&](PointIndex i) {
         PointKind kind = PointKind::idle;
         lines.read_kinds(i, {&kind, 1});
@@ -129,7 +129,7 @@ void PointQuery::add_motion(QueryMatch& match) const {
 
 bool PointQuery::is_off_the_part(double distance) const {
     constexpr double step_overs = 5;
-    constexpr double of_one_pass = 10;  // mm: no step-over is known; a tip may lie a tool's radius off the part
+    constexpr double of_one_pass = 10;  // mm: without a step-over; a tip may be a tool radius off the part
     return distance > (step_over() > 0 ? step_overs * step_over() : of_one_pass);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// PointQuery: what a part knows of a point: its line, its place, its speed; and which point lies at a place or a time.
+// PointQuery: the data of a point of a part (line, place, speed), and the search for a point by place or time.
 
 #include <memory>
 #include <optional>
@@ -13,34 +13,34 @@
 
 namespace clsurf {
 
-/// What is known of a point.
+/// The data of a point.
 struct QueryMatch {
     PointIndex point = 0;
     double time = 0;  ///< [s]
     LineNumber line = 0;
     std::string text;  ///< of the line
     CutterPlace place;
-    std::optional<std::int64_t> pass;  ///< number of the cut pass, from 1, where it was found by place
+    std::optional<std::int64_t> pass;  ///< number of the cut pass, from 1, if it was found by place
     double speed = 0;                  ///< [mm/s]
     double acceleration = 0;           ///< [mm/s²]
-    std::optional<double> speed_uncertainty, acceleration_uncertainty;  ///< standard deviations, where known
+    std::optional<double> speed_uncertainty, acceleration_uncertainty;  ///< standard deviations, if known
     std::string estimated_from;  ///< what speed and acceleration are estimated from; empty: positions in a window
-    /// Where the table was, by scale and encoder together, with the standard deviation of each coordinate [mm].
+    /// Position of the table from scale and encoder, with the standard deviation of each coordinate [mm].
     struct FusedPosition {
         Vec3 position, uncertainty;
     };
     std::optional<FusedPosition> fused;
-    SpeedReasons why;        ///< the tool is slower than programmed
+    SpeedReasons why;        ///< if the tool is slower than programmed
     double confidence = 0;   ///< 0 … 1
-    double distance = 0;     ///< [mm] to the asked position; 0 where none was asked
-    CallChain calls;         ///< of a point in a subprogram
-    PointRange line_points;  ///< the run of points of this line round the point
+    double distance = 0;     ///< [mm] to the requested position; 0 if there is none
+    CallChain calls;         ///< for a point in a subprogram
+    PointRange line_points;  ///< the run of points of this line that contains the point
 };
 
-/// Does not move once it is made.
+/// Not movable.
 class PointQuery {
 public:
-    /// `part` must outlive it. The CL surface is made where `needs_surface` says so, and where the tool is known.
+    /// `part` must outlive the object. The CL surface is made if `needs_surface` is set, and if the tool is known.
     /// O(points).
     PointQuery(const Part& part, bool needs_surface);
     PointQuery(const PointQuery&) = delete;
@@ -51,14 +51,14 @@ public:
     [[nodiscard]] double step_over() const { return surface_ ? surface_->step_over : 0; }
     /// Domain: a point of the log. O(points of its line).
     [[nodiscard]] QueryMatch match(PointIndex point) const;
-    /// The nearest point of each of the nearest passes, or of each of the nearest lines where there is one pass only. By
-    /// contact points where the tool is known and WantedPlace::of_tip does not ask for tips. Needs the surface.
+    /// The nearest point of each of the nearest passes, or of each of the nearest lines if there is only one pass. Uses
+    /// contact points if the tool is known and WantedPlace::of_tip is not set. Needs the surface.
     [[nodiscard]] std::vector<FoundPlace> find_nearest(const WantedPlace& wanted) const;
-    /// Whether places on the part are contact points, so that those of the tool tip are others.
+    /// Whether places on the part are contact points and therefore differ from those of the tool tip.
     [[nodiscard]] bool knows_contacts() const { return contacts_ && contacts_->known(); }
-    /// Whether a place so far [mm] from the nearest one that was found does not lie on the part. Needs the surface.
+    /// Whether a place is off the part, from its distance [mm] to the nearest point found. Needs the surface.
     [[nodiscard]] bool is_off_the_part(double distance) const;
-    /// The runs of points of a line: of the program's own file 0, or of another of its files.
+    /// The runs of points of a line, in a file of the program; file 0 is the program itself.
     [[nodiscard]] std::vector<PointRange> points_of_line(std::size_t file, LineNumber line) const;
 
 private:
@@ -74,8 +74,8 @@ private:
     std::unique_ptr<const PartContacts> contacts_;
 };
 
-/// The point whose record is nearest to a time [s]; out of the log's points where the log does not last so long and has no
-/// channel `time`. O(log points).
+/// The point whose record is nearest to a time [s]. Outside the log's points if the log is shorter and has no channel
+/// `time`. O(log points).
 [[nodiscard]] PointIndex point_at_time(const Log& log, double time);
 
 }  // namespace clsurf

@@ -22,16 +22,16 @@ namespace {
 
 using PerMotion = Column<float>;
 
-constexpr int in_reports = 200;                          ///< report_rank: after what the machine did
+constexpr int in_reports = 200;                          ///< report_rank: after the fields of the machine's motion
 constexpr double least_curvature = 1e-4;                 ///< [1/mm] below it a path counts as straight
-constexpr double least_corner = 45 * rad_per_deg;        ///< between two lines; a smaller angle is curvature
-constexpr ValueRange usual_angles{0, 15 * rad_per_deg};  ///< of finishing; a turn between two passes is beyond
+constexpr double least_corner = 45 * rad_per_deg;        ///< between two lines; a smaller angle counts as curvature
+constexpr ValueRange usual_angles{0, 15 * rad_per_deg};  ///< of finishing; turns between passes are greater
 
 Toolpath toolpath_of(const Program& program) { return {program.motions, Vec3::Zero()}; }
 
 bool cuts(const Motions& motions, std::int64_t i) { return is_cut(motions.kind[static_cast<std::size_t>(i)]); }
 
-/// NaN at all motions that do not cut.
+/// NaN for all motions that do not cut.
 template <typename Value>
 PerMotion of_cutting_motions(const Program& program, const Value& value) {
     const Motions& motions = program.motions;
@@ -56,7 +56,7 @@ PerMotion lengths(const Program& program) {
     return of_cutting_motions(program, [&](std::int64_t i) { return path.length(i); });
 }
 
-/// The next cutting motion in a direction that moves; −1: a rapid or an end of the program comes first.
+/// The next cutting motion with a length, in a direction; −1: a rapid or an end of the program comes first.
 std::int64_t moving_beside(const Toolpath& path, std::int64_t motion, std::int64_t step) {
     for (std::int64_t i = motion + step; i >= 0 && i < path.size(); i += step) {
         if (path.motions().kind[static_cast<std::size_t>(i)] == MotionKind::rapid) return -1;
@@ -78,8 +78,8 @@ PerMotion turning_angles(const Program& program) {
     });
 }
 
-/// Curvature of a run of lines through its corners: that of three points where coordinates are exact, else over sections
-/// that rounding does not distort.
+/// Curvature of a run of lines through its corners: by three points if coordinates are exact, else over sections that
+/// rounding does not distort.
 std::vector<double> curvatures_of_run(const std::vector<Vec3>& corners, double step) {
     if (step > 0) return resolved_curvatures(corners, step, least_curvature);
     std::vector<double> curvature(corners.size(), 0);
@@ -93,7 +93,7 @@ PerMotion curvatures(const Program& program) {
     PerMotion values = of_cutting_motions(program, [&](std::int64_t i) { return path.curvature(i); });
     const double step = coordinate_step(program.motions);
     std::vector<Vec3> corners;
-    std::vector<std::int64_t> lines;  // lines[k] goes from corner k to corner k + 1
+    std::vector<std::int64_t> lines;  // lines[k] connects the corners k and k + 1
     const auto close = [&] {
         if (lines.size() > 1) {
             const std::vector<double> curvature = curvatures_of_run(corners, step);

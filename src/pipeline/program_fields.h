@@ -1,6 +1,6 @@
 #pragma once
-// ProgramFields: what the program itself says of a place: feed, length of the block, how the path turns and bends. They
-// need no log; the points of a log show the values of their blocks.
+// ProgramFields: programmed values at a place: feed, length of the block, turning angle and curvature of the path. They
+// need no log; the points of a log get the values of their blocks.
 
 #include <memory>
 
@@ -12,7 +12,7 @@ namespace clsurf {
 
 class ProgramFields : public FieldProvider {
 public:
-    /// `program` must outlive it.
+    /// `program` must outlive the object.
     ProgramFields(const Program& program, std::shared_ptr<const LineMap> lines)
         : program_(program), lines_(std::move(lines)) {}
 
@@ -20,11 +20,11 @@ public:
     [[nodiscard]] std::vector<FieldInfo> fields() const override;
     /// Whether there is a program.
     [[nodiscard]] bool can_compute(std::string_view name) const override;
-    /// The value of the motion of each point; NaN at rapids, and where no motion is known. Throws UsageError: no program.
+    /// The value of the motion of each point; NaN at rapids, and if the motion is unknown. Throws UsageError: no program.
     /// O(points + motions), parallel over points.
     [[nodiscard]] std::vector<Field> compute(std::span<const std::string_view> names, PointRange points) const override;
 
-    /// Whether it is one of these fields.
+    /// Whether a field belongs to this provider.
     [[nodiscard]] static bool has(std::string_view name);
 
 private:

@@ -8,7 +8,7 @@
 namespace clsurf {
 namespace {
 
-/// The most truthful first.
+/// In the order of preference: a scale measures closer to the tool than an encoder.
 constexpr std::array measured_roles{Role::actual, Role::feedback};
 
 }  // namespace
@@ -18,7 +18,7 @@ Role shown_role(const Log& log, std::optional<Role> wanted) {
     for (const Role role : all_roles) {
         if (log.has(role)) return role;
     }
-    // None is complete: the one of which a part is there, so that an error names the axis that is missing.
+    // No role is complete: chooses one that is partly present, so that an error names the missing axis.
     for (const Role role : all_roles) {
         for (const char* axis : {".x", ".y", ".z"}) {
             if (log.find(std::string(prefix_of(role)) + axis) != nullptr) return role;

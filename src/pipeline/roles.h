@@ -1,5 +1,5 @@
 #pragma once
-// Roles: which of a log's positions are used for what. Every subcommand chooses them here.
+// Roles: which positions of a log are used for which purpose. Every subcommand chooses them here.
 
 #include <array>
 #include <optional>
@@ -10,24 +10,24 @@
 
 namespace clsurf {
 
-/// From what was wanted to what was done.
+/// In the order of the signal flow.
 inline constexpr std::array all_roles{Role::commanded, Role::feedback, Role::actual};
 
-/// The positions that a log is shown by: `wanted`, else commanded, feedback, actual, the first that it has; actual
-/// where it has none.
+/// The displayed positions of a log: `wanted`, else the first available one of commanded, feedback, actual; actual if it
+/// has none.
 [[nodiscard]] Role shown_role(const Log& log, std::optional<Role> wanted = std::nullopt);
 
-/// The positions that lines are found by: commanded, where the log has them, else those that are shown.
+/// The positions by which lines are found: commanded if the log has them, else the displayed ones.
 [[nodiscard]] Role mapping_role(const Log& log, Role shown);
 
-/// The positions that heights are measured from while `path` is compared: `wanted`, else actual, feedback, the first
-/// that can be brought into the workpiece as `path` was; nullopt: those of `path` itself, which is not the commanded one
-/// or is wanted.
+/// The positions from which heights are measured while `path` is compared: `wanted`, else the first one of actual and
+/// feedback that can be transformed into the workpiece like `path`. nullopt: the positions of `path` itself, because it is
+/// not the commanded one or is wanted.
 [[nodiscard]] std::optional<Role> measured_role(const Log& log, const Trajectory& path,
                                                 std::optional<Role> wanted = std::nullopt);
 
-/// The positions that two logs are compared by: `wanted`, else commanded, feedback, actual, the first that both have;
-/// nullopt: none.
+/// The positions by which two logs are compared: `wanted`, else the first one of commanded, feedback, actual that both
+/// have; nullopt: none.
 [[nodiscard]] std::optional<Role> common_role(const Log& a, const Log& b, std::optional<Role> wanted = std::nullopt);
 
 /// Measured positions that both logs have: actual, else feedback; nullopt: none.
@@ -36,8 +36,8 @@ inline constexpr std::array all_roles{Role::commanded, Role::feedback, Role::act
 /// The same as common_role(). Throws InputError: they have none in common.
 [[nodiscard]] Role required_common_role(const Log& a, const Log& b, std::optional<Role> wanted = std::nullopt);
 
-/// A run as it is compared with that of another log: aligned by `path`, with commanded and measured positions where both
-/// logs have them. `log` must outlive it.
+/// A run for the comparison with that of another log: aligned by `path`, with commanded and measured positions if both logs
+/// have them. `log` must outlive the result.
 [[nodiscard]] ComparedRun compared_run(const Log& log, const Log& other, Trajectory path);
 
 }  // namespace clsurf

@@ -1,6 +1,6 @@
 #pragma once
-// RoughnessGauge: the roughness that runs of a part leave, each measured at the same places and over the same form, those of
-// the first run.
+// RoughnessGauge: the roughness of runs of a part, measured at the same places and relative to the same form, which are
+// those of the first run.
 
 #include <memory>
 #include <optional>
@@ -12,40 +12,39 @@
 
 namespace clsurf {
 
-/// A run whose roughness is measured, in the coordinates of the workpiece. Refers to its members.
+/// A run whose roughness is measured, in the coordinates of the workpiece. Refers to data that must outlive it.
 struct GaugedRun {
     const Log& log;
     const Trajectory& path;  ///< commanded, or what the log has
     const LineMap& lines;
     const ClSurface& surface;               ///< of `path`
-    const QualityReport* report = nullptr;  ///< whose programmed marks are no form; nullptr: all of the program is form
+    const QualityReport* report = nullptr;  ///< its programmed marks are not in the form; nullptr: they are
 };
 
-/// The roughness that two runs of a part leave.
+/// The roughness of two runs of a part.
 struct RoughnessChange {
     PartRoughness before, after;
 
-    /// Whether both are known somewhere.
+    /// Whether both are known at some place.
     [[nodiscard]] bool is_known() const { return !before.patches.empty() && !after.patches.empty(); }
 };
 
 class RoughnessGauge {
 public:
-    /// `before` must outlive it. The tool is swept along the role's positions (none: the most truthful ones of each log).
-    /// Throws UsageError as upright_part() does. O(points), parallel.
+    /// `before` must outlive the object. The tool is swept along the positions of `role` (nullopt: as measured_role()
+    /// chooses for each log). Throws UsageError as upright_part() does. O(points), parallel.
     RoughnessGauge(const GaugedRun& before, const CuttingTool& tool, std::optional<Role> role = std::nullopt);
     RoughnessGauge(const RoughnessGauge&) = delete;
     RoughnessGauge& operator=(const RoughnessGauge&) = delete;
     [[nodiscard]] const PartRoughness& before() const { return roughness_; }
-    /// To another run of the part, of both at those places where both can be measured. O(points), parallel. Throws as the
+    /// Compares with another run of the part, at the places where both can be measured. O(points), parallel. Throws as the
     /// constructor does.
     [[nodiscard]] RoughnessChange change_to(const GaugedRun& after) const;
 
 private:
-    /// A run with what a tool is swept along.
+    /// A run with the data along which a tool is swept.
     struct Swept {
-        std::unique_ptr<const UprightPart>
-            upright;  ///< of a tool that is tilted; then nothing was read of the run itself
+        std::unique_ptr<const UprightPart> upright;  ///< for a tilted tool; then nothing of the run itself was read
         PartSignals read;
         GaugedRun of;
         [[nodiscard]] ToolRun run() const { return upright ? upright->run() : ToolRun{of.path, of.surface, read}; }
@@ -62,15 +61,15 @@ private:
     PartRoughness roughness_;
 };
 
-/// Both at those places of the first where both can be measured: a log may hold a part of the program only. The positions are of
-/// a kind that both logs have: `role`, else the most truthful one. Nothing: a tool that is tilted and no ball, or a run without adjacent
-/// passes. O(points), parallel.
+/// The roughness of both runs at the places of the first one where both can be measured: a log may contain only a part of
+/// the program. Uses positions that both logs have: `role`, else as common_measured_role(). nullopt: a tilted tool that is
+/// no ball, or a run without adjacent passes. O(points), parallel.
 [[nodiscard]] std::optional<RoughnessChange> roughness_change(const GaugedRun& before, const GaugedRun& after,
                                                               const CuttingTool& tool,
                                                               std::optional<Role> role = std::nullopt);
 
-/// The same of parts. Nothing also where the tool is not known, or is not the same. `report_before`: the defects of the first
-/// one; nullptr: they are looked for.
+/// The same for parts. Also nullopt if the tool is unknown or not the same. `report_before`: the defects of the first one;
+/// nullptr: they are computed.
 [[nodiscard]] std::optional<RoughnessChange> roughness_change(const Part& before, const ClSurface& surface_before,
                                                               const Part& after, const ClSurface& surface_after,
                                                               std::optional<Role> role = std::nullopt,

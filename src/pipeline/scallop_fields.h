@@ -1,5 +1,5 @@
 #pragma once
-// ScallopFields: how high the cusps between adjacent passes stand, by the path that is shown and its tool.
+// ScallopFields: the height of scallops between adjacent passes, from the displayed path and its tool.
 
 #include <optional>
 
@@ -11,7 +11,7 @@ namespace clsurf {
 
 class ScallopFields : public FieldProvider {
 public:
-    /// `surface` must outlive it. `tool`: nothing: not known.
+    /// `surface` must outlive the object. `tool`: nullopt: not known.
     ScallopFields(const ClSurface& surface, std::optional<CuttingTool> tool) : surface_(surface), tool_(tool) {}
 
     /// scallop. Its note has percentiles over the length of the path, and the uncut area.
@@ -21,7 +21,7 @@ public:
     /// Throws UsageError: the tool is not known, or is no ball. O(points log points), parallel.
     [[nodiscard]] std::vector<Field> compute(std::span<const std::string_view> names, PointRange points) const override;
 
-    /// Whether it is one of these fields.
+    /// Whether a field belongs to this provider.
     [[nodiscard]] static bool has(std::string_view name);
 
 private:

@@ -10,11 +10,11 @@
 namespace clsurf {
 namespace {
 
-constexpr std::size_t passes_that_tell = 3;       ///< on one side, which of two passes is at fault
-constexpr std::size_t passes_that_tell_lag = 8;   ///< on one side, whether a lag is systematic
-constexpr std::size_t passes_beside_a_fault = 3;  ///< on both sides, where one of them is at fault too
+constexpr std::size_t passes_that_tell = 3;       ///< on one side, to find which of two passes is at fault
+constexpr std::size_t passes_that_tell_lag = 8;   ///< on one side, to find whether a lag is systematic
+constexpr std::size_t passes_beside_a_fault = 3;  ///< on both sides, if one of them is at fault, too
 
-/// The points beside a place on the passes of one side, the adjacent one first.
+/// The points next to a place on the passes of one side, the adjacent pass first.
 std::vector<PointIndex> points_aside(const DefectSurroundings& around, PointIndex point, Side side) {
     std::vector<PointIndex> points;
     const auto feed = [&](const PathLocation& at) { return around.signals.feed(at.nearest()); };
@@ -31,7 +31,7 @@ PointIndex last_of(const std::vector<PointIndex>& points, std::size_t count) {
     return *std::max_element(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
-/// The last of the points on the adjacent passes beside a point, and of the point itself.
+/// The last one of a point and the points next to it on the adjacent passes.
 PointIndex last_beside(const ClSurface& surface, PointIndex point) {
     PointIndex last = point;
     for (const Side side : {Side::left, Side::right}) {
@@ -40,7 +40,7 @@ PointIndex last_beside(const ClSurface& surface, PointIndex point) {
     return last;
 }
 
-/// The last of the points round the strongest place that tell which pass is at fault; nullopt: there are too few passes.
+/// The last of the points around the strongest place that show which pass is at fault; nullopt: there are too few passes.
 std::optional<PointIndex> last_that_tells(const Defect& defect, const DefectSurroundings& around) {
     const std::array<std::vector<PointIndex>, 2> sides{points_aside(around, defect.point, Side::left),
                                                        points_aside(around, defect.point, Side::right)};
@@ -75,7 +75,7 @@ std::optional<PointIndex> last_point_needed(const Defect& defect, const DefectSu
                          last_beside(around.surface, section.points.last)});
     const PointIndex newest = around.surface.positions.size() - 1;
     if (!around.arc_length.at_least(last, newest, around.settling)) return std::nullopt;
-    // The first point at which the way is long enough, by halving.
+    // Bisection for the first point at which the distance is sufficient.
     PointIndex not_enough = last, enough = newest;
     while (enough - not_enough > 1) {
         const PointIndex middle = not_enough + (enough - not_enough) / 2;

@@ -12,7 +12,7 @@
 namespace clsurf {
 namespace {
 
-/// The first point of the first pass that begins at a point or behind it.
+/// The first point of the first pass that begins at or after a point.
 PointIndex next_pass(const Passes& passes, PointIndex points, PointIndex from) {
     const auto next =
         std::lower_bound(passes.begin(), passes.end(), from, [](const Pass& p, PointIndex i) { return p.first < i; });

@@ -11,23 +11,23 @@
 
 namespace clsurf {
 
-/// What the predictor reads of a part.
+/// The data of a part that the predictor reads.
 struct PartSignals {
-    std::optional<Trajectory> measured;  ///< positions that heights are measured from; nothing: those that are shown
+    std::optional<Trajectory> measured;  ///< positions from which heights are measured; nullopt: the displayed ones
     std::vector<PointRange> pieces;      ///< of smooth path (surface/smoothing_segments.h)
     Signals signals;
 
-    /// Where the tool cuts.
+    /// The positions at which the tool cuts.
     [[nodiscard]] const Trajectory& swept(const Trajectory& path) const { return measured ? *measured : path; }
 };
 
-/// The signals along any path of a log, whose surface that is. Heights are measured from the positions that
-/// measured_role() chooses (pipeline/roles.h). `estimate`: as derive_signals() takes it. O(points), parallel.
+/// The signals along any path of a log, with the surface of that path. measured_role() chooses the positions from which
+/// heights are measured (pipeline/roles.h). `estimate`: as for derive_signals(). O(points), parallel.
 [[nodiscard]] PartSignals signals_along(const Log& log, const Trajectory& path, const ClSurface& surface,
                                         std::optional<Role> wanted = std::nullopt,
                                         const MotionEstimate* estimate = nullptr);
 
-/// The same of a part and its surface, by the part's derivative method.
+/// The same for a part and its surface, with the part's derivative method.
 [[nodiscard]] PartSignals signals_of(const Part& part, const ClSurface& surface,
                                      std::optional<Role> wanted = std::nullopt);
 

@@ -22,7 +22,7 @@ struct Columns {
     std::vector<LimitingFactor> limit;
 };
 
-/// A log of the columns that `fill` fills, a run's summary its result; `axes`: of each role, in order.
+/// Makes a log from the columns that `fill` fills; `fill` returns the summary of the run. `axes`: of each role, in order.
 template <typename Fill>
 SimulatedRun run_to_log(const Program& program, const Machine& machine, const std::string& axes, const Fill& fill) {
     SimulatedRun run;

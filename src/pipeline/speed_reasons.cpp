@@ -23,11 +23,11 @@ constexpr double slow = 0.95;               ///< of the programmed feed
 constexpr double short_block_time = 0.01;   ///< [s] at the programmed feed
 constexpr std::int64_t blocks_nearby = 10;  ///< to each side
 constexpr double least_corner = 20;         ///< [deg]
-constexpr double corner_time = 0.02;  ///< [s] at the programmed feed: as far ahead and behind a corner is looked for
-constexpr double least_share = 0.9;   ///< of a limit
-constexpr PointIndex points_at_once = 16 * block_points;  ///< whose shares of limits are in memory together
+constexpr double corner_time = 0.02;        ///< [s] at the programmed feed: range of corners before and after a point
+constexpr double least_share = 0.9;         ///< of a limit
+constexpr PointIndex points_at_once = 16 * block_points;  ///< whose shares of limits are in memory at once
 
-/// What the channels `limit` and `override` say.
+/// The reasons from the channels `limit` and `override`.
 class LogReasons {
 public:
     explicit LogReasons(const Log& log) : limit_(log.find("limit")), override_(log.find("override")) {
@@ -59,7 +59,7 @@ private:
     std::vector<FieldClass> factors_;
 };
 
-/// How near each axis is to its limits.
+/// The shares of the limits that each axis uses.
 class AxisShares {
 public:
     explicit AxisShares(const Part& part) {
@@ -75,13 +75,13 @@ public:
         }
     }
 
-    /// Computes those of some points, for nearest().
+    /// Computes the shares at some points, for nearest().
     void read(PointRange points) {
         if (names_.empty() || points.size() == 0) return;
         first_ = points.first;
         shares_ = fields_->compute(std::vector<std::string_view>(names_.begin(), names_.end()), points);
     }
-    /// The axis that is nearest to a limit, or beyond it.
+    /// The axis that is nearest to a limit or above it.
     [[nodiscard]] std::optional<std::string> nearest(PointIndex point) const {
         double most = least_share;
         std::optional<std::size_t> found;
@@ -102,7 +102,7 @@ private:
     std::vector<Field> shares_;  ///< of the points that were read
 };
 
-/// The motions round one, and where the tool turns between them.
+/// The motions around one, and the corners between them.
 class BlocksNearby {
 public:
     BlocksNearby(const Motions& motions, std::int64_t motion, double feed)
@@ -121,7 +121,7 @@ public:
         return fmt::format("blocks of {:.2g} mm, {:.2g} ms each at the programmed feed", median, 1000 * median / feed_);
     }
 
-    /// The sharpest corner that is near enough to brake for.
+    /// The sharpest corner that is near enough to require braking.
     [[nodiscard]] std::optional<std::string> corner() const {
         double sharpest = least_corner;
         std::int64_t found = -1;
@@ -158,13 +158,13 @@ private:
     double feed_;
 };
 
-/// The programmed feed at a point [mm/s] where the tool is slower than that; nothing: it is not.
+/// The programmed feed at a point [mm/s] if the tool is slower than that; nullopt: it is not.
 std::optional<double> feed_above(const Part& part, PointIndex point, double speed) {
     const double feed = programmed_feed_at(part, point);
     return speed < slow * feed ? std::optional(feed) : std::nullopt;
 }
 
-/// All that explains a slow point, the surest first.
+/// All reasons for a slow point, the most certain first.
 std::vector<std::string> reasons_at(const Part& part, PointIndex point, double feed, const LogReasons& log,
                                     const AxisShares& shares) {
     std::vector<std::string> reasons;
@@ -184,14 +184,14 @@ std::vector<std::string> reasons_at(const Part& part, PointIndex point, double f
     return reasons;
 }
 
-/// What words_of() says after the speed: "of F3000 mm/min", ": blocks of 0.02 mm", "; a corner of 35° before line 12".
+/// The text of words_of() after the speed: "of F3000 mm/min", ": blocks of 0.02 mm", "; a corner of 35° before line 12".
 std::vector<std::string> pieces_of(const SpeedReasons& why) {
     std::vector<std::string> pieces{fmt::format("of F{:.0f} mm/min", why.programmed_feed * seconds_per_minute)};
     for (const std::string& reason : why.reasons) pieces.push_back((pieces.size() == 1 ? ": " : "; ") + reason);
     return pieces;
 }
 
-/// From the first to the last of these points that is slow; empty: none is.
+/// The range from the first to the last slow one of these points; empty: there is none.
 PointRange slow_range(const Part& part, std::span<const PointIndex> points, std::span<const float> speeds) {
     PointRange range{0, -1};
     for (const PointIndex point : points) {
@@ -239,7 +239,7 @@ SlowWords slow_words(const Part& part, std::span<const PointIndex> points, std::
         });
         for (std::size_t k = 0; k < pieces.size(); ++k) {
             const double speed = speeds[static_cast<std::size_t>(points[first + k])];
-            if (!pieces[k].empty()) rounded = std::llrint(speed * seconds_per_minute);  // as fmt rounds
+            if (!pieces[k].empty()) rounded = std::llrint(speed * seconds_per_minute);  // rounds like fmt
             all.speeds.push_back(rounded);
             for (std::size_t c = 0; c < pieces[k].size(); ++c) {
                 const auto [piece, is_new] =

@@ -1,5 +1,5 @@
 #pragma once
-// Stages: the names of the steps of a longer computation, for who shows progress or measures time.
+// Stages: the names of the steps of a longer computation, for progress displays and time measurements.
 
 #include <functional>
 #include <string_view>

@@ -24,7 +24,7 @@ void note_unknown_axis(const Program& program, const StatedAxes& stated, Diagnos
                      "give the kinematics with --machine FILE"});
 }
 
-/// The axis of each point by that of its motion.
+/// The axis of each point, from that of its motion.
 ToolAxes axes_of_points(const Column<Xyz>& of_motion, const LineMap& lines) {
     auto columns = std::make_shared<ToolAxes::Columns>();
     for (Column<double>& column : *columns) column.resize(static_cast<std::size_t>(lines.count()));

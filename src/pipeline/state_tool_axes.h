@@ -6,12 +6,12 @@
 namespace clsurf {
 
 /// Gives `path`, which has no kinematics, the axes that `program` states, by the motion of each point; points without a
-/// motion keep the axis of the point before. `program` is in the coordinates of the path. Warning `path.tool-axis` where the
-/// program turns the tool and does not state where it points, unless rotary axes of the log have been noted already:
-/// then the axis is not known. No effect with kinematics. O(motions), and O(points) where the program tilts the tool.
+/// motion keep the axis of the previous point. `program` is in the coordinates of the path. The axis is unknown if the
+/// program turns the tool without stating its direction: then adds a warning `path.tool-axis`, unless rotary axes of the
+/// log have been noted already. No effect with kinematics. O(motions), and O(points) if the program tilts the tool.
 void state_tool_axes(Trajectory& path, const Program& program, const LineMap& lines, Diagnostics& diagnostics);
 
-/// That warning alone.
+/// Adds only that warning.
 void note_unknown_axis(const Program& program, Diagnostics& diagnostics);
 
 }  // namespace clsurf

@@ -19,7 +19,7 @@
 namespace clsurf {
 namespace {
 
-/// Throws where a survey cannot tell what a whole log would.
+/// Throws if a survey could not give the same results as the whole log.
 void refuse_others(const Part& part) {
     if (part.path.kinematics || find_rotary_motion(part.log, part.path.role))
         throw UsageError("a survey is for machines of three axes: " + part.log.name + " has rotary axes that move");
@@ -68,7 +68,7 @@ std::vector<Eigen::AlignedBox3f> surface_boxes_of(const ClSurface& surface) {
     return boxes;
 }
 
-/// What makes the line map again.
+/// Stores the data from which the line map can be restored.
 void note_lines(const Part& part, Survey& survey) {
     const LineMap& map = *part.lines;
     survey.match = map.match();
@@ -85,7 +85,7 @@ void note_lines(const Part& part, Survey& survey) {
     });
 }
 
-/// Throws where a point has a motion that the program does not have.
+/// Throws if a point has a motion that the program does not have.
 void check_motions(const Survey& survey, std::size_t known, PointIndex first, PointIndex last) {
     if (survey.motions.empty()) return;
     for (PointIndex i = first; i < last; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// ToolRun: what a tool is swept along, upright or as an upright one that cuts the same.
+// ToolRun: the data along which a tool is swept, for an upright tool or an equivalent upright one.
 
 #include <memory>
 #include <optional>
@@ -11,22 +11,22 @@
 
 namespace clsurf {
 
-/// What a tool is swept along. Refers to its members, which must outlive it.
+/// The data along which a tool is swept. Refers to its members, which must outlive it.
 struct ToolRun {
     const Trajectory& path;
     const ClSurface& surface;
     const PartSignals& read;
 
-    /// Swept along the measured positions, where there are such. The programmed marks of `report` are no form; nullptr: all of
-    /// the program is form. Refers to what this refers to.
+    /// Sweeps along the measured positions if there are any. The programmed marks of `report` do not belong to the form;
+    /// nullptr: the whole program is form. The result refers to the same data as this object.
     [[nodiscard]] AsMachinedSurface as_machined(const CuttingTool& tool, const QualityReport* report) const;
-    /// Whether the log has commanded positions besides those that are measured.
+    /// Whether the log has commanded positions in addition to the measured ones.
     [[nodiscard]] bool has_both() const { return path.role == Role::commanded && read.measured.has_value(); }
-    /// Swept along the path itself.
+    /// Sweeps along the path itself.
     [[nodiscard]] AsMachinedSurface as_commanded(const CuttingTool& tool) const;
 };
 
-/// A part as an upright tool that cuts the same goes over it.
+/// The data of a part for an upright tool that cuts the same.
 struct UprightPart {
     Trajectory path;
     ClSurface surface;
@@ -35,8 +35,8 @@ struct UprightPart {
     [[nodiscard]] ToolRun run() const { return {path, surface, read}; }
 };
 
-/// nullptr: the tool stands along z all the time. Else it must be a ball, whose centre is what counts; throws
-/// UsageError for other tools, and where the axis is not known.
+/// nullptr: the tool is always along z. If not, it must be a ball, whose centre is used; throws UsageError for other tools,
+/// and if the axis is unknown.
 [[nodiscard]] std::unique_ptr<const UprightPart> upright_part(const Log& log, const Trajectory& path,
                                                               const LineMap& lines, std::optional<Role> wanted,
                                                               const CuttingTool& tool);
