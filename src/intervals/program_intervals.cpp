@@ -175,7 +175,7 @@ private:
         }
     }
 
-    /// A pass begins at the end of its first motion, or within it. That motion belongs to the pass from its own begin on,
+    /// A pass begins at the end of its first motion, or within it. That motion belongs to the pass from its own start on,
     /// unless it comes from elsewhere (a plunge).
     void add_beginning(const ProgrammedPass& pass, std::vector<Vec3>& points, std::vector<PointIndex>& ends) const {
         constexpr double straight_on = 0.7;  // cosine

@@ -29,7 +29,7 @@ public:
     [[nodiscard]] Places around(PointIndex point) const;
 
     /// Places on the adjacent passes without a boundary, if the passes on both their sides have one there. `first`: the
-    /// boundary is at the begin of its pass.
+    /// boundary is at the start of its pass.
     [[nodiscard]] std::vector<PointIndex> missing_beside(PointIndex boundary, bool first) const;
 
     /// Whether a boundary is within reach of a location on its own pass.

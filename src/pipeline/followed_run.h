@@ -25,7 +25,7 @@ struct FollowRules {
     PointIndex most_points = 400'000;  ///< that are kept in any case
 };
 
-/// A defect that was found while the log was being written. Points and passes are counted from the begin of the log.
+/// A defect that was found while the log was being written. Points and passes are counted from the start of the log.
 struct ProvisionalDefect {
     std::int64_t number = 0;  ///< from 1
     Defect defect;

@@ -19,7 +19,7 @@ using AxisVector = Eigen::Matrix<double, Axes, 1>;
 template <int Axes>
 struct AxisSample {
     using Vector = AxisVector<Axes>;
-    double at = 0;  ///< arc length after the begin of the cell [mm]
+    double at = 0;  ///< arc length after the start of the cell [mm]
     Vector first = Vector::Zero(), second = Vector::Zero(), third = Vector::Zero();  ///< x′, x″ [1/mm], x‴ [1/mm²]
     Pace pace{0, 0, 0};           ///< 0: the cell's own limits along the path are enough
     double cap = infinite_speed;  ///< speed limit of the bend at this place [mm/s]

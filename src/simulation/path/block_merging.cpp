@@ -18,7 +18,7 @@ bool mergeable(const PathElement& element) {
 
 }  // namespace
 
-/// Whether a line from the begin of the merged blocks to the end of the next block passes all points within the tolerance.
+/// Whether a line from the start of the merged blocks to the end of the next block passes all points within the tolerance.
 bool BlockMerging::joins(const PathElement& element, double& deviation) const {
     if (passed_.size() >= most_merged || !mergeable(element) || element.feed != merged_.feed ||
         element.merging_tolerance != merged_.merging_tolerance || element.tolerance != merged_.tolerance)

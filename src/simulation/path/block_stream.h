@@ -31,7 +31,7 @@ enum class Stops : std::uint8_t {
 
 class BlockStream final : public ElementSource {
 public:
-    /// Both references must outlive the object; the source is at its begin. `start`: position of the axes; coordinates that
+    /// Both references must outlive the object; the source is at its start. `start`: position of the axes; coordinates that
     /// the program has not set keep their values [mm].
     BlockStream(MotionSource& source, const Machine& machine, const Vec3& start, Stops stops = Stops::at_corners);
 

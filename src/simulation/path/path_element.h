@@ -33,7 +33,7 @@ struct PathElement {
     double radius = 0, growth = 0, rate = 0;
     CubicSpan curve;
     std::shared_ptr<const BezierCurve> spline;  ///< nullptr: none
-    double curve_from = 0, curve_length = 0;    ///< begin of the element on the curve; length of the whole curve [mm]
+    double curve_from = 0, curve_length = 0;    ///< start of the element on the curve; length of the whole curve [mm]
     double length = 0;                          ///< [mm]
 
     // Data of the block that the element belongs to.

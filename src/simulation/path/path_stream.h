@@ -66,7 +66,7 @@ struct Span {
     PathElement base;
     double from = 0;                 ///< arc length on the element where the span begins [mm]
     double length = 0;               ///< [mm]
-    std::array<Vec3, 5> rounding{};  ///< Σ rounding[k] τᵏ, τ from the span's begin
+    std::array<Vec3, 5> rounding{};  ///< Σ rounding[k] τᵏ, τ from the span's start
     bool rounded = false;
 
     // Greatest values on the span. For each axis: first to third derivative of the position by the arc length.
@@ -78,14 +78,14 @@ struct Span {
     // Speed limit without the limits of bends (feed, speed of path and axes), and its factor.
     double free_cap = 0;
     LimitingFactor free_limiting = LimitingFactor::none;
-    double begin_cap = std::numeric_limits<double>::infinity();  ///< at its begin, for a corner that is not rounded
+    double begin_cap = std::numeric_limits<double>::infinity();  ///< at its start, for a corner that is not rounded
     // Speed limit without tangential acceleration, and its factor.
     double cap = 0;
     LimitingFactor limiting = LimitingFactor::none;
     // Tangential limits, as on a straight path with the same slopes.
     double acceleration = 0, jerk = 0;
 
-    /// Position τ after the span's begin; `deviation`: output, how far the rounding moves it [mm]; `pace`: output, the
+    /// Position τ after the span's start; `deviation`: output, how far the rounding moves it [mm]; `pace`: output, the
     /// length of its first derivative, which is path speed divided by the speed along the programmed arc length.
     [[nodiscard]] Vec3 at(double tau, double& deviation, double& pace) const;
     [[nodiscard]] PathDerivatives derivatives(double tau) const;
@@ -97,7 +97,7 @@ public:
     /// Number of joints to each side that a rounding may cross. It bounds how many blocks must be known.
     static constexpr std::int64_t reach_of_a_joint = 20;
 
-    /// Both references must outlive the object; the source is at its begin. `start`: position of the axes; coordinates that
+    /// Both references must outlive the object; the source is at its start. `start`: position of the axes; coordinates that
     /// the program has not set keep their values [mm].
     PathStream(MotionSource& source, const Machine& machine, const Vec3& start);
 
@@ -111,7 +111,7 @@ public:
 
 private:
     struct Joint {
-        double at = 0;                                  ///< arc length from the section's begin [mm]
+        double at = 0;                                  ///< arc length from the section's start [mm]
         Vec3 turn = Vec3::Zero(), bend = Vec3::Zero();  ///< Δt; Δk [1/mm]
         double turning = 0;                             ///< |Δt|
         double tolerance = 0;
@@ -162,7 +162,7 @@ private:
     Queue<Span> ready_;
     bool front_taken_ = false;  ///< of ready_
     // Scratch of make_spans(): joints whose roundings reach into a part of the element, the sum of the roundings that cover
-    // it as a polynomial from its begin, and where it is divided.
+    // it as a polynomial from its start, and where it is divided.
     std::vector<const Joint*> reaching_;
     std::array<Vec3, 4> covering_;
     bool covered_ = false;

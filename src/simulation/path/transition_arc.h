@@ -34,7 +34,7 @@ struct TransitionArc {
     double radius = 0, error = 0;  ///< r; distance of the corner from the arc [mm]
     double sweep = 0;              ///< angle between its tangents [rad]
     Vec3 begin = Vec3::Zero(), middle = Vec3::Zero(), end = Vec3::Zero(), centre = Vec3::Zero();
-    Vec3 tangent = Vec3::Zero();  ///< at its begin, unit
+    Vec3 tangent = Vec3::Zero();  ///< at its start, unit
 
     [[nodiscard]] PathElement element() const;
 };

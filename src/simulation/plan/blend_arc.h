@@ -19,7 +19,7 @@ struct BlendCorner {
 };
 
 struct BlendSize {
-    double radius = 0, trim = 0;  ///< [mm]; trim: from the corner to the begin of the arc
+    double radius = 0, trim = 0;  ///< [mm]; trim: from the corner to the start of the arc
     double speed = 0;             ///< greatest speed on the arc [mm/s]
 };
 

@@ -360,7 +360,7 @@ private:
     std::vector<FiveAxisCell> cells_;
     AxisSpeedProblem<5> problem_;
     double ramp_;    ///< shortest ramp of the limits [s]
-    double at_ = 0;  ///< begin of the window
+    double at_ = 0;  ///< start of the window
     KnotState state_, start_, stop_;
     FiveAxisMotion first_piece_, last_piece_;
     std::vector<FiveAxisMotion> motions_, tail_;

@@ -13,11 +13,11 @@ struct BendSpeed {
 };
 
 struct HeldPlace {
-    PathSample sample;  ///< its `at` is counted from the begin of the part; its cap is that of the bend
+    PathSample sample;  ///< its `at` is counted from the start of the part; its cap is that of the bend
     BendSpeed bend;
 };
 
-/// `arc_length`: from the begin of the part [mm].
+/// `arc_length`: from the start of the part [mm].
 [[nodiscard]] HeldPlace held_place(const CellPart& part, double arc_length, const Machine& machine);
 
 }  // namespace clsurf

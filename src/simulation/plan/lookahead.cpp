@@ -101,7 +101,7 @@ WindowPlanner::Verdict WindowPlanner::judge(const SpeedRun& run, std::span<const
     double end = 0;
     double from = 0;
     MotionState at_from = profile.at(0);
-    bool known = true;  // from and at_from are those at the begin of the span
+    bool known = true;  // from and at_from are those at the start of the span
     for (std::size_t i = run.first; i < run.last; ++i) {
         const Span& s = spans[i];
         const double begin = end;

@@ -68,7 +68,7 @@ bool AxisSpeedProblem<Axes>::may_break(const Cell& cell, double part, double acc
     return false;
 }
 
-/// The tangential acceleration allowed at the end of a cell, which is also the begin of the next one.
+/// The tangential acceleration allowed at the end of a cell, which is also the start of the next one.
 template <int Axes>
 double AxisSpeedProblem<Axes>::acceleration_at_end(std::size_t cell) const {
     const double here = cells_[cell].limits.acceleration;

@@ -18,13 +18,14 @@ constexpr double most_change = 0.05;        ///< share by which the jerk may cha
 constexpr double most_turn_of_cell = 0.05;  ///< [rad] of the path in a cell
 constexpr double approach = 0.5;            ///< share of the distance over which the pace would fall to 0
 constexpr double turn_share = 0.7;          ///< share of that turn after which a cell ends
-// Spans share a cell until it has the least duration. Their samples are equally far apart in time, since the speed hardly
-// changes in less. Where a straight section meets a curved one, limits change: a shorter cell ends there, too.
+// Short spans share a cell until it has the least duration; samples keep the limits of each span. This duration is a part
+// of the ramp time, too, since the speed hardly changes in less. Where a straight section meets a curved one, limits change:
+// a shorter cell ends there, too.
 constexpr double least_cells_a_ramp = 28, least_periods = 0.4, most_periods = 3, least_at_bend = 0.3;
 // The places at which a part of a span is checked, by its duration in periods: two, three, five, nine.
 constexpr double briefest = 0.5, brief = 1, middling = 2.5;
 constexpr double slight = 0.01;  ///< [rad] a small turn
-// A window that cannot be solved is tried with an end in its last part, at most so often.
+// A window that cannot be solved is tried with an end in its last part, at most this many times.
 constexpr double shortening = 0.3;
 constexpr int most_shortenings = 2;
 constexpr std::size_t fewest_cells = 8;
@@ -232,7 +233,7 @@ void Refiner::close_cell() {
     open_ = {};
 }
 
-/// Limits from a part of the open cell, `begin` after its begin; on a bend also its samples.
+/// Limits from a part of the open cell, `begin` after its start; on a bend also its samples.
 void Refiner::add_part(CellPart& part, double begin, CellLimits& limits) {
     const Span& span = *part.span;
     open_.rounded = open_.rounded || span.rounded;
@@ -308,7 +309,7 @@ void Refiner::solve(bool to_the_end) {
     }
     steepest_lead_ = steepest_tail_ = {};
     run_lead();
-    // The previous solution is continued up to the begin of the plan that was not refined.
+    // The previous solution is continued up to the start of the plan that was not refined.
     cells_.resize(solved_);
     if (solved_ > 0) end_ = state_at(kept(waiting_.front().run).profile, waiting_.front().from);
     run_cells(solved_, false);

@@ -9,7 +9,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double periods_a_cell = 0.5;  ///< cells per period on a bent span, at its greatest speed
+constexpr double periods_a_cell = 0.5;  ///< periods per cell on a bent span, at its greatest speed
 constexpr int most_cells_of_span = 16;
 // Between two places at the distance Δ an acceleration x′ a + x″ v² differs from linear interpolation by at most Δ²/8 of
 // its second derivative, 5 x‴ a + x⁗ v². This margin is left at the places, and their distance is chosen accordingly:
@@ -30,7 +30,7 @@ bool ScanDriver::take_span() {
     return true;
 }
 
-/// Upper bound of the second derivative of an axis' acceleration, from the greatest x‴ and x⁗ [1/s²].
+/// Upper bound of the second derivative of an axis' acceleration, from the greatest x‴ and x⁗ [1/(mm s²)].
 Vec3 ScanDriver::curving(const Span& span) const {
     const double fastest =
         std::min(span.free_cap, arc_speed(1 / span.greatest_second, machine_->path.max_normal_acceleration));

@@ -53,7 +53,7 @@ private:
     std::deque<Span> spans_;   ///< of the window
     std::vector<Cell> cells_;  ///< those of scan_
     SpeedScan scan_;
-    // Scratch: the places of a cell from begin to end, and its motions.
+    // Scratch: the places of a cell from start to end, and its motions.
     std::vector<PathDerivatives> places_;
     std::vector<CellMotion> motions_;
 };

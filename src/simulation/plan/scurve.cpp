@@ -118,7 +118,7 @@ double SCurve::time_at(double arc_length) const {
     const MotionState& start = starts_[phase];
     const double begin = ends_[phase] - durations_[phase];
     const double jerk = jerk_signs[phase] * jerk_;
-    // With the acceleration at the begin of the phase: exact without jerk.
+    // With the acceleration at the start of the phase: exact without jerk.
     const double left = arc_length - start.arc_length;
     double t =
         2 * left / (start.speed + std::sqrt(std::max(0.0, start.speed * start.speed + 2 * start.acceleration * left)));

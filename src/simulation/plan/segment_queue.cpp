@@ -12,8 +12,8 @@ namespace clsurf {
 namespace {
 
 constexpr double sharp = 2 * rad_per_deg;  ///< at a turn closer than this to a reversal the axes stop
-constexpr double flat_corner = 1e-3;       ///< [rad] of a corner that a tolerance limits; flatter ones need no blend
-constexpr double segment_periods = 1.02;   ///< least duration of a segment at its highest speed
+constexpr double flat_corner = 1e-3;       ///< [rad] flatter corners are not limited by the tolerance
+constexpr double segment_periods = 1.02;   ///< least duration of a segment at its highest speed [periods]
 constexpr double no_overlap_left = 0.25;   ///< share of a segment after which its end is not changed any more
 constexpr int settled_peaks = 4;           ///< ends at their limits before a backward scan stops
 
@@ -25,7 +25,7 @@ double peak_of(const BlendSegment& segment) {
     return peak_speed(segment.tangential_acceleration(), segment.final_length ? segment.length : 0.5 * segment.length);
 }
 
-/// Direction of the acceleration at the begin of a segment; for an arc including the normal acceleration.
+/// Direction of the acceleration at the start of a segment; for an arc including the normal acceleration.
 Vec3 first_acceleration(const BlendSegment& segment) {
     if (!segment.curved()) return segment.path.direction;
     const PathElement& arc = segment.path;

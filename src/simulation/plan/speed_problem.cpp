@@ -162,7 +162,7 @@ void AxisSpeedProblem<Axes>::lower_to_caps() {
     }
 }
 
-/// Computes the weights at the begins of all cells.
+/// Computes the weights at the starts of all cells.
 template <int Axes>
 void AxisSpeedProblem<Axes>::weigh() {
     begins_.resize(cells_.size());

@@ -118,7 +118,7 @@ private:
         Vector first = Vector::Zero(), second = Vector::Zero(), third = Vector::Zero();
         Pace pace{0, 0, 0};
         double least_cap = infinite_speed;  ///< of its samples
-        // Rows found to be needed: acceleration at the end; jerk at begin, middle and end.
+        // Rows found to be needed: acceleration at the end; jerk at start, middle and end.
         bool acceleration = false;
         std::array<bool, 3> jerk{};
         double jerk_share = 1;  ///< of the jerk limit along the path, lowered if it is exceeded between rows
@@ -134,7 +134,7 @@ private:
     struct Weights {
         std::array<double, 3> b{}, slope{}, curve{};
     };
-    /// b and its derivatives at the begin of a cell.
+    /// b and its derivatives at the start of a cell.
     struct AtBegin {
         double b = 0, slope = 0, curve = 0;
     };
@@ -169,7 +169,7 @@ private:
     void add_row(std::uint32_t number, Row kind, std::size_t cell, const std::array<double, 3>& w, double limit);
     void add_jerk(std::uint32_t number, Row kind, std::size_t cell, const std::array<double, 3>& w,
                   const std::array<double, 3>& b, double limit);
-    /// Weights at begin, middle and end.
+    /// Weights at start, middle and end.
     [[nodiscard]] std::array<Weights, 3> weights_along(std::size_t cell) const;
     [[nodiscard]] Weights weights_at(std::size_t cell, double at) const;
 
@@ -177,7 +177,7 @@ private:
     FirstSpeeds first_;
     std::vector<Cell> cells_;
     std::vector<HeldSample> samples_;
-    std::vector<Weights> begins_;  ///< weights at the begin of each cell
+    std::vector<Weights> begins_;  ///< weights at the start of each cell
     std::vector<double> value_;    ///< of the cells, with one more beyond each end
     std::vector<Row> limiting_;    ///< of the cells
     LimitRows rows_, rows_before_;

@@ -25,7 +25,7 @@ void SpeedScan::limit_begin(double speed) { cells_.back().begin_cap = speed * sp
 
 void SpeedScan::add_limit(std::size_t number, double at, double slope, double bend, double acceleration) {
     Cell& cell = cells_[number];
-    // At the place, b is the value at the begin plus 2 a at.
+    // At the place, b is the value at the start plus 2 a `at`.
     const double of_a = slope + 2 * bend * at;
     const double steep = std::abs(of_a);
     // A limit that is never reached is omitted.

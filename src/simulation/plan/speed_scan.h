@@ -19,9 +19,9 @@ public:
     void clear();
     /// Appends a cell: its length [mm], greatest speed [mm/s] and acceleration along the path [mm/s²].
     void add_cell(double length, double cap, double acceleration);
-    /// Limits the speed at the begin of the last cell [mm/s].
+    /// Limits the speed at the start of the last cell [mm/s].
     void limit_begin(double speed);
-    /// Adds the limit |slope a + bend v²| ≤ acceleration of one axis, at a place of the last cell, `at` after its begin
+    /// Adds the limit |slope a + bend v²| ≤ acceleration of one axis, at a place of the last cell, `at` after its start
     /// [mm]. slope has no unit, bend is in 1/mm.
     void add_limit(double at, double slope, double bend, double acceleration) {
         add_limit(cells_.size() - 1, at, slope, bend, acceleration);
@@ -55,9 +55,9 @@ private:
     struct Cell {
         double length = 0, cap = 0, acceleration = 0;  ///< cap of b [mm²/s²]
         std::size_t end_row = 0;
-        double begin_cap = std::numeric_limits<double>::infinity();  ///< of b at its begin
+        double begin_cap = std::numeric_limits<double>::infinity();  ///< of b at its start
     };
-    /// |a + tilt b| ≤ width, b at the cell's begin.
+    /// |a + tilt b| ≤ width, b at the cell's start.
     struct Row {
         double width = 0, tilt = 0;
     };

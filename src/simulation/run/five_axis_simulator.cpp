@@ -21,7 +21,7 @@ constexpr int most_slower_rounds = 32;
 constexpr int half_width = 8;             ///< of the smoothing of angles [periods]
 constexpr int carry_periods = 16;         ///< over which angles catch up after a rounded corner skipped a part of them
 constexpr int patient_rounds = 8;         ///< before the jerk limit of the tip is lowered
-constexpr double most_lowering = 0.97;    ///< factor of that limit, at most, in a round
+constexpr double most_lowering = 0.97;    ///< least factor of that limit in a round
 constexpr double nearly_greatest = 0.95;  ///< a rate that counts as the greatest
 /// Takes the samples of the tip and makes those of the axes.
 class FiveAxisRecorder {
@@ -105,7 +105,7 @@ private:
         put(sample);
     }
 
-    /// A rounded corner skips the end of one block and the begin of the next one, with their change of the angles. The
+    /// A rounded corner skips the end of one block and the start of the next one, with their change of the angles. The
     /// angles catch up over some periods. A step would not become smaller at lower speed.
     [[nodiscard]] RotaryAngles carried() const {
         const double part = static_cast<double>(carry_left_) / carry_periods;
@@ -203,7 +203,7 @@ private:
     std::size_t block_ = 0;
     double part_ = 0;
     std::size_t waiting_block_ = 0;
-    double elapsed_ = 0;  ///< since the begin of the dwell [s]
+    double elapsed_ = 0;  ///< since the start of the dwell [s]
     bool begun_ = false;
     RotaryAngles of_block_;  ///< of the last sample, without the angles that are carried
     RotaryAngles carry_;     ///< angles to catch up with at the last change of blocks

@@ -57,7 +57,7 @@ private:
         return reference - std::copysign(friction_, direction);
     }
     /// The speed after a period of an integrating velocity loop. w acts against the friction, whose direction is that at
-    /// the begin of the period.
+    /// the start of the period.
     double integrated(double reference) {
         const double push = reference + integral_;
         if (friction_ > 0 && velocity_ == 0 && std::abs(push) <= friction_) {
