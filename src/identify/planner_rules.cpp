@@ -18,7 +18,7 @@ namespace clsurf {
 namespace {
 
 constexpr int most_passes = 4;                 // over all rules
-constexpr double gain_of_later_passes = 0.25;  // of the speed error: later passes correct wrong rules, not details
+constexpr double gain_of_later_passes = 0.25;  // of the speed error: they correct what other rules hid, not details
 
 /// The value that leaves the rule of the machine unchanged.
 std::size_t present_value(const Rule& rule, const Machine& machine) {
@@ -79,7 +79,7 @@ void search_rules(const Machine& known, double least_gain, RuleScores& scores, I
     }
 }
 
-/// Rejects a merging of lines if other limits explain the runs about as well without it.
+/// Removes a merging of lines if other limits explain the runs about as well without it.
 void confirm_merging(const Machine& known, RuleScores& scores, Identification& result) {
     Identification other = result;
     other.machine = with_known_merging(result.machine, known);

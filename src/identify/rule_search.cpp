@@ -50,7 +50,7 @@ double rounded(double value) {
     return std::round(value * scale) / scale;
 }
 
-/// Searches a better number between the neighbours of the chosen value and adds it to the candidates.
+/// Searches for a better number between the neighbours of the chosen value and adds it to the candidates.
 void refine(const Rule& rule, std::size_t chosen, RuleScores& scores, Machine& machine,
             std::vector<RuleCandidate>& candidates) {
     const std::vector<double>& numbers = rule.continuous.numbers;

@@ -122,7 +122,8 @@ public:
         }
     }
 
-    /// Number of these defects that `others` has within a cell.
+    /// Number of these defects that `others` has within a cell. A defect that covers the whole part matches any other such
+    /// defect.
     [[nodiscard]] std::size_t found_in(const DefectPlaces& others) const {
         std::size_t found = 0;
         for (const Defect& defect : report_->defects) {
