@@ -1,6 +1,6 @@
 #pragma once
-// Everything per point is a loop over blocks of this many points: small enough for the L2 cache
-// with a dozen columns of doubles, large enough that a block's overhead does not show.
+// Per-point work runs in loops over blocks of this many points. A block of a dozen columns of doubles fits the L2
+// cache, and the overhead per block is negligible.
 
 #include <algorithm>
 #include <cstdint>
@@ -12,13 +12,13 @@ namespace clsurf {
 
 inline constexpr PointIndex block_points = 16384;
 
-/// body(first, last) for every block of [0, count), `last` exclusive; in parallel.
+/// Calls body(first, last) for every block of [0, count), `last` exclusive; in parallel.
 template <typename Body>
 void for_each_block(PointIndex count, Body&& body) {
     parallel_for(count, block_points, [&](std::int64_t first, std::int64_t last) { body(first, last); });
 }
 
-/// body(first, last) for the part of every block that lies among `points`, `last` exclusive; in parallel.
+/// Calls body(first, last) for the part of every block that is inside `points`, `last` exclusive; in parallel.
 template <typename Body>
 void for_each_block(const PointRange& points, Body&& body) {
     const PointIndex begin = points.first / block_points;

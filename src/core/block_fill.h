@@ -1,10 +1,11 @@
 #pragma once
-// BlockFill: columns whose blocks are filled when they are first read. Of a log that is too large for memory, only
-// what is looked at is computed: the points of a shard, and those beside it that it is compared with.
+// BlockFill: columns whose blocks are filled when they are first read. If a log is too large for memory, only the points
+// that are read are computed: those of a shard, and those of adjacent passes that it is compared with.
 //
-// Any number of threads may read. What fills a block must not read a block of its own columns, but it may read columns
-// that are filled by another BlockFill, and so on: a block waits for other columns only, and never in a circle. It must
-// not work in parallel (a thread that waits for its helpers would take up other work, which may wait for this block).
+// Any number of threads may read. A fill function must not read a block of its own columns, but it may read columns that
+// are filled by another BlockFill, and so on. So a block waits for other columns only, and never in a circle. A fill
+// function must not work in parallel: a thread that waits for its helpers would take up other work, which may wait for
+// this block.
 
 #include <array>
 #include <atomic>
@@ -26,7 +27,7 @@ public:
 
     /// Returns when the block of that point is filled. O(1) from the second time on.
     void need(PointIndex point) { need(point, fill_); }
-    /// The same, filled by a function of the one who reads, where it may have moved since.
+    /// The same with a fill function of the caller, for captured objects that may have moved since the constructor.
     void need(PointIndex point, const Fill& fill) {
         const auto block = static_cast<std::size_t>(point >> shift_);
         if (!filled_[block].load(std::memory_order_acquire)) fill_block(block, fill);
@@ -38,9 +39,9 @@ public:
 
     /// Points of a block.
     [[nodiscard]] PointIndex block() const { return PointIndex{1} << shift_; }
-    /// Points of blocks that were filled, each time that they were.
+    /// Number of points in filled blocks, counted each time that a block is filled.
     [[nodiscard]] PointIndex filled() const { return points_.load(); }
-    /// Nothing is filled from now on. Nobody may be reading.
+    /// Marks all blocks as not filled. No thread may be reading.
     void forget();
 
 private:
@@ -54,17 +55,18 @@ private:
     std::atomic<PointIndex> points_{0};
 };
 
-/// Frees what was filled, once it is much: called where nobody reads. Returns whether it did. Nothing: what is filled stays.
+/// Frees filled blocks if they take much memory; called when nobody reads. Returns whether it did. An empty function: filled
+/// blocks are kept.
 using ForgetBlocks = std::function<bool()>;
 
-/// The BlockFill of columns that were given one; those of an ordinary log have none, and are there as a whole. What
-/// fills knows where the columns are, so that these may be moved, but not copied.
+/// The BlockFill of columns, if they have one; the columns of an ordinary log have none and are complete. The fill
+/// function refers to the columns, so an object with a BlockFill can be moved but not copied.
 class BlockFillPointer {
 public:
     BlockFillPointer() = default;
     BlockFillPointer(PointIndex count, BlockFill::Fill fill, PointIndex block = block_points)
         : fill_(std::make_unique<BlockFill>(count, std::move(fill), block)) {}
-    /// Throws std::logic_error where there is a BlockFill.
+    /// Throws std::logic_error if `other` has a BlockFill.
     BlockFillPointer(const BlockFillPointer& other);
     BlockFillPointer(BlockFillPointer&&) noexcept = default;
     BlockFillPointer& operator=(BlockFillPointer other) noexcept {

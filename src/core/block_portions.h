@@ -1,6 +1,6 @@
 #pragma once
-// Points are looked at in portions that lie in few blocks, between which blocks that were filled may be forgotten
-// (core/block_fill.h). So what takes memory does not grow with the points that are looked at.
+// Points are processed in portions that touch few blocks. Between portions, filled blocks may be freed
+// (core/block_fill.h), so the memory does not grow with the number of points.
 
 #include <algorithm>
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace clsurf {
 
-/// f(first, end) for portions of [0, count), one after the other; point_of(k) is the point that k looks at and about. Without
-/// `forget` one portion is all.
+/// Calls f(first, end) for portions of [0, count), one after the other; point_of(k) is the point around which k reads.
+/// Without `forget` there is a single portion.
 template <typename PointOf, typename F>
 void for_each_portion(std::size_t count, const ForgetBlocks& forget, PointOf&& point_of, F&& f) {
     if (!forget) {
@@ -35,7 +35,8 @@ void for_each_portion(std::size_t count, const ForgetBlocks& forget, PointOf&& p
     forget();
 }
 
-/// f(k) for [0, count) in parallel, each of which looks at a region of its own: with `forget` as many at once as there are threads.
+/// Calls f(k) for [0, count) in parallel; each k reads its own region. With `forget` as many run at once as there are
+/// threads.
 template <typename F>
 void for_each_at_once(std::size_t count, const ForgetBlocks& forget, F&& f) {
     const std::size_t at_once = forget ? static_cast<std::size_t>(thread_count()) : count;
@@ -48,7 +49,7 @@ void for_each_at_once(std::size_t count, const ForgetBlocks& forget, F&& f) {
     }
 }
 
-/// f(k) for [0, count), in parallel unless f itself forgets, which nobody else may be reading.
+/// Calls f(k) for [0, count), in parallel unless f itself frees blocks; then no other thread may be reading.
 template <typename F>
 void for_each_alone_or_at_once(std::size_t count, const ForgetBlocks& forget, F&& f) {
     parallel_for(static_cast<std::int64_t>(count), forget ? static_cast<std::int64_t>(count) : 1,

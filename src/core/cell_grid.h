@@ -1,6 +1,6 @@
 #pragma once
-// CellGrid: cubic cells of one size, each with a number. What lies near a place is in the cells around its own; a map from
-// these numbers makes a sparse grid of anything.
+// CellGrid: cubic cells of one size, each with a number. Everything near a place is in its own cell and the cells around
+// it; a map from these numbers makes a sparse grid of anything.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace clsurf {
 
 class CellGrid {
 public:
-    /// The number of a cell: its three indices, 21 bits each, x first. In order they are sorted by x, then y, then z.
+    /// The number of a cell: its three indices, 21 bits each, x first. Sorting by number sorts by x, then y, then z.
     using Key = std::uint64_t;
     static constexpr int most_aside = 8;  ///< cells
 
@@ -20,17 +20,18 @@ public:
     explicit CellGrid(double side) : side_(side) {}
 
     [[nodiscard]] double side() const { return side_; }
-    /// The cell of a place [mm]. Each index is at most a million from that of the zero: what is farther away, or not
-    /// finite, is in an outermost cell.
+    /// The cell of a place [mm]. Each index is at most a million from that of the origin. Places that are farther
+    /// away, or not finite, are in an outermost cell.
     [[nodiscard]] Key key(const Vec3& p) const {
         return index(p.x()) << (2 * bits) | index(p.y()) << bits | index(p.z());
     }
 
-    /// The key of the cell that many cells on, at most most_aside each, is key + step(x, y, z); unsigned numbers wrap.
+    /// key + step(x, y, z) is the key of the cell that is x, y and z cells away, at most most_aside each; unsigned
+    /// numbers wrap.
     static constexpr Key step(int x, int y, int z) {
         return (static_cast<Key>(x) << (2 * bits)) + (static_cast<Key>(y) << bits) + static_cast<Key>(z);
     }
-    /// f(key) for a cell and those around it, `aside` ≤ most_aside to each side, sorted by key.
+    /// Calls f(key) for a cell and those around it, `aside` ≤ most_aside to each side, sorted by key.
     template <typename F>
     static void for_each_near(Key cell, int aside, F&& f) {
         for (int x = -aside; x <= aside; ++x) {
@@ -39,7 +40,7 @@ public:
             }
         }
     }
-    /// For the 27 cells around a place.
+    /// The same for the 27 cells around a place.
     template <typename F>
     void for_each_near(const Vec3& p, F&& f) const {
         for_each_near(key(p), 1, f);

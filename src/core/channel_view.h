@@ -1,8 +1,8 @@
 #pragma once
-// ChannelView: one channel of a log where it lies, as a typed strided view. value = raw · scale + bias.
+// ChannelView: a typed strided view of one channel of a log, without a copy. value = raw · scale + bias.
 //
-// The mapped file owns the raw data. Everything per point gathers a block of it into doubles with
-// copy_block(); that is the only place where the type of a channel is looked at.
+// The mapped file owns the raw data. Per-point code gathers a block of it into doubles with copy_block(), the only
+// function that depends on the type of a channel.
 
 #include <cstddef>
 #include <cstdint>
@@ -34,8 +34,8 @@ struct ChannelView {
 /// Gathers points [begin, begin + out.size()) as doubles. Domain: inside the view.
 void copy_block(const ChannelView& view, PointIndex begin, std::span<double> out);
 
-/// Gathers an integral channel (a line number) without the way through double.
-/// Values that are not in 0 … 2^32−1, or not finite, become `bad`.
+/// Gathers an integral channel (a line number) without conversion to double. Values outside 0 … 2^32−1 and values
+/// that are not finite become `bad`.
 void copy_block(const ChannelView& view, PointIndex begin, std::span<std::uint32_t> out, std::uint32_t bad);
 
 }  // namespace clsurf

@@ -5,8 +5,8 @@
 // to zero it, once with the value) and would copy on growth; realloc() lets the kernel move pages of
 // large blocks instead, so that a column that grows never needs twice its memory.
 //
-// A sparse column has a size and takes memory for those pages only that are written; a borrowed one shows memory of
-// someone else, such as a mapped file. Both are there for logs of which only a part is looked at (core/block_fill.h).
+// A sparse column takes memory only for the pages that are written. A borrowed one shows memory of another owner, for
+// example a mapped file. Both serve logs of which only a part is read (core/block_fill.h).
 // Large columns may be kept in files (core/column_file.h).
 
 #include <sys/mman.h>
@@ -35,7 +35,7 @@ public:
         resize(size);
         for (std::size_t i = 0; i < size; ++i) data_[i] = value;
     }
-    /// A column of `size` zeros that takes memory where it is written. It does not grow.
+    /// A column of `size` zeros that takes memory only for the pages that are written. It does not grow.
     [[nodiscard]] static Column sparse(std::size_t size) {
         Column column;
         if (size == 0) return column;
@@ -43,14 +43,14 @@ public:
         void* const pages = ::mmap(nullptr, size * sizeof(T), PROT_READ | PROT_WRITE,
                                    MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
         if (pages == MAP_FAILED) throw std::bad_alloc();
-        // A huge page would take memory for what is not written.
+        // A huge page would take memory for elements that are not written.
         ::madvise(pages, size * sizeof(T), MADV_NOHUGEPAGE);
         column.data_ = static_cast<T*>(pages);
         column.size_ = column.capacity_ = size;
         column.storage_ = Storage::sparse;
         return column;
     }
-    /// A column that reads these values, which must outlive it. It is not written, and does not grow.
+    /// A read-only column over these values, which must outlive it. It does not grow.
     [[nodiscard]] static Column borrowed(std::span<const T> values) {
         Column column;
         column.data_ = const_cast<T*>(values.data());
@@ -82,7 +82,7 @@ public:
         if (storage_ == Storage::file) column_file::remove({data_, descriptor_}, capacity_ * sizeof(T));
     }
 
-    /// Of a sparse column: all values are zero again, and take no memory.
+    /// Sparse columns only: sets all values to zero and frees their memory.
     void forget() noexcept {
         if (storage_ == Storage::sparse) ::madvise(static_cast<void*>(data_), capacity_ * sizeof(T), MADV_DONTNEED);
     }
@@ -114,7 +114,7 @@ public:
         }
         data_[size_++] = value;
     }
-    /// Gives the memory beyond size() back.
+    /// Frees the memory beyond size().
     void shrink_to_fit() {
         if (size_ == capacity_ || storage_ != Storage::owned) return;
         if (size_ == 0) {
@@ -128,7 +128,7 @@ public:
         }
     }
     void clear() noexcept { size_ = 0; }
-    /// Without the first elements. O(those that stay).
+    /// Removes the first elements. O(remaining elements).
     void drop_front(std::size_t count) noexcept {
         size_ -= count;
         if (size_ > 0) std::memmove(static_cast<void*>(data_), data_ + count, size_ * sizeof(T));

@@ -29,14 +29,14 @@ ColumnFolder& column_folder() {
 int open_nameless(const std::string& folder) {
     const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (descriptor >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL)) return descriptor;
-    // A file system that has no nameless files.
+    // For file systems without unnamed files.
     std::string name = folder + "/clsurf.XXXXXX";
     const int named = ::mkostemp(name.data(), O_CLOEXEC);
     if (named >= 0) ::unlink(name.c_str());
     return named;
 }
 
-/// Takes the room on the disk now: a write to a mapping of a full disk would end the program.
+/// Allocates the disk space now: a write to a mapping of a full disk would end the program.
 int take_room(int descriptor, std::size_t bytes) { return ::posix_fallocate(descriptor, 0, static_cast<off_t>(bytes)); }
 
 }  // namespace

@@ -1,15 +1,15 @@
 #pragma once
 // Columns in files: large columns of a log that does not fit in memory are kept in unnamed temporary files, which are mapped.
-// The system writes pages that are not in use to disk, and reads them back when they are needed.
+// The system writes unused pages to disk and reads them back when they are needed.
 
 #include <cstddef>
 #include <string>
 
 namespace clsurf {
 
-/// Columns that grow to `least` bytes or more from now on are kept in files in this folder; an empty folder name keeps all in
-/// memory, which is the default. Not thread-safe: call it before columns are made. Throws SystemError: files cannot be made
-/// there.
+/// From now on, columns that grow to `least` bytes or more are kept in files in this folder; an empty folder name keeps all
+/// in memory, which is the default. Not thread-safe: call it before columns are made. Throws SystemError if files cannot be
+/// made there.
 void keep_columns_in(const std::string& folder, std::size_t least = std::size_t{64} << 20U);
 
 namespace column_file {
@@ -19,11 +19,11 @@ struct Mapping {
     void* data = nullptr;
     int descriptor = -1;
 };
-/// Whether a column of so many bytes is to be in a file.
+/// Whether a column of this many bytes belongs in a file.
 [[nodiscard]] bool is_wanted(std::size_t bytes);
-/// Throws SystemError: the disk is full.
+/// Throws SystemError if the disk is full.
 [[nodiscard]] Mapping make(std::size_t bytes);
-/// Grows the file; the mapping may move. Throws SystemError: the disk is full; the mapping is then unchanged.
+/// Grows the file; the mapping may move. Throws SystemError if the disk is full; the mapping is then unchanged.
 void grow(Mapping& mapping, std::size_t before, std::size_t bytes);
 void remove(const Mapping& mapping, std::size_t bytes) noexcept;
 

@@ -1,6 +1,6 @@
 #pragma once
-// CutterPlace: where the tool is, as its tip and, where the tool is known, as the point at which it touches
-// the part. A mark is at the contact point; a position in the log or in the program is a tip.
+// CutterPlace: where the tool is: its tip and, if the tool is known, the point where it touches the part. A mark is
+// at the contact point; a position in the log or in the program is a tip.
 
 #include <optional>
 
@@ -10,9 +10,9 @@ namespace clsurf {
 
 struct CutterPlace {
     Vec3 tip = Vec3::Zero();      ///< [mm] in the workpiece
-    std::optional<Vec3> contact;  ///< [mm]; nothing: no tool is known, or it does not cut there
+    std::optional<Vec3> contact;  ///< [mm]; nullopt: no tool is known, or it does not cut there
 
-    /// The place on the part: the contact point where it is known, else the tip.
+    /// The place on the part: the contact point if it is known, else the tip.
     [[nodiscard]] const Vec3& position() const { return contact ? *contact : tip; }
 };
 

@@ -10,8 +10,7 @@ namespace {
 
 constexpr std::size_t shown_source_bytes = 100;
 
-/// The source line with control characters made harmless, cut to what fits a terminal, and the
-/// caret under the column.
+/// The source line with escaped control characters, cut to the width of a terminal, and the caret under the column.
 std::string source_and_caret(const Place& where) {
     std::string line;
     const std::size_t column = where.column > 0 ? where.column - 1 : 0;

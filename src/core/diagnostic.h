@@ -1,7 +1,7 @@
 #pragma once
-// Diagnostic: a problem that does not end the run and that the user should know, with a stable code and a
-// place. Diagnostics: a list that keeps the first few of each code and counts the rest, so that a log with a
-// million gaps gives a readable answer in bounded memory.
+// Diagnostic: a problem that does not end the run but that the user should know, with a stable code and a place.
+// Diagnostics: a list that keeps the first few of each code and counts the rest, so that a log with a million gaps
+// gives a readable answer in bounded memory.
 
 #include <cstdint>
 #include <string>
@@ -33,15 +33,15 @@ public:
     void append(const Diagnostics& other);
 
     [[nodiscard]] const std::vector<Diagnostic>& kept() const { return kept_; }
-    /// Of a part of a file that was read by itself: its line, point or byte 0 is number `by` of the file.
+    /// For a part of a file that was read by itself: its line, point or byte 0 is number `by` of the file.
     void move_places(std::uint64_t by);
-    /// How often a code was added, kept or not.
+    /// How many times a code was added, including those not kept.
     [[nodiscard]] std::uint64_t count(std::string_view code) const;
-    /// The same of a severity. Those that were not kept have the highest one of their code.
+    /// The same for a severity. Diagnostics that were not kept count with the highest severity of their code.
     [[nodiscard]] std::uint64_t count(Severity severity) const;
     [[nodiscard]] bool has_errors() const { return errors_ > 0; }
     [[nodiscard]] bool empty() const { return kept_.empty(); }
-    /// The kept ones, and for each code with more a closing one that says how many were left out.
+    /// The kept diagnostics; each code with more of them ends with one that says how many were left out.
     [[nodiscard]] std::vector<Diagnostic> summary() const;
 
 private:

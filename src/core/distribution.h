@@ -1,6 +1,6 @@
 #pragma once
 // Distribution: counts of magnitudes in narrow bins, and the exact sum of their squares. Distributions of parts of the data
-// can be added, in any order, with the same result.
+// can be added in any order with the same result.
 
 #include <array>
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace clsurf {
 class SumOfSquares {
 public:
     static constexpr std::size_t digit_count = 20;
-    /// The sum divided by 2^−298, the square of the smallest float, as digits of 32 bits, the lowest first.
+    /// The sum divided by 2^−298 (the square of the smallest float), as digits of 32 bits, lowest first.
     using Digits = std::array<std::uint32_t, digit_count>;
 
     SumOfSquares() = default;
@@ -55,15 +55,15 @@ public:
     /// Bins that are not empty, in order.
     [[nodiscard]] std::vector<Bin> bins() const;
     [[nodiscard]] const SumOfSquares& squares() const { return squares_; }
-    /// quantile_below() of the sizes (core/statistics.h), within quantile_error; NaN: there are none.
+    /// quantile_below() of the sizes (core/statistics.h), within quantile_error; NaN if there are none.
     [[nodiscard]] double quantile_below(double share) const;
-    /// NaN: there are none.
+    /// NaN if there are none.
     [[nodiscard]] double rms() const;
 
 private:
     [[nodiscard]] std::uint64_t& count_of(std::uint32_t bin);
 
-    /// By power of two; empty: no size is there.
+    /// By power of two; empty if there is no size.
     std::array<std::vector<std::uint64_t>, 256> counts_;
     std::uint64_t count_ = 0;
     SumOfSquares squares_;

@@ -1,5 +1,5 @@
 #pragma once
-// The exceptions that end a run, and the exit codes they become in cli/main.cpp (the only catch).
+// The exceptions that end a run, and the exit codes that cli/main.cpp (the only catch) makes of them.
 
 #include <stdexcept>
 #include <string>

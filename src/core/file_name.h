@@ -5,10 +5,10 @@
 
 namespace clsurf {
 
-/// What stands behind the last slash of a path: how titles and messages name a file.
+/// The part of a path after the last slash: the name of a file in titles and messages.
 [[nodiscard]] inline std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
-/// The folder that a path names a file in, with its slash; "." where it names none.
+/// The folder part of a path, with its slash; "." if the path names no folder.
 [[nodiscard]] inline std::string folder_of(const std::string& path) {
     const std::size_t slash = path.rfind('/');
     return slash == std::string::npos ? std::string(".") : path.substr(0, slash + 1);

@@ -15,7 +15,7 @@ using Box3 = Eigen::AlignedBox3d;
 /// Angle of a direction against the first axis, -π … π [rad].
 inline double angle_of(const Vec2& v) { return std::atan2(v.y(), v.x()); }
 
-/// The angle between two vectors [rad], 0 … π, good near 0 (by atan2).
+/// The angle between two vectors [rad], 0 … π; atan2 keeps it accurate near 0.
 inline double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
 /// Three doubles without Eigen's machinery, for columns (trivially copyable).

@@ -8,9 +8,9 @@
 
 namespace clsurf {
 
-/// 0 … count − 1 by group, rising inside each.
+/// 0 … count − 1 sorted by group, ascending inside each.
 struct Grouping {
-    std::vector<std::size_t> start;  ///< in `order`, of each group, and after the last
+    std::vector<std::size_t> start;  ///< index in `order` of the start of each group, and of the end of the last
     std::vector<std::uint32_t> order;
 
     [[nodiscard]] std::span<const std::uint32_t> of(std::size_t group) const {

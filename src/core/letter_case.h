@@ -1,5 +1,5 @@
 #pragma once
-// Words whose letter case does not matter. ASCII only, whatever the locale says; other bytes stay as they are.
+// Words whose letter case does not matter. ASCII only, in every locale; other bytes are unchanged.
 
 #include <string>
 #include <string_view>

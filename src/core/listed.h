@@ -1,5 +1,5 @@
 #pragma once
-// Words one after another, as a sentence has them.
+// Words joined to a list for a sentence.
 
 #include <cstddef>
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace clsurf {
 
-/// "a", "a and b", "a, b and c"; of no words "".
+/// "a", "a and b", "a, b and c"; "" if there are no words.
 [[nodiscard]] inline std::string listed(std::span<const std::string> words, std::string_view conjunction = "and") {
     std::string text;
     for (std::size_t i = 0; i < words.size(); ++i) {

@@ -5,11 +5,11 @@
 
 namespace clsurf {
 
-/// What a column or a result holds where there is no value: NaN, whose comparisons are all false.
+/// The value of a column or a result without a value: NaN, whose comparisons are all false.
 template <typename Real>
 inline constexpr Real missing = std::numeric_limits<Real>::quiet_NaN();
 
-/// A bound that holds nothing back.
+/// A bound without effect.
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
 }  // namespace clsurf

@@ -40,8 +40,8 @@ void parallel_for(std::int64_t count, std::int64_t grain, const std::function<vo
         return;
     }
 #if defined(__SANITIZE_THREAD__)
-    // The sanitizer does not see how TBB's library synchronises and would report all of it; our own
-    // bodies are checked on plain threads.
+    // The thread sanitizer does not see how TBB's library synchronises and would report all of it; our own bodies are
+    // checked on plain threads.
     std::atomic<std::int64_t> next{0};
     std::vector<std::jthread> threads;
     for (int t = 0; t < thread_count(); ++t) {

@@ -1,5 +1,5 @@
 #pragma once
-// Place: where in which input a finding is, in a form that people and editors can follow.
+// Place: the input and the position in it that a finding refers to, in a form that people and editors can follow.
 
 #include <cstdint>
 #include <string>

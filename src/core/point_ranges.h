@@ -9,7 +9,7 @@
 
 namespace clsurf {
 
-/// The last range that begins at a point or before it. Where all begin behind it: the first one. O(log ranges).
+/// The last range that begins at a point or before it; the first range if all begin after it. O(log ranges).
 template <typename Ranges>
 [[nodiscard]] auto range_at(const Ranges& ranges, PointIndex point) {
     const auto behind = std::upper_bound(ranges.begin(), ranges.end(), point,
@@ -17,7 +17,7 @@ template <typename Ranges>
     return behind == ranges.begin() ? behind : std::prev(behind);
 }
 
-/// Whether one of the ranges has a point. They do not overlap. O(log ranges).
+/// Whether one of the ranges contains a point. They do not overlap. O(log ranges).
 template <typename Ranges>
 [[nodiscard]] bool any_has(const Ranges& ranges, PointIndex point) {
     const auto range = range_at(ranges, point);

@@ -1,5 +1,5 @@
 #pragma once
-// Progress: the domain reports how far a long stage is; the command line draws it, or not.
+// Progress: the algorithms report how far a long stage is; the command line draws it, or not.
 
 #include <functional>
 #include <string_view>

@@ -1,6 +1,6 @@
 #pragma once
-// Queue: first in, first out, with its items contiguous in memory, so that access to neighbouring items costs
-// no more than in a vector.
+// Queue: first in, first out, with contiguous items, so that access to neighbouring items costs no more than in a
+// vector.
 
 #include <cstddef>
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace clsurf {
 
-/// Each item is moved once on the average. Adding one moves the others.
+/// Each item is moved once on average. Adding an item may move the others.
 template <typename T>
 class Queue {
 public:
@@ -20,7 +20,7 @@ public:
     [[nodiscard]] const T& front() const { return items_[first_]; }
     [[nodiscard]] T& back() { return items_.back(); }
     [[nodiscard]] const T& back() const { return items_.back(); }
-    /// Until one is added.
+    /// Valid until an item is added.
     [[nodiscard]] std::span<const T> items() const { return std::span(items_).subspan(first_); }
 
     T& emplace_back() {
@@ -42,7 +42,7 @@ public:
     }
 
 private:
-    /// Where half of the memory is before the first item, they move there instead of into more of it.
+    /// If half of the memory is before the first item, moves the items there instead of allocating more.
     void make_room() {
         if (items_.size() < items_.capacity() || first_ < size()) return;
         items_.erase(items_.begin(), items_.begin() + static_cast<std::ptrdiff_t>(first_));

@@ -7,8 +7,8 @@
 
 namespace clsurf {
 
-/// The candidate with the smallest edit distance to `word` (case folded, transpositions count one),
-/// or empty when none is near enough to be meant (distance > 1/3 of the length, at least 1).
+/// The candidate with the smallest edit distance to `word` (case folded, a transposition counts one), or empty if
+/// none is near enough to be meant (distance > 1/3 of the length, at least 1).
 [[nodiscard]] std::string_view nearest_word(std::string_view word, std::span<const std::string_view> candidates);
 
 /// "did you mean 'speed'?", or empty.

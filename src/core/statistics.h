@@ -1,6 +1,6 @@
 #pragma once
-// Order statistics of values in any order. They reorder what they are given: O(values), no copy.
-// Domain: at least one value, no NaN.
+// Order statistics of values in any order. The functions reorder their input: O(values), no copy. Domain: at least
+// one value, no NaN.
 
 #include <algorithm>
 #include <cmath>
@@ -17,13 +17,13 @@ template <typename Values>
     return *at;
 }
 
-/// The middle value; of an even number the upper of the two.
+/// The middle value; of an even number of values, the upper of the two.
 template <typename Values>
 [[nodiscard]] auto median(Values& values) {
     return kth_smallest(values, std::size(values) / 2);
 }
 
-/// The median as NumPy has it: of an even number the mean of the two in the middle.
+/// The median as in NumPy: of an even number of values, the mean of the two in the middle.
 template <typename Values>
 [[nodiscard]] auto midpoint_median(Values&& values) {
     const std::size_t half = std::size(values) / 2;
@@ -31,21 +31,21 @@ template <typename Values>
     return std::size(values) % 2 == 1 ? upper : (upper + kth_smallest(values, half - 1)) / 2;
 }
 
-/// The quantile of a share (0 … 1), the lower value where it lies between two.
+/// The quantile of a share (0 … 1); the lower value if it is between two.
 template <typename Values>
 [[nodiscard]] auto quantile_below(Values& values, double share) {
     return kth_smallest(values, static_cast<std::size_t>(share * static_cast<double>(std::size(values) - 1)));
 }
 
-/// The same, the nearer value where it lies between two.
+/// The same; the nearer value if it is between two.
 template <typename Values>
 [[nodiscard]] auto nearest_quantile(Values& values, double share) {
     return kth_smallest(values,
                         static_cast<std::size_t>(std::lround(share * static_cast<double>(std::size(values) - 1))));
 }
 
-/// The least value that a share (0 … 1) of the weights does not exceed. `values`: pairs of a value and its weight, in any order;
-/// sorted afterwards. Domain: not empty. O(n log n).
+/// Weighted quantile: the least value up to which the weights sum to a share (0 … 1) of all. `values`: pairs of a value and
+/// its weight, in any order; sorted afterwards. Domain: not empty. O(n log n).
 template <typename Values>
 [[nodiscard]] double weighted_quantile(Values& values, double share) {
     std::sort(values.begin(), values.end());
@@ -62,11 +62,11 @@ template <typename Values>
 /// Standard deviation over median absolute deviation of a normal distribution.
 inline constexpr double deviation_of_mad = 1.4826;
 
-/// What is usual of some values, and how far they scatter about it.
+/// The median of some values, and how far they scatter about it.
 struct Spread {
     double median = 0, deviation = 0;  ///< deviation: from the median absolute one, so that some outliers do not matter
 };
-/// Changes the values.
+/// Reorders the values.
 template <typename Values>
 [[nodiscard]] Spread robust_spread(Values& values) {
     const double middle = median(values);

@@ -1,6 +1,6 @@
 #pragma once
-// Inside: mm, s, rad; speeds mm/s. Nothing but these factors converts, and only at the edges
-// (program text, command line, pictures, files).
+// Internal units: mm, s, rad; speeds mm/s. Only these factors convert, and only at the edges (program text, command
+// line, pictures, files).
 
 #include <numbers>
 #include <string_view>
@@ -14,7 +14,7 @@ inline constexpr double deg_per_turn = 360.0;
 inline constexpr double rad_per_deg = std::numbers::pi / 180.0;
 inline constexpr double deg_per_rad = 180.0 / std::numbers::pi;
 
-/// A unit as shown to people: its name and how many of it one inside unit is.
+/// A unit as shown to people: its name, and its number per internal unit.
 struct Unit {
     std::string_view name;  ///< "mm/min"
     double per_inside = 1;  ///< shown = inside · per_inside

@@ -6,7 +6,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double even_weights = 1e-12;  ///< below it the slopes on both sides do not change: their mean
+constexpr double even_weights = 1e-12;  ///< below it the slopes on both sides are equal: their mean is used
 
 }  // namespace
 
@@ -55,7 +55,7 @@ void AkimaStream::finish() {
         extrapolate_before();
         take_tangent();
     }
-    // Two slopes more: the tangents of the last two points (of the last one, where there are but two).
+    // Two extrapolated slopes: the tangents of the last two points (of the last one, if there are only two).
     for (std::size_t i = known_; i < points_; ++i) {
         push({last_, 2 * segments_[3].slope - segments_[2].slope, 0});
         take_tangent();

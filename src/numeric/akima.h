@@ -25,20 +25,20 @@ namespace clsurf {
 
 enum class AkimaTangents : unsigned char {
     plain,  ///< as Akima has them
-    unit,   ///< made as long as 1, so that u is the way to 1 part in 10⁴ on smooth curves
+    unit,   ///< normalised, so that u is the arc length to 1 part in 10⁴ on smooth curves
 };
 
-/// The tangent (not made unit) at a point between four slopes before and behind it, in their order.
+/// The tangent (not normalised) at a point from two slopes before and two after it, in their order.
 [[nodiscard]] Vec3 akima_tangent(const Vec3& before_2, const Vec3& before_1, const Vec3& behind_1,
                                  const Vec3& behind_2);
 
-/// All spans through points of which no two neighbours are the same [mm]; two points: a straight line,
-/// fewer: none. Symmetric: the points in reverse give the same curve. O(points).
+/// All spans through points [mm]; neighbours differ. Two points: a straight line; fewer: none. Symmetric: the points
+/// in reverse give the same curve. O(points).
 [[nodiscard]] std::vector<CubicSpan> akima_spans(std::span<const Vec3> points,
                                                  AkimaTangents tangents = AkimaTangents::plain);
 
-/// The same span by span while points come, two points behind them: a controller's form. What comes out
-/// is what akima_spans() makes of all points at once.
+/// Akima spans one at a time while points arrive, two points behind the input, as in a controller. The result is the
+/// same as that of akima_spans() for all points at once.
 class AkimaStream {
 public:
     using Sink = std::function<void(const CubicSpan&)>;
@@ -46,7 +46,7 @@ public:
     explicit AkimaStream(Sink sink, AkimaTangents tangents = AkimaTangents::plain)
         : sink_(std::move(sink)), tangents_(tangents) {}
 
-    /// `point` differs from the one before.
+    /// `point` differs from the previous one.
     void add(const Vec3& point);
     /// No more points: gives the last spans.
     void finish();

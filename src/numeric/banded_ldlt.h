@@ -1,6 +1,6 @@
 #pragma once
 // L D Lᵀ of a symmetric positive definite matrix with few diagonals (Golub and Van Loan, Matrix Computations, 4th ed.,
-// section 4.3), in place. The width is known to the compiler, which unrolls the inner loops.
+// section 4.3), in place. The width is a compile-time constant, so the inner loops are unrolled.
 // tests/benchmark/banded_benchmark.cpp compares it with Eigen's SimplicialLDLT, which takes any sparse matrix.
 
 #include <algorithm>
@@ -12,13 +12,14 @@
 namespace clsurf {
 
 /// The main diagonal and `width` below it: diagonals[k][i] is element (i + k, i). All are as long as the matrix is high;
-/// what lies below its last row is not read.
+/// elements below its last row are not read.
 template <std::size_t width>
 using BandedDiagonals = std::array<std::span<double>, width + 1>;
 
 namespace detail {
 
-/// f(i, steps) for each row, with the number of rows after it, at most `width`: as a constant for all but the last ones.
+/// Calls f(i, steps) for each row with the number of rows after it, at most `width`: a compile-time constant except for
+/// the last rows.
 template <std::size_t width, typename F>
 void for_each_row(std::size_t size, const F& f) {
     std::size_t i = 0;
@@ -28,7 +29,8 @@ void for_each_row(std::size_t size, const F& f) {
 
 }  // namespace detail
 
-/// Replaces the main diagonal by D⁻¹ and the others by those of L. False: the matrix is not positive definite.
+/// Replaces the main diagonal by D⁻¹ and the others by those of L. Returns false if the matrix is not positive
+/// definite.
 template <std::size_t width>
 [[nodiscard]] bool factorise_banded(const BandedDiagonals<width>& diagonals) {
     bool positive = true;
@@ -46,7 +48,7 @@ template <std::size_t width>
     return positive;
 }
 
-/// x becomes the solution for the right side that is in it, of doubles or of vectors.
+/// Solves for the right side in x, of doubles or of vectors; x becomes the solution.
 template <std::size_t width, typename Value>
 void solve_banded(const BandedDiagonals<width>& factors, std::span<Value> x) {
     detail::for_each_row<width>(x.size(), [&](std::size_t i, std::size_t steps) {

@@ -11,12 +11,12 @@ namespace {
 using WeightedPoint = BezierCurve::Weighted;
 
 constexpr std::size_t least_curve_pieces = 4, most_curve_pieces = 256;
-constexpr double curve_length_exact = 1e-10;  ///< of the length: what twice as many pieces may change
+constexpr double curve_length_exact = 1e-10;  ///< of the length: greatest change when the pieces are doubled
 constexpr int most_newton_steps = 40;
 constexpr double parameter_exact = 1e-14;
 constexpr double arc_length_rounding = 1e-13;  ///< of the length
 constexpr double no_speed = 1e-7;              ///< of the length: below it a derivative has no direction
-constexpr double beside_a_stop = 1e-4;         ///< in t: where the direction is taken instead
+constexpr double beside_a_stop = 1e-4;         ///< in t: offset at which the direction is taken instead
 constexpr int most_splits = 16;
 
 /// de Casteljau's scheme over control points.
@@ -27,13 +27,13 @@ struct Scheme {
     explicit Scheme(const std::vector<WeightedPoint>& points) : count(static_cast<int>(points.size())) {
         std::copy(points.begin(), points.end(), h.begin());
     }
-    /// Down to `left` points.
+    /// Reduces to `left` points.
     void reduce(double t, int left) {
         for (; count > left; --count) {
             for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(count); ++i) h[i] = (1 - t) * h[i] + t * h[i + 1];
         }
     }
-    /// Their differences.
+    /// Replaces the points by their differences.
     void differ() {
         --count;
         for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) h[i] = h[i + 1] - h[i];
@@ -72,7 +72,7 @@ Vec3 BezierCurve::at(double t) const {
 }
 
 CurveJet BezierCurve::jet(double t) const {
-    // With four points left, derivatives are their differences at t.
+    // With four points left in the scheme, derivatives are their differences at t.
     const int n = degree();
     Scheme rest(points_);
     rest.reduce(t, std::min(n, 3) + 1);
@@ -108,7 +108,7 @@ CurveJet BezierCurve::moving_jet(double t) const {
 Vec3 BezierCurve::tangent(double t) const { return moving_jet(t).first.normalized(); }
 
 std::optional<std::pair<double, double>> BezierCurve::sharp_turn(double within) const {
-    constexpr double may_hide_one = 0.5;  // cosine of the turn between two places of the table
+    constexpr double may_hide_one = 0.5;  // cosine of the turn between two entries of the table
     constexpr int halvings = 60;
     if (!(length() > within)) return std::nullopt;
     const auto speed = [&](double t) { return jet(t).first.squaredNorm(); };
@@ -118,7 +118,7 @@ std::optional<std::pair<double, double>> BezierCurve::sharp_turn(double within) 
         const bool looks = before.dot(after) < may_hide_one;
         before = after;
         if (!looks) continue;
-        // The direction turns fastest where the derivative is least.
+        // The direction turns fastest at the smallest derivative.
         double low = stepped(piece - 1), high = stepped(piece);
         for (int k = 0; k < halvings; ++k) {
             const double third = (high - low) / 3;
@@ -146,7 +146,7 @@ std::pair<BezierCurve, BezierCurve> BezierCurve::split_at(double t) const {
     return {BezierCurve(origin_, std::move(first)), BezierCurve(origin_, std::move(second))};
 }
 
-/// Arc length from one place to another, by Gauss's rule with 5 points.
+/// Arc length from one parameter to another, by Gauss's rule with 5 points.
 double BezierCurve::gauss(double from, double to) const {
     static constexpr std::array<double, 5> node{0, -0.5384693101056831, 0.5384693101056831, -0.9061798459386640,
                                                 0.9061798459386640};
@@ -215,7 +215,7 @@ double BezierCurve::turning() const {
 }
 
 BezierCurve::Nearest BezierCurve::nearest(const Vec3& p, double from) const {
-    // The nearest chord of the table, and from there Newton's method.
+    // The nearest chord of the table, then Newton's method.
     Nearest best{from, std::numeric_limits<double>::infinity()};
     const auto take = [&](double t) {
         const double distance = (at(t) - p).norm();
@@ -266,7 +266,8 @@ std::vector<WeightedPoint> half_of(const std::vector<WeightedPoint>& points, boo
     return half;
 }
 
-/// How far a curve leaves its chord at most: as far as its control points do, of polynomials of degrees 2 and 3 a part.
+/// Upper bound of the distance of a curve from its chord: that of its control points; for polynomials of degrees 2 and
+/// 3 a fraction of it.
 double bound_off_chord(const std::vector<WeightedPoint>& h) {
     const auto point = [&](std::size_t i) { return Vec3(h[i].head<3>() / h[i][3]); };
     const Vec3 begin = point(0), end = point(h.size() - 1);
@@ -314,7 +315,7 @@ BezierCurve BezierCurve::with_unknown_at(const Vec3& rest) const {
 }
 
 BezierCurve BezierCurve::mapped(const std::function<Vec3(const Vec3&)>& map) const {
-    // Of an affine map, the linear part acts on the weighted differences from the origin.
+    // An affine map acts with its linear part on the weighted differences from the origin.
     const Vec3 origin = map(origin_);
     std::vector<Weighted> points;
     points.reserve(points_.size());
@@ -342,7 +343,7 @@ std::vector<NurbsSpan> spans_of(const Nurbs& nurbs) {
                 const Vec3 q = w * (nurbs.points[from] - origin);
                 d[k] = WeightedPoint(q.x(), q.y(), q.z(), w);
             }
-            // The blossom at p − j times the begin of the span and j times its end.
+            // The blossom at p − j times the beginning of the span and j times its end.
             for (std::size_t r = 1; r <= p; ++r) {
                 const double u = r <= p - j ? t[i] : t[i + 1];
                 for (std::size_t k = p; k >= r; --k) {

@@ -2,7 +2,7 @@
 // BezierCurve: a span of a spline as a rational Bézier curve over t ∈ [0, 1],
 //   C(t) = Σ B_i(t) w_i P_i / Σ B_i(t) w_i,  B_i: Bernstein polynomials of its degree
 // (L. Piegl, W. Tiller, The NURBS Book, 1997, chapter 1). NURBS, polynomials and quotients of polynomials all have this
-// form without an error. Arc lengths are known to 1 part in 10¹⁰.
+// form exactly. Arc lengths are accurate to 1 part in 10¹⁰.
 
 #include <functional>
 #include <optional>
@@ -16,7 +16,7 @@ namespace clsurf {
 
 inline constexpr int most_bezier_degree = 24;
 
-/// A point of a curve, and derivatives by its parameter [mm].
+/// A point of a curve and its derivatives by the parameter [mm].
 struct CurveJet {
     Vec3 at, first, second, third;
 };
@@ -30,10 +30,10 @@ public:
     /// A control point times its weight, relative to an origin, and the weight.
     using Weighted = Eigen::Matrix<double, 4, 1, Eigen::DontAlign>;
 
-    /// `points`: 2 … most_bezier_degree + 1 control points [mm]; `weights`: as many; empty: all 1.
-    /// A coordinate that is not known (NaN) is so in all points; nothing then has a length or a nearest point.
+    /// `points`: 2 … most_bezier_degree + 1 control points [mm]; `weights`: as many; empty: all 1. A coordinate that
+    /// is unknown (NaN) is unknown in all points; then there is no length and no nearest point.
     explicit BezierCurve(std::span<const Vec3> points, std::span<const double> weights = {});
-    /// Weights may be 0 or less where the sum of all is greater than 0 on the whole curve.
+    /// Weights may be 0 or negative if the sum of all is positive on the whole curve.
     BezierCurve(const Vec3& origin, std::vector<Weighted> points);
 
     [[nodiscard]] int degree() const { return static_cast<int>(points_.size()) - 1; }
@@ -42,37 +42,37 @@ public:
 
     [[nodiscard]] Vec3 at(double t) const;
     [[nodiscard]] CurveJet jet(double t) const;
-    /// Where the first derivative is zero, the jet of a place beside it.
+    /// If the first derivative is zero, the jet of a point next to it.
     [[nodiscard]] CurveJet moving_jet(double t) const;
-    /// Unit vector; also where the first derivative is zero.
+    /// Unit vector; also defined if the first derivative is zero.
     [[nodiscard]] Vec3 tangent(double t) const;
 
     [[nodiscard]] double length() const { return knots_.back().arc_length; }  ///< [mm]
     [[nodiscard]] double arc_length_to(double t) const;                       ///< [mm]
-    /// Where the way from the begin is `arc_length` [mm], clipped to [0, 1].
+    /// The t at this arc length from the beginning [mm], clipped to [0, 1].
     [[nodiscard]] double at_arc_length(double arc_length) const;
-    /// The first section of this arc length [mm] inside the curve over which the direction turns by more than 90°, as at a cusp: from
-    /// and to which t; nullopt: there is none.
+    /// The first section of this arc length [mm] inside the curve over which the direction turns by more than 90°, for
+    /// example at a cusp: its first and last t; nullopt if there is none.
     [[nodiscard]] std::optional<std::pair<double, double>> sharp_turn(double within) const;
     /// The parts up to t and from t on.
     [[nodiscard]] std::pair<BezierCurve, BezierCurve> split_at(double t) const;
-    /// How far the direction turns on the whole, summed up [rad].
+    /// The total turn of the direction [rad].
     [[nodiscard]] double turning() const;
 
-    /// The nearest point at or behind `from`.
+    /// The nearest point at or after `from`.
     [[nodiscard]] Nearest nearest(const Vec3& p, double from = 0) const;
-    /// Where chords end that stay within `error` [mm] of the curve; the last one is 1.
+    /// Ends of chords that stay within `error` [mm] of the curve; the last one is 1.
     [[nodiscard]] std::vector<double> chord_ends(double error) const;
 
     /// Whether it has the same control points, within `tolerance` [mm], and weights, within 10⁻⁹.
     [[nodiscard]] bool same_as(const BezierCurve& other, double tolerance) const;
-    /// Coordinates that are not known are those of `rest`.
+    /// Replaces unknown coordinates by those of `rest`.
     [[nodiscard]] BezierCurve with_unknown_at(const Vec3& rest) const;
-    /// The curve as an affine map makes it.
+    /// The image of the curve under an affine map.
     [[nodiscard]] BezierCurve mapped(const std::function<Vec3(const Vec3&)>& map) const;
 
 private:
-    /// A place of the table of arc lengths, at an equal step of t.
+    /// An entry of the table of arc lengths, at equal steps of t.
     struct Knot {
         Vec3 point;
         double arc_length;
@@ -88,8 +88,8 @@ private:
     std::vector<Knot> knots_;  ///< pieces + 1
 };
 
-/// A spline as its control points, their weights (empty: all 1) and its knots: points + degree + 1 of them, never
-/// falling.
+/// A spline: its control points, their weights (empty: all 1) and its points + degree + 1 knots in non-decreasing
+/// order.
 struct Nurbs {
     int degree = 3;
     std::vector<Vec3> points;
@@ -98,19 +98,19 @@ struct Nurbs {
 
 /// A span between two different knots.
 struct NurbsSpan {
-    std::size_t last_point = 0;  ///< of those that shape it: degree + 1 of them
+    std::size_t last_point = 0;  ///< of the degree + 1 points that shape it
     BezierCurve curve;
 };
 
 /// The spans of a spline in their order, between the knots `degree` and `points`. Bézier points are values of the
-/// spline's blossom. O(spans degree³). Domain: counts as Nurbs has them, knots that do not fall.
+/// spline's blossom. O(spans degree³). Domain: counts as in Nurbs, non-decreasing knots.
 [[nodiscard]] std::vector<NurbsSpan> spans_of(const Nurbs& nurbs);
 
-/// Knots of a spline that begins and ends in its first and last point, with these lengths of spans.
+/// Knots of a spline that begins in its first point and ends in its last, with these lengths of spans.
 [[nodiscard]] std::vector<double> clamped_knots(int degree, std::span<const double> intervals);
 
-/// A polynomial Σ aᵢ pⁱ, or with `denominator` (b₀ = 1) a quotient, over p ∈ [0, interval].
-/// `coefficients`: of p⁰, p¹ …; degree = the larger count − 1.
+/// A polynomial Σ aᵢ pⁱ, or a quotient if there is a `denominator` (b₀ = 1), over p ∈ [0, interval]. `coefficients`:
+/// of p⁰, p¹ …; degree = the larger count − 1.
 [[nodiscard]] BezierCurve bezier_of(std::span<const Vec3> coefficients, std::span<const double> denominator,
                                     double interval);
 

@@ -7,14 +7,14 @@
 namespace clsurf {
 namespace {
 
-constexpr double told_from = 400;  ///< steps of the coordinates, of curvature · distance²: a step is then well known
-constexpr double most_turn = 0.5;  ///< [rad] over which an arc is nearly a parabola
+constexpr double told_from = 400;  ///< steps of the coordinates, for curvature · distance²: enough to know a step well
+constexpr double most_turn = 0.5;        ///< [rad] over which an arc is nearly a parabola
 constexpr std::size_t least_points = 4;  ///< on each side
 constexpr std::size_t usual_points = 6;
-constexpr std::size_t most_fitted = 32;  ///< on each side, that parabolas are fitted to
-constexpr double much_less = 0.5;        ///< of the squares that a cubic leaves
-constexpr double parabola = 0.004;       ///< of its height: how far an arc is none
-constexpr double rounding = 0.6;         ///< steps of the coordinates: more than this (rms) is not the rounding alone
+constexpr std::size_t most_fitted = 32;  ///< on each side, for the parabolas
+constexpr double much_less = 0.5;        ///< of the squared residuals of a cubic
+constexpr double parabola = 0.004;       ///< of its height: how far an arc deviates from a parabola
+constexpr double rounding = 0.6;         ///< steps of the coordinates: a larger rms is not rounding alone
 
 /// Heights of points over the chord of a section, in the direction in which it bends, by arc length from its middle.
 struct BentSection {
@@ -22,7 +22,7 @@ struct BentSection {
     std::vector<std::size_t> index;
 };
 
-/// The sum of squares that 1, u, u² and a fourth function leave.
+/// The sum of squared residuals after fitting 1, u, u² and a fourth function.
 template <typename F>
 double left_by(const BentSection& section, F&& fourth) {
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
@@ -38,7 +38,8 @@ double left_by(const BentSection& section, F&& fourth) {
     return std::max(0.0, squares - right.dot(normal.ldlt().solve(right)));
 }
 
-/// The index `distance` [mm] of the path from a point on, at least and at most so many points away, inside of a bound.
+/// The index at `distance` [mm] along the path from a point, between least and most points away and not beyond a
+/// bound.
 std::size_t reached(std::span<const Vec3> points, std::size_t from, std::size_t bound, double distance) {
     std::size_t i = from, passed = 0;
     for (double way = 0; i != bound; ++passed) {

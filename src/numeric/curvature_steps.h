@@ -1,7 +1,7 @@
 #pragma once
-// Where the curvature of a path steps from one value to another, as between a line and an arc. Curvature of rounded points is
-// measured over sections (resolved_curvature.h), so that a step of it is smeared over a section. The points themselves
-// tell its place more exactly: before and behind it they lie on two parabolas with one tangent.
+// Steps of the curvature of a path, for example between a line and an arc. The curvature of rounded points is measured over
+// sections (resolved_curvature.h), which smears a step over a section. The points themselves locate it more exactly: before
+// and after it they are on two parabolas with a common tangent.
 
 #include <cstddef>
 #include <optional>
@@ -11,9 +11,9 @@
 
 namespace clsurf {
 
-/// The point where curvature steps, of the points about `boundary` between points `first` and `last`; none where two
-/// parabolas that meet do not fit the points, to their rounding, much better than a cubic. `curvature`: resolved, of each
-/// point [1/mm]; `step` [mm] of the coordinates. O(points that a step can be told from).
+/// The point near `boundary`, between points `first` and `last`, at which curvature steps. None, unless two parabolas
+/// that meet fit the points much better than a cubic does, up to rounding. `curvature`: resolved, of each point [1/mm];
+/// `step` [mm] of the coordinates. O(fitted points).
 [[nodiscard]] std::optional<std::size_t> curvature_step_near(std::span<const Vec3> points,
                                                              std::span<const double> curvature, std::size_t boundary,
                                                              std::size_t first, std::size_t last, double step);

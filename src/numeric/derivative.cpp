@@ -29,9 +29,9 @@ CLSURF_VECTORISED void convolve(const double* in, const double* weights, int tap
 }  // namespace
 
 std::vector<double> derivative_weights(int points, int order, int derivative, int at) {
-    // Powers make a worse conditioned problem the wider the window; Gram's polynomials p_k are orthogonal
-    // on the points as they are, so that the weight of point x is Σ p_k(x) p_k⁽ᵈ⁾(at) / |p_k|².
-    // p_k+1 = x p_k − b_k p_k−1 with b_k = k² (n² − k²) / (4 (4 k² − 1)), x scaled to −1 … 1.
+    // A power basis is worse conditioned the wider the window is. Gram's polynomials p_k are orthogonal on the
+    // points, so the weight of point x is Σ p_k(x) p_k⁽ᵈ⁾(at) / |p_k|². p_k+1 = x p_k − b_k p_k−1 with b_k = k² (n² −
+    // k²) / (4 (4 k² − 1)), x scaled to −1 … 1.
     const double half = std::max(1.0, 0.5 * (points - 1));
     const auto place = [&](int i) { return (i - 0.5 * (points - 1)) / half; };
     const double n = points, x_at = place(at);
@@ -42,7 +42,7 @@ std::vector<double> derivative_weights(int points, int order, int derivative, in
         b[k] = kk * (n * n - kk) / (4 * (4 * kk - 1)) / (half * half);
     }
 
-    // Derivatives of p_k at the point, up to the one that is asked for, over |p_k|².
+    // Derivatives of p_k at the point, up to the requested one, over |p_k|².
     std::vector<double> now(taken + 1, 0.0), before(taken + 1, 0.0), next(taken + 1), share(degree + 1);
     now[0] = 1;
     double norm = n;
@@ -97,7 +97,7 @@ double DerivativeFilter::step_response() const {
 
 double DerivativeFilter::speed_step_response() const {
     const std::vector<double> weights = derivative_weights(points, order, derivative, points / 2);
-    // Positions that rest and then move by 1 from record to record, beginning at each of the points.
+    // Positions that rest and then move by 1 per record, beginning at each of the points.
     double most = 0, sum = 0, response = 0;
     for (std::size_t k = weights.size(); k-- > 0;) {
         response += sum;
@@ -119,7 +119,7 @@ double DerivativeFilter::bandwidth() const {
     };
     double low = 0;
     double high = 0.5 / period;
-    // The gain falls from 1; the first crossing lies below the first zero, near 1 / window.
+    // The gain falls from 1; the first crossing is below the first zero, near 1 / window.
     const double step = 0.02 / (points * period);
     for (double f = step; f < high; f += step) {
         if (gain(f) >= std::numbers::sqrt2 / 2) continue;

@@ -8,16 +8,16 @@
 namespace clsurf {
 namespace {
 
-// Gains are computed in long double: what is known of the first points differs by twelve orders.
+// Gains are computed in long double: the variances at the first points differ by twelve orders of magnitude.
 using Real = long double;
 using RealMatrix = Eigen::Matrix<Real, 4, 4>;
 using RealVector = Eigen::Matrix<Real, 4, 1>;
 
 constexpr std::size_t most_filter_steps = 3000;
-constexpr double settled = 1e-9;   ///< relative change of a variance a step
-constexpr double far_away = 1e-5;  ///< relative: what is left of a start
-/// What the first position, speed, acceleration and jerk may be, so that as good as nothing is known of
-/// them: far more than machines do [mm/s^d], and than the measurements leave open.
+constexpr double settled = 1e-9;   ///< relative change of a variance per step
+constexpr double far_away = 1e-5;  ///< relative: remaining influence of a start
+/// Bounds of the first position, speed, acceleration and jerk, which make the start practically unknown: far more
+/// than machines reach [mm/s^d], and than the uncertainty of the measurements.
 constexpr std::array<double, 4> greatest{0, 2e4, 1e6, 1e9};
 constexpr double least_unknown = 1e3, most_unknown = 1e6;  ///< in units of period and position_sigma
 
@@ -43,7 +43,7 @@ RealMatrix wandering_of_one() {
     return q;
 }
 
-/// Takes a measured derivative into a covariance, in Joseph's form; the gain.
+/// Updates a covariance with a measured derivative, in Joseph's form; returns the gain.
 RealVector update(RealMatrix& p, int derivative, Real variance) {
     const RealVector gain = p.col(derivative) / (p(derivative, derivative) + variance);
     RealMatrix keep = RealMatrix::Identity();
@@ -53,7 +53,7 @@ RealVector update(RealMatrix& p, int derivative, Real variance) {
 }
 
 RealMatrix back_gain(const RealMatrix& filtered, const RealMatrix& f, const RealMatrix& predicted) {
-    // Scaled to a unit diagonal: variances of position and jerk differ by many orders.
+    // Scaled to a unit diagonal: variances of position and jerk differ by many orders of magnitude.
     const RealVector scale = predicted.diagonal().cwiseSqrt().cwiseInverse();
     const RealMatrix scaled = scale.asDiagonal() * predicted * scale.asDiagonal();
     const RealMatrix right = scale.asDiagonal() * f * filtered;
@@ -69,14 +69,15 @@ Real change_of(const RealMatrix& from, const RealMatrix& to) {
     return ((to - from).diagonal().cwiseAbs().cwiseQuotient(to.diagonal())).maxCoeff();
 }
 
-/// What a step back adds to the variance: (1 − C F) P (1 − C F)ᵀ + C Q Cᵀ; nothing in it cancels.
+/// What a backward step adds to the variance: (1 − C F) P (1 − C F)ᵀ + C Q Cᵀ, without cancellation.
 RealMatrix variance_alone(const RealMatrix& filtered, const RealMatrix& back, const RealMatrix& f,
                           const RealMatrix& q) {
     const RealMatrix stay = RealMatrix::Identity() - back * f;
     return stay * filtered * stay.transpose() + back * q * back.transpose();
 }
 
-/// The first point whose prediction is nearly as sure as those far from the start. `filtered`: covariances after a point.
+/// The first point whose prediction is nearly as certain as those far from the start. `filtered`: covariances after a
+/// point.
 template <typename Matrices>
 std::size_t first_sure_prediction(const Matrices& filtered, double wandering, double innovation_variance) {
     constexpr double nearly = 1.2;
@@ -89,7 +90,7 @@ std::size_t first_sure_prediction(const Matrices& filtered, double wandering, do
     return i;
 }
 
-/// Variances backward from an end, all that went before being settled.
+/// Variances backward from an end, with settled gains before it.
 std::vector<std::array<double, 4>> variances_at_end(const RealMatrix& last, const RealMatrix& back,
                                                     const RealMatrix& alone) {
     std::vector<std::array<double, 4>> variances;
@@ -154,7 +155,7 @@ KalmanSmoother::KalmanSmoother(const SmootherModel& model) : model_(model) {
     }
     innovation_variance_ = static_cast<double>(predicted(0, 0) + 1);
     end_variance_ = variances_at_end(last_filtered, last_back, variance_alone(last_filtered, last_back, f, q));
-    // What a start of which nothing is known still does to later points.
+    // How far an unknown start influences later points.
     std::size_t reach = forward_.size();
     while (reach > 1) {
         if (change_of(predicted_all[reach - 1], predicted) > far_away) break;
@@ -234,7 +235,7 @@ void KalmanSmoother::sigmas(int derivative, PointIndex count, PointIndex first, 
     const double unit = unit_of_state()[d];
     const auto settled_after = static_cast<PointIndex>(end_variance_.size()) - 1;
     if (count > reach() + settled_after) {
-        // A motion with white snap runs backward as it runs forward: both ends are alike.
+        // A motion with white snap has the same statistics backward and forward: both ends are alike.
         for (std::size_t i = 0; i < out.size(); ++i) {
             const PointIndex at = first + static_cast<PointIndex>(i);
             const PointIndex from_end = std::min({at, count - 1 - at, settled_after});

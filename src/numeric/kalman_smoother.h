@@ -26,8 +26,8 @@ struct SmootherModel {
     double position_sigma = 0;  ///< standard deviation of a measured position [mm], > 0
     double speed_sigma = std::numeric_limits<double>::infinity();         ///< [mm/s]; infinite: none measured
     double acceleration_sigma = std::numeric_limits<double>::infinity();  ///< [mm/s²]
-    /// Of the snap, as q · period⁷ / position_sigma²: how much more the motion wanders in a period than the
-    /// measurement is uncertain.
+    /// Scaled density of the snap, q · period⁷ / position_sigma²: how much the motion wanders in a period, relative
+    /// to the uncertainty of the measurement.
     double wandering = 1e-9;
 
     [[nodiscard]] bool has_speed() const { return speed_sigma < std::numeric_limits<double>::infinity(); }
@@ -37,7 +37,7 @@ struct SmootherModel {
 /// Three axes side by side: their p, v, a, j at a point (the fourth lane is empty).
 using SmoothedState = std::array<Eigen::Array4d, 4>;
 
-/// What was measured at consecutive points, an axis each; empty: not measured. [mm], [mm/s], [mm/s²]
+/// Measurements at consecutive points, one array per axis; empty: not measured. [mm], [mm/s], [mm/s²]
 struct Measurements {
     std::array<std::span<const double>, 3> position, speed, acceleration;
 };
@@ -47,23 +47,22 @@ public:
     explicit KalmanSmoother(const SmootherModel& model);
 
     [[nodiscard]] const SmootherModel& model() const { return model_; }
-    /// Points beyond which others no longer matter (a part in 10^5 of what the nearest do).
+    /// Distance in points beyond which others no longer matter (a part in 10^5 of the effect of the nearest).
     [[nodiscard]] PointIndex reach() const { return static_cast<PointIndex>(forward_.size()); }
 
-    /// Smooths consecutive points with all that is measured of them; `states` has one for each. A value
-    /// that is missing (NaN) teaches nothing. `innovations`, if it is not empty, has one for each point, too: how far the
-    /// positions are from their one-step predictions, in standard deviations; 0 while the gains settle.
+    /// Smooths consecutive points with all their measurements; `states` has one for each. A missing value (NaN) is
+    /// ignored. `innovations`, if it is not empty, has one for each point, too: how far the positions are from their
+    /// one-step predictions, in standard deviations; 0 while the gains settle.
     void smooth(const Measurements& measured, std::span<SmoothedState> states,
                 std::span<Eigen::Array4d> innovations = {}) const;
 
-    /// Standard deviation of derivative 0 … 3 that is left at points [first, first + out.size()) of `count`
-    /// [mm/s^d].
+    /// Standard deviation of the smoothed derivative 0 … 3 at points [first, first + out.size()) of `count` [mm/s^d].
     void sigmas(int derivative, PointIndex count, PointIndex first, std::span<double> out) const;
     /// The same far from both ends.
     [[nodiscard]] double sigma(int derivative) const;
 
-    /// Sums over the one-step predictions of an axis's positions, once the filter has settled: squares in units of
-    /// their variance with position_sigma 1, and their number. For models of positions alone.
+    /// Sums over the one-step predictions of an axis after the filter has settled: squares in units of their variance
+    /// with position_sigma 1, and their number. For models of positions alone.
     struct Innovations {
         double squares = 0;
         PointIndex count = 0;

@@ -9,13 +9,13 @@
 namespace clsurf {
 namespace {
 
-/// Weights of value, derivative, value and derivative at the ends of a piece of length h, q of it on.
+/// Weights of value, derivative, value and derivative at the ends of a piece of length h, at fraction q of it.
 std::array<double, 4> weights(double q, double h) {
     const double p = 1 - q;
     return {p * p * (1 + 2 * q), h * q * p * p, q * q * (1 + 2 * p), -h * p * q * q};
 }
 
-/// A cubic from `from` on over `length`.
+/// The part of a cubic that begins at `from` and has this length.
 CubicSpan part(const CubicSpan& curve, double from, double length) {
     const std::array<Vec3, 4>& c = curve.coefficients;
     return {{curve.at(from), curve.derivative(from), c[2] + 3 * from * c[3], c[3]}, length};
@@ -25,7 +25,7 @@ CubicSpan part(const CubicSpan& curve, double from, double length) {
 
 HermiteFit fit_hermite(std::span<const double> at, std::span<const Vec3> points, std::span<const double> breaks,
                        FitEnds ends) {
-    // Unknowns: value and derivative (times the length of the piece behind it, to be of one size) at each break.
+    // Unknowns at each break: value, and derivative times the length of the next piece, which is of similar size.
     const std::size_t knots = breaks.size();
     const auto unknowns = static_cast<Eigen::Index>(2 * knots);
     const auto scale = [&](std::size_t k) {
@@ -79,10 +79,10 @@ HermiteFit fit_hermite(std::span<const double> at, std::span<const Vec3> points,
 std::vector<CubicSpan> least_squares_spans(std::span<const Vec3> points, std::size_t window) {
     std::vector<double> at{0};
     for (std::size_t i = 1; i < points.size(); ++i) at.push_back(at.back() + (points[i] - points[i - 1]).norm());
-    // As many chords to every piece as can be, counted alike from both ends.
+    // As many chords to every piece as possible, counted symmetrically from both ends.
     const std::size_t chords = points.size() - 1;
     std::size_t pieces = std::max<std::size_t>(1, chords / window);
-    if (pieces % 2 == 0 && chords % 2 != 0) --pieces;  // no chord would be in the middle
+    if (pieces % 2 == 0 && chords % 2 != 0) --pieces;  // an even number needs a knot in the middle of a chord
     std::vector<std::size_t> knots{0};
     for (std::size_t k = 1; k <= pieces; ++k) {
         const std::size_t mirrored = pieces - k;

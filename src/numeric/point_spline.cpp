@@ -28,10 +28,10 @@ struct Row {
     Vec3 right;
 };
 
-/// The second derivative is the same at both ends of the span.
+/// The second derivative is equal at both ends of the span.
 Row even_row(const Vec3& slope) { return {1, 1, 1, 2 * slope}; }
 
-/// What holds at an end. `outer`: the span there; `inner`: the one beside it, the same if there is none.
+/// The equation of an end. `outer`: the span there; `inner`: the next one, the same if there is only one.
 Row end_row(const PointSplineEnd& of, const ChordSlopes& chords, std::size_t outer, std::size_t inner) {
     const Vec3& slope = chords.slope[outer];
     switch (of.kind) {
@@ -40,7 +40,7 @@ Row end_row(const PointSplineEnd& of, const ChordSlopes& chords, std::size_t out
         case EndKind::free: break;
     }
     if (outer == inner) return even_row(slope);
-    // The third derivative is the same in both spans.
+    // The third derivative is equal in both spans.
     const double h = chords.length[outer], beside = chords.length[inner], both = h + beside;
     return {both, beside, both, ((h + 2 * both) * beside * slope + h * h * chords.slope[inner]) / both};
 }
@@ -67,7 +67,7 @@ std::vector<BezierCurve> cubic_spline(std::span<const Vec3> points, const PointS
     std::vector<Row> rows(last + 1);
     rows[0] = end_row(begin, chords, 0, std::min<std::size_t>(1, last - 1));
     rows[last] = end_row(end, chords, last - 1, last > 1 ? last - 2 : 0);
-    // Two free ends of one span say the same, and so do those of two: a line, and a parabola.
+    // With one span, two free ends give the same equation, and likewise with two: the result is a line or a parabola.
     if (free && last == 1) rows[0] = {0, 1, 0, chords.slope[0]};
     if (free && last == 2) rows[0] = even_row(chords.slope[0]);
     for (std::size_t i = 1; i < last; ++i) {
@@ -92,7 +92,7 @@ std::vector<BezierCurve> akima_spline(std::span<const Vec3> points, const PointS
     const std::size_t last = points.size() - 1;
     std::vector<Vec3> slopes(last + 1, chords.slope[0]);
     if (last > 1) {
-        // Two chords more at each end, extrapolated linearly.
+        // Two more chords at each end, extrapolated linearly.
         std::vector<Vec3> m(2);
         m.insert(m.end(), chords.slope.begin(), chords.slope.end());
         m[1] = 2 * m[2] - m[3];

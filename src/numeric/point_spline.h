@@ -1,5 +1,5 @@
 #pragma once
-// Splines through points, one cubic a span, over the lengths of the chords as parameter; each coordinate by itself.
+// Splines through points: one cubic per span, with the chord lengths as parameter, each coordinate by itself.
 
 #include <span>
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace clsurf {
 
-/// What holds at an end.
+/// The condition at an end.
 struct PointSplineEnd {
     enum class Kind : unsigned char {
-        free,     ///< cubic: the span there and the next are one cubic (not-a-knot); Akima: as Akima has it
+        free,     ///< cubic: not-a-knot (the last two spans are one cubic); Akima: his own end condition
         natural,  ///< second derivative 0
         tangent,  ///< first derivative, the unit vector `direction`
     };
@@ -19,11 +19,11 @@ struct PointSplineEnd {
     Vec3 direction = Vec3::Zero();
 };
 
-/// The cubic spline with continuous second derivative. Domain: at least two points, neighbours apart. O(points).
+/// The cubic spline with continuous second derivative. Domain: at least two points, neighbours differ. O(points).
 [[nodiscard]] std::vector<BezierCurve> cubic_spline(std::span<const Vec3> points, const PointSplineEnd& begin,
                                                     const PointSplineEnd& end);
 
-/// Akima's (J. ACM 17 (1970) 589–602), coordinate by coordinate; the spline of whole vectors is numeric/akima.h.
+/// Akima's spline (J. ACM 17 (1970) 589–602) of each coordinate; the spline of whole vectors is numeric/akima.h.
 /// Domain and cost as above.
 [[nodiscard]] std::vector<BezierCurve> akima_spline(std::span<const Vec3> points, const PointSplineEnd& begin,
                                                     const PointSplineEnd& end);

@@ -12,16 +12,16 @@ namespace clsurf {
 namespace {
 
 constexpr double resolved = 0.1;                ///< greatest error over curvature
-constexpr double unknown = 0.5;                 ///< standard error over curvature that tells nothing
-constexpr std::size_t most_points = 31;         ///< of a section that are fitted; more would only take longer
-constexpr double much_shorter = 0.5;            ///< a section, than one that ends where it resolved a curvature
-constexpr double growth = std::numbers::sqrt2;  ///< of the sections from one try to the next
+constexpr double unknown = 0.5;                 ///< standard error over curvature at which nothing is known
+constexpr std::size_t most_points = 31;         ///< of a section, that are fitted; more would only take longer
+constexpr double much_shorter = 0.5;            ///< of the reach: points that were resolved over less bound a section
+constexpr double growth = std::numbers::sqrt2;  ///< of the sections from one attempt to the next
 
 struct Estimate {
     double curvature = 0, standard_error = 0;  ///< [1/mm]
-    /// [1/mm] of rounding, if it moves each point the worst way. A standard error does not do to stop at: of thousands of
-    /// points those stop first whose error makes the curvature large, and the greatest of them is what speeds follow from.
-    /// And beside an axis the roundings of dense points are not independent: they are the steps of a stair.
+    /// [1/mm] of rounding in the worst case. The standard error is not a suitable stopping criterion: of thousands of
+    /// points, those stop first whose error makes the curvature large, and the greatest of them limits the speed. Along an
+    /// axis the roundings of dense points are not independent either: they are the steps of a staircase.
     double greatest_error = 0;
 };
 
@@ -47,7 +47,8 @@ public:
                 std::sqrt(6.0) * deviation_ / (shorter * shorter), 2 * step_ * along(bend) / (before * after)};
     }
 
-    /// The points within `reach` [mm] of `at` on each side, inside of `bounds`: what one side lacks is added to the other.
+    /// The points within `reach` [mm] of `at` on each side, inside `bounds`: if one side is too short, the other is
+    /// extended.
     [[nodiscard]] Section around(std::size_t at, double reach, const Section& bounds) const {
         const double before = between(bounds.first, at), after = between(at, bounds.last);
         const double to_left = std::min(before, std::max(reach, 2 * reach - after));
@@ -71,7 +72,7 @@ public:
                 const double u = (arc_length_[i] - arc_length_[at]) / scale;
                 add(i, Vec3(1, u, u * u));
             };
-            // From both ends, so that both directions of travel give the same.
+            // From both ends, so that both directions of travel give the same result.
             std::size_t low = section.first, high = section.last;
             for (; low < high; low += stride, high -= stride) {
                 one(low);
@@ -97,7 +98,8 @@ public:
     }
 
 private:
-    /// How far along a direction a point can be moved, over how far along an axis: 1 along an axis, √2 halfway between two.
+    /// How far rounding moves a point along a direction, relative to along an axis: 1 along an axis, √2 halfway between
+    /// two.
     static double along(const Vec3& direction) {
         const double length = direction.norm();
         return length > 0 ? direction.lpNorm<1>() / length : 1;
@@ -112,7 +114,7 @@ private:
 };
 
 /// The nearest points on both sides of each open point that were resolved over less than `reach` [mm], or the ends of the
-/// path. `resolved_over` [mm]: infinite where a point is open.
+/// path. `resolved_over` [mm]: infinite for an open point.
 std::vector<Section> bounds_of(const std::vector<std::size_t>& open, const std::vector<double>& resolved_over,
                                double reach) {
     std::vector<Section> bounds(open.size());

@@ -1,13 +1,13 @@
 #pragma once
-// Regula falsi (Illinois), which keeps its bracket; by halves every eighth step. Boost's toms748_solve asks less often,
-// 9.8 times instead of 12.0, and takes half as long again: 330 ns a root instead of 220 (tests/benchmark/root_benchmark.cpp).
+// Regula falsi (Illinois), which keeps its bracket; every eighth step bisects. Boost's toms748_solve needs fewer evaluations,
+// 9.8 instead of 12.0, but takes half as long again: 330 ns a root instead of 220 (tests/benchmark/root_benchmark.cpp).
 
 #include <cmath>
 
 namespace clsurf {
 
-/// Where f, below 0 at `low` (0 ≤ low < high) and above it at `high`, passes through 0: the lower end of a bracket that is narrower
-/// than `share` of its upper one, or a place where |f| ≤ `none`.
+/// The root of f, which is negative at `low` (0 ≤ low < high) and positive at `high`: the lower end of a bracket that is
+/// narrower than `share` of its upper end, or a place with |f| ≤ `none`.
 template <typename F>
 double root_between(double low, double at_low, double high, double at_high, double share, double none, const F& f) {
     constexpr int most_steps = 200;

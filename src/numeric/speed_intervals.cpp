@@ -14,7 +14,7 @@ namespace {
 
 constexpr double just_a_boundary = 1 - 1e-9;
 constexpr double same_score = 1e-9;
-constexpr double closed_share = 1e-6;  ///< of the pass's extent: ends this near make it closed
+constexpr double closed_share = 1e-6;  ///< of the pass's extent: it is closed if its ends are nearer than this
 
 void reduce(std::span<const Vec3> points, std::size_t first, std::size_t last, double error,
             std::vector<std::size_t>& kept) {
@@ -37,7 +37,7 @@ void reduce(std::span<const Vec3> points, std::size_t first, std::size_t last, d
 
 double rounded(double score) { return std::isfinite(score) ? std::round(score / same_score) * same_score : score; }
 
-/// How much a pass changes at its points: 1 is a boundary.
+/// How much a pass changes at its points: 1 and more is a boundary.
 class Scores {
 public:
     Scores(std::span<const Vec3> points, std::span<const double> curvature, const IntervalRules& rules)
@@ -63,7 +63,7 @@ private:
     const IntervalRules& rules_;
 };
 
-/// Cuts where curvature drifts by more than the ratio over the inner points, from left to right.
+/// Cuts intervals whose curvature drifts by more than the ratio over the inner points, from left to right.
 void cut_drifts(std::vector<std::size_t>& boundaries, std::span<const double> curvature, const IntervalRules& rules) {
     std::vector<std::size_t> all{boundaries.front()};
     for (std::size_t k = 1; k < boundaries.size(); ++k) {
@@ -85,7 +85,7 @@ void cut_drifts(std::vector<std::size_t>& boundaries, std::span<const double> cu
     boundaries = std::move(all);
 }
 
-/// In one of both directions, whichever way the pass is travelled, so that adjacent passes get the same cuts.
+/// Cuts in a direction that does not depend on the direction of travel, so that adjacent passes get the same cuts.
 void cut_drifts_either_way(std::vector<std::size_t>& boundaries, std::span<const Vec3> points,
                            std::span<const double> curvature, const IntervalRules& rules) {
     if (!(rules.drift_ratio > 0)) return;
@@ -101,9 +101,10 @@ void cut_drifts_either_way(std::vector<std::size_t>& boundaries, std::span<const
     turn_round();
 }
 
-/// Moves boundaries to the points where curvature steps. Returns whether there is any step. Curvature is measured over sections,
-/// so a step looks like a drift, and the intervals next to it are cut. `cut`: the boundaries with these cuts; a step is looked
-/// for near each of them. Curvature on each side of a step is then measured again, from the points of that side alone.
+/// Moves boundaries to the points where curvature steps. Returns whether there is any step. Curvature is measured over
+/// sections, so a step looks like a drift, and the intervals next to it are cut. `cut`: the boundaries with these cuts; each
+/// of them is searched for a step nearby. Curvature on each side of a step is then measured again, from the points of that
+/// side alone.
 bool move_to_steps(std::vector<std::size_t>& boundaries, const std::vector<std::size_t>& cut,
                    std::span<const Vec3> points, std::span<double> curvature, const IntervalRules& rules) {
     std::vector<std::size_t> kept{boundaries.front()}, steps;
@@ -192,7 +193,7 @@ std::vector<std::size_t> interval_boundaries(std::span<const Vec3> points, std::
     const std::vector<std::size_t> corners = characteristic_points(points, rules.error);
     if (corners.size() < 2) return corners;
     const Scores scores(points, curvature, rules);
-    // A step of curvature shows at two neighbour points: of a run of them the one that changes most.
+    // A step of curvature shows at two neighbouring points: of a run of such points, take the one that changes most.
     struct Choice {
         std::size_t corner = 0;
         double score = 0;

@@ -17,11 +17,11 @@
 namespace clsurf {
 
 struct IntervalRules {
-    double error = 0.01;           ///< [mm] how far characteristic points may leave the pass
-    double length_ratio = 5;       ///< of neighbour lines, from which a point bounds an interval
-    double curvature_ratio = 2;    ///< of the curvatures before and behind, likewise
-    double flat_curvature = 1e-3;  ///< [1/mm] less counts as this much
-    double drift_ratio = 4;        ///< greatest over least curvature inside; 0: not looked at
+    double error = 0.01;           ///< [mm] largest distance of the pass from the polyline of its characteristic points
+    double length_ratio = 5;       ///< of adjacent lines; at a larger ratio their point bounds an interval
+    double curvature_ratio = 2;    ///< of the curvatures before and after a point, likewise
+    double flat_curvature = 1e-3;  ///< [1/mm] smaller curvatures count as this
+    double drift_ratio = 4;        ///< greatest over least curvature inside; 0: not checked
     double greatest_length = 0;    ///< [mm] of an interval; 0: not bounded
     double coordinate_step = 0;    ///< [mm] that coordinates are rounded to (resolved_curvature.h); 0: they are exact
 };
@@ -29,28 +29,28 @@ struct IntervalRules {
 /// Points first … last of a pass; neighbours share the point between them.
 struct SpeedInterval {
     std::size_t first = 0, last = 0;
-    double mean_curvature = 0;      ///< [1/mm] over the way of the inner points
+    double mean_curvature = 0;      ///< [1/mm] of the inner points, weighted by arc length
     double greatest_curvature = 0;  ///< [1/mm] of the inner points
 };
 
-/// Curvature of the circle through each point and its neighbours [1/mm], those of the ends copied from beside them; infinite
-/// where the path turns back.
+/// Curvature of the circle through each point and its neighbours [1/mm]. The ends have the curvature of the next inner
+/// point; infinite if the path turns back.
 [[nodiscard]] std::vector<double> curvatures(std::span<const Vec3> points);
 
-/// Indices of the points of a polyline that leaves no point farther out than `error` [mm] (Douglas and
-/// Peucker), both ends among them; a closed one is cut at the point farthest from its start first.
+/// Indices of the points that form a simpler polyline within `error` [mm] of all points (Douglas and Peucker),
+/// including both ends; a closed one is first cut at the point farthest from its start.
 [[nodiscard]] std::vector<std::size_t> characteristic_points(std::span<const Vec3> points, double error);
 
-/// Where the intervals of a pass meet, both ends included. No two neighbour points are the same.
+/// The boundaries of the intervals of a pass, including both ends. No two neighbouring points are the same.
 [[nodiscard]] std::vector<std::size_t> interval_boundaries(std::span<const Vec3> points,
                                                            std::span<const double> curvature,
                                                            const IntervalRules& rules);
 
-/// The curvatures that rules ask for: those of the neighbours, or, where coordinates are rounded, resolved ones.
+/// The curvatures for these rules: of the neighbouring points or, if coordinates are rounded, resolved ones.
 [[nodiscard]] std::vector<double> curvatures(std::span<const Vec3> points, const IntervalRules& rules);
 
-/// The same, at the very points where curvature steps, and where it drifts or an interval would get too long. Curvatures
-/// that were measured across a step are measured again on one side of it.
+/// The same boundaries, moved to the exact points of steps in curvature, with further ones where curvature drifts or an
+/// interval would get too long. Curvatures that were measured across a step are measured again on one side of it.
 [[nodiscard]] std::vector<std::size_t> all_boundaries(std::span<const Vec3> points, std::span<double> curvature,
                                                       const IntervalRules& rules);
 
@@ -59,7 +59,7 @@ struct SpeedInterval {
                                                            std::span<const double> curvature,
                                                            std::span<const std::size_t> boundaries);
 
-/// The intervals of a pass; a single point: none. O(points log points).
+/// The intervals of a pass; none for a single point. O(points log points).
 [[nodiscard]] std::vector<SpeedInterval> divide(std::span<const Vec3> points, const IntervalRules& rules);
 
 }  // namespace clsurf

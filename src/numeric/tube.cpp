@@ -8,7 +8,7 @@ namespace clsurf {
 namespace {
 
 constexpr std::size_t width = 3;         ///< diagonals to each side
-constexpr double penalty = 0.1;          ///< of leaving the tube, against squared third differences
+constexpr double penalty = 0.1;          ///< weight of leaving the tube, against squared third differences
 constexpr double over_relaxation = 1.6;  ///< between 1.5 and 1.8: Boyd et al. 2011, 3.4.3
 constexpr int rounds = 60;
 
@@ -17,7 +17,7 @@ using Banded = std::array<std::vector<double>, width + 1>;
 
 BandedDiagonals<width> diagonals_of(Banded& m) { return {m[0], m[1], m[2], m[3]}; }
 
-/// The sum of outer products of third divided differences, as differences of points that lie the mean spacing apart.
+/// The sum of outer products of third divided differences, scaled by the mean spacing of the points.
 Banded third_differences(std::span<const double> arc_lengths) {
     const std::size_t n = arc_lengths.size();
     const double spacing = (arc_lengths.back() - arc_lengths.front()) / static_cast<double>(n - 1);
@@ -55,7 +55,7 @@ std::vector<Vec3> smoothest_in_tube(std::span<const Vec3> places, std::span<cons
     Banded matrix = third_differences(arc_lengths);
     for (double& element : matrix[0]) element += penalty;
     const BandedDiagonals<width> factors = diagonals_of(matrix);
-    if (!factorise_banded<width>(factors)) return inside;  // never of arc lengths that rise: the penalty is positive
+    if (!factorise_banded<width>(factors)) return inside;  // never for increasing arc lengths: the penalty is positive
     std::vector<Vec3> smooth(n), owed(n, Vec3::Zero());
     for (int round = 0; round < rounds; ++round) {
         for (std::size_t i = 0; i < n; ++i) smooth[i] = penalty * (inside[i] - owed[i]);
