@@ -14,10 +14,11 @@ namespace {
 
 constexpr std::int64_t sample_size = 10'000;
 constexpr int most_decimals = 6;
-constexpr double whole = 1e-3;       ///< of a step: what arithmetic adds to a multiple
-constexpr double most_others = 0.1;  ///< a share of the coordinates: ends of arcs and what was computed
+constexpr double whole = 1e-3;  ///< of a step: rounding error of a multiple
+constexpr double most_others =
+    0.1;  ///< share of the coordinates that need not be multiples: ends of arcs and computed values
 
-/// Of one axis, how many coordinates are multiples of 10⁻ᵈ units.
+/// Counts for one axis how many coordinates are multiples of 10⁻ᵈ units.
 class Multiples {
 public:
     explicit Multiples(double unit) : unit_(unit) {}

@@ -5,9 +5,9 @@
 
 namespace clsurf {
 
-/// The largest of 0.1, 0.01 … 0.000001 mm, or of an inch, of which nine tenths of an axis' coordinates are multiples, and of
-/// the three axes the smallest [mm]; 0: there are more digits, or no coordinates. Ends of cutting motions count, in the
-/// coordinates of the words, before frames turn and shift them. O(10⁴): of longer programs a sample.
+/// The smallest step of the three axes [mm]: per axis, the largest of 0.1, 0.01 … 0.000001 mm, or of an inch, that divides
+/// nine tenths of its coordinates; 0 if there are more digits, or no coordinates. The coordinates are the ends of cutting
+/// motions as programmed, before frames rotate and shift them. O(10⁴): longer programs are sampled.
 [[nodiscard]] double coordinate_step(const Motions& motions);
 
 }  // namespace clsurf

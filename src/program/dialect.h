@@ -1,7 +1,6 @@
 #pragma once
-// Dialect: which controller's language a program is written in. The same word means different things
-// (G5, G5.1, G8 are splines and lathe radius in LinuxCNC, high-speed modes in Fanuc): what, say its rules
-// (interpret/dialect_rules.h).
+// Dialect: the controller language of a program. The same word means different things (G5, G5.1, G8 are splines and
+// lathe radius in LinuxCNC, high-speed modes in Fanuc); the dialect's rules define it (interpret/dialect_rules.h).
 
 #include <span>
 #include <string>
@@ -12,7 +11,7 @@ namespace clsurf {
 struct DialectRules;
 
 struct Dialect {
-    std::string_view name;                ///< "fanuc", the word of --dialect
+    std::string_view name;                ///< "fanuc", as given to --dialect
     std::string_view summary;             ///< one line for `clsurf help dialects`
     const DialectRules* rules = nullptr;  ///< never null in a dialect that reads programs
 };
@@ -23,7 +22,7 @@ struct Dialect {
 /// The dialect of that name, or nullptr.
 [[nodiscard]] const Dialect* find_dialect(std::string_view name);
 
-/// A hint for a code (in tenths) that a dialect does not know: which of the others has it. Empty: no hint.
+/// A hint for a code (in tenths) that a dialect does not know: the other dialects that have it. Empty: no hint.
 [[nodiscard]] std::string where_code_is_known(int code);
 
 }  // namespace clsurf

@@ -1,5 +1,5 @@
 #pragma once
-// EventCursor: along the events of a program, beside its motions.
+// EventCursor: goes through the events of a program in parallel with its motions.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,8 @@ namespace clsurf {
 
 class EventCursor {
 public:
-    /// Calls take(event) for the events up to a motion that were not passed before; motions must not go back.
+    /// Calls take(event) for the events up to a motion that were not passed before; motions must be in ascending
+    /// order.
     template <typename Take>
     void pass(const std::vector<ProgramEvent>& events, std::int64_t motion, const Take& take) {
         for (; next_ < events.size() && events[next_].motion <= motion; ++next_) take(events[next_]);

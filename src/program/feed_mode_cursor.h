@@ -9,15 +9,15 @@
 
 namespace clsurf {
 
-/// Goes along the events of a program and says which feed mode holds. Programs begin with feeds per minute.
+/// Goes through the events of a program and gives the active feed mode. Programs begin with feeds per minute.
 class FeedModeCursor {
 public:
     explicit FeedModeCursor(const Program& program) : program_(&program) {}
 
-    /// Whether F counts lengths per minute at a motion; motions must not go back.
+    /// Whether F counts lengths per minute at a motion; motions must be in ascending order.
     [[nodiscard]] bool per_minute(std::int64_t motion) { return mode_at(motion) == FeedMode::per_minute; }
 
-    /// Whether F is the inverse of the time that a motion takes; motions must not go back.
+    /// Whether F is the inverse of the duration of a motion; motions must be in ascending order.
     [[nodiscard]] bool inverse_time(std::int64_t motion) { return mode_at(motion) == FeedMode::inverse_time; }
 
 private:

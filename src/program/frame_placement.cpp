@@ -15,7 +15,7 @@
 namespace clsurf {
 namespace {
 
-/// Rounding of a product of poses, which must not make a frame of its own: of turns, and of shifts [mm].
+/// Rounding of a product of poses, which must not create a new frame: of rotations, and of shifts [mm].
 constexpr double turn_rounding = 1e-14, shift_rounding = 1e-10;
 
 bool is_identity(const Eigen::Isometry3d& pose) { return pose.matrix().isIdentity(0); }
@@ -32,7 +32,7 @@ Eigen::Isometry3d without_rounding(Eigen::Isometry3d pose) {
     return pose;
 }
 
-/// The frame of the first motion that cuts; of the last motion where none does.
+/// The frame of the first motion that cuts; that of the last motion if none does.
 std::size_t first_frame(const Motions& motions) {
     if (motions.frame.empty()) return 0;
     const auto found = std::find_if(motions.kind.begin(), motions.kind.end(), is_cut);
@@ -40,8 +40,7 @@ std::size_t first_frame(const Motions& motions) {
     return motions.frame[std::min(at, motions.kind.size() - 1)];
 }
 
-/// Where a turned arc lies: about which principal axis, and whether its direction is the other one; its own axis and
-/// -1: about none.
+/// A rotated arc: its new principal axis (-1: none) and its own axis, and whether its direction is reversed.
 struct TurnedArc {
     int axis;
     bool reversed;
@@ -60,10 +59,10 @@ struct Chords {
     std::vector<Xyz> ends;
 };
 
-/// Puts chords in the place of arcs.
+/// Replaces arcs by chords.
 void insert_chords(Motions& motions, std::vector<ProgramEvent>& events, const std::vector<Chords>& all) {
     const Motions from = motions;
-    std::vector<std::int64_t> shift(from.kind.size() + 1, 0);  // of each motion: rows inserted before it
+    std::vector<std::int64_t> shift(from.kind.size() + 1, 0);  // for each motion: rows inserted before it
     for (const Chords& c : all)
         shift[static_cast<std::size_t>(c.motion) + 1] += static_cast<std::int64_t>(c.ends.size()) - 1;
     for (std::size_t i = 1; i < shift.size(); ++i) shift[i] += shift[i - 1];
@@ -129,7 +128,7 @@ Eigen::Isometry3d pose_of(const Vec3& shift, double degrees) {
     return without_rounding(pose);
 }
 
-/// What the unknown offset of its system does to a frame: only what the program has not set.
+/// The effect of its system's unknown offset on a frame: only the components that the program has not set.
 Eigen::Isometry3d FramePlacer::offset_of(const WorkFrame& frame) const {
     Eigen::Isometry3d offset = Eigen::Isometry3d::Identity();
     if (frame.system == 0) return offset;
@@ -163,7 +162,7 @@ void FramePlacer::begin(Motions& motions) {
     const auto tool = [&](const WorkFrame& frame) {
         return Eigen::Translation3d(poses_.tool_by_kinematics ? Vec3(frame.tool - first.tool) : frame.tool);
     };
-    // The offset of a system from the pose that its first frame has.
+    // The offset of a system from the pose of its first frame.
     const auto solve = [&](const WorkFrame& frame, const Eigen::Isometry3d& pose) {
         return Eigen::Isometry3d(tool(frame).inverse() * pose * frame.local.inverse());
     };
@@ -196,7 +195,7 @@ void FramePlacer::begin(Motions& motions) {
         by_axis_ = by_axis_ || !is_identity(offset);
     }
     if (coordinates_ == Coordinates::machine) return;
-    // The interpreter's start is a place of the machine with all unknown offsets zero.
+    // The interpreter's start is a machine position with all unknown offsets zero.
     motions.start = Xyz(apply(without_rounding(own.inverse()), motions.start.vec()));
     if (coordinates_ == Coordinates::level) {
         Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
@@ -220,8 +219,8 @@ void FramePlacer::follow_frames(Motions& motions) {
     }
 }
 
-/// With unknown offsets each axis has its own past: it stands where the machine stood, or was sent to a place
-/// of the machine, or to one of the work system.
+/// With unknown offsets the axes are placed one by one: an axis may be at rest since the last frame, at a machine
+/// position, or at a position of the work system.
 void FramePlacer::place_by_axis(Motions& motions, std::int64_t i) {
     const WorkFrame& frame = motions.frame_of(i);
     const std::size_t at = motions.frame.empty() ? 0 : motions.frame[static_cast<std::size_t>(i)];
@@ -242,7 +241,7 @@ void FramePlacer::place_by_axis(Motions& motions, std::int64_t i) {
     end = Xyz(apply(without_rounding(reference_.inverse() * displaced_), machine_));
 }
 
-/// A curve goes with its motion's end, which is placed already.
+/// A curve is transformed like the end of its motion, which is already placed.
 void FramePlacer::place_curve(const Motions& motions, Curve& curve) {
     const Eigen::Isometry3d& placed = motions.frame_of(curve.motion).placed;
     const Vec3 off = motions.end[static_cast<std::size_t>(curve.motion)].vec() - apply(placed, curve.span->at(1));

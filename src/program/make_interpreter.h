@@ -9,7 +9,7 @@ namespace clsurf {
 
 class Interpreter;
 
-/// In the dialect of the options, or in the one that the text looks like. Throws InputError.
+/// In the dialect of the options, or in the detected one. Throws InputError.
 [[nodiscard]] std::unique_ptr<Interpreter> make_interpreter(SourceText text, const InterpreterOptions& options);
 
 }  // namespace clsurf

@@ -1,6 +1,6 @@
 #pragma once
-// MotionSource: the motions of a program piece by piece, for who goes through them once. A program in memory is
-// a single piece; one that is read while it is gone through (program_reader.h) never stands in memory whole.
+// MotionSource: the motions of a program piece by piece, for a single pass over them. A program in memory is a single
+// piece; one that is read during the pass (program_reader.h) is never in memory as a whole.
 
 #include <cstdint>
 #include <utility>
@@ -9,7 +9,7 @@
 
 namespace clsurf {
 
-/// What is known of a program as a whole before its first motion.
+/// Properties of a program as a whole, known before its first motion.
 struct ProgramOutline {
     std::int64_t motions = 0;
     bool curved = false;  ///< it has arcs or splines
@@ -23,20 +23,20 @@ public:
     virtual ~MotionSource() = default;
 
     [[nodiscard]] virtual const ProgramOutline& outline() const = 0;
-    /// Goes to the next piece, at first to the first; motions and events of the one before are gone.
-    /// False: there is none. Throws InputError.
+    /// Goes to the next piece (the first call: to the first); motions and events of the previous one are gone.
+    /// Returns false if there is none. Throws InputError.
     [[nodiscard]] virtual bool next_piece() = 0;
-    /// The program with the piece at hand: events, arcs and curves name motions by their places in it. The reference holds
-    /// for all pieces.
+    /// The program with the current piece: events, arcs and curves refer to motions by their index in it. The reference
+    /// stays valid for all pieces.
     [[nodiscard]] virtual const Program& program() const = 0;
-    /// Motions of the piece, 0 before the first; what the program holds behind them belongs to the next one, and may still change.
+    /// Motions of the piece, 0 before the first; later motions of the program belong to the next piece and may still change.
     [[nodiscard]] virtual std::int64_t piece_size() const = 0;
 };
 
 /// A program in memory.
 class WholeProgram final : public MotionSource {
 public:
-    /// It must outlive this.
+    /// The program must outlive this.
     explicit WholeProgram(const Program& program)
         : program_(&program),
           outline_{program.motions.size(), !program.motions.arcs.empty() || !program.motions.curves.empty()} {}

@@ -1,11 +1,11 @@
 #pragma once
-// ProgramReader: interprets a program while its motions are gone through, in the memory of a piece.
+// ProgramReader: interprets a program while its motions are read, in the memory of a piece.
 //
-// Positions are those of the machine, unknown work offsets taken as zero (frame_placement.h).
+// Positions are those of the machine, with unknown work offsets taken as zero (frame_placement.h).
 //
-// What grows with the program all the same: the places of its lines (an eighth of a byte a line), of labels,
-// loops and block numbers where it jumps, its variables, and the places that call subprograms. The ends of motions that a
-// later line may still move (cutter compensation) wait for it, which takes a block or two.
+// Some memory still grows with the program: the positions of its lines (an eighth of a byte a line), of labels, loops and
+// block numbers if it jumps, its variables, and the calling lines of subprograms. If a later line may still move the end
+// of a motion (cutter compensation), the motion is held back until then, which takes a block or two.
 
 #include <memory>
 
@@ -18,11 +18,11 @@ class Interpreter;
 
 class ProgramReader final : public MotionSource {
 public:
-    /// Motions of a piece, and what the last of its lines makes besides. A program of no more is read
-    /// once, a longer one twice: its outline first.
+    /// Motions of a piece; the last line may add more. A program that fits one piece is read once, a longer one
+    /// twice: its outline first.
     static constexpr std::int64_t usual_piece = 1 << 18;
 
-    /// Throws what parse_program() throws: all of the program has been read then. O(blocks carried out).
+    /// Throws what parse_program() throws, because it reads the whole program. O(executed blocks).
     ProgramReader(const SourceText& text, const InterpreterOptions& options, std::int64_t piece = usual_piece);
     ~ProgramReader() override;
 
@@ -36,7 +36,7 @@ private:
 
     std::unique_ptr<Interpreter> interpreter_;
     std::int64_t piece_, size_ = 0;
-    bool first_is_read_ = false;  ///< and not yet gone to
+    bool first_is_read_ = false;  ///< and not yet returned by next_piece()
     ProgramOutline outline_;
 };
 

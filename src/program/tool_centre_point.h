@@ -11,12 +11,12 @@
 
 namespace clsurf {
 
-/// Goes along the events of a program. Programs begin with it off.
+/// Goes through the events of a program. Programs begin with it off.
 class ToolCentrePoint {
 public:
     explicit ToolCentrePoint(const Program& program) : program_(&program) {}
 
-    /// Whether it is on at a motion; motions must not go back.
+    /// Whether it is on at a motion; motions must be in ascending order.
     [[nodiscard]] bool on(std::int64_t motion) {
         cursor_.pass(program_->events, motion, [&](const ProgramEvent& event) {
             if (const auto* control = std::get_if<ToolCentrePointControl>(&event.meaning)) on_ = control->on;

@@ -1,5 +1,5 @@
 #pragma once
-// ToolTable: lengths and diameters of tools, as a controller keeps them beside its programs.
+// ToolTable: lengths and diameters of tools, as a controller stores them separately from its programs.
 
 #include <map>
 #include <string>
@@ -11,26 +11,26 @@ namespace clsurf {
 
 struct Tool {
     int number = 0;                          ///< 0: none
-    Vec3 offset = Vec3::Zero();              ///< [mm], what G43 takes off
+    Vec3 offset = Vec3::Zero();              ///< [mm], subtracted by G43
     double diameter = 0;                     ///< [mm]
     double front_angle = 0, back_angle = 0;  ///< of a lathe tool [deg]
     int orientation = 0;                     ///< of a lathe tool, 0 … 9
-    bool assumed = false;                    ///< of a table that nobody gave: the machine's is another one
-    std::string remark{};                    ///< what stands behind ';'
+    bool assumed = false;                    ///< from a default table: the machine's own differs
+    std::string remark{};                    ///< the text after ';'
 };
 
 struct ToolTable {
     std::map<int, Tool> tools;  ///< by number
-    double unit_mm = 1;         ///< of the controller: what #5401 … and #5161 … count in [mm]
+    double unit_mm = 1;         ///< of the controller: unit of #5401 … and #5161 … [mm]
 
-    /// nullptr: there is no such tool.
+    /// nullptr if there is no such tool.
     [[nodiscard]] const Tool* find(int number) const {
         const auto found = tools.find(number);
         return found == tools.end() ? nullptr : &found->second;
     }
 };
 
-/// The table of LinuxCNC's stand-alone interpreter `rs274`, when it is given none: three tools, inches.
+/// The table of LinuxCNC's stand-alone interpreter `rs274` if it is given none: three tools, inches.
 [[nodiscard]] ToolTable stand_alone_tools();
 
 }  // namespace clsurf

@@ -16,7 +16,7 @@ namespace dialect_signs {
 namespace {
 
 constexpr std::size_t looked_at = 200'000;  ///< bytes of the text
-constexpr int counted = 3;                  ///< of a sign that comes again and again
+constexpr int counted = 3;                  ///< of a repeated sign
 constexpr std::size_t shown_signs = 2;
 constexpr std::size_t longest_shown_word = 20;
 
@@ -26,14 +26,14 @@ constexpr auto o_word_names =
                                      "REPEAT", "ENDREPEAT", "DO", "BREAK", "CONTINUE", "RETURN"});
 
 struct Sign {
-    std::size_t dialect;  ///< its place among all
+    std::size_t dialect;  ///< its index among all dialects
     int weight;
     int count;
     std::string word;  ///< as shown
-    std::size_t line;  ///< the first; 0: of the whole text
+    std::size_t line;  ///< the first one; 0: the whole text
 };
 
-/// Reads lines and gathers signs.
+/// Reads lines and collects signs.
 class SignReader {
 public:
     void ending(std::string_view name) {
@@ -99,14 +99,14 @@ public:
     }
 
 private:
-    /// Calls with the place of every dialect and its signs.
+    /// Calls `visit` with the index and the signs of each dialect.
     template <typename Visit>
     static void of_each(Visit&& visit) {
         const std::span<const Dialect> all = dialects();
         for (std::size_t k = 0; k < all.size(); ++k) visit(k, all[k].rules->signs);
     }
 
-    /// The dialects that a mark of the text speaks for.
+    /// Adds a mark of the text to the dialects that have it as a sign.
     void mark(Mark mark, std::string_view word) {
         of_each([&](std::size_t dialect, const GuessSigns& signs) {
             for (const MarkSign& row : signs.marks) {
@@ -140,7 +140,7 @@ private:
         return true;
     }
 
-    /// "%_N_PART_MPF" of siemens, "%PART G71 *" of heidenhain-iso; "%" alone is everybody's.
+    /// "%_N_PART_MPF" of siemens, "%PART G71 *" of heidenhain-iso; "%" alone occurs in all dialects.
     void title() {
         if (text_.substr(at_).starts_with("%_N_")) mark(Mark::tape_name, "%_N_");
         const std::size_t unit = text_.find(" G7", at_);
@@ -159,7 +159,7 @@ private:
         } else if (c == '#') {
             variable();
         } else if (c == '^' || c == '@') {
-            // Not the operators of expressions: those follow a value.
+            // Not the operators of expressions, which follow a value.
             ++at_;
             const char value = peek();
             if (is_digit(value) || value == '[' || value == '#' || value == '.' || value == '-' || value == '+')
@@ -175,9 +175,9 @@ private:
         }
     }
 
-    /// "(MSG, …)" and its like are LinuxCNC's; siemens has no comments in parentheses.
+    /// "(MSG, …)" and similar comments are LinuxCNC's; siemens has no comments in parentheses.
     void comment() {
-        // Behind a name it is one of a call, or of a condition: CYCLE832(…), IF (…).
+        // After a name it belongs to a call or a condition: CYCLE832(…), IF (…).
         const bool alone = !after_name_ && (at_ == 0 || is_blank(text_[at_ - 1])) &&
                            text_.substr(0, at_).find('=') == std::string_view::npos;
         const std::size_t end = std::min(text_.find(')', at_), text_.size());
@@ -321,7 +321,7 @@ private:
             });
             blank = blank || g_[k] == 300;
         }
-        // G30 G17 X Y Z: the least point of Heidenhain's blank.
+        // G30 G17 X Y Z: the minimum point of Heidenhain's blank.
         if (blank && std::find(g_.begin(), g_.begin() + g_count_, 170) != g_.begin() + g_count_)
             mark(Mark::blank_in_plane, "G30 G17");
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Which dialect a program is written in, by the words that only one of them writes and by the file's ending.
+// Detects the dialect of a program, by the words that only one dialect has and by the file's ending.
 
 #include <string>
 #include <string_view>
@@ -13,8 +13,8 @@ struct DialectGuess {
     std::string reason;  ///< "'#<' in line 11, the ending .ngc"
 };
 
-/// The dialect that most signs speak for; `fanuc` where none does. `name`: of the file, its ending is a sign as well.
-/// Looks at the first 200,000 bytes. O(bytes).
+/// The dialect with the most signs; `fanuc` if there are none. `name`: of the file; its ending is a sign as well.
+/// Reads the first 200,000 bytes. O(bytes).
 [[nodiscard]] DialectGuess guess_dialect(std::string_view text, std::string_view name = {});
 
 }  // namespace clsurf

@@ -1,5 +1,5 @@
 #pragma once
-// The rules of the dialects that clsurf reads: all that is used of a dialect outside of its folder. Listed in
+// The rules of the dialects that clsurf reads: the only part of a dialect that is used outside its folder. Listed in
 // dialect_table.cpp.
 
 #include "program/interpret/dialect_rules.h"

@@ -1,5 +1,5 @@
-// LinuxCNC: RS274/NGC (NIST IR 6556) with its extensions, as its own interpreter carries it out.
-// Facts: LinuxCNC 2.9, "G Codes", "O Codes", "Overview: Parameters"; emc/rs274ngc.
+// LinuxCNC: RS274/NGC (NIST IR 6556) with its extensions, as executed by its own interpreter. Facts: LinuxCNC 2.9, "G
+// Codes", "O Codes", "Overview: Parameters"; emc/rs274ngc.
 
 #include <algorithm>
 #include <array>
@@ -160,7 +160,7 @@ int code_of(MotionMode mode, int cycle) {
     return 800;
 }
 
-/// `_x`, `_abs_a`: where an axis is, in the units of the program.
+/// `_x`, `_abs_a`: the position of an axis, in the units of the program.
 double axis_parameter(const Interpreter& in, const std::string& name) {
     const double unit = in.state_.unit_mm;
     const Vec3 at = tool_position(in.compensation_, in.state_);
@@ -172,12 +172,12 @@ double axis_parameter(const Interpreter& in, const std::string& name) {
         if (name == "_abs_" + linear) return machine[k] / unit;
         if (name == "_" + turning) return in.state_.rotary[k];
         if (name == "_abs_" + turning) return in.state_.rotary[k] + in.state_.rotary_offset()[k];
-        if (name == "_" + std::string(1, "uvw"[k])) return 0;  // axes that are not carried on
+        if (name == "_" + std::string(1, "uvw"[k])) return 0;  // axes that are not supported
     }
     return missing<double>;
 }
 
-/// Names of LinuxCNC, "Predefined Named Parameters"; those of what a program cannot know are missing.
+/// Names of LinuxCNC, "Predefined Named Parameters", except those whose values a program cannot know.
 double named_parameter(Interpreter& in, const std::string& name) {
     if (const double axis = axis_parameter(in, name); !std::isnan(axis)) return axis;
     const double unit = in.state_.unit_mm;
@@ -231,7 +231,7 @@ double named_parameter(Interpreter& in, const std::string& name) {
     return missing<double>;
 }
 
-/// Its interpreter knows where the axes stand, has tools of its own, and retracts to R.
+/// LinuxCNC's interpreter knows the positions of the axes, has default tools, and retracts to R.
 void begin(Interpreter& in) {
     if (!in.options_.tools) in.tools_.table = stand_alone_tools();
     in.state_.position = in.options_.start.value_or(Vec3::Zero());
@@ -335,7 +335,7 @@ constexpr auto m_codes = std::to_array<MRule>({
      }},
 });
 
-/// Codes that have no meaning, or another, while the path is not the programmed one.
+/// Codes without a meaning, or with another one, while the tool path differs from the programmed path.
 constexpr auto forbidden_in_compensation = std::to_array<int>(
     {5_g,    5.1_g,  5.2_g,  6.2_g,  28_g, 28.1_g, 30_g,   30.1_g, 33_g,   33.1_g, 38.2_g, 38.3_g, 38.4_g,
      38.5_g, 43_g,   43.1_g, 43.2_g, 49_g, 52_g,   53_g,   54_g,   55_g,   56_g,   57_g,   58_g,   59_g,

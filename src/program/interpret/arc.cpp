@@ -14,7 +14,7 @@ namespace {
 
 constexpr double same_point = 1e-9;  ///< [mm]
 constexpr double most_chords = 100'000;
-/// Siemens, alarm 14040: the centre may turn about the start by the root of 0.001 [rad].
+/// Siemens, alarm 14040: the centre may be rotated about the start by √0.001 [rad].
 constexpr double most_turn_of_centre = 0.0316227766;
 
 /// The centre of the circle of the start's radius through both ends, on the side of the programmed one.
@@ -54,7 +54,7 @@ Arc resolve_arc(const ArcWords& words, const ArcTolerance& tolerance, std::strin
             return arc;
         }
         const double height = std::sqrt(std::max(0.0, radius * radius - half * half));
-        // Left of the chord for a short counter-clockwise arc.
+        // To the left of the chord for a counter-clockwise arc of less than 180°.
         const double sign = (words.clockwise ? -1.0 : 1.0) * (words.radius < 0 ? -1.0 : 1.0);
         const Vec2 left(-chord.y() / (2 * half), chord.x() / (2 * half));
         centre = 0.5 * (from + to) + sign * height * left;
@@ -116,8 +116,8 @@ double arc_length(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3&
 }
 
 int chord_count(double radius, double sweep, double widening, double error) {
-    // A chord over the part h of a curve p(0 … 1) stays within h²/8 · max |p''| of it, and a spiral's p'' is
-    // a radial part, radius · sweep², and one across, 2 · widening · sweep.
+    // A chord over the fraction h of a curve p(0 … 1) is within h²/8 · max |p''| of it. A spiral's p'' has a radial
+    // component, radius · sweep², and a tangential one, 2 · widening · sweep.
     const double second_derivative = std::hypot(radius * sweep * sweep, 2 * widening * sweep);
     return static_cast<int>(std::clamp(std::ceil(std::sqrt(second_derivative / (8 * error))), 1.0, most_chords));
 }

@@ -21,18 +21,18 @@ struct ArcWords {
     int turns = 1;      ///< full circles + 1
 };
 
-/// How far the radii of an arc at its start and at its end may differ. They are refused where the difference is
-/// more than `most`, or more than both `absolute` and `relative` times the greater radius.
+/// How much the radii of an arc at its start and at its end may differ. An arc is refused if the difference exceeds
+/// `most`, or exceeds both `absolute` and `relative` times the greater radius.
 struct ArcTolerance {
     double absolute = 0;        ///< [mm]
     double relative = 0;        ///< of the greater radius
     double most = 0;            ///< [mm]
-    double reach = 0;           ///< by which half the chord may exceed a radius R [mm]
-    double relative_reach = 0;  ///< the same, of R; the greater of both counts
-    bool moves_centre = false;  ///< the centre is moved so that one circle runs through both ends; else a spiral
+    double reach = 0;           ///< by how much half the chord may exceed a radius R [mm]
+    double relative_reach = 0;  ///< the same, relative to R; the greater one counts
+    bool moves_centre = false;  ///< the centre is moved so that one circle passes through both ends; else a spiral
 };
 
-/// The arc, without its motion's number; or, in `error`, why there is none (both radii named).
+/// The arc, without its motion's number; if there is none, the reason in `error` (with both radii).
 [[nodiscard]] Arc resolve_arc(const ArcWords& words, const ArcTolerance& tolerance, std::string& error);
 
 /// Angle of an arc about its axis, always positive [rad].
@@ -44,7 +44,7 @@ struct ArcTolerance {
 constexpr double arc_chord_error = 1e-3;  ///< [mm] of the chords that replace an arc
 
 /// How many equal chords stay within `error` [mm] of an arc, helix or spiral of that sweep [rad] and greatest radius
-/// [mm]; at most 100,000. `widening`: what a spiral's radius changes by [mm].
+/// [mm]; at most 100,000. `widening`: the change of a spiral's radius [mm].
 [[nodiscard]] int chord_count(double radius, double sweep, double widening, double error = arc_chord_error);
 
 /// An arc, helix or spiral as chords: their ends, at equal parts of the arc. The last one is `end` itself.

@@ -29,9 +29,9 @@ void put_polar(const Interpreter& in, const Block& block, Vec3& end) {
     end.y() = radius * std::sin(angle);
 }
 
-/// The whole turns [deg] that are added to an absolute position of a modulo axis [deg], which stands at `from` [deg].
-/// SINUMERIK Function Manual Axes and Spindles, R2: DC turns by 180° at most, and by 180° in positive direction; ACP and ACN
-/// turn by less than 360°; without them the axis stays in its turn.
+/// The whole turns [deg] that are added to an absolute position of a modulo axis [deg] at `from` [deg]. SINUMERIK Function
+/// Manual Axes and Spindles, R2: DC turns by at most 180°, and by 180° in positive direction; ACP and ACN turn by less than
+/// 360°; without them the axis stays within its turn.
 double whole_turns(const Block& block, std::uint32_t bit, double position, double from) {
     constexpr double turn = 360;
     constexpr double same_angle = 1e-9;  // [deg] of rounding
@@ -73,7 +73,7 @@ Vec3 read_axes(Interpreter& in, const Block& block, bool machine) {
     const unsigned plane = all & ~(1u << in.state_.plane_axis);
     const bool by_pole = in.polar_.on || in.arcs_.polar_line || block.polar_radius || block.polar_angle ||
                          ends_by_angle(in.state_, block);
-    // A frame's turn mixes the axes.
+    // The rotation of a frame mixes the axes.
     const bool mixed = !machine && in.state_.frame.active() && axes_named(block.words) != 0;
     in.state_.place(mixed ? all : axes_named(block.words) | (by_pole && !machine ? plane : 0u), machine);
     if ((in.polar_.on || in.arcs_.polar_line) && !machine) {
@@ -150,7 +150,7 @@ Vec3 rotary_target(Interpreter& in, const Block& block) {
         }
         const double from = target[axis];
         target[axis] = (incremental ? from : 0.0) + block.words.of(letter);
-        // After a tool axis given as a vector the turn is not known.
+        // After a tool axis given as a vector the turn is unknown.
         if (!incremental && (in.state_.modulo >> axis & 1) != 0 && !std::isnan(from))
             target[axis] += whole_turns(block, bit, target[axis], from);
     }

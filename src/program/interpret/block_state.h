@@ -1,6 +1,6 @@
 #pragma once
-// What blocks leave to the next one besides modes: how arcs are given, open splines, corners to cut; and what holds for one
-// block alone.
+// State that blocks pass to the next one besides modes: the form of arcs, open splines, corners to cut; and flags of a
+// single block.
 
 #include <cstdint>
 #include <limits>
@@ -12,31 +12,31 @@
 
 namespace clsurf {
 
-/// How arcs are given: usually, or as Heidenhain's G05, by Siemens' CIP, or by its CT and Heidenhain's G06.
+/// The form of arcs: usual, Heidenhain's G05, Siemens' CIP, or Siemens' CT and Heidenhain's G06.
 enum class ArcKind : std::uint8_t { usual, by_radius, by_points, tangential };
 
 struct ArcState {
     ArcKind kind = ArcKind::usual;
     bool polar_line = false;  ///< Heidenhain's G10 … G16: R and H give the end
     bool last_clockwise = false;
-    Vec3 begin_of_last = Vec3::Zero();  ///< where the last motion began [mm], of the work system
+    Vec3 begin_of_last = Vec3::Zero();  ///< start of the last motion [mm], in the work system
 };
 
 /// A spline whose points come block by block.
 enum class SplineKind : std::uint8_t {
     none,
-    uniform,  ///< G5.2: control points, even knots
+    uniform,  ///< G5.2: control points, uniform knots
     knotted,  ///< G6.2: control points with their knots
     basis,    ///< BSPLINE: control points, intervals of knots
-    akima,    ///< ASPLINE: points that it goes through
-    cubic,    ///< CSPLINE: points that it goes through
+    akima,    ///< ASPLINE: points on the curve
+    cubic,    ///< CSPLINE: points on the curve
 };
 
-/// What holds at an end of a spline through points.
+/// The condition at an end of a spline through points.
 enum class SplineEnd : std::uint8_t {
     free,     ///< BAUTO, EAUTO
     natural,  ///< BNAT, ENAT: no curvature
-    tangent,  ///< BTAN, ETAN: in the direction of the motion beside it
+    tangent,  ///< BTAN, ETAN: in the direction of the adjacent motion
 };
 
 struct SplinePoint {
@@ -51,46 +51,46 @@ struct OpenSpline {
     SplineKind kind = SplineKind::none;
     int degree = 3;
     std::vector<SplinePoint> points;
-    std::vector<double> last_knots;  ///< of blocks without a point, behind those of the points
+    std::vector<double> last_knots;  ///< of blocks without a point, after those of the points
     Vec3 begin_tangent = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< NaN: there is none
     SplineEnd begin = SplineEnd::tangent, end = SplineEnd::tangent;
-    std::vector<std::size_t> events;  ///< of each event that came in between, how many points stood before it
-    bool left = false;                ///< a block in another mode stood behind it: the next point begins a new one
+    std::vector<std::size_t> events;  ///< for each event within the spline: the number of points before it
+    bool left = false;                ///< a block in another mode came after it: the next point begins a new one
 };
 
 struct CurveState {
     OpenSpline open;
-    Vec2 spline_out = Vec2::Zero();                                  ///< P Q of the cubic spline before
-    SplineEnd begin = SplineEnd::tangent, end = SplineEnd::tangent;  ///< in force
+    Vec2 spline_out = Vec2::Zero();                                  ///< P Q of the previous cubic spline
+    SplineEnd begin = SplineEnd::tangent, end = SplineEnd::tangent;  ///< active
     int degree = 3;                                                  ///< SD
 
     [[nodiscard]] bool is_open() const { return open.kind != SplineKind::none; }
 };
 
-/// A corner that the next line cuts off: RND, CHF.
+/// A corner that the next line cuts: RND, CHF.
 struct Corner {
     bool pending = false;
     bool rounded = false;  ///< else a chamfer
-    double size = 0;       ///< radius, or length taken off each line [mm]
+    double size = 0;       ///< radius, or length removed from each line [mm]
     double feed = 0;       ///< as programmed
     LineNumber line = 0;
 };
 
 struct CycleState {
     static constexpr double not_yet = std::numeric_limits<double>::quiet_NaN();
-    double r = not_yet, z = not_yet, q = 0;  ///< sticky words, as programmed
-    /// R and bottom where they were programmed [mm]. RS274 counts the words again in each block instead.
+    double r = not_yet, z = not_yet, q = 0;  ///< modal words, as programmed
+    /// R and bottom at the block that programmed them [mm]. RS274 instead evaluates the words again in each block.
     double r_height = not_yet, bottom = not_yet;
-    Vec3 ijk = Vec3::Zero();   ///< of G87: the way aside, and the height to bore to, as programmed
+    Vec3 ijk = Vec3::Zero();   ///< of G87: the lateral offset, and the height to bore to, as programmed
     double p = 0;              ///< dwell [s]
-    double initial = not_yet;  ///< level where the cycle began [mm]
+    double initial = not_yet;  ///< level at the beginning of the cycle [mm]
 };
 
 struct BlockFlags {
     bool machine_coordinates = false;  ///< G53, SUPA
     bool motion_suppressed = false;    ///< the axis words belong to G10, G92, G28 …
     bool probes = false;               ///< G31: the motion is a probing move
-    bool path_mode_returns = false;    ///< G9: the mode in force comes back behind the block
+    bool path_mode_returns = false;    ///< G9: the previous mode is restored after the block
     std::string unknown_name;          ///< of a variable of the control that the block has read
     int unknown_parameter = 0;         ///< that the block has read
 };

@@ -1,6 +1,5 @@
 #pragma once
-// CallStack: which calls, loops and repeated sections run, and where they go on afterwards. ReadingPlace: the line that
-// runs.
+// CallStack: the active calls, loops and repeated sections, and where each continues. ReadingPlace: the current line.
 
 #include <array>
 #include <cstdint>
@@ -16,28 +15,27 @@
 
 namespace clsurf {
 
-/// A call that is running: where it goes on afterwards.
+/// An active call: where the caller continues.
 struct CallFrame {
     std::size_t file = 0;
     LineNumber line = 0;         ///< the calling line
     std::size_t start_file = 0;  ///< of the subprogram, for repeats
     LineNumber start_line = 0;
-    std::uint32_t call = 0;                 ///< that ran before it: index into Motions::calls, from 1
-    int repeats = 0;                        ///< still to do after this one
+    std::uint32_t call = 0;                 ///< call that was active before it: index into Motions::calls, from 1
+    int repeats = 0;                        ///< remaining after this one
     bool locals = false;                    ///< a set of local variables was pushed
     std::map<LineNumber, double> counters;  ///< of the repeat and for loops of the caller
 };
 
-/// Lines that Siemens' REPEAT runs once more.
+/// Lines that Siemens' REPEAT executes again.
 struct Section {
     LineNumber begin = 0, end = 0;
-    double left = 0;        ///< times still to begin
+    double left = 0;        ///< remaining repetitions
     std::size_t level = 0;  ///< of calls
     LineNumber back = 0;    ///< the line of REPEAT
 };
 
-/// Fanuc's G66 and Siemens' MCALL: called after every block that moves, at the level of calls where
-/// it was given.
+/// Fanuc's G66 and Siemens' MCALL: called after every block that moves, at the call level at which it was programmed.
 struct ModalCall {
     bool active = false;
     std::string name;
@@ -50,16 +48,16 @@ struct ModalCall {
 struct CallStack {
     std::vector<CallFrame> frames;
     std::vector<Section> sections;
-    LineNumber behind_section = 0;  ///< the line to stop before; 0: none
+    LineNumber behind_section = 0;  ///< the line before which to stop; 0: none
     std::uint32_t running = 0;      ///< index into Motions::calls, from 1; 0: the main program
     std::map<std::array<std::uint32_t, 3>, std::uint32_t> known;  ///< by caller, file and line
-    std::vector<std::optional<ModalState>> kept_modes{1};         ///< by level: what M70 and M73 kept
-    std::vector<bool> restores_modes{false};                      ///< M73: they come back on return
-    std::map<LineNumber, double> counters;                        ///< of the loops that run
+    std::vector<std::optional<ModalState>> kept_modes{1};         ///< by level: modes saved by M70 and M73
+    std::vector<bool> restores_modes{false};                      ///< M73: modes are restored on return
+    std::map<LineNumber, double> counters;                        ///< of the active loops
     std::uint64_t jumps = 0;
 };
 
-/// What is known of the texts, by file.
+/// Results of analysing the texts, by file.
 struct KnownTexts {
     std::vector<ControlIndex> indexes;
     std::vector<bool> indexed;
@@ -69,10 +67,10 @@ struct KnownTexts {
 
 struct ReadingPlace {
     std::size_t file = 0;
-    LineNumber line = 0;  ///< of the block that runs
+    LineNumber line = 0;  ///< of the current block
     LineNumber next_line = 1;
     std::size_t next_byte = 0;
-    std::string_view text;  ///< of the line that runs
+    std::string_view text;  ///< of the current line
 };
 
 }  // namespace clsurf

@@ -1,4 +1,4 @@
-// What the words of a block mean: G and M codes, offsets, modes.
+// The meaning of the words of a block: G and M codes, offsets, modes.
 
 #include "program/interpret/codes.h"
 
@@ -30,7 +30,7 @@ bool names_axes(const Block& block) {
     return (block.words.has & axes) != 0 || block.polar_radius || block.polar_angle;
 }
 
-/// G codes of curves elsewhere, which move axes in the blocks after theirs as well.
+/// G codes of curves in other dialects, which also move axes in the blocks that follow.
 bool is_curve_elsewhere(int code) {
     return code == 5.2_g || code == 5.3_g || code == 6.1_g || code == 6.2_g || code == 6.3_g;
 }
@@ -47,7 +47,7 @@ bool is_axis_without_value(std::string_view word) {
     return word.size() == 1 || (word.size() > 2 && is_letter(word[1]) && !is_letter(word[2]));
 }
 
-/// The order in which the codes of one block work (RS274/NGC, table 8).
+/// The execution order of the codes of one block (RS274/NGC, table 8).
 constexpr int order_of_modes = 7, order_of_offsets = 9, usual_order = 8;
 constexpr auto orders = std::to_array<std::pair<int, int>>({
     {93_g, 0},
@@ -94,7 +94,7 @@ int order_of(int code) {
     return code >= 54_g && code < 60_g ? 5 : usual_order;
 }
 
-/// M codes that stop the program or change which line comes next: after the block has moved.
+/// M codes that stop the program or change which line comes next: executed after the motion of the block.
 bool stops_block(int m) { return m == 0 || m == 1 || m == 2 || m == 30 || m == 60 || m == 98 || m == 99; }
 
 template <MotionMode mode>
@@ -164,7 +164,7 @@ bool start_table_compensation(Interpreter& in, const CodeWord& w) {
 }
 bool note_mode(Interpreter& in, const CodeWord& w, const char* name) {
     in.event(name, code_text(w.code) + words_text(w.block, "PQ"));
-    // Their words are theirs alone.
+    // P and Q belong to this code only.
     w.block.words.has &= ~(Words::bit('P') | Words::bit('Q'));
     return true;
 }
@@ -177,7 +177,7 @@ bool note_spindle_mode(Interpreter& in, const CodeWord& w) { return note_mode(in
 bool note_unused(Interpreter& in, const CodeWord& w) { return note_mode(in, w, "unused"); }
 bool start_cycle(Interpreter& in, const CodeWord& w) {
     if (in.state_.motion != MotionMode::cycle) in.cycle_ = {};
-    // RS274: another cycle needs its own words; the level where the first of them began stays.
+    // RS274: another cycle needs its own words; the initial level of the first one is kept.
     const bool begins_anew = in.rules_->cycles.rs274 && in.state_.cycle != w.code;
     if (begins_anew) in.cycle_ = CycleState{.initial = in.cycle_.initial};
     in.state_.motion = MotionMode::cycle;
@@ -185,7 +185,7 @@ bool start_cycle(Interpreter& in, const CodeWord& w) {
     return true;
 }
 
-/// What codes mean unless a dialect has a row of its own.
+/// The common meaning of codes; a row of a dialect takes precedence.
 constexpr auto common_codes = std::to_array<CodeRule>({
     {0_g, set_motion<MotionMode::rapid>},
     {1_g, set_motion<MotionMode::feed>},
@@ -345,8 +345,8 @@ void apply_m(Interpreter& in, int code, const Block& block) {
     }
 }
 
-/// Words of arcs, cycles and calls beside a straight motion, which uses none of them: an R that was
-/// meant as a corner, an I whose G2 is missing. Blocks with a code of another kind are left to it.
+/// Reports words of arcs, cycles and calls in a straight motion, which does not use them: an R meant as a corner, an
+/// I whose G2 is missing. Blocks with a code of another kind are not checked.
 void report_idle(Interpreter& in, const Block& block) {
     constexpr auto plain_codes =
         std::to_array<int>({0_g, 1_g, 17_g, 18_g, 19_g, 20_g, 21_g, 70_g, 71_g, 90_g, 91_g, 94_g});
@@ -367,7 +367,7 @@ void report_idle(Interpreter& in, const Block& block) {
     }
 }
 
-/// Words that no part of the interpreter has a meaning for.
+/// Reports words without a meaning in any part of the interpreter.
 void report_unused(Interpreter& in, const Block& block) {
     report_idle(in, block);
     for (const UnknownWord& word : block.unknown) {
@@ -398,12 +398,12 @@ void report_unused(Interpreter& in, const Block& block) {
             in.note(Severity::warning, "program.unknown-word", "word E is not known", column);
             continue;
         }
-        // Where such an axis stays at 0 it changes nothing; moved, it takes the tool or the part elsewhere.
+        // If such an axis stays at 0, it has no effect; if it moves, it displaces the tool or the part.
         const bool moves = in.state_.motion == MotionMode::rapid || in.state_.motion == MotionMode::feed ||
                            in.state_.motion == MotionMode::cw || in.state_.motion == MotionMode::ccw;
         if (block.words.of(letter) == 0) continue;
         if (moves && in.rules_->motion.separate_uvw) {
-            // Its axes U V W are never increments of X Y Z, which stay true.
+            // In this dialect U V W are never increments of X Y Z, which stay correct.
             in.note(Severity::warning, "program.axis",
                     fmt::format("axis {} moves: positions are those of X Y Z without it", letter), column);
             continue;

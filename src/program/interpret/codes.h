@@ -1,5 +1,5 @@
 #pragma once
-// What G codes mean for several dialects, and words that are refused.
+// The meaning of G codes that several dialects share, and words that are refused.
 
 #include <cstddef>
 #include <span>
@@ -13,14 +13,14 @@ namespace clsurf {
 
 class Interpreter;
 
-/// Handlers that several dialects have: all numbers are inches, or millimetres.
+/// Handlers shared by several dialects: all numbers are inches, or millimetres.
 bool count_in_inches(Interpreter& in, const CodeWord& w);
 bool count_in_mm(Interpreter& in, const CodeWord& w);
 
 /// The rows of a dialect, sorted by code.
 [[nodiscard]] std::vector<CodeRule> by_code(std::span<const CodeRule> rules);
 
-/// A word whose motion would be read as another one, or not at all.
+/// Refuses a word whose motion would be misread or ignored.
 [[noreturn]] void refuse_motion(const Interpreter& in, const std::string& word, const Block& block, std::size_t column,
                                 const std::string& hint = {});
 

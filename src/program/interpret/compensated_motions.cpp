@@ -1,4 +1,4 @@
-// Cutter compensation as the interpreter runs it: when it begins and ends, and what it forbids.
+// Cutter compensation in the interpreter: its begin and end, and forbidden codes.
 
 #include "program/interpret/compensated_motions.h"
 
@@ -29,8 +29,8 @@ Vec3 from_plane(const Vec2& p, double along, int axis) {
     return q;
 }
 
-/// The controls go to the point beside the begin of the first compensated motion: the ends of the
-/// motions since G41 are moved there when that one is known.
+/// The controls go to the point next to the beginning of the first compensated motion: the ends of the motions since
+/// G41 are moved there once that motion is known.
 void enter_compensation(CompensationState& compensation, const ModalState& state, Motions& motions,
                         const Vec2& direction) {
     const int axis = state.plane_axis;
@@ -41,7 +41,7 @@ void enter_compensation(CompensationState& compensation, const ModalState& state
     compensation.enters_beside = compensation.entry_programmed = false;
 }
 
-/// The motions of a step: along the axis of the plane only the last of them moves. `arc` gives turns.
+/// The motions of a step: only the last of them moves along the plane's normal. `arc` gives turns.
 void push_compensated(Interpreter& in, const CompensatedStep& step, MotionKind kind, const Vec3& end,
                       const Vec3& rotary, Arc arc = {}) {
     if (!step.error.empty()) in.fail(step.error);

@@ -1,4 +1,4 @@
-// Control statements: conditions, loops, calls and labels, whatever the dialect writes for them.
+// Control statements: conditions, loops, calls and labels of every dialect.
 
 #include "program/interpret/control_statements.h"
 
@@ -21,7 +21,7 @@ double value_at(const Interpreter& in, std::string_view text, std::size_t at) {
     return evaluate(c, in.variables_, in.rules_->text);
 }
 
-/// The statement of the line that runs, as the index has matched it.
+/// The statement of the current line, as matched by the index.
 const Control& own_control(Interpreter& in) {
     const int at = control_index(in, in.place_.file).at_line(in.place_.line);
     if (at < 0) in.fail("this control statement is not allowed here");
@@ -33,14 +33,14 @@ const Control& partner_of(Interpreter& in, const Control& control, const char* w
     return control_index(in, in.place_.file).all()[static_cast<std::size_t>(control.partner)];
 }
 
-/// On with the line after another one.
+/// Continues with the line after another one.
 void go_after(Interpreter& in, LineNumber line) {
     count_jump(in);
     in.go_to(in.place_.file, line + 1);
 }
 
 void pass_sub(Interpreter& in, const Control&, const Statement&) {
-    // A label of HEIDENHAIN: what it begins is carried out on the way as well.
+    // A label of HEIDENHAIN: its section is executed in sequence as well.
     if (!in.rules_->calls.subs_run_through) go_after(in, partner_of(in, own_control(in), "sub").line);
 }
 
@@ -107,7 +107,7 @@ void begin_if(Interpreter& in, const Control& control, const Statement& statemen
     go_after(in, branch->line);
 }
 
-/// Reached by running on from a branch that was taken: the whole is over.
+/// Reached at the end of a branch that was taken: continues after the whole statement.
 void pass_else_if(Interpreter& in, const Control&, const Statement&) {
     go_after(in, partner_of(in, own_control(in), "elseif").line);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Control statements: conditions, loops, calls and labels, whatever the dialect writes for them.
+// Control statements: conditions, loops, calls and labels of every dialect.
 
 #include "program/text/block.h"
 
@@ -7,7 +7,7 @@ namespace clsurf {
 
 class Interpreter;
 
-/// True: the statement was one of control.
+/// Returns whether the statement was one of control.
 bool control_statement(Interpreter& in, const Statement& statement);
 
 }  // namespace clsurf

@@ -1,5 +1,5 @@
 // Blocks of splines: G5, G5.1, G5.2, G6.2, ASPLINE, BSPLINE, CSPLINE, POLY. Each span becomes a motion that owns its
-// curve (docs/formats/programs.md says what is assumed where manuals leave it open).
+// curve (docs/formats/programs.md lists assumptions where manuals are ambiguous).
 
 #include "program/interpret/curves.h"
 
@@ -27,8 +27,8 @@ namespace {
 constexpr std::uint32_t turning_axes = Words::bit('A') | Words::bit('B') | Words::bit('C');
 constexpr int least_uniform_order = 3;  ///< LinuxCNC reads a smaller L as 3
 constexpr int most_order = 20;
-constexpr double no_chord = 1e-9;         ///< [mm] nearer points are one
-constexpr double start_play_steps = 1.5;  ///< increments, between the tool and the first point of a spline
+constexpr double no_chord = 1e-9;         ///< [mm] nearer points are equal
+constexpr double start_play_steps = 1.5;  ///< increments, between the current position and the first point of a spline
 constexpr double same_knot = 1e-12;       ///< of the range of knots
 constexpr int denominator_places = 64;
 constexpr int most_polynomial = 5;  ///< degree
@@ -39,7 +39,8 @@ double polynomial_value(const std::vector<double>& coefficients, double p) {
     return value;
 }
 
-/// All coefficients of a polynomial that begins and ends with these values; `values`: the end, a₂, a₃ … as written.
+/// All coefficients of a polynomial with these values at its beginning and end; `values`: the end, a₂, a₃ … as
+/// written.
 std::vector<double> coefficients_to(double end, const std::vector<double>& values, double begin, double unit,
                                     double interval) {
     std::vector<double> a{begin, 0.0};
@@ -48,7 +49,7 @@ std::vector<double> coefficients_to(double end, const std::vector<double>& value
     return a;
 }
 
-/// The spline whose points are the blocks of that mode; none: they are no points.
+/// The spline that uses the blocks of that mode as its points; none: they are no points.
 SplineKind kind_of_points(MotionMode mode) {
     switch (mode) {
         case MotionMode::akima_spline: return SplineKind::akima;
@@ -82,7 +83,7 @@ void begin_spline(Interpreter& in, SplineKind kind) {
     in.curves_.open.begin = in.curves_.begin;
     in.curves_.open.end = in.curves_.end;
     in.curves_.open.points.push_back({in.state_.position, 1, missing<double>, in.place_.line, in.state_.feed});
-    // The direction in which the motion before ends.
+    // The direction at the end of the previous motion.
     Vec3 tangent = Vec3::Zero();
     for (std::int64_t i = in.program_.motions.size(); i-- > 0 && tangent.isZero(0);)
         tangent = tangent_at_end(in.program_.motions, i);
@@ -90,13 +91,13 @@ void begin_spline(Interpreter& in, SplineKind kind) {
     if (tangent.allFinite() && tangent.norm() > no_chord) in.curves_.open.begin_tangent = tangent.normalized();
 }
 
-/// The tool stands there for what is read next, although the motion is pushed later.
+/// The following words count from this point, although the motion is pushed later.
 void add_spline_point(Interpreter& in, const Vec3& at, double weight, double knot) {
     in.curves_.open.points.push_back({at, weight, knot, in.place_.line, in.state_.feed});
     in.state_.position = at;
 }
 
-/// What stood between the blocks of a spline stands between its spans. `shaping`: points before the first span ends.
+/// Events between the blocks of a spline are moved between its spans. `shaping`: points before the first span ends.
 void move_events(Program& program, const OpenSpline& open, std::int64_t first, std::size_t shaping) {
     std::vector<ProgramEvent>& events = program.events;
     const std::size_t before = events.size() - open.events.size();
@@ -147,8 +148,8 @@ void finish_knotted(Interpreter& in) {
     finish_nurbs(in, std::move(knots));
 }
 
-/// BSPLINE: PL of the i-th block is the length of the i-th span; a first block with PL=0 makes those count from the
-/// first one that is greater.
+/// BSPLINE: PL of the i-th block is the length of the i-th span; if the first block has PL=0, they count from the
+/// first one that is positive.
 void finish_basis_spline(Interpreter& in) {
     OpenSpline& open = in.curves_.open;
     const std::size_t blocks = open.points.size() - 1;
@@ -179,7 +180,7 @@ void finish_point_spline(Interpreter& in, const Vec3& end_tangent) {
     OpenSpline open = std::exchange(in.curves_.open, {});
     std::vector<Vec3> points{open.points.front().at};
     std::vector<const SplinePoint*> blocks;
-    // Axes that are not known yet stay so, and have no part in the chords.
+    // Unknown axes stay unknown, and do not contribute to the chords.
     const Vec3 unknown = points[0].array().isNaN().select(points[0], 0.0);
     for (const SplinePoint& point : std::span(open.points).subspan(1)) {
         const Vec3 at = point.at.array().isNaN().select(0.0, point.at);
@@ -340,7 +341,7 @@ void knotted_point(Interpreter& in, const Block& block) {
     const double weight = w.given('R') ? w.of('R') : 1.0;
     if (!(weight > 0)) in.fail("a weight (R) must be greater than 0");
     if (first) return;
-    // A first block without K has the knot of the second.
+    // If the first block has no K, it takes the knot of the second.
     if (std::isnan(open.points.front().knot)) open.points.front().knot = w.of('K');
     const double before = open.last_knots.empty() ? open.points.back().knot : open.last_knots.back();
     if (!(w.of('K') >= before)) {
@@ -405,9 +406,9 @@ void settle_spline(Interpreter& in, const Block& block) {
         (open.kind == SplineKind::knotted && in.state_.motion != MotionMode::knotted_nurbs))
         close_spline(in, Vec3::Zero());
     if (!in.curves_.is_open() || open.left) return;
-    // The direction of the motion behind the others is not known yet.
+    // The direction of the next motion is still unknown.
     open.left = kind_of_points(in.state_.motion) != open.kind;
-    // The words of the blocks behind it say nothing of this one.
+    // The words of later blocks do not apply to this spline.
     if (!open.left) open.end = in.curves_.end;
 }
 

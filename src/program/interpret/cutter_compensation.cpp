@@ -10,7 +10,7 @@ namespace clsurf {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-/// Corners flatter than this are passed without a rounding or a retreat [rad], as LinuxCNC has it.
+/// Flatter corners are passed without an arc or a retreat [rad], as in LinuxCNC.
 constexpr double flat_corner = 0.05;
 constexpr double no_length = 1e-9;        ///< [mm]
 constexpr double angle_tolerance = 1e-9;  ///< [rad]
@@ -18,7 +18,7 @@ constexpr double angle_tolerance = 1e-9;  ///< [rad]
 Vec2 left_of(const Vec2& v) { return {-v.y(), v.x()}; }
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Angle of the way around `centre`, more than 0 and at most a full circle [rad].
+/// Angle of the path around `centre`, positive and at most a full circle [rad].
 double sweep_of(const Vec2& begin, const Vec2& end, const Vec2& centre, bool counter_clockwise) {
     double sweep = angle_of(end - centre) - angle_of(begin - centre);
     if (!counter_clockwise) sweep = -sweep;
@@ -27,7 +27,7 @@ double sweep_of(const Vec2& begin, const Vec2& end, const Vec2& centre, bool cou
     return sweep;
 }
 
-/// Where a line meets a circle: the parameters along it, near one first.
+/// Intersections of a line and a circle: the parameters along the line, in ascending order.
 std::optional<std::pair<double, double>> meets_circle(const Vec2& point, const Vec2& direction, const Vec2& centre,
                                                       double radius) {
     const double along = (centre - point).dot(direction);
@@ -69,7 +69,7 @@ CompensatedStep CutterCompensation::line(const Vec2& from, const Vec2& to) {
     if (first_) return entry_line(from, to);
     CompensatedStep step;
     const Vec2 displacement = to - from;
-    if (displacement.norm() == 0) {  // along the axis only: it ends where the corner will be
+    if (displacement.norm() == 0) {  // along the plane's normal only: it ends at the future corner
         step.moves.push_back({centre_});
         return step;
     }
@@ -89,7 +89,7 @@ CompensatedStep CutterCompensation::line(const Vec2& from, const Vec2& to) {
 CompensatedStep CutterCompensation::arc(const Vec2& from, const Vec2& to, const Vec2& centre, bool counter_clockwise) {
     if (first_) return entry_arc(from, to, centre, counter_clockwise);
     CompensatedStep step;
-    // LinuxCNC counts with the radius at the end, where it differs from that at the start.
+    // If the radius at the end differs from that at the start, LinuxCNC uses that at the end.
     const double programmed = (to - centre).norm();
     if (inside(counter_clockwise) && programmed < radius_ - no_length) {
         step.error = fmt::format("the tool (radius {:.4f} mm) does not fit into an arc of radius {:.4f} mm", radius_,
@@ -115,7 +115,7 @@ CompensatedStep CutterCompensation::arc(const Vec2& from, const Vec2& to, const 
     return step;
 }
 
-/// The tool's centre goes straight to beside the end of the first programmed motion.
+/// The tool's centre moves straight to the point next to the end of the first programmed motion.
 CompensatedStep CutterCompensation::entry_line(const Vec2& from, const Vec2& to) {
     CompensatedStep step;
     const Vec2 displacement = to - from;
@@ -126,7 +126,7 @@ CompensatedStep CutterCompensation::entry_line(const Vec2& from, const Vec2& to)
         return step;
     }
     const Vec2 off = side() * radius_ * left_of(displacement.normalized());
-    // LinuxCNC checks the reach of the entry against its side, not its way.
+    // LinuxCNC checks the reach of the entry against its side, not along its path.
     open_ = {};
     open_.valid = true;
     open_.begin = from;
@@ -137,7 +137,7 @@ CompensatedStep CutterCompensation::entry_line(const Vec2& from, const Vec2& to)
     return step;
 }
 
-/// An arc from the tool's centre to beside the programmed end, tangent there to the programmed arc.
+/// An arc from the tool's centre to the point next to the programmed end, tangent there to the programmed arc.
 CompensatedStep CutterCompensation::entry_arc(const Vec2& from, const Vec2& to, const Vec2& centre,
                                               bool counter_clockwise) {
     CompensatedStep step;
@@ -153,7 +153,7 @@ CompensatedStep CutterCompensation::entry_arc(const Vec2& from, const Vec2& to, 
     }
     const Vec2 inwards = (centre - to).normalized();
     const Vec2 end = to + (inside(counter_clockwise) ? radius_ : -radius_) * inwards;
-    // The centre lies on the programmed radius through the end, as far from the begin as from the end.
+    // The centre is on the programmed radius through the end, equidistant from begin and end.
     const Vec2 chord = from - end;
     const double lean = chord.dot(inwards);
     if (std::abs(lean) < 1e-6 * chord.norm()) {
@@ -167,7 +167,7 @@ CompensatedStep CutterCompensation::entry_arc(const Vec2& from, const Vec2& to, 
     open_.begin = from;
     open_.centre = middle;
     open_.radius = (end - middle).norm();
-    open_.sweep = 2 * pi;  // LinuxCNC lets a corner cut into an entry arc as far as it goes
+    open_.sweep = 2 * pi;  // LinuxCNC does not limit how far a corner cuts into an entry arc
     open_.counter_clockwise = counter_clockwise;
     centre_ = end;
     step.moves.push_back({end, middle, true, counter_clockwise});
@@ -176,8 +176,8 @@ CompensatedStep CutterCompensation::entry_arc(const Vec2& from, const Vec2& to, 
 }
 
 void CutterCompensation::join(CompensatedStep& step, const Vec2& corner, const Vec2& tangent, Open& next) {
-    // How far the tool's centre turns about the corner on its way to the side of the next motion:
-    // from −90° (back along the way it came, inside) to 270°.
+    // The angle of the tool's centre about the corner to the side of the next motion: from −90° (backwards along its
+    // path, inside) to 270°.
     double turn = angle_of(centre_ - corner) - angle_of(side() * left_of(tangent));
     turn *= side();
     while (turn < -0.5 * pi) turn += 2 * pi;
@@ -207,12 +207,12 @@ void CutterCompensation::join(CompensatedStep& step, const Vec2& corner, const V
 
 bool CutterCompensation::inside_corner(double angle, const Open& next) const {
     if (angle < -flat_corner || angle > pi + flat_corner) return true;
-    // Back along the way it came, beside an arc that it went around: not about the corner's far side.
+    // Backwards along its path, next to an arc that it went around: not around the corner's far side.
     if (angle <= pi - flat_corner) return false;
     return next.is_arc ? !inside(next.counter_clockwise) : open_.is_arc && !inside(open_.counter_clockwise);
 }
 
-/// Where the tool's centre leaves the open motion for the next: where the tracks of both cross.
+/// Where the tool's centre passes from the open motion to the next: the intersection of their tracks.
 bool CutterCompensation::meet(const Vec2& corner, const Open& next, CompensatedStep& step) const {
     if (open_.is_arc && next.is_arc) {
         const Vec2 between = next.centre - open_.centre;
@@ -231,17 +231,17 @@ bool CutterCompensation::meet(const Vec2& corner, const Open& next, CompensatedS
     if (open_.is_arc) {
         const auto crossings = meets_circle(next.beside, next.direction, open_.centre, open_.radius);
         if (!crossings) return false;
-        // Inside a circle the line begins at its first crossing, outside at its last.
+        // Inside a circle the line begins at its first intersection, outside at its last.
         step.corner =
             next.beside + (inside(open_.counter_clockwise) ? crossings->first : crossings->second) * next.direction;
         return true;
     }
-    // The open motion's line runs through the tool's centre, square to where the corner lies.
+    // The open motion's line passes through the tool's centre, perpendicular to the direction to the corner.
     const Vec2 direction = -side() * left_of((centre_ - corner).normalized());
     if (next.is_arc) {
         const auto crossings = meets_circle(centre_, direction, next.centre, next.radius);
         if (!crossings) return false;
-        // From inside a circle the line ends at its last crossing, from outside at its first.
+        // From inside a circle the line ends at its last intersection, from outside at its first.
         step.corner = centre_ + (inside(next.counter_clockwise) ? crossings->second : crossings->first) * direction;
         return true;
     }
@@ -251,11 +251,11 @@ bool CutterCompensation::meet(const Vec2& corner, const Open& next, CompensatedS
     return true;
 }
 
-/// Whether the open motion can end there without going backwards.
+/// Checks whether the open motion can end there without reversing.
 std::string CutterCompensation::check_reach(const Vec2& end) const {
     if (!open_.valid) return {};
     if (open_.is_arc) {
-        // A flat corner may have let it begin a little early.
+        // At a flat corner it may have begun slightly early.
         const double left = sweep_of(open_.begin, end, open_.centre, open_.counter_clockwise);
         if (left > open_.sweep + flat_corner)
             return "an arc before an inside corner is too short: the tool would gouge";

@@ -1,7 +1,7 @@
 #pragma once
-// Cutter compensation, G41 and G42: from the programmed path to that of the tool's centre, in the
-// working plane. The end of a motion is only known when the next is: an inside corner moves it back.
-// Rules: LinuxCNC, "Cutter compensation"; RS274/NGC (NIST IR 6556), appendix B.
+// Cutter compensation, G41 and G42: from the programmed path to that of the tool's centre, in the working plane. The
+// end of a motion is only known with the next motion: an inside corner moves it back. Rules: LinuxCNC, "Cutter
+// compensation"; RS274/NGC (NIST IR 6556), appendix B.
 
 #include <cstddef>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace clsurf {
 
-/// A motion of the tool's centre in the plane. An arc turns about `centre`.
+/// A motion of the tool's centre in the plane. An arc has the centre `centre`.
 struct CompensatedMove {
     Vec2 end;  ///< [mm]
     Vec2 centre = Vec2::Zero();
@@ -19,34 +19,36 @@ struct CompensatedMove {
     bool counter_clockwise = false;
 };
 
-/// What a programmed motion turns into.
+/// The compensated form of a programmed motion.
 struct CompensatedStep {
-    bool moves_corner = false;   ///< all motions of the step before (and those without way after it) end at `corner`
-    Vec2 corner = Vec2::Zero();  ///< [mm]
+    bool moves_corner =
+        false;  ///< all motions of the previous step (and those of zero length after it) end at `corner`
+    Vec2 corner = Vec2::Zero();          ///< [mm]
     std::vector<CompensatedMove> moves;  ///< around an outside corner first, then the motion itself
-    std::string error;                   ///< not empty: why the tool cannot go there
+    std::string error;                   ///< not empty: the reason why the tool cannot move there
 };
 
 class CutterCompensation {
 public:
-    /// Left of the path for true. A radius below zero changes the side, one of zero does nothing. [mm]
+    /// Begins compensation; `left`: the tool is to the left of the path. A negative radius changes the side, a zero
+    /// radius has no effect. [mm]
     void start(bool left, double radius);
     void stop();
-    /// Begins beside a point instead of with an entry move: where the tool's centre is then.
+    /// Begins next to a point instead of with an entry move; returns the tool's centre there.
     Vec2 enter_beside(const Vec2& from, const Vec2& direction);
 
-    [[nodiscard]] bool on() const { return on_; }  ///< G41 or G42, whatever the radius
+    [[nodiscard]] bool on() const { return on_; }  ///< G41 or G42, with any radius
     [[nodiscard]] bool left() const { return left_; }
     [[nodiscard]] bool active() const { return on_ && radius_ > 0; }
     [[nodiscard]] bool entered() const { return active() && !first_; }  ///< the entry move has been made
-    /// Where the tool's centre is and what was programmed [mm]. Only after the entry move.
+    /// The tool's centre and the programmed point [mm]. Only after the entry move.
     [[nodiscard]] const Vec2& centre() const { return centre_; }
 
     /// A straight motion between programmed points.
     [[nodiscard]] CompensatedStep line(const Vec2& from, const Vec2& to);
-    /// A circular one about `centre`.
+    /// A circular motion about `centre`.
     [[nodiscard]] CompensatedStep arc(const Vec2& from, const Vec2& to, const Vec2& centre, bool counter_clockwise);
-    /// Ends: whether the last motion can be reached as it stands.
+    /// Ends: an error if the end of the last motion cannot be reached; empty: none.
     [[nodiscard]] std::string finish();
 
 private:
@@ -55,11 +57,11 @@ private:
         bool valid = false;
         bool is_arc = false;
         Vec2 begin = Vec2::Zero();      ///< of the tool's centre
-        Vec2 beside = Vec2::Zero();     ///< the tool's centre beside the programmed begin
+        Vec2 beside = Vec2::Zero();     ///< the tool's centre next to the programmed beginning
         Vec2 direction = Vec2::Zero();  ///< of the programmed line
         Vec2 centre = Vec2::Zero();
         double radius = 0;  ///< of the tool centre's arc
-        double sweep = 0;   ///< of the programmed arc [rad], more than zero
+        double sweep = 0;   ///< of the programmed arc [rad], positive
         bool counter_clockwise = false;
     };
     [[nodiscard]] double side() const { return left_ ? 1.0 : -1.0; }

@@ -17,15 +17,15 @@
 namespace clsurf {
 namespace {
 
-/// What a cycle does between R and its bottom.
+/// The actions of a cycle between R and its bottom.
 struct Stroke {
     bool dwells = false, feeds_out = false, pecks = false, breaks_chips = false;
 };
 
-constexpr double peck_clearance_mm = 0.254;  ///< 0.010 inch, as RS274/NGC has it; Fanuc keeps it in a parameter
+constexpr double peck_clearance_mm = 0.254;  ///< 0.010 inch, as in RS274/NGC; Fanuc has a parameter for it
 constexpr int most_pecks = 1'000'000;
 
-/// What a cycle does between R and Z.
+/// The actions of a cycle between R and Z.
 Stroke stroke_of(int code, bool rs274) {
     switch (code) {
         case 730: return {.pecks = true, .breaks_chips = true};
@@ -43,7 +43,7 @@ Stroke stroke_of(int code, bool rs274) {
     }
 }
 
-/// How many holes a block drills: L, of some dialects K.
+/// How many holes a block drills: L, in some dialects also K.
 int cycle_repeats(const Block& block, bool by_k) {
     int repeats = 1;
     for (const char letter : {'L', 'K'}) {
@@ -53,7 +53,7 @@ int cycle_repeats(const Block& block, bool by_k) {
     return repeats;
 }
 
-/// R, depth, Q, P and I J K, which stay from hole to hole.
+/// R, depth, Q, P and I J K, which are modal from hole to hole.
 void read_cycle_words(Interpreter& in, const Block& block, const Stroke& stroke) {
     const auto word = [&](char letter, double& kept) {
         if (block.words.given(letter)) kept = block.words.of(letter);
@@ -63,7 +63,7 @@ void read_cycle_words(Interpreter& in, const Block& block, const Stroke& stroke)
     word('Q', in.cycle_.q);
     if (block.words.given('P')) in.cycle_.p = block.words.of('P') * in.rules_->cycles.dwell_unit;
     const int code = in.state_.cycle / 10;
-    // In other cycles K says how often.
+    // In other cycles K is the number of repeats.
     const bool steps_aside = code == 76 || code == 87;
     for (int k = 0; steps_aside && k < 3; ++k) word("IJK"[k], in.cycle_.ijk[k]);
     for (const auto& [letter, kept] :
@@ -77,7 +77,7 @@ void read_cycle_words(Interpreter& in, const Block& block, const Stroke& stroke)
     in.note(Severity::warning, "program.cycle", fmt::format("G{} without Q: read as one stroke", code));
 }
 
-/// Where the pecks of Q end above the bottom [mm].
+/// The ends of the pecks of Q above the bottom [mm].
 std::vector<double> peck_depths(const Interpreter& in, double r, double bottom) {
     std::vector<double> depths;
     const double peck = in.cycle_.q * in.state_.unit_mm;
@@ -87,8 +87,8 @@ std::vector<double> peck_depths(const Interpreter& in, double r, double bottom) 
     return depths;
 }
 
-/// G74 and G84 outside the XY plane. LinuxCNC's interpreter (convert_cycle_g74_g84, up to 2.10) hands the axes
-/// on in another order, and the machine goes there: along X in G18, along Y to the wrong place in G19.
+/// G74 and G84 outside the XY plane. LinuxCNC's interpreter (convert_cycle_g74_g84, up to 2.10) passes the axes in
+/// another order, and the machine moves accordingly: along X in G18, along Y to the wrong position in G19.
 void tap_turned(Interpreter& in, double bottom, double clear, const Vec3& rotary) {
     const Vec3 hole = in.state_.position;
     const bool zx = in.state_.plane_axis == 1;
@@ -101,11 +101,11 @@ void tap_turned(Interpreter& in, double bottom, double clear, const Vec3& rotary
                     in.state_.cycle / 10, zx ? "G18" : "G19"));
     in.straight(MotionKind::feed, at(bottom), rotary);
     in.straight(MotionKind::feed, at(clear), rotary);
-    in.state_.position = hole;  // what the interpreter goes on from
+    in.state_.position = hole;  // the position from which the interpreter continues
     in.state_.position[in.state_.plane_axis] = clear;
 }
 
-/// From R down by way of the depths, and out.
+/// From R down through the depths, and out.
 void drill(Interpreter& in, const Stroke& stroke, double r, double bottom, double clear,
            const std::vector<double>& depths, const Vec3& rotary) {
     const int c = in.state_.plane_axis;
@@ -123,13 +123,13 @@ void drill(Interpreter& in, const Stroke& stroke, double r, double bottom, doubl
     go_to_level(in, MotionKind::feed, bottom, rotary);
     if (stroke.dwells && (rs274 || in.cycle_.p > 0)) in.dwell(in.cycle_.p);
     if (in.state_.cycle == 880 && rs274) {
-        // The operator takes the tool out by hand: no motion of the program.
+        // The operator retracts the tool by hand: no motion of the program.
         in.event("stop", "G88");
         in.state_.position[c] = clear;
         return;
     }
     if (stroke.feeds_out) {
-        // Feeds end at R; but LinuxCNC runs at feed all the way, except in G85.
+        // Feeds end at R, but LinuxCNC stays at feed to the clearance level, except in G85.
         const bool all_the_way = rs274 && in.state_.cycle != 850;
         go_to_level(in, MotionKind::feed, all_the_way ? clear : r, rotary);
         if (in.state_.programmed()[c] == clear) return;
@@ -137,8 +137,8 @@ void drill(Interpreter& in, const Stroke& stroke, double r, double bottom, doubl
     go_to_level(in, MotionKind::rapid, clear, rotary);
 }
 
-/// Q (or I J, K) of Fanuc's boring cycles: how far the edge steps aside. Which way is a parameter of
-/// the control; without I J K along the plane's first axis.
+/// Q (or I J K) of Fanuc's boring cycles: the lateral shift of the cutting edge. Its direction is a parameter of the
+/// control; without I J K along the plane's first axis.
 Vec3 edge_shift(const CycleState& cycle, const ModalState& state) {
     const int c = state.plane_axis;
     Vec3 aside = cycle.ijk * state.unit_mm;
@@ -147,7 +147,7 @@ Vec3 edge_shift(const CycleState& cycle, const ModalState& state) {
     return aside;
 }
 
-/// G76 of Fanuc: down with feed, aside, and out without touching.
+/// G76 of Fanuc: down at feed, lateral shift, and out without contact.
 void bore_fine(Interpreter& in, double bottom, double clear, const Vec3& rotary) {
     go_to_level(in, MotionKind::feed, bottom, rotary);
     if (in.cycle_.p > 0) in.dwell(in.cycle_.p);
@@ -157,7 +157,8 @@ void bore_fine(Interpreter& in, double bottom, double clear, const Vec3& rotary)
     step_aside(in, -aside, rotary);
 }
 
-/// G87 of Fanuc: aside, below the hole to R, back to its middle, up to Z with feed, and out the same way.
+/// G87 of Fanuc: lateral shift, below the hole to R, back to its middle, up to Z at feed, and out along the same
+/// path.
 void bore_back_shifted(Interpreter& in, double r, double top, double clear, const Vec3& rotary) {
     const Vec3 aside = edge_shift(in.cycle_, in.state_);
     step_aside(in, aside, rotary);
@@ -170,7 +171,7 @@ void bore_back_shifted(Interpreter& in, double r, double top, double clear, cons
     step_aside(in, -aside, rotary);
 }
 
-/// G87, back boring: in beside the hole, below it to its middle, up to K with feed, and out the same way.
+/// G87, back boring: in next to the hole, below it to its middle, up to K at feed, and out along the same path.
 void bore_back(Interpreter& in, double r, double bottom, double clear, const Vec3& rotary) {
     const int c = in.state_.plane_axis;
     Vec3 aside = in.cycle_.ijk * in.state_.unit_mm;
@@ -209,12 +210,13 @@ void drilling_cycle(Interpreter& in, const Block& block) {
     const int c = in.state_.plane_axis;  // the drilling axis
     read_cycle_words(in, block, stroke);
     in.state_.place(1u << in.state_.plane_axis, false);
-    // Heights and holes count in the program's own frame.
+    // Heights and holes are in the program's own frame.
     const Vec3 here = in.state_.programmed();
     const Vec3 position = here.array().isNaN().select(0.0, here);
-    // Increments of R count from where the first cycle began, whichever level the tool is at now.
+    // Increments of R count from the level before the first cycle, whatever the present level.
     if (std::isnan(in.cycle_.initial)) in.cycle_.initial = position[c];
-    // Under G91, increments. Fanuc keeps the heights as they were given, whether G90 or G91 holds at the next hole.
+    // Increments under G91. Fanuc keeps the heights as they were programmed, even if the next hole has the other of
+    // G90 and G91.
     if (rs274 || block.words.given('R') || std::isnan(in.cycle_.r_height))
         in.cycle_.r_height = in.cycle_.r * unit + (in.state_.incremental ? in.cycle_.initial : 0.0);
     const double r = in.cycle_.r_height;
@@ -225,7 +227,7 @@ void drilling_cycle(Interpreter& in, const Block& block) {
         in.fail(fmt::format("the cycle's R ({:g}) is below its bottom ({:g})", r, bottom));
     const int repeats = cycle_repeats(block, in.rules_->cycles.repeats_by_k && !from_below);
     const Vec3 rotary = rotary_target(in, block);
-    // Up to R at once where the cycles began below it, even if the tool has come up since.
+    // Moves up to R first if the cycles began below it, even if the tool has been raised since.
     if (rs274 && in.cycle_.initial < r) go_to_level(in, MotionKind::rapid, r, rotary);
     const double clear = in.state_.retract_to_r && !(from_below && !rs274) ? r : std::max(r, in.cycle_.initial);
     const std::vector<double> depths = stroke.pecks ? peck_depths(in, r, bottom) : std::vector<double>();
@@ -233,7 +235,7 @@ void drilling_cycle(Interpreter& in, const Block& block) {
         Vec3 hole = in.this_block_.machine_coordinates ? in.state_.frame.to_programmed(target_of(in, block, true))
                                                        : read_axes(in, block, false);
         const double now = in.state_.programmed()[c];
-        // RS274 climbs before it crosses; Fanuc crosses at the level where it is.
+        // RS274 rises before it moves across; Fanuc moves across at the present level.
         hole[c] = now < clear && rs274 ? clear : now;
         in.straight(MotionKind::rapid, in.state_.frame.to_work(hole), rotary);
         if (from_below && !rs274) {

@@ -9,11 +9,11 @@ namespace clsurf {
 
 class Interpreter;
 
-/// A block while a canned cycle is in force: as many holes as it says.
+/// A block while a canned cycle is active: as many holes as it programs.
 void drilling_cycle(Interpreter& in, const Block& block);
-/// Along the drilling axis to a height of the program.
+/// Moves along the drilling axis to a height in the program's coordinates.
 void go_to_level(Interpreter& in, MotionKind kind, double height, const Vec3& rotary);
-/// At rapid, in the program's coordinates.
+/// Moves at rapid, in the program's coordinates.
 void step_aside(Interpreter& in, const Vec3& by, const Vec3& rotary);
 
 }  // namespace clsurf

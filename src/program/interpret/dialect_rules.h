@@ -1,9 +1,9 @@
 #pragma once
-// DialectRules: what a dialect means by its lines, words and codes. A value: one constant a dialect (folder
+// DialectRules: the meaning of lines, words and codes in a dialect. A value: one constant per dialect (folder
 // dialects). The interpreter asks these rules and never which dialect it reads.
 //
-// What all dialects share (G0 … G3, planes, G90, drilling cycles) is in codes.cpp; a row here comes before
-// it. Handlers speak to the interpreter in the words of interpreter_state.h.
+// What all dialects share (G0 … G3, planes, G90, drilling cycles) is in codes.cpp; a row here takes precedence.
+// Handlers use the interface of interpreter_state.h.
 
 #include <cstdint>
 #include <memory>
@@ -22,7 +22,8 @@ namespace clsurf {
 
 class Interpreter;
 
-/// What one dialect keeps from block to block besides what all have: its rules make it, and its handlers know its type.
+/// State that one dialect keeps from block to block besides the common state: its rules create it, and its handlers
+/// know its type.
 struct DialectState {
     DialectState() = default;
     DialectState(const DialectState&) = delete;
@@ -34,32 +35,32 @@ template <typename State>
     return std::make_unique<State>();
 }
 
-/// A G code as blocks keep it, in tenths: 54.1_g is 541.
+/// A G code in tenths, as blocks store it: 54.1_g is 541.
 consteval int operator""_g(long double code) { return static_cast<int>(code * 10 + 0.5L); }
 consteval int operator""_g(unsigned long long code) { return static_cast<int>(code * 10); }
 
-/// A G code where it stands.
+/// A G code in its block.
 struct CodeWord {
     int code;  ///< in tenths
     Block& block;
     std::size_t column;
 };
-/// Carries out a code. False: it means here what it means everywhere.
+/// Executes a code. Returns false if the code has its common meaning.
 using CodeHandler = bool (*)(Interpreter&, const CodeWord&);
 
 struct CodeRule {
     int code;
     CodeHandler handle;
-    int order = -1;  ///< among the codes of a block, as order_of() in codes.cpp; −1: as usual
+    int order = -1;  ///< among the codes of a block, as order_of() in codes.cpp; −1: the usual order
 };
 
 struct MRule {
     int code;
-    /// False: it means here what it means everywhere.
+    /// Returns false if the code has its common meaning.
     bool (*handle)(Interpreter&, int code, const Block&);
 };
 
-/// A letter that must not stand beside an arc, and what to write instead.
+/// A letter that is not allowed with an arc, and what to write instead.
 struct RefusedLetter {
     char letter;
     const char* hint;
@@ -67,51 +68,51 @@ struct RefusedLetter {
 
 /// How blocks that move are read.
 struct MotionRules {
-    bool plain_blocks = true;                          ///< letters with numbers need no reader of the dialect's
+    bool plain_blocks = true;                          ///< letters with numbers do not need the dialect's own reader
     bool needs_mode = false;                           ///< axis words without a motion mode are an error, not G1
     bool moves_without_axes = false;                   ///< G0 or G1 alone makes a motion of no length
-    bool rotary_in_machine = false;                    ///< G53 holds for A, B, C as well
-    bool turns_by_p = false;                           ///< P beside an arc counts its turns
-    bool feed_keeps_unit = false;                      ///< F counts in the unit that held where it stands, ever after
-    bool separate_uvw = false;                         ///< U, V, W are axes of their own, which leave X, Y, Z true
-    bool splines_by_last_block = false;                ///< all spans of a spline stand in the block that ends it
+    bool rotary_in_machine = false;                    ///< G53 applies to A, B, C as well
+    bool turns_by_p = false;                           ///< P with an arc counts its turns
+    bool feed_keeps_unit = false;                      ///< F keeps the unit that was active when it was programmed
+    bool separate_uvw = false;                         ///< U, V, W are separate axes, which do not change X, Y, Z
+    bool splines_by_last_block = false;                ///< all spans of a spline come with the block that ends it
     bool refuses_curve_codes = true;                   ///< G5.2, G5.3, G6.1 … move axes elsewhere: an error
-    std::string_view idle_letters = "IJKLPQR";         ///< without meaning beside a straight motion: reported
-    std::span<const RefusedLetter> refused_at_arcs{};  ///< P, L, Q as another dialect gives turns
+    std::string_view idle_letters = "IJKLPQR";         ///< without meaning in a straight motion: reported
+    std::span<const RefusedLetter> refused_at_arcs{};  ///< P, L, Q: turns in other dialects
     std::span<const int> forbidden_in_compensation{};  ///< codes, in tenths
 };
 
-/// Whose length G43 takes.
+/// The source of the length of G43.
 enum class LengthOf : std::uint8_t { nothing, tool_in_spindle, row_of_h };
 
 struct ToolRules {
     bool t_changes = false;         ///< T calls the tool, without M6
     bool m61 = false;               ///< M61 Q: this tool is in the spindle
     bool always_looks_up = false;   ///< a tool that is not in the table is reported, even in an empty one
-    bool length_with_tool = false;  ///< the length counts from the change on, without G43
-    bool edges = false;             ///< D1 takes the length, D0 takes it off
+    bool length_with_tool = false;  ///< the length is active from the tool change on, without G43
+    bool edges = false;             ///< D1 activates the length, D0 cancels it
     bool radius_by_d = false;       ///< G41 D: a row of the table; false: the tool in the spindle
     LengthOf length_of = LengthOf::nothing;
 };
 
 struct OffsetRules {
-    bool rotary = false;           ///< A, B, C of G10, G92 and G28 count
-    bool rotation = false;         ///< R of G10 L2 turns a work system
+    bool rotary = false;           ///< A, B, C of G10, G92 and G28 are evaluated
+    bool rotation = false;         ///< R of G10 L2 rotates a work system
     bool tool_data = false;        ///< G10 L1, L10, L11 are rows of the tool table
-    bool always_by_point = false;  ///< G28 goes by the point between even where no axis is named
+    bool always_by_point = false;  ///< G28 moves through the intermediate point even if no axis is named
 };
 
 struct CycleRules {
     bool rs274 = false;         ///< G76 threads, G73 and G83 need Q, G74 and G84 tap in other planes
     double dwell_unit = 1;      ///< [s] of P
-    bool repeats_by_k = false;  ///< K beside L
+    bool repeats_by_k = false;  ///< K as well as L
 };
 
 struct CallRules {
-    bool by_sub = false;              ///< a subprogram begins where its control statement says so; false: at a label
-    bool label_if_no_sub = false;     ///< then at a label of that name
-    bool subs_run_through = false;    ///< a label that the program reaches is carried out; false: skipped
-    bool begins_at_label = false;     ///< the line of the label itself is carried out
+    bool by_sub = false;              ///< a subprogram begins at its control statement; false: at a label
+    bool label_if_no_sub = false;     ///< if there is none, at a label of that name
+    bool subs_run_through = false;    ///< a label that the program reaches is executed; false: skipped
+    bool begins_at_label = false;     ///< the line of the label itself is executed
     bool file_from_top = false;       ///< a subprogram in its own file begins at its first line
     bool returns_value = false;       ///< of a call: #<_value>
     bool return_ends_main = false;    ///< outside of calls a return ends the program; false: it does nothing
@@ -134,19 +135,19 @@ struct DialectRules {
     std::optional<ArcTolerance> arc_tolerance_inch{};  ///< in inch programs; nullopt: the same
     GuessSigns signs{};
 
-    /// Reads a line whose words are plain, which nearly all lines of a finishing program are.
+    /// Reads a line of plain words: nearly all lines of a finishing program.
     PlainResult (*plain)(std::string_view line, Words&) = read_plain;
 
-    // Where a dialect needs more than a table. nullptr: nothing.
-    /// What it keeps from block to block.
+    // Hooks for what a table cannot express. nullptr: nothing.
+    /// State that the dialect keeps from block to block.
     std::unique_ptr<DialectState> (*make_state)() = nullptr;
-    /// Before the first line: where the machine stands, what is known.
+    /// Before the first line: initial position and state.
     void (*begin)(Interpreter&) = nullptr;
     /// `%` and the title after it (TextRules::named_titles).
     void (*title)(Interpreter&, const std::string& title) = nullptr;
-    /// A line without its comments. True: it is carried out.
+    /// A line without its comments. Returns whether it was executed.
     bool (*statement)(Interpreter&, const Statement&) = nullptr;
-    /// A block before its codes. True: it is carried out.
+    /// A block before its codes. Returns whether it was executed.
     bool (*begin_block)(Interpreter&, Block&) = nullptr;
     /// After its codes, before it moves.
     void (*after_codes)(Interpreter&, const Block&) = nullptr;
@@ -154,21 +155,22 @@ struct DialectRules {
     void (*after_motion)(Interpreter&, const Block&) = nullptr;
     /// After its M codes: calls.
     void (*after_block)(Interpreter&, const Block&) = nullptr;
-    /// An arc that is given by other words than I J K and R. True: it was.
+    /// An arc given by words other than I J K and R. Returns whether it was one.
     bool (*arc)(Interpreter&, const Block&, ArcWords&) = nullptr;
-    /// The called macro or cycle of a modal call. True: it was one of the dialect's own.
+    /// The called macro or cycle of a modal call. Returns whether it was one of the dialect's own.
     bool (*modal_call)(Interpreter&) = nullptr;
     /// Parameters that the control keeps; NaN: ordinary variables.
     double (*parameter)(Interpreter&, int number) = nullptr;
     double (*named_parameter)(Interpreter&, const std::string& name) = nullptr;
-    /// Writes one of them. True: it was one.
+    /// Writes one of them. Returns whether it was one.
     bool (*write_parameter)(Interpreter&, int number, double value) = nullptr;
-    /// The polar words of a block, about the pole: `end` is where it stands before. nullptr: @ and ^ about the zero.
+    /// The polar words of a block, about the pole: `end` is the position before the block. nullptr: @ and ^ about the
+    /// zero.
     void (*about_pole)(Interpreter&, const Block&, Vec3& end) = nullptr;
     /// The name of work systems after G59, from 7 on; nullptr: G54.1 P1 …
     std::string (*work_system_name)(int number) = nullptr;
 
-    /// What the controls of the dialect accept. `unit_mm`: of the program's lengths.
+    /// Tolerances of the controls of the dialect. `unit_mm`: of the program's lengths.
     [[nodiscard]] const ArcTolerance& arc_tolerance_in(double unit_mm) const {
         return unit_mm != 1 && arc_tolerance_inch ? *arc_tolerance_inch : arc_tolerance;
     }

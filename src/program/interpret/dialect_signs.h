@@ -1,6 +1,6 @@
 #pragma once
-// GuessSigns: what speaks for a dialect in a program that does not say which it is. Part of its rules;
-// dialect_guess.cpp adds up the weights.
+// GuessSigns: evidence for a dialect in a program that does not name it. Part of its rules; dialect_guess.cpp sums
+// the weights.
 
 #include <cstdint>
 #include <span>
@@ -17,8 +17,8 @@ struct WordSign {
 struct CodeSign {
     int code;  ///< G, in tenths
     int weight;
-    std::string_view with;     ///< letters of which one must stand in the block; empty: none
-    std::string_view without;  ///< letters of which none may
+    std::string_view with;     ///< letters, one of which must be in the block; empty: none required
+    std::string_view without;  ///< letters that must not be in the block
 };
 
 /// The ending of a file's name, lower case with its point.
@@ -27,14 +27,14 @@ struct EndingSign {
     int weight;
 };
 
-/// Marks of a text that are no words.
+/// Marks of a text that are not words.
 enum class Mark : std::uint8_t {
     tape_name,        ///< %_N_
     title_with_unit,  ///< %PART G71 *
     stars,            ///< most blocks end in '*'
     polar_sign,       ///< @5, ^30
     comma_corner,     ///< ,R5 and ,C5
-    round_comment,    ///< ( … ) where no expression can stand
+    round_comment,    ///< ( … ) where an expression is impossible
     active_comment,   ///< (DEBUG, …)
     hash_name,        ///< #<name>
     free_assignment,  ///< #1=#2+1 without brackets

@@ -25,7 +25,7 @@ void select_feed_mode(Interpreter& in, FeedMode mode) {
 float feed_for(const ModalState& state, double length, double unit) {
     switch (state.feed_mode) {
         case FeedMode::inverse_time:
-            // What moves nothing takes no time: any feed will do, but none.
+            // A motion of no length takes no time: any feed is valid except none.
             if (length > 0) return static_cast<float>(length * state.feed / seconds_per_minute);
             [[fallthrough]];
         case FeedMode::per_minute: return static_cast<float>(state.feed * unit / seconds_per_minute);

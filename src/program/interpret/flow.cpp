@@ -1,4 +1,4 @@
-// Which line comes next: control statements, calls and returns.
+// The order of lines: control statements, calls and returns.
 
 #include "program/interpret/flow.h"
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t deepest_call = 64;
 
-/// Which line to stop before: that behind the section that is repeated at this level of calls.
+/// Sets the line before which to stop: the one after the section that is repeated at this level of calls.
 void watch_section(CallStack& calls) {
     while (!calls.sections.empty() && calls.sections.back().level > calls.frames.size()) calls.sections.pop_back();
     const bool here = !calls.sections.empty() && calls.sections.back().level == calls.frames.size();
@@ -32,7 +32,7 @@ LineNumber find_block(Interpreter& in, double number, LineNumber line, int direc
     return found->second.find(number, line, direction);
 }
 
-/// The call that the line makes which runs; a loop that calls again and again makes one.
+/// The call from the current line; repeated calls in a loop count as one.
 std::uint32_t call_from_here(CallStack& stack, const ReadingPlace& place, Motions& motions) {
     std::vector<Call>& calls = motions.calls;
     constexpr std::size_t most_calls = 1'000'000;  // by line and caller; further calls count as their caller
@@ -44,7 +44,7 @@ std::uint32_t call_from_here(CallStack& stack, const ReadingPlace& place, Motion
     return found->second;
 }
 
-/// Goes on at a line of a subprogram, and comes back behind the line that runs.
+/// Continues at a line of a subprogram, and returns to after the current line.
 void enter(Interpreter& in, std::size_t file, LineNumber line, int repeats, bool locals) {
     CallFrame frame;
     frame.file = in.place_.file;

@@ -1,5 +1,5 @@
 #pragma once
-// What the program's coordinates count in: a pole, the tool's tip, the frames of motions that are known.
+// References of the program's coordinates: a pole, the tool tip, the known frames of motions.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace clsurf {
 
-/// Polar coordinates: the pole, and where the last words led.
+/// Polar coordinates: the pole, and the last radius and angle.
 struct PolarState {
     bool on = false;           ///< G16
     Vec3 pole = Vec3::Zero();  ///< [mm], programmed coordinates
@@ -19,17 +19,17 @@ struct PolarState {
     double angle = 0;          ///< [deg]
 };
 
-/// What positions and the tool axis mean on five axes.
+/// The meaning of positions and the tool axis on five axes.
 struct FiveAxisModes {
     bool tool_centre_point = false;  ///< G43.4, TRAORI, M128
-    std::string switched_on_by;      ///< the words that did
+    std::string switched_on_by;      ///< the words that switched it on
     bool axis_words = false;         ///< G43.5: I J K are the tool axis
-    bool tilted = false;             ///< CYCLE800, G68.2, PLANE: positions are those of the tip, too
+    bool tilted = false;             ///< CYCLE800, G68.2, PLANE: positions are those of the tip as well
 };
 
-/// The frames of Motions that are known, and the one that the next motion counts in.
+/// The known frames of Motions, and the frame of the next motion.
 struct KnownWorkFrames {
-    std::uint64_t changes = ~std::uint64_t{0};  ///< of the state when the current one was settled
+    std::uint64_t changes = ~std::uint64_t{0};  ///< value of the state's counter when the current frame was determined
     std::uint8_t held = 0, absolute = 0;
     ProgramFrame words;         ///< from the program's words to the work system
     std::uint32_t current = 0;  ///< index into Motions::frames

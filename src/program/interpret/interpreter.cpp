@@ -71,13 +71,13 @@ std::int64_t Interpreter::read_on(std::int64_t motions) {
 std::int64_t Interpreter::settled() const {
     const std::int64_t all = program_.motions.size();
     if (ended_ || all == 0) return all;
-    // The next motion begins where the last one ends.
+    // The next motion begins at the end of the last one.
     return compensation_.path.on() ? std::min(all - 1, static_cast<std::int64_t>(compensation_.open_motions)) : all - 1;
 }
 
 std::int64_t Interpreter::place_settled(std::int64_t motions) {
     if (motions == 0) return 0;
-    keep_tangents(forgotten_tangents_, program_.motions, motions);  // as the program counts them
+    keep_tangents(forgotten_tangents_, program_.motions, motions);  // in programmed coordinates
     tangents_kept_ = true;
     const std::int64_t placed = placer_.place(program_.motions, program_.events, motions);
     const std::int64_t more = placed - motions;
@@ -155,7 +155,7 @@ void Interpreter::run_line() {
     run_block(place_.text);
 }
 
-/// G0, G1 or nothing, with axis words and feed: what nearly every block of a finishing program is.
+/// G0, G1 or nothing, with axis words and feed: nearly every block of a finishing program.
 bool Interpreter::run_plain(const Words& words) {
     constexpr std::uint32_t allowed = Words::xyz | Words::bit('F') | Words::bit('N');
     if ((words.has & ~allowed) != 0 || (words.has & Words::xyz) == 0 || words.m_count != 0) return false;
@@ -215,7 +215,7 @@ void Interpreter::run_block(std::string_view line) {
     } catch (const ReadError& error) { fail(error.what, error.column, error.hint); }
 }
 
-/// Parameters of the control that the block has read.
+/// Reports parameters of the control that the block has read.
 void Interpreter::note_unknown_parameters() {
     if (!this_block_.unknown_name.empty()) {
         note(Severity::warning, "program.variable",

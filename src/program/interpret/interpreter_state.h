@@ -1,7 +1,8 @@
 #pragma once
-// Interpreter: the state that the parts of the interpreter share, and what all of them need: the line that runs, events,
-// errors with their place, motions. What words mean is in functions over it, one header a topic (codes.h, axis_words.h,
-// motions.h, curves.h, cycles.h, flow.h …). What only one dialect has is in its files. Not for other rooms.
+// Interpreter: the state that the parts of the interpreter share, and what all of them need: the current line, events,
+// errors with their place, motions. The meaning of words is in functions over it, one header per topic (codes.h,
+// axis_words.h, motions.h, curves.h, cycles.h, flow.h …). What only one dialect has is in its files. Not for other
+// rooms.
 
 #include <cstdint>
 #include <memory>
@@ -24,21 +25,21 @@ namespace clsurf {
 
 class Interpreter {
 public:
-    /// The dialect of the options is not null. `guessed_from`: why it is that one, where nobody gave it. Throws InputError
-    /// (UTF-16).
+    /// The dialect of the options is not null. `guessed_from`: the reason for the dialect if it was detected. Throws
+    /// InputError (UTF-16).
     Interpreter(SourceText text, const InterpreterOptions& options, std::string guessed_from = {});
-    /// All of the program.
+    /// Interprets the whole program.
     Program run();
 
-    /// Runs lines until so many motions of program() are settled, or to the end. How many are: what comes
-    /// later neither changes them nor looks back at them.
+    /// Runs lines until this many motions of program() are settled, or to the end. Returns how many are settled:
+    /// later lines neither change nor read them.
     [[nodiscard]] std::int64_t read_on(std::int64_t motions);
-    /// Takes the first settled motions, and events before them, out of program().
+    /// Removes the first settled motions, and events before them, from program().
     void forget(std::int64_t motions);
     [[nodiscard]] bool ended() const { return ended_; }
     [[nodiscard]] const Program& program() const { return program_; }
-    /// The settled motions in machine coordinates, the unknown work offsets taken as zero. At most once for each,
-    /// before they are forgotten. How many motions that makes.
+    /// Brings the settled motions into machine coordinates, with unknown work offsets taken as zero. At most once for
+    /// each, before they are removed. Returns how many motions result.
     [[nodiscard]] std::int64_t place_settled(std::int64_t motions);
 
     // interpreter.cpp: lines, output
@@ -52,13 +53,13 @@ public:
     // codes.cpp
     void execute(Block& block);
 
-    // push.cpp: motions from where the tool stands
+    // push.cpp: motions from the current position
     void push(MotionKind kind, const Vec3& end, const Vec3& rotary, float feed);
     void straight(MotionKind kind, const Vec3& end, const Vec3& rotary);
     void push_arc(Arc arc, bool clockwise, const Vec3& begin, const Vec3& end, const Vec3& rotary);
     void dwell(double seconds);
 
-    // The state is open: the topics' functions and the dialects' handlers (dialect_rules.h) work on it.
+    // The state is public: the topics' functions and the dialects' handlers (dialect_rules.h) work on it.
 
     InterpreterOptions options_;
     const DialectRules* rules_ = nullptr;
@@ -66,7 +67,7 @@ public:
     Program program_;
     std::uint64_t most_motions_ = 0, forgotten_ = 0;
     std::vector<Vec3>
-        forgotten_tangents_;      ///< of the motions forgotten the last, and the last that is not parallel to it [mm]
+        forgotten_tangents_;      ///< of the motions removed last, and the last that is not parallel to it [mm]
     bool tangents_kept_ = false;  ///< of the settled motions, in work coordinates
     FramePlacer placer_{{}, Coordinates::machine};
 
@@ -76,7 +77,7 @@ public:
     ModalCall modal_call_;  ///< G66, MCALL
     Variables variables_;
     Block block_;
-    Words plain_;  ///< of the line that runs, where it is plain
+    Words plain_;  ///< of the current line, if it is plain
     BlockFlags this_block_;
 
     ModalState state_;

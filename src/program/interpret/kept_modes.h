@@ -1,5 +1,5 @@
 #pragma once
-// Modes that are kept and come back.
+// Modes that are saved and restored.
 
 #include "program/interpret/modal_state.h"
 
@@ -7,9 +7,9 @@ namespace clsurf {
 
 class Interpreter;
 
-/// M70 … M73 of LinuxCNC: modes are kept and come back; after M73 when the subprogram returns.
+/// M70 … M73 of LinuxCNC: save and restore modes; M73 restores them when the subprogram returns.
 void keep_modes(Interpreter& in, int code);
-/// The modes that were kept, and the events that they make.
+/// Restores the saved modes, with the events of the change.
 void restore_modes(Interpreter& in, const ModalState& kept);
 
 }  // namespace clsurf

@@ -1,5 +1,5 @@
-// Turning cycles of LinuxCNC: G70 finishes, G71 and G72 rough a profile that a subprogram describes.
-// Rules: LinuxCNC, "G70 Lathe finishing cycle", "G71 G72 Lathe roughing cycles".
+// Turning cycles of LinuxCNC: G70 finishes, G71 and G72 rough a profile given by a subprogram. Rules: LinuxCNC, "G70
+// Lathe finishing cycle", "G71 G72 Lathe roughing cycles".
 
 #include "program/interpret/lathe_cycles.h"
 
@@ -18,7 +18,7 @@
 namespace clsurf {
 namespace {
 
-/// A roughing cut's frame: along `feed` (0 z, 1 x) the tool cuts, along `depth` it goes in.
+/// Axes of a roughing cut: `feed` (0 z, 1 x) is the cutting direction, `depth` the infeed direction.
 struct LatheFrame {
     int feed = 0, depth = 1;
     double onwards = 1;   ///< sign along feed
@@ -32,19 +32,19 @@ struct LatheCycle {
     int passes = 1;
 };
 
-/// Where a roughing cycle starts, where its cuts start, where the contour begins (z, x) [mm].
+/// Starts of a roughing cycle, of its cuts and of the contour (z, x) [mm].
 struct RoughingStart {
     Vec2 start, front, first;
 };
 
 constexpr double coincident = 1e-9;  ///< [mm]
-constexpr double no_pocket = 0.01;   ///< of this depth: joints of the profile may be that rough [mm]
+constexpr double no_pocket = 0.01;   ///< of this depth: permitted roughness of the profile's joints [mm]
 constexpr int most_cuts = 100'000;
 
 Vec2 zx(const Vec3& p) { return {p.z(), p.x()}; }
 
-/// The profile beside itself: `distance` to its left, rounded at outside corners. Empty, with `error`
-/// set, where a tool of that radius would not pass.
+/// The offset profile: `distance` to the left, rounded at outside corners. Empty, with `error` set, if a tool of that
+/// radius cannot follow it.
 std::vector<CompensatedMove> beside(const Vec2& begin, const std::vector<CompensatedMove>& profile, bool left,
                                     double distance, Vec2& first, std::string& error) {
     first = begin;
@@ -73,7 +73,7 @@ std::vector<CompensatedMove> beside(const Vec2& begin, const std::vector<Compens
     return moves;
 }
 
-/// Where the profile first reaches a depth, seen along the cut.
+/// Where the profile first reaches a depth, in the direction of the cut.
 std::optional<double> reach(const Vec2& first, const std::vector<CompensatedMove>& moves, const LatheFrame& frame,
                             double depth) {
     Vec2 from = first;
@@ -101,7 +101,7 @@ std::optional<double> reach(const Vec2& first, const std::vector<CompensatedMove
     return std::nullopt;
 }
 
-/// Whether it goes onwards and outwards all the way: no pockets.
+/// Whether the profile always goes onwards and outwards: no pockets.
 bool rises(const Vec2& first, const std::vector<CompensatedMove>& moves, const LatheFrame& frame) {
     Vec2 from = first;
     for (const CompensatedMove& move : moves) {
@@ -125,8 +125,8 @@ bool rises(const Vec2& first, const std::vector<CompensatedMove>& moves, const L
     return true;
 }
 
-/// Runs the profile's subprogram and takes its motions away again: the end of the first is where the
-/// profile begins, the others are its elements.
+/// Runs the profile's subprogram and removes its motions again: the end of the first is the beginning of the profile,
+/// the others are its elements.
 Vec2 record_profile(Interpreter& in, const std::string& name, std::vector<CompensatedMove>& profile) {
     const ModalState state = in.state_;
     const Block block = in.block_;
@@ -163,7 +163,7 @@ Vec2 record_profile(Interpreter& in, const std::string& name, std::vector<Compen
     return begin;
 }
 
-/// With feed, in the XZ plane
+/// At feed, in the XZ plane.
 void follow(Interpreter& in, const std::vector<CompensatedMove>& moves) {
     for (const CompensatedMove& move : moves) {
         const Vec3 end(move.end.y(), in.state_.position.y(), move.end.x());
@@ -205,7 +205,7 @@ void rough(Interpreter& in, const LatheCycle& cycle, const LatheFrame& frame, co
                 code_text(cycle.code) + ": the profile has pockets, roughing it is not carried out", column);
         return;
     }
-    // Out again to the height of the start.
+    // Out to the height of the start.
     Vec2 out = moves.back().end;
     if ((start[frame.depth] - out[frame.depth]) * frame.outwards > coincident) {
         out[frame.depth] = start[frame.depth];
@@ -254,7 +254,7 @@ void lathe_cycle(Interpreter& in, int code, const Block& words, std::size_t colu
     frame.onwards = onwards < 0 ? -1 : 1;
     frame.outwards = start[frame.depth] < begin[frame.depth] ? -1 : 1;
     const bool left = (frame.feed == 0) == (frame.onwards * frame.outwards > 0);
-    // A start beyond the profile's begin cuts from there.
+    // If the start is beyond the profile's begin, cuts begin at the profile.
     Vec2 front = start;
     if ((begin[frame.feed] - start[frame.feed]) * frame.onwards < 0) front[frame.feed] = begin[frame.feed];
     const auto contour = [&](double off, Vec2& first) {

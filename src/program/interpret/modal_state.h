@@ -1,6 +1,6 @@
 #pragma once
-// ModalState: what stays in force from block to block, and the way from programmed to machine
-// coordinates: machine = rotation · (position + shift) + work offset + tool offset.
+// ModalState: what stays in force from block to block, and the transformation from programmed to machine coordinates:
+// machine = rotation · (position + shift) + work offset + tool offset.
 
 #include <array>
 #include <cmath>
@@ -42,7 +42,7 @@ struct WorkOffset {
     double rotation = 0;         ///< about z [deg]
     Vec3 rotary = Vec3::Zero();  ///< A, B, C [deg]
     std::uint8_t set = 0;        ///< what the program has set: bits as in WorkFrame
-    int measured_from = 0;       ///< not set, but read off in this system of unknown offset (G10 L20); 0: none
+    int measured_from = 0;       ///< not set, but measured in this system of unknown offset (G10 L20); 0: none
 };
 
 struct ModalState {
@@ -50,7 +50,7 @@ struct ModalState {
     int cycle = 0;                 ///< the canned cycle's G number in tenths, 0: none
     int plane_axis = 2;            ///< axis of rotation: 2 G17, 1 G18, 0 G19
     double unit_mm = 1;            ///< mm per programmed length
-    double feed_unit_mm = 1;       ///< mm per length of F, which a change of units may leave as it is
+    double feed_unit_mm = 1;       ///< mm per length of F, which a change of units may leave unchanged
     bool incremental = false;      ///< G91
     bool centre_absolute = false;  ///< G90.1
     FeedMode feed_mode = FeedMode::per_minute;
@@ -62,11 +62,12 @@ struct ModalState {
 
     Vec3 position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< [mm], of the work system
     Vec3 rotary = Vec3::Zero();                                                ///< A, B, C [deg]
-    /// Rotary axes (bits as of A, B, C) that DC, ACP or ACN have shown to be modulo axes: positions count within a turn.
+    /// Rotary axes (bits for A, B, C) that are modulo axes because DC, ACP or ACN was used: positions count within a
+    /// turn.
     std::uint8_t modulo = 0;
     std::uint8_t held = 0, absolute = 0;          ///< axes, as in WorkFrame
-    std::uint8_t unplaced = WorkFrame::all_axes;  ///< axes that no word has placed since the program began
-    std::uint64_t frame_changes = 0;              ///< counts what changes the way to machine coordinates
+    std::uint8_t unplaced = WorkFrame::all_axes;  ///< axes that no word has positioned since the program began
+    std::uint64_t frame_changes = 0;              ///< counts changes of the transformation to machine coordinates
     Vec3 tool_axis =
         Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< programmed as a vector, unit; NaN: by angles
     ProgramFrame frame;                                            ///< from programmed coordinates to `position`
@@ -75,16 +76,16 @@ struct ModalState {
     std::map<int, WorkOffset> work_offsets;
     Vec3 shift = Vec3::Zero();                                           ///< G92 and G52 together [mm]
     Vec3 rotary_shift = Vec3::Zero();                                    ///< the same of A, B, C [deg]
-    Vec3 saved_shift = Vec3::Zero(), saved_rotary_shift = Vec3::Zero();  ///< what G92.3 restores
+    Vec3 saved_shift = Vec3::Zero(), saved_rotary_shift = Vec3::Zero();  ///< restored by G92.3
     Vec3 tool_offset = Vec3::Zero();                                     ///< [mm]
-    Vec3 assumed_tool = Vec3::Zero();                      ///< what of it comes from a table that nobody gave [mm]
+    Vec3 assumed_tool = Vec3::Zero();                      ///< the part of it that comes from a default table [mm]
     Vec3 home = Vec3::Zero(), second_home = Vec3::Zero();  ///< G28, G30; machine coordinates
     Vec3 home_rotary = Vec3::Zero(), second_home_rotary = Vec3::Zero();  ///< [deg]
 
-    /// The least step that a word can name: 0.001 mm or 0.0001 in.
+    /// The least increment of a word: 0.001 mm or 0.0001 in.
     [[nodiscard]] double least_increment() const { return unit_mm == 1 ? 1e-3 : 1e-4; }
 
-    /// The position as the program's words count it [mm].
+    /// The position in programmed coordinates [mm].
     [[nodiscard]] Vec3 programmed() const { return frame.to_programmed(position); }
     [[nodiscard]] WorkOffset work_offset() const {
         const auto found = work_offsets.find(work_system);
@@ -100,7 +101,8 @@ struct ModalState {
     }
     /// From A, B, C as programmed to those of the machine [deg].
     [[nodiscard]] Vec3 rotary_offset() const { return rotary_shift + work_offset().rotary; }
-    /// Changes offsets by `change` while the machine stands still: the position is read anew.
+    /// Changes offsets by `change` while the machine is at rest: the position in the program's coordinates is
+    /// recomputed.
     template <typename Change>
     void rebase(Change&& change) {
         const Vec3 machine = to_machine(position);
@@ -117,16 +119,16 @@ struct ModalState {
                 held = static_cast<std::uint8_t>(held | (1u << axis));
         }
     }
-    /// Words have placed axes: in the work system, or in machine coordinates. Bits as in WorkFrame.
+    /// Words have positioned axes: in the work system, or in machine coordinates. Bits as in WorkFrame.
     void place(unsigned axes, bool in_machine) {
         held = static_cast<std::uint8_t>(held & ~axes);
         unplaced = static_cast<std::uint8_t>(unplaced & ~axes);
         absolute = static_cast<std::uint8_t>(in_machine ? absolute | axes : absolute & ~axes);
     }
-    /// The frame that the position counts in.
+    /// The frame of the position.
     [[nodiscard]] WorkFrame work_frame() const;
 
-    /// Turned about z by an angle [deg].
+    /// Rotated about z by an angle [deg].
     static Vec3 rotated(const Vec3& p, double degrees) {
         if (degrees == 0) return p;
         const double c = std::cos(degrees * rad_per_deg);

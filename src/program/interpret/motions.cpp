@@ -34,7 +34,7 @@ bool names_motion(const Block& block) {
     return std::any_of(first, first + block.words.g_count, [](std::int32_t code) { return code == 0 || code == 10; });
 }
 
-/// Turns as another dialect gives them, or as a spiral: P, L and Q beside an arc.
+/// Refuses turns or spirals in the form of another dialect: P, L and Q with an arc.
 void refuse_turns(const Interpreter& in, const Block& block) {
     if (block.words.m_count > 0) return;
     for (const RefusedLetter& row : in.rules_->motion.refused_at_arcs) {
@@ -44,12 +44,12 @@ void refuse_turns(const Interpreter& in, const Block& block) {
     }
 }
 
-/// An arc that its frame makes an ellipse, or tilts out of the principal planes.
+/// An arc that its frame turns into an ellipse, or tilts out of the principal planes.
 void flatten_arc(Interpreter& in, const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end,
                  const Vec3& rotary) {
     if (in.compensation_.path.on())
         in.fail("cutter compensation of an arc in a tilted or unevenly scaled frame is not supported");
-    // The frame may stretch the chords' error.
+    // The frame may scale the chords' error.
     const Vec3 u = in.state_.frame.direction_to_work(Vec3::Unit((arc.axis + 1) % 3));
     const Vec3 v = in.state_.frame.direction_to_work(Vec3::Unit((arc.axis + 2) % 3));
     const double stretch = std::max(1.0, std::hypot(u.norm(), v.norm()));
@@ -66,7 +66,7 @@ void move_on_arc(Interpreter& in, const Block& block, bool clockwise) {
     if (in.compensation_.ended_at == in.program_.motions.size())
         in.fail("the first motion after cutter compensation (G40) must be a straight one");
     ArcWords words;
-    // In programmed coordinates; the frame takes the arc as a whole.
+    // In programmed coordinates; the frame transforms the arc as a whole.
     words.begin = in.state_.programmed();
     words.begin = words.begin.array().isNaN().select(0.0, words.begin);
     words.end = in.this_block_.machine_coordinates ? in.state_.frame.to_programmed(target_of(in, block, true))
@@ -121,7 +121,7 @@ void move_on_arc(Interpreter& in, const Block& block, bool clockwise) {
     }
 }
 
-/// A probing move is taken to touch at its end: where it really does, only the machine knows. Its stop is exact.
+/// A probing move is assumed to touch at its end; the actual contact is known to the machine only. Its stop is exact.
 void probe_to(Interpreter& in, const Vec3& end, const Vec3& rotary) {
     for (int axis = 0; axis < 3; ++axis) {
         in.variables_.set(first_probed_parameter + axis, end[axis] / in.state_.unit_mm);
@@ -156,7 +156,7 @@ void move_axes(Interpreter& in, const Block& block) {
         case MotionMode::rapid:
         case MotionMode::feed:
         case MotionMode::thread:
-            // RS274 makes a motion of no length of a G0 or G1 that stands alone.
+            // RS274 makes a motion of no length from a G0 or G1 without axis words.
             if (!axes && !(in.rules_->motion.moves_without_axes && names_motion(block))) return;
             compensated_straight(in, in.state_.motion == MotionMode::rapid ? MotionKind::rapid : MotionKind::feed,
                                  target_of(in, block, in.this_block_.machine_coordinates), rotary_target(in, block));

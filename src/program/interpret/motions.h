@@ -1,5 +1,5 @@
 #pragma once
-// Blocks that move: straight lines, arcs, probing, and whatever else the motion mode says.
+// Blocks that move: straight lines, arcs, probing, and the other motion modes.
 
 #include "program/text/block.h"
 
@@ -7,7 +7,7 @@ namespace clsurf {
 
 class Interpreter;
 
-/// Carries out the motion of a block; none where it names no axis.
+/// Executes the motion of a block; none if it names no axis.
 void move_axes(Interpreter& in, const Block& block);
 
 }  // namespace clsurf

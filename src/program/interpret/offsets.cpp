@@ -39,7 +39,7 @@ void set_offsets(Interpreter& in, const Block& block) {
             offset.measured_from = active.measured_from != 0 ? active.measured_from : in.state_.work_system;
         else
             offset.set = static_cast<std::uint8_t>(offset.set | named);
-        Vec3 reads = position;  // L20: the present position reads as the words, in that system
+        Vec3 reads = position;  // L20: the present position equals the words, in that system
         for (int axis = 0; axis < 3; ++axis) {
             const char letter = "XYZ"[axis];
             if (!block.words.given(letter)) continue;
@@ -128,12 +128,12 @@ void approach_reference(Interpreter& in, int code, const Block& block) {
         (code == 28_g ? in.state_.home_rotary : in.state_.second_home_rotary) - in.state_.rotary_offset();
     std::uint32_t named = 0;
     for (const char c : {'X', 'Y', 'Z', 'A', 'B', 'C'}) named |= block.words.has & Words::bit(c);
-    // RS274 goes to the intermediate point even where that is the present one: a new offset shows in it.
+    // RS274 moves to the intermediate point even if it is the present one: this applies a new offset.
     if (named != 0 || in.rules_->offsets.always_by_point) {
         in.straight(MotionKind::rapid, target_of(in, block, in.this_block_.machine_coordinates),
                     rotary_target(in, block));
     }
-    // RS274: without axis words all axes go; with them only those.
+    // RS274: without axis words all axes move; with them only those.
     constexpr unsigned all = WorkFrame::all_axes;
     in.state_.place(named == 0 ? all : axes_named(block.words), true);
     Vec3 end = in.state_.position;

@@ -1,4 +1,4 @@
-// How corners are passed: exact stops, tolerances.
+// The modes of corners: exact stops, tolerances.
 
 #include "program/interpret/path_modes.h"
 
@@ -19,7 +19,7 @@ void set_path_mode(Interpreter& in, const std::string& name, const std::string& 
 
 bool path_mode_word(Interpreter& in, const CodeWord& word, const PathMode& mode, bool once) {
     set_path_mode(in, "path-mode", code_text(word.code) + words_text(word.block, "PQ"), mode, once);
-    // Their words are theirs alone.
+    // P and Q belong to this code only.
     word.block.words.has &= ~(Words::bit('P') | Words::bit('Q'));
     return true;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// How corners are passed: exact stops, tolerances.
+// The modes of corners: exact stops, tolerances.
 
 #include <string>
 
@@ -15,7 +15,8 @@ void set_path_mode(Interpreter& in, const std::string& name, const std::string& 
                    bool once = false);
 /// A G code that sets the mode, with its P and Q.
 bool path_mode_word(Interpreter& in, const CodeWord& word, const PathMode& mode, bool once = false);
-/// G64 P Q: P is the tolerance, as far off as the speed takes without it; blocks merge within Q, without it within P.
+/// G64 P Q: P is the tolerance, limited by the speed only without it; blocks merge within Q, or within P if there is
+/// no Q.
 bool rounded_corners(Interpreter& in, const CodeWord& word);
 
 }  // namespace clsurf

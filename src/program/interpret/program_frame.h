@@ -1,6 +1,6 @@
 #pragma once
-// ProgramFrame: what rotation, scaling, mirroring and local zeros of a program (G68, G51, G52, TRANS,
-// ROT …) do to its coordinates: work position = turn · programmed position + shift.
+// ProgramFrame: the effect of a program's rotation, scaling, mirroring and local zeros (G68, G51, G52, TRANS, ROT …)
+// on its coordinates: work position = turn · programmed position + shift.
 
 #include <algorithm>
 #include <array>
@@ -33,14 +33,14 @@ public:
     /// Counter-clockwise about an axis through `centre` [deg].
     static ProgramFrame turned(const Vec3& axis, double degrees, const Vec3& centre = Vec3::Zero()) {
         Eigen::Matrix3d turn = Eigen::AngleAxisd(degrees * rad_per_deg, axis.normalized()).toRotationMatrix();
-        // Quarter turns exactly, so that an axis that is not known yet does not spoil the others.
+        // Quarter turns are exact, so that an axis that is still unknown does not affect the others.
         constexpr double rounding = 1e-15;
         turn = (turn.array().abs() < rounding).select(0.0, turn);
         return ProgramFrame(turn, centre - times(turn, centre));
     }
 
-    /// How an arc about a principal axis comes out: about which principal axis, and whether its
-    /// direction is turned round; nullopt: as no circle in a principal plane.
+    /// The image of an arc about a principal axis: its new axis, and whether its direction is reversed; nullopt: the
+    /// image is no circle in a principal plane.
     struct Circle {
         int axis;
         bool reversed;
@@ -67,12 +67,12 @@ public:
     [[nodiscard]] bool operator==(const ProgramFrame& other) const {
         return active_ == other.active_ && (!active_ || numbers() == other.numbers());
     }
-    /// What tells frames apart.
+    /// Numbers that identify the frame.
     [[nodiscard]] std::array<double, 12> numbers() const {
         std::array<double, 12> all{};
         std::copy_n(turn_.data(), 9, all.begin());
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            // About an unknown position: as good a number as any, but one that equals itself.
+            // About an unknown position: an arbitrary number that equals itself.
             const double shift = shift_[static_cast<Eigen::Index>(axis)];
             all[9 + axis] = std::isnan(shift) ? std::numeric_limits<double>::max() : shift;
         }
@@ -83,7 +83,7 @@ private:
     ProgramFrame(const Eigen::Matrix3d& turn, const Vec3& shift) : turn_(turn), back_(turn.inverse()), shift_(shift) {
         active_ = !(turn_.isIdentity(0) && shift_.isZero(0));
     }
-    /// Without what is multiplied by zero: an axis that is not known stays the only one.
+    /// A product that ignores terms multiplied by zero: an unknown axis stays the only one.
     static Vec3 times(const Eigen::Matrix3d& m, const Vec3& p) {
         Vec3 result = Vec3::Zero();
         for (int i = 0; i < 3; ++i) {

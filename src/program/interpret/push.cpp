@@ -1,4 +1,4 @@
-// The motions that blocks make: appended, with the frame, the axes and the call that they belong to.
+// The motions of blocks: appended, with their frame, axes and call.
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@
 namespace clsurf {
 namespace {
 
-/// How far the rotary axes turn together, or the tool axis where it is a vector [deg].
+/// The common rotation of the rotary axes, or of the tool axis if it is a vector [deg].
 double turn_to(const Interpreter& in, const Vec3& rotary) {
     const auto known = [](const Vec3& turn) { return Vec3(turn.array().isNaN().select(0.0, turn)); };
     if (!tool_axis_is_vector(in.five_axis_, in.state_)) return known(rotary - in.state_.rotary).norm();
@@ -25,7 +25,7 @@ double turn_to(const Interpreter& in, const Vec3& rotary) {
     return axes.empty() ? 0 : angle_between(known(axes.back().vec()), in.state_.tool_axis) / rad_per_deg;
 }
 
-/// The index of the frame that the next motion counts in; a new one where it is.
+/// Finds the index of the next motion's frame; adds the frame if it is new.
 void settle_work_frame(const ModalState& state, KnownWorkFrames& work_frames, Motions& motions,
                        std::uint64_t forgotten) {
     work_frames.changes = state.frame_changes;
@@ -38,7 +38,7 @@ void settle_work_frame(const ModalState& state, KnownWorkFrames& work_frames, Mo
     key[16] = frame.system;
     key[17] = frame.free + 16 * frame.held + 256 * frame.absolute;
     std::copy_n(frame.tool.data(), 3, key.begin() + 18);
-    // Rotary offsets: one number is enough to tell those apart that a program uses.
+    // Rotary offsets: one number suffices to distinguish those of a program.
     key[21] = frame.rotary.dot(Vec3(1, 1e-3, 1e-6));
     std::ranges::copy(frame.words.numbers(), key.begin() + 22);
     std::vector<WorkFrame>& frames = motions.frames;
@@ -54,9 +54,9 @@ void settle_work_frame(const ModalState& state, KnownWorkFrames& work_frames, Mo
 
 }  // namespace
 
-/// The axes stand for a time.
+/// The axes are at rest for a time.
 void Interpreter::dwell(double seconds) {
-    constexpr double longest = 86'400;  // a day: a log has a record for each period of it
+    constexpr double longest = 86'400;  // a day: a log has a record for each of its periods
     if (seconds < 0) fail("negative dwell time");
     if (!(seconds <= longest)) fail(fmt::format("a dwell of {:.3g} s: the longest is {:.0f} s", seconds, longest));
     push(MotionKind::dwell, tool_position(compensation_, state_), state_.rotary, static_cast<float>(seconds));
@@ -73,7 +73,7 @@ void Interpreter::straight(MotionKind kind, const Vec3& end, const Vec3& rotary)
 
 void Interpreter::push_arc(Arc arc, bool clockwise, const Vec3& begin, const Vec3& end, const Vec3& rotary) {
     if (curves_.is_open()) {
-        // The spline ends in the direction in which the arc begins.
+        // The spline ends in the direction at the beginning of the arc.
         Vec3 out = begin - arc.centre.vec();
         out[arc.axis] = 0;
         const Vec3 axis = Vec3::Unit(arc.axis);

@@ -1,4 +1,4 @@
-// Arcs that go on in the direction of the last motion, even if that is no longer in memory.
+// Arcs that continue in the direction of the last motion, even if that is no longer in memory.
 
 #include "program/interpret/tangential_arc.h"
 
@@ -11,9 +11,9 @@
 namespace clsurf {
 namespace {
 
-constexpr double least_displacement = 1e-12;  ///< [mm] that has a direction
+constexpr double least_displacement = 1e-12;  ///< [mm] shorter ones have no direction
 
-/// Direction in which the last motion ends, in programmed coordinates; zero: there is none.
+/// Direction at the end of the last motion, in programmed coordinates; zero if there is none.
 Vec2 end_tangent(const Interpreter& in, int u, int v) {
     const auto in_plane = [&](const Vec3& displacement) {
         const Vec3 programmed = in.state_.frame.direction_to_programmed(displacement);

@@ -1,5 +1,5 @@
 #pragma once
-// Arcs that go on in the direction of the last motion, even if that is no longer in memory.
+// Arcs that continue in the direction of the last motion, even if that is no longer in memory.
 
 #include <cstdint>
 #include <vector>
@@ -12,12 +12,13 @@ namespace clsurf {
 
 class Interpreter;
 
-/// G06, G16 and CT: the arc goes on in the direction of the last motion.
+/// G06, G16 and CT: the arc continues in the direction of the last motion.
 void arc_along_tangent(const Interpreter& in, ArcWords& words);
-/// Direction in which a motion ends, as long as its way or radius; of an arc in its own plane. Zero: there is none.
+/// Direction at the end of a motion, with the length of the motion or of the radius; for an arc in its own plane.
+/// Zero if there is none.
 [[nodiscard]] Vec3 tangent_at_end(const Motions& motions, std::int64_t motion);
-/// Before the first `count` motions are forgotten: what arc_along_tangent() may ask of them. In a plane that the last
-/// way stands on, the last one that is not parallel to it has a direction.
+/// Called before the first `count` motions are removed: keeps what arc_along_tangent() may need of them. If the last
+/// direction is normal to the arc's plane, the last one that is not parallel to it is used.
 void keep_tangents(std::vector<Vec3>& kept, const Motions& motions, std::int64_t count);
 
 }  // namespace clsurf

@@ -20,15 +20,15 @@ constexpr int most_passes = 100'000;
 constexpr double steepest_slide = 80;  ///< compound angle [deg]
 
 struct Thread {
-    Vec3 begin, end;   ///< drive line's begin, and its end along z [mm]
+    Vec3 begin, end;   ///< start of the drive line, and its end along z [mm]
     double crest = 0;  ///< from the drive line to the crest, signed [mm]
-    double depth = 0;  ///< of the whole thread, more than 0 [mm]
-    double slide = 0;  ///< how far a depth of 1 shifts a pass along z
+    double depth = 0;  ///< of the whole thread, positive [mm]
+    double slide = 0;  ///< shift of a pass along z per unit of depth
     double taper = 0;  ///< length of the tapers [mm]
     bool entry_taper = false, exit_taper = false;
 };
 
-/// Where the tool turns in one pass: the first and the last at the drive line.
+/// The turning points of the tool in one pass: the first and the last are on the drive line.
 struct Pass {
     std::vector<std::pair<MotionKind, Vec3>> moves;
 };

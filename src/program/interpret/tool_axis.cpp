@@ -1,5 +1,5 @@
 // Tool centre point control, and tool axes that are programmed as vectors: I J K under G43.5 of Fanuc,
-// A3= B3= C3= under TRAORI of Siemens. Which angles give them is for the machine's kinematics to say.
+// A3= B3= C3= under TRAORI of Siemens. The corresponding angles follow from the machine's kinematics.
 //
 // Facts: Fanuc, Series 30i operator's manual, "Tool center point control" (type 2); Siemens, SINUMERIK
 // 840D sl programming manual Job planning, "3- to 5-axis transformation (TRAORI)"; Heidenhain, iTNC 530

@@ -21,7 +21,7 @@ void set_tool(Interpreter& in, int level, const Block& block) {
     const int number = static_cast<int>(std::clamp(std::round(block.words.of('P')), 0.0, 1e6));
     Tool tool = in.tools_.table.find(number) != nullptr ? *in.tools_.table.find(number) : Tool{number};
     const auto length = [&](char letter) { return block.words.of(letter) * in.state_.unit_mm; };
-    ModalState fixture = in.state_;  // where the words count
+    ModalState fixture = in.state_;  // the system of the words
     if (level == 11) {
         fixture.work_system = last_work_system;
         fixture.shift = Vec3::Zero();
@@ -57,7 +57,7 @@ void change_tool(Interpreter& in, const Block& block) {
         return static_cast<int>(std::clamp(std::round(block.words.of(letter)), 0.0, 1e8));
     };
     if (block.words.given('T')) in.tools_.next = whole('T');
-    // A block with T calls the tool in Heidenhain's dialect; Siemens takes its length with the edge D1.
+    // A block with T calls the tool in Heidenhain's dialect; Siemens activates its length with the edge D1.
     bool changed = false;
     if (in.rules_->tools.t_changes && block.words.given('T')) {
         in.tools_.in_spindle = in.tools_.table.tools.empty()

@@ -22,11 +22,11 @@ std::string code_text(int code) {
 
 namespace {
 
-/// RS274 takes blanks inside numbers: "1 0 . 5" is 10.5. The digits move together, what follows stays.
+/// RS274 allows blanks inside numbers: "1 0 . 5" is 10.5. The digits are joined, later text keeps its column.
 void close_numbers(std::string& text) {
     const auto of_number = [](char c) { return is_digit(c) || c == '.'; };
-    std::size_t to = 0;      // where the next character goes
-    std::size_t blanks = 0;  // after a number, held back
+    std::size_t to = 0;      // target of the next character
+    std::size_t blanks = 0;  // after a number, pending
     bool in_number = false;
     for (const char c : text) {
         if (c == ' ' && in_number) {
@@ -48,7 +48,7 @@ namespace {
 
 using Offset = std::string::difference_type;
 
-/// Takes comments out of a line, and what no controller reads; in quotes all stays. True: it holds a formula.
+/// Removes comments and characters that no controller reads, except in quotes. Returns whether there is a formula.
 bool blank_comments(Statement& statement, const TextRules& rules) {
     std::string& text = statement.text;
     if (text.starts_with("\xef\xbb\xbf")) text.replace(0, 3, "   ");
@@ -76,7 +76,7 @@ bool blank_comments(Statement& statement, const TextRules& rules) {
     return formula;
 }
 
-/// '*' ends a block, in a formula (Q1 = Q2 * 3 *) the last one; '~' continues it.
+/// '*' ends a block; in a formula (Q1 = Q2 * 3 *) only the last one does; '~' continues it.
 void blank_block_end(std::string& text, bool formula) {
     while (!text.empty() && text.back() == ' ') text.pop_back();
     if (!formula)
@@ -86,7 +86,7 @@ void blank_block_end(std::string& text, bool formula) {
     std::replace(text.begin(), text.end(), '~', ' ');
 }
 
-/// A block-delete sign, with a skip level (/1 … /9) where the dialect has them.
+/// A block-delete sign, with a skip level (/1 … /9) if the dialect has them.
 void take_skip(Statement& statement, std::size_t slash, const TextRules& rules) {
     std::string& text = statement.text;
     if (slash >= text.size() || text[slash] != '/') return;
@@ -106,7 +106,7 @@ bool take_tape_mark(Statement& statement, const TextRules& rules) {
     return true;
 }
 
-/// N10, or 10 where numbers need no N. True: there was one.
+/// N10, or 10 if numbers need no N. Returns whether there was one.
 bool take_block_number(Statement& statement, const TextRules& rules) {
     std::string& text = statement.text;
     const std::size_t at = text.find_first_not_of(' ');
@@ -266,14 +266,14 @@ private:
             unknown(1);
             return;
         }
-        // A word with a vacant variable of Fanuc is not there.
+        // A word with a vacant variable of Fanuc is ignored.
         constexpr std::string_view lengths = "ABCIJKQRUVWXYZ";
         const double increment = lengths.find(letter) == std::string_view::npos ? 1.0 : least_increment_;
         if (const std::optional<double> value = read_or_vacant(c_, variables_, rules_, increment))
             put(letter, *value, column);
     }
 
-    /// After a letter only a function's name may stand for a value: `Xsin[30]`.
+    /// After a letter only a function's name may replace a value: `Xsin[30]`.
     bool function_follows() {
         static constexpr std::array<std::string_view, 14> names{
             "ABS", "ACOS", "ASIN", "ATAN", "COS", "EXP", "FIX", "FUP", "LN", "ROUND", "SIN", "SQRT", "TAN", "EXISTS"};
@@ -297,7 +297,7 @@ private:
         return true;
     }
 
-    /// The name of the word at the cursor without moving: letters, and digits where they belong.
+    /// Reads the word at the cursor: a name of letters, and digits where the syntax allows them.
     void siemens_word() {
         const std::size_t column = c_.column();
         const char first = upper(c_.peek());
@@ -350,7 +350,7 @@ private:
         keyword(id, after, column);
     }
 
-    /// "[2,0]" of an array's element, evaluated; axis names stay ("[X]").
+    /// "[2,0]" of an array's element, evaluated; axis names are unchanged ("[X]").
     std::string element_index(Cursor& after) {
         const std::size_t column = after.column();
         const std::size_t close = after.text.find(']', after.at);
@@ -370,7 +370,7 @@ private:
         return index + "]";
     }
 
-    /// A value, in AC(…) or IC(…) or without.
+    /// A value, with or without AC(…) or IC(…).
     double coordinate(std::optional<bool>& increment) {
         for (const auto& [name, adds] :
              {std::pair{std::string_view("IC"), true}, std::pair{std::string_view("AC"), false}}) {

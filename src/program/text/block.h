@@ -1,6 +1,6 @@
 #pragma once
-// Block: one line of a program read to words, whatever its dialect. Assignments are carried out while
-// it is read (RS274 and Fanuc: after the whole block has been read with the old values).
+// Block: one line of a program as words, in any dialect. Assignments are executed during reading (RS274 and Fanuc:
+// after the whole block has been read with the old values).
 
 #include <algorithm>
 #include <optional>
@@ -16,7 +16,7 @@
 
 namespace clsurf {
 
-/// A word that the reader knows but whose meaning is not in letters: TRAORI, CYCLE832(0.01), SUPA.
+/// A known word that is not a letter with a value: TRAORI, CYCLE832(0.01), SUPA.
 struct Keyword {
     std::string name;       ///< upper case
     std::string arguments;  ///< text between the parentheses
@@ -37,7 +37,7 @@ struct NamedWord {
     std::optional<bool> increment;  ///< IC(…) true, AC(…) false
 };
 
-/// An I, J or K that may stand more than once.
+/// An I, J or K that may occur more than once.
 struct CentreWord {
     char letter = 'I';
     double value = 0;
@@ -47,7 +47,7 @@ struct CentreWord {
 struct Block {
     Words words;
     std::uint32_t absolute = 0, incremental = 0;  ///< letters given as AC(…), IC(…)
-    /// Letters given as DC(…), ACP(…), ACN(…): absolute modulo 360°, and which of both directions a rotary axis turns in.
+    /// Letters given as DC(…), ACP(…), ACN(…): absolute modulo 360°, with the direction of rotation of a rotary axis.
     std::uint32_t shortest = 0, positive = 0, negative = 0;
     int extra_turns = 0;                              ///< TURN=
     std::optional<double> polar_radius, polar_angle;  ///< @ and ^ of LinuxCNC, RP= and AP= of Siemens, as written
@@ -58,7 +58,7 @@ struct Block {
     std::vector<Keyword> keywords;
     std::vector<UnknownWord> unknown;
 
-    /// A word of several letters, or null.
+    /// A word of several letters, or nullptr.
     [[nodiscard]] const NamedWord* find(std::string_view name) const {
         const auto found =
             std::find_if(named.begin(), named.end(), [&](const NamedWord& word) { return word.name == name; });
@@ -85,22 +85,22 @@ struct Block {
     }
 };
 
-/// Reads the words from the cursor to the end of the line. `least_increment`: of lengths, which
-/// Fanuc's ROUND rounds to in their words. Throws ReadError.
+/// Reads the words from the cursor to the end of the line. `least_increment`: of lengths, to which Fanuc's ROUND
+/// rounds in words of lengths. Throws ReadError.
 void read_block(Cursor& cursor, Variables& variables, const TextRules& rules, double least_increment, Block& block);
 
-/// The words of these letters as they would be written, each after a blank: " P0.01 Q2".
+/// The words of these letters as program text, each after a blank: " P0.01 Q2".
 [[nodiscard]] std::string words_text(const Block& block, const char* letters);
 
 /// A code given in tenths: "G54.1".
 [[nodiscard]] std::string code_text(int code);
 
-/// A line without its comments, block-delete sign and number; blanks at both ends taken off.
+/// A line without its comments, block-delete sign, number and surrounding blanks.
 struct Statement {
     std::string text;           ///< same columns as the line: comments are replaced by blanks
     bool deleted = false;       ///< begins with '/'
     bool tape_mark = false;     ///< '%', alone or before a name
-    std::string title;          ///< of heidenhain-iso: what stands behind '%'
+    std::string title;          ///< of heidenhain-iso: the text after '%'
     bool open_comment = false;  ///< a '(' that is not closed
 };
 [[nodiscard]] Statement clean_line(std::string_view line, const TextRules& rules);

@@ -149,7 +149,7 @@ ControlIndex::ControlIndex(const SourceText& text, const TextRules& rules) {
         try {
             control = parse_control(statement.text, rules);
         } catch (const ReadError&) {
-            continue;  // said where it is carried out, if ever
+            continue;  // reported if it is ever executed
         }
         if (control.kind == ControlKind::none) continue;
         control.line = line;

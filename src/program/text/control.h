@@ -1,6 +1,6 @@
 #pragma once
-// Control statements: what decides which line comes next. O-words of LinuxCNC, Fanuc's custom macro
-// (IF, WHILE, GOTO, M98/M99), Siemens' IF, WHILE, FOR, LOOP, REPEAT, GOTO, Heidenhain's labels.
+// Control statements: they decide which line comes next. O-words of LinuxCNC, Fanuc's custom macro (IF, WHILE, GOTO,
+// M98/M99), Siemens' IF, WHILE, FOR, LOOP, REPEAT, GOTO, Heidenhain's labels.
 
 #include <cstdint>
 #include <string>
@@ -48,26 +48,26 @@ enum class ControlKind : std::uint8_t {
 
 struct Control {
     ControlKind kind = ControlKind::none;
-    std::string label;       ///< O-word, DO number, GOTO target, label: upper or lower case as compared
-    std::size_t rest = 0;    ///< byte of the statement where its expression or arguments begin
-    std::size_t target = 0;  ///< of IF … GOTO and IF … THEN: byte where what follows begins
+    std::string label;       ///< O-word, DO number, GOTO target, label: in the letter case of comparisons
+    std::size_t rest = 0;    ///< byte at which its expression or arguments begin
+    std::size_t target = 0;  ///< of IF … GOTO and IF … THEN: byte at which the rest begins
     int direction = 0;       ///< of a GOTO: +1 forward, −1 backward, 0 both
-    bool may_miss = false;   ///< GOTOC: without its label the program goes on
-    LineNumber line = 0;     ///< where it stands, in an index
+    bool may_miss = false;   ///< GOTOC: if the label does not exist, the program continues
+    LineNumber line = 0;     ///< its line, in an index
     int partner = -1;  ///< index of its other end: while ↔ end, if → its endif, break and continue → their loop
     int next_branch = -1;  ///< of if, elseif: the next elseif, else or endif
 };
 
-/// What control statement a cleaned line is, if any. Throws ReadError.
+/// The control statement of a cleaned line, if any. Throws ReadError.
 [[nodiscard]] Control parse_control(std::string_view statement, const TextRules& rules);
 
 // For the dialects' parsers.
 /// The digits of a label without leading zeros: "007" is "7", "0" is empty.
 [[nodiscard]] std::string number_label(Cursor& c);
-/// Where a word (upper case) begins in a statement, letters before it apart; npos: not there.
+/// The start of a word (upper case) in a statement, not preceded by a letter; npos if not found.
 [[nodiscard]] std::size_t find_control_word(std::string_view text, std::string_view word, std::size_t from);
 
-/// All control statements of a text, matched. Built when the first of them is met. O(text).
+/// All control statements of a text, matched. Built at the first one. O(text).
 class ControlIndex {
 public:
     ControlIndex() = default;
@@ -84,7 +84,7 @@ private:
     std::unordered_map<std::string, std::vector<int>> named_;  ///< subs and labels, in order
 };
 
-/// The lines of all block numbers of a text. Built when a jump first needs it. O(text).
+/// The lines of all block numbers of a text. Built at the first jump that needs it. O(text).
 class BlockNumbers {
 public:
     BlockNumbers() = default;

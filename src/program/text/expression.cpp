@@ -60,11 +60,11 @@ private:
     }
     bool take_symbol(std::string_view symbol) {
         if (c_.text.substr(c_.at, symbol.size()) != symbol) return false;
-        // "=" alone, "=>" and the like are no operators; "<" must not eat the start of "<=".
+        // "=" alone, "=>" and similar are no operators; "<" must not consume the start of "<=".
         c_.at += symbol.size();
         return true;
     }
-    /// `#1EQ2` has no blanks: a word operator may be followed by a digit or a bracket at once.
+    /// `#1EQ2` has no blanks: a digit or a bracket may follow a word operator directly.
     bool take_operator_word(std::string_view word) {
         if (c_.text.size() - c_.at < word.size()) return false;
         for (std::size_t i = 0; i < word.size(); ++i) {
@@ -198,7 +198,7 @@ private:
         return variable(id, column);
     }
 
-    /// The values between brackets of a function of several: POW[2,3], MINVAL(R1,R2).
+    /// The values in brackets of a function of several values: POW[2,3], MINVAL(R1,R2).
     std::vector<double> arguments(const std::string& id, std::size_t count) {
         const std::size_t column = c_.column();
         c_.at += id.size();
@@ -224,7 +224,7 @@ private:
             result = variables_.read(folded_name(c_.text.substr(c_.at, end - c_.at))) ? 1 : 0;
             c_.at = end + 1;
         } else {
-            // LinuxCNC's numbered parameters are all there from the start.
+            // LinuxCNC's numbered parameters all exist from the start.
             const double number = value();
             const bool kept = rules_.numbered_parameters > 0;
             const bool is_parameter = kept && number >= 1 && number < rules_.numbered_parameters;
@@ -254,7 +254,7 @@ private:
         throw ReadError{"'" + id + "' is neither a function nor a variable that was set", column, {}};
     }
 
-    /// A declared name, an element of a declared array (0 until it is set), or what the control keeps.
+    /// A declared name, an element of a declared array (0 until it is set), or a variable that the control keeps.
     double siemens_variable(const std::string& id, std::size_t column) {
         c_.skip_blanks();
         c_.at += id.size();

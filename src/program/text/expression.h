@@ -14,10 +14,10 @@ namespace clsurf {
 /// malformed expression, a division by zero, a name that was never set, nesting over 200.
 [[nodiscard]] double evaluate(Cursor& cursor, const Variables& variables, const TextRules& rules);
 
-/// The same of Fanuc's macros, where a variable that was never set is vacant: nullopt. In sums it is 0.
+/// The same for Fanuc's macros, in which a variable that was never set is vacant: nullopt. In sums it is 0.
 [[nodiscard]] std::optional<double> evaluate_or_vacant(Cursor& cursor, const Variables& variables,
                                                        const TextRules& rules);
-/// ROUND gives multiples of `least_increment`: in a word it rounds to what the axes can be told.
+/// In a word, ROUND rounds to multiples of `least_increment`, the least input increment of the axes.
 [[nodiscard]] std::optional<double> read_or_vacant(Cursor& cursor, const Variables& variables, const TextRules& rules,
                                                    double least_increment = 1);
 

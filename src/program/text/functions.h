@@ -10,7 +10,7 @@ namespace clsurf {
 
 struct FunctionRow {
     std::string_view name;
-    double (*value)(double);  ///< NaN where it is not defined
+    double (*value)(double);  ///< NaN if it is not defined
 };
 
 /// A function of several values: POW[2,3], MINVAL(R1,R2).
@@ -23,7 +23,7 @@ struct ArgumentsRow {
 /// Of all dialects, or of `own`; nullptr: none of that name (upper case).
 [[nodiscard]] const FunctionRow* find_function(std::string_view name, std::span<const FunctionRow> own);
 
-/// `rounds_to_increment`: as Fanuc counts, FIX and FUP by magnitude, ROUND in multiples of `least_increment`.
+/// `rounds_to_increment`: as in Fanuc, FIX and FUP by magnitude, ROUND to multiples of `least_increment`.
 [[nodiscard]] double call_function(const FunctionRow& function, double argument, bool rounds_to_increment,
                                    double least_increment);
 

@@ -12,7 +12,7 @@ constexpr std::array<double, 23> powers_of_ten{1e0,  1e1,  1e2,  1e3,  1e4,  1e5
                                                1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 constexpr std::uint64_t exact_integers = std::uint64_t{1} << 53;
 
-/// Numbers that do not fit the short way: the library's reader, from the first digit on.
+/// Numbers that do not fit the fast path: the library's reader, from the first digit on.
 std::size_t read_long_decimal(const char* first, const char* last, bool negative, double& value, std::size_t begin) {
     const auto result = std::from_chars(first, last, value, std::chars_format::fixed);
     if (result.ec != std::errc() && result.ec != std::errc::result_out_of_range) return begin;
@@ -40,7 +40,7 @@ std::size_t read_decimal(std::string_view text, std::size_t at, double& value) {
         count += decimals;
     }
     if (count == 0) return at;
-    // Up to 2^53 over up to 10^22 one division is correctly rounded; 19 digits cannot overflow.
+    // A mantissa up to 2^53 divided by up to 10^22 is correctly rounded; 19 digits cannot overflow.
     if (count <= 19 && mantissa <= exact_integers && decimals <= 22) {
         value = static_cast<double>(mantissa) / powers_of_ten[static_cast<std::size_t>(decimals)];
         if (negative) value = -value;

@@ -1,8 +1,8 @@
 #pragma once
-// Lexer: characters of a block → words with their place. No meaning.
+// Lexer: characters of a block → words with their columns. No meaning.
 //
 // Nearly all blocks of a finishing program are plain: letters followed by decimal numbers. Those are
-// read here at memory speed. What is not plain (expressions, assignments, keywords, comments) is left
+// read here at memory speed. Other blocks (expressions, assignments, keywords, comments) are left
 // to the dialect's block reader, which gets the same text.
 
 #include <algorithm>
@@ -13,12 +13,12 @@
 
 namespace clsurf {
 
-/// The words of one block. A letter's value stands in `value`, whatever their order; G and M words
-/// may repeat and are kept as lists.
+/// The words of one block. A letter's value is in `value`, in any order; G and M words may repeat and are kept as
+/// lists.
 struct Words {
     static constexpr int most_codes = 24;
 
-    std::array<double, 26> value;          ///< by letter − 'A'; only where `has` tells
+    std::array<double, 26> value;          ///< by letter − 'A'; valid only if the bit in `has` is set
     std::array<std::uint16_t, 26> column;  ///< of the letter, from 1 (65535: farther)
     std::uint32_t has = 0;                 ///< bit per letter
     int g_count = 0, m_count = 0;
@@ -50,7 +50,7 @@ struct Words {
 /// The axes X, Y, Z that words name, as bits: 1 X, 2 Y, 4 Z.
 [[nodiscard]] inline unsigned axes_named(const Words& words) { return words.has >> ('X' - 'A') & 7u; }
 
-/// How a block was read.
+/// The result of reading a block.
 enum class PlainResult : std::uint8_t {
     plain,    ///< all of it is in the words
     complex,  ///< the dialect must read it
@@ -59,8 +59,8 @@ enum class PlainResult : std::uint8_t {
 /// Reads a block of plain words. `text`: one line without its end.
 [[nodiscard]] PlainResult read_plain(std::string_view text, Words& words);
 
-/// A decimal number without exponent at `at` of `text`: [+-]digits[.digits], correctly rounded.
-/// Returns the character after it, or `at` where there is none.
+/// A decimal number without exponent at `at` of `text`: [+-]digits[.digits], correctly rounded. Returns the index
+/// after it, or `at` if there is none.
 [[nodiscard]] std::size_t read_decimal(std::string_view text, std::size_t at, double& value);
 
 /// Letters folded to upper case.
@@ -73,7 +73,7 @@ enum class PlainResult : std::uint8_t {
 [[nodiscard]] constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 [[nodiscard]] constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-/// A name of RS274/NGC, where blanks and letter case do not matter: "My Name" is "myname".
+/// A name of RS274/NGC, in which blanks and letter case do not matter: "My Name" is "myname".
 [[nodiscard]] std::string folded_name(std::string_view text);
 
 /// Appends a G word (value as written, 54.1) to the lists; false: too many, or no such code.

@@ -1,5 +1,5 @@
 #pragma once
-// What new lines of a program are written with.
+// Helpers for writing new lines of a program.
 
 #include <string>
 #include <string_view>
@@ -7,11 +7,11 @@
 
 namespace clsurf {
 
-/// A number of fixed_text() (core/decimal_text.h) without zeros at its end: "12.5", "0".
+/// A number of fixed_text() (core/decimal_text.h) without trailing zeros: "12.5", "0".
 [[nodiscard]] std::string without_end_zeros(std::string number);
 
-/// Lines of a cubic NURBS of Fanuc (G06.2): a knot before each point, the last knots by themselves. Domain: four knots more than
-/// points.
+/// Lines of a cubic NURBS of Fanuc (G06.2): a knot before each point, then the remaining knots alone. Domain: four knots more
+/// than points.
 [[nodiscard]] std::vector<std::string> fanuc_nurbs_lines(const std::vector<std::string>& points,
                                                          const std::vector<std::string>& knots);
 

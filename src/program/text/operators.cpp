@@ -9,7 +9,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double equal_within = 1e-6;  ///< RS274/NGC tests for equality with this tolerance
+constexpr double equal_within = 1e-6;  ///< RS274/NGC tests equality with this tolerance
 
 constexpr std::array<OperatorRow, 26> table{{
     {"**", Operator::power, 5, 5, 11, false},
@@ -42,12 +42,12 @@ constexpr std::array<OperatorRow, 26> table{{
 
 bool same(double a, double b) { return std::abs(a - b) < equal_within; }
 
-/// RS274 orders exactly: a loop that counts by tenths ends where its sum ends.
+/// RS274 compares order exactly: a loop that counts in tenths ends according to the rounding of its sum.
 bool near(double a, double b, const TextRules& rules) { return rules.exact_comparison ? a == b : same(a, b); }
 
-/// Bit by bit on whole numbers: B_AND … of Siemens, AND, OR and XOR of Fanuc.
+/// Bitwise on whole numbers: B_AND … of Siemens, AND, OR and XOR of Fanuc.
 double bitwise(Operator op, double a, double b, std::size_t column) {
-    constexpr double most = 9e15;  // whole numbers that a double holds
+    constexpr double most = 9e15;  // whole numbers that a double represents exactly
     if (!(std::abs(a) < most && std::abs(b) < most))
         throw ReadError{"too large for an operation bit by bit", column, {}};
     const std::int64_t x = std::llround(a);
@@ -55,7 +55,7 @@ double bitwise(Operator op, double a, double b, std::size_t column) {
     return static_cast<double>(op == Operator::bit_and ? x & y : op == Operator::bit_or ? x | y : x ^ y);
 }
 
-/// Of numbers. May be no number itself, or infinite.
+/// Of numbers. The result may be NaN or infinite.
 double result_of(Operator op, double a, double b, const TextRules& rules, std::size_t column) {
     switch (op) {
         case Operator::power: return std::pow(a, b);
@@ -101,7 +101,7 @@ std::span<const OperatorRow> operator_table() { return table; }
 
 double apply_operator(Operator op, double a, double b, const TextRules& rules, std::size_t column) {
     if (std::isnan(a) || std::isnan(b)) {
-        // A vacant variable equals only another; everywhere else it is 0.
+        // A vacant variable equals only another vacant one; in other operations it is 0.
         const bool both = std::isnan(a) && std::isnan(b);
         if (op == Operator::equal) return both ? 1 : 0;
         if (op == Operator::unequal) return both ? 0 : 1;
@@ -109,7 +109,7 @@ double apply_operator(Operator op, double a, double b, const TextRules& rules, s
         b = std::isnan(b) ? 0 : b;
     }
     const double result = result_of(op, a, b, rules, column);
-    // NaN would be a vacant variable from here on.
+    // A NaN would be a vacant variable from here on.
     if (!std::isfinite(result)) throw ReadError{"the result of the operation is not defined, or too large", column, {}};
     return result;
 }

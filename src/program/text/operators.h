@@ -1,5 +1,5 @@
 #pragma once
-// The operators of expressions: how they are written, how tightly they bind, what they give.
+// The operators of expressions: their spelling, precedence and result.
 
 #include <cstddef>
 #include <cstdint>
@@ -45,11 +45,11 @@ struct OperatorRow {
     }
 };
 
-/// Longer ones before those that begin like them.
+/// Longer operators come before their own prefixes.
 [[nodiscard]] std::span<const OperatorRow> operator_table();
 
-/// NaN is a vacant variable of Fanuc. `column` is that of the operator, for the ReadError that a division by
-/// zero or a number too large for its bits throws.
+/// NaN is a vacant variable of Fanuc. `column`: of the operator, for the ReadError on a division by zero or on a
+/// number too large for bitwise logic.
 [[nodiscard]] double apply_operator(Operator op, double a, double b, const TextRules& rules, std::size_t column);
 
 }  // namespace clsurf

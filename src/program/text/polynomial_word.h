@@ -11,11 +11,11 @@ namespace clsurf {
 
 struct PolynomialWord {
     char axis = 0;               ///< 0: PO[], the denominator
-    std::vector<double> values;  ///< as written, one at least
+    std::vector<double> values;  ///< as written, at least one
     std::size_t column = 0;
 };
 
-/// At the bracket behind PO. Throws ReadError.
+/// At the bracket after PO. Throws ReadError.
 [[nodiscard]] PolynomialWord read_polynomial(Cursor& cursor, const Variables& variables, const TextRules& rules,
                                              std::size_t column);
 

@@ -12,7 +12,7 @@ constexpr LineNumber kept_every = 64;
 
 SourceText::SourceText(std::string name, std::string_view text, std::shared_ptr<const void> keep_alive)
     : name_(std::move(name)), text_(text), keep_alive_(std::move(keep_alive)) {
-    // Every line ends at a line feed; an old tape's lone carriage returns do not end lines.
+    // Every line ends at a line feed; single carriage returns of old tapes do not end lines.
     std::size_t at = 0;
     while (at < text_.size()) {
         if (line_count_ % kept_every == 0) every_64th_.push_back(at);

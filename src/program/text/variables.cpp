@@ -31,7 +31,7 @@ const double* Variables::find(const std::string& name) const {
     const auto& names = name.starts_with('_') ? names_ : locals_.back().names;
     const auto found = names.find(name);
     if (found != names.end()) return &found->second;
-    // Names declared in a main program are seen in its subprograms where the dialect has it so.
+    // Names declared in a main program are visible in its subprograms if the dialect has it so.
     const auto global = names_.find(name);
     return global == names_.end() ? nullptr : &global->second;
 }

@@ -13,7 +13,7 @@ namespace clsurf {
 /// Values of variables. Local ones belong to a call of a subprogram.
 class Variables {
 public:
-    /// `system(n)` answers for parameters that the controller keeps (positions, offsets); NaN: none.
+    /// `system(n)` gives parameters that the controller keeps (positions, offsets); NaN: none.
     using System = std::function<double(int number)>;
 
     /// The same for names: "_x", "_metric"; NaN: none.
@@ -27,18 +27,18 @@ public:
         push_locals();
     }
 
-    /// A numbered variable; what was never set reads as 0.
+    /// A numbered variable; 0 if it was never set.
     [[nodiscard]] double get(int number) const;
     void set(int number, double value);
     [[nodiscard]] bool has(int number) const;
-    /// Makes it a variable that was never set.
+    /// Makes it vacant, as if never set.
     void forget(int number);
-    /// nullopt: never set, nor kept by the controller.
+    /// nullopt if it was never set and the controller does not keep it.
     [[nodiscard]] std::optional<double> number(int number) const;
 
     /// A named variable ("_x" and other names that begin with an underscore are global in RS274).
     [[nodiscard]] const double* find(const std::string& name) const;
-    /// The same, or what the controller keeps under that name.
+    /// The same, or a variable that the controller keeps under that name.
     [[nodiscard]] std::optional<double> read(const std::string& name) const;
     void set(const std::string& name, double value);
 

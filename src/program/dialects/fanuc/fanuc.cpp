@@ -1,6 +1,5 @@
-// The rules of Fanuc and HNC: what their codes and control statements mean. What needs more than a few lines is in
-// fanuc_words.cpp.
-// Facts: Fanuc, operator's manual of the series 30i (B-63944EN).
+// The rules of Fanuc and HNC: the meaning of their codes and control statements. Longer handlers are in
+// fanuc_words.cpp. Facts: Fanuc, operator's manual of the series 30i (B-63944EN).
 
 #include <algorithm>
 #include <array>
@@ -25,7 +24,7 @@ namespace {
 
 constexpr double undefined = missing<double>;
 
-/// The digits of v in one base, read as those of another; undefined where a double does not hold them.
+/// The digits of v in one base, read in another base; undefined if a double cannot represent them exactly.
 double digits_again(double v, std::uint64_t base, double other) {
     constexpr double most = 1e15;
     if (!(v >= 0 && v < most)) return undefined;
@@ -35,7 +34,7 @@ double digits_again(double v, std::uint64_t base, double other) {
         value += static_cast<double>(rest % base) * place;
     return value;
 }
-/// Fanuc keeps digits in four bits each: 18 stands for binary 0001'0010. BIN reads it as 12.
+/// Fanuc stores each digit in four bits: 18 is binary 0001'0010 in BCD. BIN reads it as 12.
 double from_decimal_digits(double v) { return digits_again(v, 16, 10); }
 double to_decimal_digits(double v) { return digits_again(v, 10, 16); }
 constexpr std::array<FunctionRow, 2> functions{{{"BIN", from_decimal_digits}, {"BCD", to_decimal_digits}}};
@@ -115,7 +114,7 @@ Control read_control(std::string_view statement) {
     return control;
 }
 
-/// G7.1 C0 ends the interpolation on a cylinder.
+/// G7.1 C0 ends cylindrical interpolation.
 bool has_rotary_word(const Block& block) {
     return std::any_of(std::begin("ABC"), std::end("ABC") - 1,
                        [&](char letter) { return block.words.given(letter) && block.words.of(letter) != 0; });
@@ -146,7 +145,7 @@ bool dwell(Interpreter& in, const CodeWord& w) {
                                 : 0);
     return true;
 }
-/// Return check, return from the reference point, approach from one direction: a rapid to the end.
+/// Return check, return from the reference point, unidirectional positioning: a rapid to the end.
 bool go_at_rapid(Interpreter& in, const CodeWord& w) {
     in.straight(MotionKind::rapid, target_of(in, w.block, in.this_block_.machine_coordinates),
                 rotary_target(in, w.block));
@@ -365,7 +364,7 @@ constexpr const char* spirals = "spirals of several turns are not supported";
 constexpr auto refused_at_arcs = std::to_array<RefusedLetter>(
     {{'P', "turns are P in linuxcnc: --dialect linuxcnc"}, {'L', spirals}, {'Q', spirals}});
 
-/// G11 ends data; between G10 L50 and G11 nothing else is carried out. G65 takes its whole block.
+/// G11 ends data; between G10 L50 and G11 nothing else is executed. G65 uses the whole block.
 bool begin_block(Interpreter& in, Block& block) {
     if (state_of(in).data_entry && !is_data_end(in, block)) return true;
     if (!block.words.has_g(65_g)) return false;
@@ -379,8 +378,8 @@ bool call_modal_macro(Interpreter& in) {
     return true;
 }
 
-/// G16: the first axis of the plane is the radius, the second the angle. The pole is the zero of the work, or where the tool is
-/// if the radius is an increment. (Fanuc, Operator's Manual, "Polar coordinate command".)
+/// G16: the first axis of the plane is the radius, the second the angle. The pole is the work zero, or the present position
+/// if the radius is incremental. (Fanuc, Operator's Manual, "Polar coordinate command".)
 void move_about_pole(Interpreter& in, const Block& block, Vec3& end) {
     const ModalState& state = in.state_;
     const Vec3 from = end.array().isNaN().select(0.0, end);
@@ -442,7 +441,7 @@ const DialectRules fanuc_rules{
     .tools = {.radius_by_d = true, .length_of = LengthOf::row_of_h},
     .cycles = {.dwell_unit = 0.001, .repeats_by_k = true},
     .calls = {.begins_at_label = true, .second_name_ends = true, .jumps_to_numbers = true},
-    // Parameter 3410 is each machine's own.
+    // Parameter 3410 differs from machine to machine.
     .arc_tolerance = {.absolute = 0.03, .relative = 1e-3, .most = 0.5, .reach = 0.005, .relative_reach = 1e-3},
     .signs = {.codes = fanuc::code_signs, .marks = fanuc::mark_signs},
     .make_state = make_state<fanuc::State>,

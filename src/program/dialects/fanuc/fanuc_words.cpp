@@ -21,7 +21,7 @@ namespace {
 constexpr double most_factor = 50;  ///< above it a factor of G51 is in thousandths
 constexpr double full_turn = 360;   ///< above it an angle of G68 is in thousandths
 
-/// Every I, J and K of a block in its order; a block of plain words has none of them twice and does not keep the order.
+/// Every I, J and K of a block in its order; a block of plain words has each at most once and does not keep the order.
 std::vector<CentreWord> centres_of(const Block& block) {
     std::vector<CentreWord> centres = block.centres;
     if (!centres.empty()) return centres;
@@ -62,7 +62,7 @@ WorkOffset* offset_of_variable(Interpreter& in, int number, int& axis) {
 
 }  // namespace
 
-/// G68 X Y R in the plane, or X Y Z I J K R about an axis. The centre counts in scaled coordinates.
+/// G68 X Y R in the plane, or X Y Z I J K R about an axis. The centre is in scaled coordinates.
 void rotate_frame(Interpreter& in, const Block& block, std::size_t column) {
     in.this_block_.motion_suppressed = true;
     const Words& w = block.words;
@@ -98,7 +98,7 @@ void scale_frame(Interpreter& in, const Block& block) {
     in.event("scaling", "G51" + words_text(block, "XYZIJKP"));
 }
 
-/// G51.1 and G50.1 (HNC: G24, G25): mirrored about X, Y, Z as given.
+/// G51.1 and G50.1 (HNC: G24, G25): mirror about X, Y, Z as given.
 void mirror_frame(Interpreter& in, int code, const Block& block) {
     in.this_block_.motion_suppressed = true;
     const bool on = code == 51.1_g || code == 24_g;
@@ -117,7 +117,7 @@ void mirror_frame(Interpreter& in, int code, const Block& block) {
     in.event("mirror", code_text(code) + words_text(block, "XYZ"));
 }
 
-/// G52: a zero of its own in every work system.
+/// G52: a local zero in every work system.
 void count_from_local_zero(Interpreter& in, const Block& block) {
     in.this_block_.motion_suppressed = true;
     for (int k = 0; k < 3; ++k) {
@@ -135,8 +135,8 @@ long macro_program(const Interpreter& in, const Block& block, int code, std::siz
     return static_cast<long>(std::clamp(block.words.of('P'), 0.0, 99999999.0));
 }
 
-/// #1 … #33 of a macro call; NaN: not given. Where I, J and K stand again or in another order they count on: the second
-/// I is #7 (argument specification II). Of two words for one variable the later one holds.
+/// #1 … #33 of a macro call; NaN: not given. Repeated or reordered I, J and K continue the numbering: the second I is
+/// #7 (argument specification II). If two words set the same variable, the later one counts.
 std::vector<double> macro_arguments(const Block& block) {
     static constexpr std::pair<char, std::size_t> numbers[] = {
         {'A', 1},  {'B', 2},  {'C', 3},  {'D', 7},  {'E', 8},  {'F', 9},  {'H', 11}, {'Q', 17}, {'R', 18},
@@ -171,20 +171,21 @@ bool is_data_end(Interpreter& in, const Block& block) {
     return false;
 }
 
-/// G65: nothing else in the block is carried out, its words are arguments.
+/// G65: nothing else in the block is executed; its words are arguments.
 void macro_call(Interpreter& in, const Block& block) {
     const int repeats = block.words.given('L') ? static_cast<int>(std::clamp(block.words.of('L'), 1.0, 99999.0)) : 1;
     call_subprogram(in, fmt::format("{}", macro_program(in, block, 65_g, 0)), repeats, true, macro_arguments(block));
 }
 
-/// G10 of Fanuc: L2 and L20 work offsets, L10 … L13 of tools; G90 sets, G91 adds.
+/// G10 of Fanuc: L2 and L20 set work offsets, L10 … L13 tools; G90 sets, G91 adds.
 bool set_offsets(Interpreter& in, int level, const Block& block) {
     const Words& w = block.words;
     const bool adds = in.state_.incremental;
     if (level == 2 || level == 20) {
         const int number = w.given('P') ? static_cast<int>(std::clamp(w.of('P'), 0.0, 300.0)) : 0;
         if (level == 2 && number == 0) {
-            in.event("work-offset", "G10 L2 P0" + words_text(block, "XYZ"));  // moves all systems alike, on the machine
+            in.event("work-offset",
+                     "G10 L2 P0" + words_text(block, "XYZ"));  // shifts all systems alike, on the machine
             return true;
         }
         const int system = level == 20 ? plain_work_systems + number : number;
@@ -214,7 +215,7 @@ bool set_offsets(Interpreter& in, int level, const Block& block) {
     return false;
 }
 
-/// What writing a variable of the control does; true: it was one.
+/// The effect of writing a variable of the control. Returns whether it was one.
 bool write_parameter(Interpreter& in, int number, double value) {
     if (number < 1000) return false;
     int axis = 0;
@@ -284,7 +285,7 @@ double parameter(Interpreter& in, int number) {
 }
 
 /// G68.2 X Y Z I J K: the plane's zero and its Euler angles, about Z, the new X and the new Z; with P1 Q the angles
-/// are those about X, Y and Z of the work system, in the order that Q tells.
+/// are those about X, Y and Z of the work system, in the order given by Q.
 void tilt_plane(Interpreter& in, const Block& block, std::size_t column) {
     in.this_block_.motion_suppressed = true;
     const Words& w = block.words;

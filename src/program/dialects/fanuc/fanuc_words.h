@@ -1,5 +1,6 @@
 #pragma once
-// What words of Fanuc and HNC do: frames, macro calls, offsets, system variables. Handlers in fanuc.cpp call them.
+// The meaning of words of Fanuc and HNC: frames, macro calls, offsets, system variables. Handlers in fanuc.cpp call
+// them.
 
 #include <array>
 
@@ -7,7 +8,7 @@
 
 namespace clsurf::fanuc {
 
-/// Frames one inside the other: local zero, then rotation, then scaling, then mirroring.
+/// Nested frames: local zero, then rotation, then scaling, then mirroring.
 struct NestedFrame {
     ProgramFrame local, rotation, scaling, mirror;
     double angle = 0;  ///< of the rotation [deg]
@@ -23,16 +24,16 @@ struct State final : DialectState {
 };
 [[nodiscard]] inline State& state_of(Interpreter& in) { return static_cast<State&>(*in.dialect_state_); }
 
-/// G68. Throws as Interpreter::fail() does; so do the next ones.
+/// G68. Throws like Interpreter::fail(); so do the next ones.
 void rotate_frame(Interpreter& in, const Block& block, std::size_t column);
 void scale_frame(Interpreter& in, const Block& block);             ///< G51
 void mirror_frame(Interpreter& in, int code, const Block& block);  ///< G50.1, G51.1
 void count_from_local_zero(Interpreter& in, const Block& block);   ///< G52
 /// G68.2 X Y Z I J K: the plane's zero and its Euler angles, about Z, the new X and the new Z; with P1 Q the angles
-/// are those about X, Y and Z of the work system, in the order that Q tells.
+/// are those about X, Y and Z of the work system, in the order given by Q.
 void tilt_plane(Interpreter& in, const Block& block, std::size_t column);
 
-/// The number of the program that a block calls (P). Throws as Interpreter::fail() does.
+/// The number of the program that a block calls (P). Throws like Interpreter::fail().
 [[nodiscard]] long macro_program(const Interpreter& in, const Block& block, int code, std::size_t column);
 /// #1 … #33 of a macro call; NaN: not given.
 [[nodiscard]] std::vector<double> macro_arguments(const Block& block);

@@ -69,7 +69,7 @@ bool arc_about_pole(Interpreter& in, const Block& block, ArcWords& words) {
 namespace heidenhain {
 namespace {
 
-/// `%NAME G71` begins a program with its unit of measure, and ends it; `%NAME` alone calls one.
+/// `%NAME G71` begins and ends a program with its unit of measure; `%NAME` alone calls one.
 void begin_or_call(Interpreter& in, const std::string& title) {
     std::istringstream words(title);
     std::string name;
@@ -88,14 +88,14 @@ void begin_or_call(Interpreter& in, const std::string& title) {
     }
 }
 
-/// An axis letter that stands without a number, as in G28 X Y.
+/// An axis letter without a number, for example in G28 X Y.
 bool take_mention(char letter, Block& block) {
     return std::erase_if(block.unknown, [&](const UnknownWord& word) {
                return word.text.size() == 1 && upper(word.text[0]) == letter;
            }) > 0;
 }
 
-/// I J K give the pole, which stays: in the block of the arc, or before it.
+/// I J K set the pole, which is modal: in the block of the arc, or before it.
 void take_pole(Interpreter& in, const Block& block) {
     if ((block.words.has & ijk) == 0) return;
     const Vec3 here = in.state_.programmed();
@@ -109,7 +109,7 @@ void take_pole(Interpreter& in, const Block& block) {
     if (alone) in.this_block_.motion_suppressed = true;
 }
 
-/// Of formulas.
+/// Functions of formulas.
 constexpr std::array<FunctionRow, 5> functions{{
     {"SQ", [](double v) { return v * v; }},
     {"NEG", [](double v) { return -v; }},
@@ -266,7 +266,7 @@ bool define_tool(Interpreter& in, const CodeWord& w) {
     return note_mode(in, w);
 }
 
-constexpr int order_of_offsets = 9;  ///< G54 is no work system: its words count as G90 or G91 has it
+constexpr int order_of_offsets = 9;  ///< G54 is no work system: G90 or G91 applies to its words
 constexpr auto codes = std::to_array<CodeRule>({
     {0_g, move_as_usual},
     {1_g, move_as_usual},
@@ -310,8 +310,8 @@ constexpr auto codes = std::to_array<CodeRule>({
     {99_g, define_tool},
 });
 
-/// G62 T0.05 P01 0 P02 5, as cycle 32: the tolerance of the path; without T the machine's own comes back. P01 is the
-/// mode, P02 the tolerance of rotary axes.
+/// G62 T0.05 P01 0 P02 5, like cycle 32: the tolerance of the path; without T the machine's own is active again. P01
+/// is the mode, P02 the tolerance of rotary axes.
 bool set_tolerance(Interpreter& in, std::string_view text) {
     Cursor c{text, 0};
     if (!c.take_word("G62")) return false;
@@ -347,7 +347,7 @@ void begin(Interpreter& in) {
                      "--dialect klartext reads it");
 }
 
-/// Machining cycles: read, not carried out.
+/// Machining cycles: read, not executed.
 bool cycle(Interpreter& in, const CodeWord& w) {
     const int code = w.code;
     const bool known = code == 79_g || (code >= 74_g && code <= 86_g) || (code >= 200_g && code <= 499_g) ||
@@ -358,7 +358,7 @@ bool cycle(Interpreter& in, const CodeWord& w) {
 constexpr auto m_codes = std::to_array<MRule>(
     {{91, machine_position}, {92, machine_position}, {128, tool_centre_point}, {129, tool_centre_point}});
 
-/// L5 beside other words of a block.
+/// L5 together with other words of a block.
 void call_label(Interpreter& in, const Block& block) {
     if (!block.words.given('L') || in.this_block_.motion_suppressed) return;
     call_subprogram(in, fmt::format("{}", std::lround(block.words.of('L'))), 1, false, {});

@@ -1,6 +1,6 @@
 #pragma once
-// What both of HEIDENHAIN's languages share, and what words of DIN/ISO do: M functions, frames and arcs, which Klartext
-// has as well, and Q functions.
+// What both of HEIDENHAIN's languages share, and the meaning of words of DIN/ISO: M functions, frames and arcs (which
+// Klartext has as well) and Q functions.
 
 #include <array>
 #include <limits>
@@ -17,14 +17,14 @@ namespace clsurf {
 inline constexpr ArcTolerance heidenhain_arc_tolerance{
     .absolute = 0.016, .most = std::numeric_limits<double>::infinity(), .reach = 0.005, .relative_reach = 1e-3};
 
-/// Frames in the order in which they came: the first one is outermost.
+/// Frames in the order of their programming: the first one is outermost.
 struct OrderedFrames {
     enum Part : std::size_t { datum, mirror, rotation, scaling, tilt, parts };
     std::array<ProgramFrame, parts> frame;
     std::vector<std::size_t> order;
 };
 
-/// What both of HEIDENHAIN's languages keep from block to block.
+/// State that both of HEIDENHAIN's languages keep from block to block.
 struct HeidenhainState : DialectState {
     OrderedFrames frames;
     Vec3 datum = Vec3::Zero();                                            ///< G54, cycle 7 [mm]
@@ -37,19 +37,20 @@ struct HeidenhainState : DialectState {
 
 /// M91, M92: the positions of the block are those of the machine.
 bool machine_position(Interpreter& in, int code, const Block& block);
-/// M128, M129: positions are those of the tool's tip while rotary axes turn.
+/// M128, M129: positions are those of the tool tip while rotary axes move.
 bool tool_centre_point(Interpreter& in, int code, const Block& block);
 
-/// G54, G28, G73, G72: each replaces its own earlier one; the one that was first stays outermost.
+/// G54, G28, G73, G72: each replaces its own earlier one; the one that was programmed first stays outermost.
 void set_frame_part(Interpreter& in, OrderedFrames::Part part, const ProgramFrame& frame);
-/// Inch programs give the feed in tenths of an inch.
+/// In inch programs the feed counts tenths of an inch.
 void set_inches(Interpreter& in, bool inches);
-/// An arc about the pole, or along the tangent. False: its radius is given.
+/// An arc about the pole, or along the tangent. False if its radius is given.
 bool arc_about_pole(Interpreter& in, const Block& block, ArcWords& words);
 
-/// D00 … D12: `D01 Q5 P01 +Q2 P02 3` sets Q5, D09 … D12 jump to the label of the third. True: it was one.
+/// D00 … D12: `D01 Q5 P01 +Q2 P02 3` sets Q5; D09 … D12 jump to the label of the third parameter. Returns whether the
+/// line was one.
 bool run_q_function(Interpreter& in, std::string_view text);
-/// `L5,3`: back to label 5 three times; `L5,0` and `L5` call it. True: it was one.
+/// `L5,3`: back to label 5 three times; `L5,0` and `L5` call it. Returns whether the line was one.
 bool run_label_line(Interpreter& in, std::string_view text);
 
 }  // namespace clsurf

@@ -21,7 +21,7 @@ struct QFunction {
     int code = 0;
     int target = -1;  ///< the variable; −1: none
     std::array<double, 3> p{};
-    std::size_t column = 0;  ///< behind it
+    std::size_t column = 0;  ///< of the character after it
 };
 
 /// nullopt: the text is another statement.

@@ -1,4 +1,4 @@
-// HEIDENHAIN Klartext (.h): its statements, each a row of a table, carried out as the interpreter's motions and modes.
+// HEIDENHAIN Klartext (.h): its statements, each a row of a table, executed as the interpreter's motions and modes.
 // Facts: HEIDENHAIN, TNC 620 and iTNC 530, User's Manuals "Klartext Programming" and "Cycle Programming". Cycles, frames
 // and planes: klartext_cycles.cpp; Q parameters: klartext_q.cpp; words: klartext_words.cpp.
 
@@ -24,7 +24,7 @@ KlartextWords words_of(Line& line, bool radius_word = false) {
     return read_klartext_words(line.c, line.in.variables_, line.in.rules_->text, radius_word);
 }
 
-/// The rest of a statement that is kept as an event and moves nothing.
+/// Keeps the rest of a statement as an event without motion.
 void note_rest(Line& line, const char* event) { line.in.event(event, std::string(line.c.text.substr(line.start))); }
 
 // Program, blank, stops.
@@ -61,7 +61,7 @@ void define_tool(Line& line) {
     line.in.tools_.table.tools[tool.number] = tool;
 }
 
-/// TOOL CALL 5 Z S8000 F500 DL+0.1 DR-0.05: the axis sets the working plane; F holds until the next F.
+/// TOOL CALL 5 Z S8000 F500 DL+0.1 DR-0.05: the axis sets the working plane; F stays active until the next F.
 void call_tool(Line& line) {
     Interpreter& in = line.in;
     Block& block = in.block_;
@@ -140,7 +140,7 @@ void arc_to(Line& line) {
 
 void line_polar(Line& line) { straight(line, words_of(line)); }
 
-/// RND R5 F100, CHF 2: at the corner where the last line ended.
+/// RND R5 F100, CHF 2: at the corner at the end of the last line.
 template <bool rounded>
 void cut_corner(Line& line) {
     Interpreter& in = line.in;
@@ -189,7 +189,7 @@ struct StatementRow {
     std::string_view words;  ///< upper case, one blank between
     void (*run)(Line&);
 };
-/// Longer ones before those that begin alike.
+/// Longer names come before their own prefixes.
 constexpr auto statements = std::to_array<StatementRow>({
     {"L", line_to},
     {"LN", line_with_normal},
@@ -275,7 +275,7 @@ Control read_control(std::string_view statement) {
 bool carry_out(Interpreter& in, const Statement& statement) {
     std::string text = statement.text;
     if (text.find('"') == std::string::npos) {
-        // A decimal comma; '~' where a block goes on in the next line.
+        // A decimal comma; '~' if a block continues in the next line.
         for (std::size_t k = 1; k + 1 < text.size(); ++k) {
             if (text[k] == ',' && is_digit(text[k - 1]) && is_digit(text[k + 1])) text[k] = '.';
         }

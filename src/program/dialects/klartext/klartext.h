@@ -1,5 +1,5 @@
 #pragma once
-// What the parts of Klartext share: the statement that runs, and those of its handlers that stand in other files.
+// Shared by the parts of Klartext: the current statement, and its handlers that are in other files.
 
 #include <optional>
 #include <string>
@@ -13,12 +13,12 @@
 namespace clsurf::klartext {
 
 struct State final : HeidenhainState {
-    double tool_feed = 0;  ///< F of TOOL CALL, which F AUTO takes
+    double tool_feed = 0;  ///< F of TOOL CALL, used by F AUTO
     KlartextSide side = KlartextSide::none;
 };
 [[nodiscard]] inline State& state_of(Interpreter& in) { return static_cast<State&>(*in.dialect_state_); }
 
-/// A statement: the cursor stands after its first words.
+/// A statement; the cursor is after its first words.
 struct Line {
     Interpreter& in;
     Cursor c;
@@ -26,7 +26,7 @@ struct Line {
 
     /// A signed number or Q parameter at the cursor.
     double value() { return read_klartext_value(c, in.variables_, in.rules_->text); }
-    /// A text between quotes at the cursor, without them. Throws ReadError.
+    /// A text in quotes at the cursor, without them. Throws ReadError.
     std::string quoted();
 };
 
@@ -34,22 +34,22 @@ struct Line {
 [[nodiscard]] std::string label_of(Cursor& c);
 
 // klartext_motions.cpp
-/// A straight line: G1, or G0 under FMAX; cuts the corner before it that RND or CHF asked for.
+/// A straight line: G1, or G0 under FMAX; cuts the corner before it if RND or CHF is pending.
 void straight(Line& line, const KlartextWords& words);
-/// An arc: C, CR, CT and their polar kin.
+/// An arc: C, CR, CT and their polar forms.
 void arc(Line& line, const KlartextWords& words, ArcKind kind);
 // klartext_spline.cpp
 /// SPL
 void spline(Line& line);
 
 // klartext_motions.cpp
-/// Words of a block beside a G code.
+/// Words of a block with a G code.
 void move_with(Line& line, const KlartextWords& words, int code);
 /// Whether a statement of that name may follow RND and CHF.
 [[nodiscard]] bool takes_corner(std::string_view name);
 
 // klartext_q.cpp
-/// Q5 = formula; words of a cycle that go on over several lines.
+/// Q5 = formula; words of a cycle that continue over several lines.
 void assign_formula(Line& line);
 /// FN 0: Q5 = +10 … FN 13: Q5 = +Q1 ANG +Q2
 void calculate(Line& line);

@@ -1,5 +1,6 @@
-// Cycles of Klartext that set something (datum, rotation, mirror, scale, tolerance), tilted planes, tool centre point.
-// Facts: HEIDENHAIN, TNC 620, "Cycle Programming": cycles 7 … 11, 26, 32, 247; "Multiple-Axis Machining": PLANE.
+// Cycles of Klartext that change settings (datum, rotation, mirror, scale, tolerance), tilted planes, tool centre
+// point. Facts: HEIDENHAIN, TNC 620, "Cycle Programming": cycles 7 … 11, 26, 32, 247; "Multiple-Axis Machining":
+// PLANE.
 
 #include <algorithm>
 #include <array>
@@ -21,7 +22,7 @@ using Part = OrderedFrames::Part;
 
 constexpr double least_vector = 1e-9;  ///< of the base vector, across the normal
 
-/// "X", "IX" and the like at the cursor: the axis, −1: none, and whether it is an increment.
+/// "X", "IX" and similar words at the cursor: the axis, −1: none, and whether it is an increment.
 int axis_at(Cursor& c, bool& incremental) {
     c.skip_blanks();
     const auto letter = [&](std::size_t ahead) {
@@ -39,7 +40,7 @@ void expect_end(Line& line) {
         throw ReadError{std::string("found '") + line.c.peek() + "' after the words of the cycle", line.c.column(), {}};
 }
 
-/// CYCL DEF 7.1 X+60, 7.2 IY+5; 7.1 #5 is a row of a table that is not here.
+/// CYCL DEF 7.1 X+60, 7.2 IY+5; 7.1 #5 is a row of a table that is not available.
 void shift_datum(Line& line) {
     Interpreter& in = line.in;
     if (line.c.peek() == '#') {
@@ -129,7 +130,7 @@ void dwell(Line& line) {
     line.in.dwell(line.value());
 }
 
-/// 32.1 T0.05, 32.2 HSC-MODE:1 TA3: without T the machine's own tolerance comes back.
+/// 32.1 T0.05, 32.2 HSC-MODE:1 TA3: without T the machine's own tolerance is active again.
 void set_tolerance(Line& line, int step) {
     Interpreter& in = line.in;
     const std::string words(line.c.text.substr(line.c.at));
@@ -161,12 +162,12 @@ void refuse_working_plane(Line& line) {
                      "let the CAM system write PLANE SPATIAL");
 }
 
-/// "SPA+45" wherever it stands after the name of the PLANE function; 0 where it does not.
+/// The value of a word like "SPA+45", anywhere after the name of the PLANE function; 0 if there is none.
 double plane_value(Line& line, std::string_view name, bool needed) {
     const auto begins_value = [](char c) { return is_digit(c) || c == '+' || c == '-' || c == 'Q'; };
     const std::string word = " " + std::string(name);
     std::size_t at = line.c.text.find(word, line.c.at);
-    // PLANE SPATIAL begins as SPA does.
+    // PLANE SPATIAL begins with SPA, too.
     while (at < line.c.text.size() &&
            !(at + word.size() < line.c.text.size() && begins_value(line.c.text[at + word.size()])))
         at = line.c.text.find(word, at + 1);
@@ -182,7 +183,7 @@ ProgramFrame turned_about(int axis, double degrees) {
     return ProgramFrame::turned(Vec3::Unit(axis), degrees, Vec3::Zero());
 }
 
-/// The plane's X and Z as given, Z at right angles to X.
+/// The plane's X and Z as given; Z is made perpendicular to X.
 ProgramFrame plane_of_vectors(Line& line) {
     const auto vector = [&](std::array<std::string_view, 3> names) {
         return Vec3(plane_value(line, names[0], true), plane_value(line, names[1], true),
@@ -243,7 +244,7 @@ void note_cycle(Interpreter& in, const std::string& what, std::size_t column) {
 
 void call_cycle(Line& line) { note_cycle(line.in, "CYCL CALL", line.start + 1); }
 
-/// PLANE SPATIAL turns about the fixed axes X, Y and Z, in this order.
+/// PLANE SPATIAL rotates about the fixed axes X, Y and Z, in this order.
 void tilt_plane(Line& line) {
     Interpreter& in = line.in;
     const std::string form = line.c.identifier();

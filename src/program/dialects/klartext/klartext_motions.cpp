@@ -1,4 +1,4 @@
-// Blocks of Klartext that move: lines, arcs, polar words, corners that RND and CHF cut.
+// Blocks of Klartext that move: lines, arcs, polar words, corners cut by RND and CHF.
 
 #include <algorithm>
 #include <array>
@@ -15,10 +15,10 @@
 namespace clsurf::klartext {
 namespace {
 
-constexpr double least_angle = 1e-9;  ///< [rad] between lines that make a corner
+constexpr double least_angle = 1e-9;  ///< [rad] between lines that form a corner
 constexpr double same_height = 1e-9;  ///< [mm]
 
-/// Where the corner's arc or chamfer begins and ends, in the plane of the axes u and v.
+/// The beginning and end of the corner's arc or chamfer, in the plane of the axes u and v.
 struct CutCorner {
     Vec3 begin, end, centre;
     bool clockwise = false;
@@ -51,7 +51,7 @@ CutCorner cut(Interpreter& in, const Vec3& before, const Vec3& corner, const Vec
     return result;
 }
 
-/// Moves the end of the last line back to where the corner is cut, and cuts it.
+/// Moves the end of the last line back to the beginning of the cut corner, and cuts it.
 void finish_corner(Line& line, const KlartextWords& words, const Block& block) {
     Interpreter& in = line.in;
     const Corner corner = in.corner_;
@@ -79,7 +79,7 @@ void finish_corner(Line& line, const KlartextWords& words, const Block& block) {
     in.state_.feed = feed;
 }
 
-/// The words of a block as the interpreter's own.
+/// The words of a block in the interpreter's own form.
 void fill(Line& line, const KlartextWords& words, Block& block) {
     Interpreter& in = line.in;
     static constexpr std::array<std::pair<std::string_view, std::string_view>, 3> axes{
@@ -111,7 +111,7 @@ void fill(Line& line, const KlartextWords& words, Block& block) {
                 line.start + 1);
 }
 
-/// M140 MB50: back along the tool axis. How far MB MAX goes, the machine knows.
+/// M140 MB50: retracts along the tool axis. The distance of MB MAX is known to the machine only.
 void retract(Line& line, const KlartextValue& distance) {
     Interpreter& in = line.in;
     if (!std::isfinite(distance.value)) {
@@ -136,7 +136,7 @@ void move_with(Line& line, const KlartextWords& words, int code) {
     (void)add_g(block.words, g, line.start + 1);
     fill(line, words, block);
     if (words.reads_plane_angles && in.five_axis_.tilted) {
-        // The angles that PLANE has found: the tool stands upright on the plane.
+        // The angles computed by PLANE: the tool is normal to the plane.
         block.words.has &= ~(Words::bit('A') | Words::bit('B') | Words::bit('C'));
         turn_to_plane(in, in.state_.frame.direction_to_work(Vec3::UnitZ()).normalized(), false, "PLANE");
     }

@@ -75,7 +75,7 @@ double divided(Line& line, double a, double b) {
 
 }  // namespace
 
-/// Q5 = formula; words of a cycle that go on over several lines.
+/// Q5 = formula; words of a cycle that continue over several lines.
 void assign_formula(Line& line) {
     line.c.at = line.start;
     const Target target = target_of(line);

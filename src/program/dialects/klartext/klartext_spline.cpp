@@ -1,5 +1,5 @@
-// SPL of Klartext: a cubic in each axis, X(t) = K3X t³ + K2X t² + K1X t + X, along which t runs from 1 to 0.
-// Facts: HEIDENHAIN, iTNC 530, User's Manual "Klartext Programming", spline interpolation.
+// SPL of Klartext: a cubic in each axis, X(t) = K3X t³ + K2X t² + K1X t + X, with t from 1 to 0. Facts: HEIDENHAIN,
+// iTNC 530, User's Manual "Klartext Programming", spline interpolation.
 
 #include <array>
 #include <cmath>
@@ -14,7 +14,8 @@
 namespace clsurf::klartext {
 namespace {
 
-constexpr double most_start_play = 1e-3 + 1e-9;  ///< [mm] between the end of the block before and the curve's begin
+constexpr double most_start_play =
+    1e-3 + 1e-9;  ///< [mm] between the end of the previous block and the beginning of the curve
 
 struct SplineWords {
     std::array<std::optional<double>, 3> end;                     ///< X, Y, Z
@@ -23,7 +24,7 @@ struct SplineWords {
     std::vector<int> m;
 };
 
-/// A signed number, with an exponent that may stand after a blank: 4.688E-002, 0.413 E+2.
+/// A signed number, with an exponent that may follow a blank: 4.688E-002, 0.413 E+2.
 double read_factor(Line& line) {
     const double value = line.value();
     if (upper(line.c.peek()) != 'E') return value;
@@ -31,7 +32,7 @@ double read_factor(Line& line) {
     return value * std::pow(10.0, line.value());
 }
 
-/// Lines that go on: behind '~', and those that begin with a factor.
+/// Joins continuation lines: those after '~', and those that begin with a factor.
 std::string whole_statement(Line& line) {
     Interpreter& in = line.in;
     std::string text(line.c.text);
@@ -45,7 +46,7 @@ std::string whole_statement(Line& line) {
         if (!continued && !factor) break;
         const LineNumber first = in.place_.line;
         (void)in.next_line();
-        in.place_.line = first;  // the block stands where it begins
+        in.place_.line = first;  // the line number of the block is that of its first line
         continued = next.text.find('~') != std::string::npos;
         text += ' ' + next.text;
     }

@@ -11,7 +11,7 @@
 namespace clsurf {
 namespace {
 
-/// Words of a value, longest first among those that begin alike; a leading I makes most of them increments.
+/// Words with a value; longer names come before their own prefixes; a leading I makes most of them increments.
 struct ValueWord {
     std::string_view name;
     bool may_be_incremental;
@@ -67,7 +67,7 @@ private:
         }
         return true;
     }
-    /// A word of letters alone: no letter follows it.
+    /// A word of letters that no letter follows.
     bool take(std::string_view word) {
         c_.skip_blanks();
         if (!follows(word) || is_letter(at(word.size()))) return false;
@@ -98,7 +98,7 @@ private:
         } else {
             const double value = read_klartext_value(c_, variables_, rules_);
             if (value < 0) throw ReadError{"a feed below 0", column, {}};
-            if (words_.m.empty()) {  // after M128, M103 it is a feed of theirs
+            if (words_.m.empty()) {  // after M128, M103 it is their own feed
                 words_.feed = KlartextFeed::number;
                 words_.feed_value = value;
             }
@@ -128,7 +128,7 @@ private:
         return true;
     }
 
-    /// What belongs to an M function: limits, lengths, a way back along the tool axis.
+    /// The operands of an M function: limits, lengths, a retract along the tool axis.
     void operands_of(int m) {
         if (m == 118) {
             for (c_.skip_blanks(); is_letter(at(0)) && begins_value(at(1)); c_.skip_blanks()) {
@@ -172,7 +172,7 @@ private:
         return false;
     }
 
-    /// Q120, Q121 and Q122 are the angles that PLANE has found for A, B and C.
+    /// Q120, Q121 and Q122 are the angles that PLANE has computed for A, B and C.
     void note_plane_angle(std::string_view name) {
         constexpr std::array<std::string_view, 3> angles{"Q120", "Q121", "Q122"};
         if (name.size() != 1 || name[0] < 'A' || name[0] > 'C') return;

@@ -1,6 +1,6 @@
 #pragma once
-// The words of a Klartext block: "L X+10 IY-2.5 R0 FMAX M3". Klartext puts a statement first and lets words follow it,
-// some of several letters (DR+, PA+30, NX-0.5), with a decimal point or comma, or a Q parameter for a number.
+// The words of a Klartext block: "L X+10 IY-2.5 R0 FMAX M3". In Klartext a statement comes first, then words, some of
+// several letters (DR+, PA+30, NX-0.5), with a decimal point or comma, or a Q parameter for a number.
 
 #include <cstdint>
 #include <optional>
@@ -43,14 +43,14 @@ struct KlartextWords {
 };
 
 /// Reads to the end of the block. `radius_word`: R is a value (CR, RND), not compensation. `variables` and `rules` give Q
-/// parameters. Throws ReadError with the column of a word that is not known.
+/// parameters. Throws ReadError with the column of an unknown word.
 [[nodiscard]] KlartextWords read_klartext_words(Cursor& cursor, const Variables& variables, const TextRules& rules,
                                                 bool radius_word);
 
 /// A value with its sign, as a number or a Q parameter: "+10.5", "-Q5". Throws ReadError.
 [[nodiscard]] double read_klartext_value(Cursor& cursor, const Variables& variables, const TextRules& rules);
 
-/// A straight block of X, Y, Z, F and R0 with numbers alone, as words of G1 (G0 under FMAX).
+/// A straight block that has only X, Y, Z, F and R0 with numbers, as words of G1 (G0 under FMAX).
 [[nodiscard]] PlainResult read_plain_klartext(std::string_view line, Words& words);
 
 }  // namespace clsurf

@@ -1,6 +1,6 @@
-// The rules of SINUMERIK: what its codes and control statements mean. Words of several letters and frames:
-// siemens_words.cpp; cycles: siemens_cycles.cpp.
-// Facts: Siemens, SINUMERIK 840D sl, Programming Manual "Fundamentals" and "Job Planning".
+// The rules of SINUMERIK: the meaning of its codes and control statements. Words of several letters and frames:
+// siemens_words.cpp; cycles: siemens_cycles.cpp. Facts: Siemens, SINUMERIK 840D sl, Programming Manual "Fundamentals"
+// and "Job Planning".
 
 #include <algorithm>
 #include <array>
@@ -48,7 +48,7 @@ constexpr std::array<ControlWord, 17> control_words{{
     {"CASE", ControlKind::choice},
 }};
 
-/// GOTO, GOTOF, GOTOB, GOTOC with its label, behind the letters GOTO.
+/// GOTO, GOTOF, GOTOB, GOTOC with its label, after the letters GOTO.
 void read_go_to(Cursor& c, Control& control) {
     const char letter = c.at < c.text.size() ? upper(c.text[c.at]) : ' ';
     const bool named = letter == 'F' || letter == 'B' || letter == 'C';
@@ -117,7 +117,7 @@ bool dwell(Interpreter& in, const CodeWord& w) {
     in.dwell(turns ? words.of('S') * seconds_per_minute / in.state_.spindle : words.given('F') ? words.of('F') : 0);
     return true;
 }
-/// Lengths alone, not the feed.
+/// Only lengths, not the feed.
 bool count_lengths_in_inches(Interpreter& in, const CodeWord&) {
     in.state_.unit_mm = mm_per_inch;
     return true;
@@ -155,7 +155,7 @@ bool set_pole(Interpreter& in, const CodeWord& w) {
     move_pole(in, w.code, w.block);
     return true;
 }
-/// Soft approach and retract: the way there is not carried out.
+/// Soft approach and retract: their path is not executed.
 bool approach(Interpreter& in, const CodeWord& w) {
     in.note(Severity::warning, "program.approach",
             code_text(w.code) + " is not carried out: its end is approached straight", w.column);
@@ -179,7 +179,7 @@ bool stop_exactly(Interpreter& in, const CodeWord& w) {
 bool round_within_tolerance(Interpreter& in, const CodeWord& w) {
     return path_mode_word(in, w, {BlockEnd::rounded, state_of(in).contour_tolerance});
 }
-/// G64: as far off as the speed takes, unless CTOL or CYCLE832 gave a tolerance.
+/// G64: the deviation is limited by the speed only, unless CTOL or CYCLE832 gave a tolerance.
 bool round_corners(Interpreter& in, const CodeWord& w) {
     constexpr double unlimited = std::numeric_limits<double>::infinity();
     return path_mode_word(
@@ -303,7 +303,7 @@ bool names_motion(const Block& block) {
 }
 
 bool begin_block(Interpreter& in, Block& block) {
-    if (names_motion(block)) in.arcs_.kind = ArcKind::usual;  // what ends CIP and CT
+    if (names_motion(block)) in.arcs_.kind = ArcKind::usual;  // this ends CIP and CT
     for (const Keyword& keyword : block.keywords) apply_keyword(in, keyword, block);
     if (!in.ended_) set_contour_tolerance(in, block);
     return false;

@@ -20,16 +20,16 @@ namespace {
 constexpr double chip_break_mm = 1;  ///< back between pecks
 constexpr double shallow_mm = 30;    ///< up to this depth the lead distance is the next value
 constexpr double shallow_lead_mm = 0.6;
-constexpr double lead_share = 50;  ///< deeper: depth / 50, at most 7 mm
+constexpr double lead_share = 50;  ///< for deeper holes: depth / 50, at most 7 mm
 constexpr double most_lead_mm = 7;
 constexpr int most_holes = 100'000;
 constexpr std::size_t most_drill_pecks = 1'000'000;
 constexpr double whole_depth = 1e-9;  ///< [mm] above the bottom, at most
 
-/// Places of a cycle's parameters.
+/// Indices of a cycle's parameters.
 constexpr std::size_t rtp = 0, rfp = 1, sdis = 2, dp = 3, dpr = 4, dtb = 5;
 
-/// Places of the parameters of a tapping cycle: pitch by metric size, pitch, its unit, speeds in and out.
+/// Indices of the parameters of a tapping cycle: pitch by metric size, pitch, its unit, speeds in and out.
 struct TappingPlaces {
     std::size_t mpit, pit, ptab;
     std::optional<std::size_t> sst, sst1;
@@ -37,7 +37,7 @@ struct TappingPlaces {
 constexpr TappingPlaces rigid_tapping{.mpit = 7, .pit = 8, .ptab = 13, .sst = 10, .sst1 = 11};      ///< CYCLE84
 constexpr TappingPlaces floating_tapping{.mpit = 9, .pit = 10, .ptab = 12, .sst = {}, .sst1 = {}};  ///< CYCLE840
 
-/// Of ISO metric threads of the coarse series (ISO 261), M3 … M48 [mm]; 0: not one of them.
+/// Pitch of ISO metric coarse threads (ISO 261), M3 … M48 [mm]; 0: none of them.
 double coarse_pitch(double size) {
     static constexpr std::pair<int, double> pitches[] = {
         {3, 0.5},  {4, 0.7},  {5, 0.8},  {6, 1},    {8, 1.25}, {10, 1.5}, {12, 1.75},
@@ -48,7 +48,7 @@ double coarse_pitch(double size) {
     return found == std::end(pitches) ? 0 : found->second;
 }
 
-/// What a pitch is given in (_PTAB), as the length of a turn [mm]. `unit`: of the program [mm].
+/// The pitch as travel per revolution [mm], from the unit in _PTAB. `unit`: of the program [mm].
 double pitch_in_mm(double pitch, int given_in, double unit) {
     constexpr int in_mm = 1, per_inch = 2, in_inches = 3;
     switch (given_in) {
@@ -66,15 +66,15 @@ bool drills(const std::string& name) {
 }
 
 bool is_cycle(const std::string& name) {
-    // With a number: SLOT_A is a program of somebody's own.
+    // Only with a number: SLOT_A is a user's own program.
     for (const std::string_view begin : {"CYCLE", "HOLES", "POCKET", "SLOT"}) {
         if (name.starts_with(begin) && name.size() > begin.size() && is_digit(name[begin.size()])) return true;
     }
     return name == "LONGHOLE";
 }
 
-/// The strokes of deep-hole drilling: the first, then each by `damp` less, then `damp` itself, the
-/// last two shared evenly; all the same where `damp` is 0, by that factor where it is negative.
+/// The strokes of deep-hole drilling: the first, then each shorter by `damp`, then `damp` itself; the last two are
+/// equal. If `damp` is 0, all are equal; if it is negative, each is the previous one times its magnitude.
 std::vector<double> strokes(double whole, double first, double damp) {
     std::vector<double> depths;  // of each stroke's end
     double left = whole;
@@ -94,7 +94,7 @@ std::vector<double> strokes(double whole, double first, double damp) {
     return depths;
 }
 
-/// Deep holes: chips broken by going back a little, or taken out to the reference plane.
+/// Deep holes: chips are broken by short retracts, or removed by retracts to the reference plane.
 void peck(Interpreter& in, double reference, double r, const std::vector<double>& depths, bool breaks_chips,
           double dwell_above, const Vec3& rotary) {
     const double whole = depths.empty() ? 0 : depths.back();
@@ -113,7 +113,7 @@ void peck(Interpreter& in, double reference, double r, const std::vector<double>
     }
 }
 
-/// Down to the bottom and back to `r`, by a pitch with each turn; without a pitch or a speed with the feed in force.
+/// Down to the bottom and back to `r`, one pitch per revolution; without a pitch or a speed with the active feed.
 void tap(Interpreter& in, bool rigid, const std::vector<double>& values, double bottom, double r, const Vec3& rotary) {
     const TappingPlaces& places = rigid ? rigid_tapping : floating_tapping;
     const auto value = [&](std::optional<std::size_t> k) {
@@ -203,7 +203,7 @@ void drill(Interpreter& in, const std::string& name, const std::vector<double>& 
     go_to_level(in, MotionKind::rapid, clear, rotary);
 }
 
-/// HOLES1 (row), HOLES2 (circle), CYCLE801 (grid): the modal cycle at every place.
+/// HOLES1 (row), HOLES2 (circle), CYCLE801 (grid): the modal cycle at every position.
 void hole_pattern(Interpreter& in, const std::string& name, const std::vector<double>& values, std::size_t column) {
     const auto value = [&](std::size_t k) { return k < values.size() && !std::isnan(values[k]) ? values[k] : 0.0; };
     const double unit = in.state_.unit_mm;
@@ -252,7 +252,7 @@ void hole_pattern(Interpreter& in, const std::string& name, const std::vector<do
 
 }  // namespace
 
-/// True: the word was a cycle, carried out or reported.
+/// Returns whether the word was a cycle; it is then executed or reported.
 bool cycle_keyword(Interpreter& in, const Keyword& keyword) {
     const std::string& name = keyword.name;
     if (!is_cycle(name) || name == "CYCLE800" || name == "CYCLE832") return false;
@@ -289,8 +289,8 @@ bool repeat_modal_call(Interpreter& in) {
     return true;
 }
 
-/// CYCLE800(FR, TC, ST, MODE, X0, Y0, Z0, A, B, C, X1, Y1, Z1, DIR, …): moved by X0 Y0 Z0, turned by A, B and C about
-/// the axes that MODE names, one after the other, each about the axis where it is then, moved by X1 Y1 Z1.
+/// CYCLE800(FR, TC, ST, MODE, X0, Y0, Z0, A, B, C, X1, Y1, Z1, DIR, …): shifts by X0 Y0 Z0, rotates by A, B and C in
+/// succession about the rotated axes in the order given by MODE, shifts by X1 Y1 Z1.
 void swivel(Interpreter& in, const Keyword& keyword) {
     const std::string text = "CYCLE800(" + keyword.arguments + ")";
     in.event("swivel", text);
@@ -308,7 +308,7 @@ void swivel(Interpreter& in, const Keyword& keyword) {
         in.note(Severity::warning, "program.rotation",
                 fmt::format("CYCLE800: {} is not carried out, the path is read as programmed", why), keyword.column);
     };
-    // MODE: two bits an axis (1 X, 2 Y, 3 Z), the first one lowest, and two for the kind of angles.
+    // MODE: two bits per axis (1 X, 2 Y, 3 Z), the first one lowest, and two for the kind of angles.
     const int mode = static_cast<int>(std::clamp(value(3), 0.0, 255.0));
     if (const int kind = mode >> 6; kind != 0) {
         constexpr std::array<std::string_view, 4> kinds{"", "a solid angle", "a projection angle",
@@ -331,7 +331,7 @@ void swivel(Interpreter& in, const Keyword& keyword) {
     state_of(in).swivel = additive ? in.state_.frame.around(frame) : frame;
     in.state_.frame = state_of(in).swivel;
     begin_tilted_plane(in, text);
-    // DIR 0: the plane is set, and the program turns the axes itself.
+    // DIR 0: the plane is set without motion, and the program turns the axes itself.
     const bool tracks_tip = std::fmod(std::floor(value(2) / 10), 10) >= 1;
     if (value(13) != 0)
         turn_to_plane(in, state_of(in).swivel.direction_to_work(Vec3::UnitZ()).normalized(), tracks_tip, text);

@@ -49,13 +49,13 @@ bool contains(const List& list, const Value& value) {
     return std::find(list.begin(), list.end(), value) != list.end();
 }
 
-/// CYCLE832(tolerance, kind of machining, …): kind 0 (_OFF), or no tolerance, gives the machine its own back.
+/// CYCLE832(tolerance, kind of machining, …): kind 0 (_OFF), or no tolerance, restores the machine's own.
 void high_speed_settings(Interpreter& in, const Keyword& keyword) {
     std::vector<std::optional<double>> values;
     try {
         values = arguments_of(in.variables_, in.rules_->text, keyword);
     } catch (const ReadError& error) {
-        // A variable that the control alone knows: no axis moves by it.
+        // A variable known only to the control: no axis position depends on it.
         in.note(Severity::warning, "program.variable", error.what + ": the machine's own tolerance is used",
                 error.column);
     }
@@ -67,7 +67,7 @@ void high_speed_settings(Interpreter& in, const Keyword& keyword) {
                   {BlockEnd::rounded, state_of(in).contour_tolerance});
 }
 
-/// TRANS, ROT, SCALE and MIRROR replace the frame; with an A before it they add to it.
+/// TRANS, ROT, SCALE and MIRROR replace the frame; with a leading A they add to it.
 bool frame_keyword(Interpreter& in, const Keyword& keyword, Block& block) {
     const bool adds =
         keyword.name == "ATRANS" || keyword.name == "AROT" || keyword.name == "ASCALE" || keyword.name == "AMIRROR";
