@@ -75,7 +75,7 @@ constexpr auto conversions = std::to_array<Conversion>({
     {"rad/s²", "deg/s²", deg_per_rad},
 });
 
-/// nullptr: no name that the project knows.
+/// nullptr if the name is unknown to the project.
 const ChannelInfo* info_of(std::string_view name) {
     const auto found = std::find_if(table.begin(), table.end(), [&](const ChannelInfo& info) {
         return info.name.ends_with('.') ? name.size() == info.name.size() + 1 && name.starts_with(info.name)
@@ -84,7 +84,7 @@ const ChannelInfo* info_of(std::string_view name) {
     return found == table.end() ? nullptr : &*found;
 }
 
-/// The unit that a channel of that name has; empty: its own.
+/// The unit of a channel of that name; empty: its own.
 std::string_view unit_of(std::string_view name) {
     const ChannelInfo* info = info_of(name);
     if (info == nullptr) return {};
@@ -100,7 +100,7 @@ void normalise_unit(Log& log, Channel& channel) {
         return;
     }
     const auto leads_to = [&](const Conversion& c) { return c.normal == wanted; };
-    // A current in mA, a load in per mille: nobody computes with them, they are shown as they are.
+    // For example a current in mA or a load in per mille: not used in computations, shown as recorded.
     if (channel.unit == wanted || std::none_of(conversions.begin(), conversions.end(), leads_to)) return;
     const auto found = std::find_if(conversions.begin(), conversions.end(),
                                     [&](const Conversion& c) { return leads_to(c) && c.unit == channel.unit; });
@@ -154,7 +154,7 @@ std::string normalised_name(std::string_view name) {
 }
 
 bool is_position(std::string_view name) {
-    // Of the channels only positions are lengths.
+    // Only positions are lengths.
     const ChannelInfo* info = info_of(name);
     return info != nullptr && info->unit == "mm";
 }

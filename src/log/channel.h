@@ -1,6 +1,5 @@
 #pragma once
-// The names of channels, what they mean and which unit they have: one table. A channel that is not in
-// it is kept under its own name and unit.
+// The names, meanings and units of channels in one table. A channel that is not in it keeps its own name and unit.
 
 #include <span>
 #include <string>
@@ -11,31 +10,31 @@
 namespace clsurf {
 
 struct ChannelInfo {
-    std::string_view name;         ///< "line"; with a dot at its end ("cmd."): an axis letter follows
+    std::string_view name;         ///< "line"; a trailing dot ("cmd."): an axis letter follows
     std::string_view unit;         ///< empty: a count
-    std::string_view rotary_unit;  ///< of axes a, b, c where it is another one
+    std::string_view rotary_unit;  ///< of axes a, b, c if it differs
     std::string_view meaning;
 };
 
 /// Every name that the project knows.
 [[nodiscard]] std::span<const ChannelInfo> known_channels();
 
-/// A name of the table or a bare axis, whatever its case.
+/// Whether it is a name of the table or a bare axis, in any letter case.
 [[nodiscard]] bool is_known_name(std::string_view name);
 
-/// A name as it is known, whatever its case; bare axes likewise. Others as they are.
+/// The known form of a name or bare axis in any letter case; other names unchanged.
 [[nodiscard]] std::string normalised_name(std::string_view name);
 
 /// "cmd.x", "fb.c", "act.y", …
 [[nodiscard]] bool is_position(std::string_view name);
 
-/// Gives channels the names as they are known. Where no position says whose it is, channels x, y, z,
-/// a, b, c are the commanded ones, with a note `log.roles`.
+/// Gives channels their known names. If no position names its role, channels x, y, z, a, b, c are the commanded ones,
+/// with a note `log.roles`.
 void normalise_names(Log& log);
 
-/// Brings positions to mm and deg, speeds to mm/min and time to seconds since the first record, as
-/// the rest of the project reads them. Scale, bias and unit change, the raw values stay. Each change
-/// is a note `log.unit` or `log.time-origin`; a unit that is not understood is a warning.
+/// Converts positions to mm and deg, speeds to mm/min and time to seconds since the first record, as the rest of the
+/// project expects. Scale, bias and unit change, the raw values do not. Each change is a note `log.unit` or
+/// `log.time-origin`; an unknown unit is a warning.
 void normalise_units(Log& log);
 
 }  // namespace clsurf

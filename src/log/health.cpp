@@ -12,9 +12,9 @@
 namespace clsurf {
 namespace {
 
-constexpr double period_share = 0.01;  ///< the clock's step may differ from the period by this part
-constexpr double moving = 0.01;        ///< [mm] or [deg] that a commanded position moves at least
-constexpr double no_machine = 1e6;     ///< [mm] the travel of no machine
+constexpr double period_share = 0.01;  ///< the clock's step may differ from the period by this share
+constexpr double moving = 0.01;        ///< [mm] or [deg] least range of a commanded position that moves
+constexpr double no_machine = 1e6;     ///< [mm] beyond the travel of any machine
 
 void check_channels(const Log& log, Diagnostics& found) {
     const auto add = [&](Severity severity, const char* text, const char* hint) {
@@ -31,7 +31,7 @@ void check_channels(const Log& log, Diagnostics& found) {
     if (log.find("line") == nullptr) add(Severity::note, "no channel 'line': lines are found by geometry", "");
 }
 
-/// The stated period, or that of the clock where they differ.
+/// The stated period, or that of the clock if they differ.
 double check_period(const Log& log, Diagnostics& found) {
     const double measured = log.measured_period();
     if (measured == 0 || std::abs(measured - log.period) < period_share * log.period) return log.period;
@@ -53,7 +53,7 @@ void check_coarse(const Log& log, double period, Diagnostics& found) {
          fmt::format("record every {:g} ms or faster", 1e3 * longest_judged_period)});
 }
 
-/// Bytes that a layout reads as another type, or from another place, are positions of any size.
+/// If a layout gives a wrong type or offset, the bytes are positions of any size.
 void check_far(const Log& log, const Channel& channel, const ChannelRange& range, Diagnostics& found) {
     constexpr std::array roles{Role::commanded, Role::feedback, Role::actual};
     const bool position = std::any_of(roles.begin(), roles.end(), [&](Role role) {

@@ -17,16 +17,16 @@
 namespace clsurf {
 namespace {
 
-constexpr double gap_periods = 1.5;                  ///< a longer step in time lost records
-constexpr double jitter_share = 0.05;                ///< of a period, rms; less is not worth a word
-constexpr double heading_chord = 0.5;                ///< [mm] over which the heading is taken
+constexpr double gap_periods = 1.5;                  ///< a longer step in time has lost records
+constexpr double jitter_share = 0.05;                ///< of a period, rms; less is not reported
+constexpr double heading_chord = 0.5;                ///< [mm] length of the chords for the heading
 constexpr double least_turn = 0.05;                  ///< [rad] less is noise and fine chords of a curve
 constexpr double stuck_arc_length = 50.0;            ///< [mm] at least, on one line
 constexpr double stuck_turn = 3 * std::numbers::pi;  ///< [rad] to the left, and as much to the right
 
-constexpr double shown_in_full = 1e7;  ///< [mm] a longer step is no step of a machine, and may have 300 digits
+constexpr double shown_in_full = 1e7;  ///< [mm] a longer step is impossible for a machine, and may have 300 digits
 
-constexpr PointIndex before = 2;             ///< records that a section looks back
+constexpr PointIndex before = 2;             ///< records before a section that it reads
 constexpr PointIndex section_length = 2048;  ///< records whose channels stay in the cache together
 
 bool is_position(const Channel& channel) {
@@ -40,8 +40,8 @@ bool is_real(const Channel& channel) {
     return channel.values.type == ScalarType::f32 || channel.values.type == ScalarType::f64;
 }
 
-/// A line number and what the tool does while it stays. One motion is straight or turns to one side;
-/// a tool that turns left as much as right runs through many lines.
+/// A line number and the motion of the tool while it stays. A single motion is straight or turns to one side; a tool
+/// that turns left as much as right passes through many lines.
 struct LineRun {
     double line = 0;
     PointIndex first = 0, end = 0;  ///< end exclusive
@@ -87,10 +87,10 @@ private:
 struct Limits {
     double period = 0;     ///< [s]
     double jump = 0;       ///< [mm]
-    double last_line = 0;  ///< of the program; infinite: not known
+    double last_line = 0;  ///< of the program; infinite: unknown
 };
 
-/// Points whose line is none of the program's.
+/// Points with a line that is not in the program.
 struct BadLines {
     PointIndex count = 0, first = -1;
     double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
@@ -113,13 +113,13 @@ struct BlockSummary {
     std::vector<LineRun> runs;  ///< the first and the last, and stuck ones between
 };
 
-/// Which channels of a log mean what.
+/// The channels of a log by their meaning.
 struct Meanings {
     std::optional<std::size_t> time, line;
     /// Channels of x, y, z; a lathe has no y.
     using Axes = std::array<std::optional<std::size_t>, 3>;
-    std::vector<Axes> roles;  ///< those that the log has
-    std::vector<bool> read;   ///< channels that are looked at
+    std::vector<Axes> roles;  ///< roles in the log
+    std::vector<bool> read;   ///< channels to be read
 
     explicit Meanings(const Log& log) : read(log.channels.size()) {
         const auto index_of = [&](const std::string& name) -> std::optional<std::size_t> {
@@ -179,7 +179,7 @@ private:
     [[nodiscard]] double value(std::size_t channel, PointIndex i) const {
         return values_[channel][static_cast<std::size_t>(i - window_)];
     }
-    /// From the record before to i [mm]; 0 before the first record, NaN where a value is missing.
+    /// From the previous record to i [mm]; 0 before the first record, NaN if a value is missing.
     [[nodiscard]] Vec3 step(const Meanings::Axes& axes, PointIndex i) const {
         if (i < 1 || i >= log_.records) return Vec3::Zero();
         const auto along = [&](std::optional<std::size_t> axis) {
@@ -225,13 +225,13 @@ private:
         }
     }
 
-    /// A jump that comes back with the next record is a spike and counts once.
+    /// A jump that goes back with the next record is a spike and counts once.
     void look_at_steps(const Meanings::Axes& axes) {
         const double limit_squared = limits_.jump * limits_.jump;
         for (PointIndex i = std::max<PointIndex>(1, begin_); i < end_; ++i) {
             const Vec3 here = step(axes, i);
             if (!(here.squaredNorm() > limit_squared) || gap_[static_cast<std::size_t>(i - begin_)]) continue;
-            // Bytes that are no positions may be numbers whose square is too large.
+            // Bytes that are not positions may be numbers whose square overflows.
             const double length = here.stableNorm();
             const Vec3 next = step(axes, i + 1);
             const double next_length = next.stableNorm();
@@ -259,7 +259,7 @@ private:
                 summary_.bad_lines.append({1, i, now, now});
             } else {
                 summary_.highest_line = std::max(summary_.highest_line, now);
-                // To 0 and back is a pause between blocks; to the next line and back a blend.
+                // To 0 and back is a pause between blocks; to the next line and back is a blend.
                 if (now > 0 && last > 0 && last == next && std::abs(now - last) > 1) {
                     warn("log.line-wild", i,
                          fmt::format("line {:.0f} for one record, between records of line {:.0f}", now, last));
@@ -272,7 +272,7 @@ private:
     void follow_run(double line, PointIndex i) {
         if (i == run_.first && !started_) run_.line = line;
         if (line != run_.line && !(std::isnan(line) && std::isnan(run_.line))) {
-            // The first run may go on from the block before: it is kept as it is.
+            // The first run may continue from the block before: it is always kept.
             if (summary_.runs.empty() || run_.stuck()) summary_.runs.push_back(run_);
             run_ = {line, i, i, 0, 0, 0};
             started_ = false;
@@ -281,7 +281,7 @@ private:
         if (meanings_.roles.empty()) return;
         const auto& axes = meanings_.roles.front();
         const double x = value(*axes[0], i);
-        const double y = value(axes[1] ? *axes[1] : *axes[2], i);  // of a lathe the plane of X and Z
+        const double y = value(axes[1] ? *axes[1] : *axes[2], i);  // for a lathe the plane of X and Z
         if (!std::isfinite(x + y)) return;
         if (!started_) {
             heading_.restart(x, y);
@@ -299,7 +299,7 @@ private:
     Limits limits_;
     BlockSummary summary_;
     std::vector<std::vector<double>> values_;  ///< by channel: records from window_ on
-    std::vector<bool> gap_;                    ///< by record: time was lost before it
+    std::vector<bool> gap_;                    ///< by record: a gap in time before it
     PointIndex window_ = 0, begin_ = 0, end_ = 0;
     LineRun run_;
     Heading heading_;

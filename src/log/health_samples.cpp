@@ -14,14 +14,14 @@
 namespace clsurf {
 namespace {
 
-constexpr PointIndex sampled = 200'000;  ///< records in all
-constexpr PointIndex run_length = 1024;  ///< records in a row
+constexpr PointIndex sampled = 200'000;  ///< records in total
+constexpr PointIndex run_length = 1024;  ///< consecutive records
 constexpr double worth_offset = 0.002;   ///< [mm] between commanded and measured
 constexpr double resting_step = 1e-4;    ///< [mm] per record that feedback may move at rest
 constexpr std::size_t least_resting = 50;
-constexpr std::size_t least_moving = 1000;  ///< records each way
+constexpr std::size_t least_moving = 1000;  ///< records in each direction
 constexpr double sure_sigmas = 5;
-constexpr double correlated = 100;  ///< records that are one measurement: errors change slowly
+constexpr double correlated = 100;  ///< records that count as one measurement: errors change slowly
 
 /// Commanded against measured along one axis.
 class AxisOffset {
@@ -45,7 +45,7 @@ public:
         products_ += step_off * (difference - mean_);
     }
 
-    /// [mm]; 0: none that is sure. `resting` says which kind it is.
+    /// [mm]; 0: none that is significant. `resting`: whether it was measured at rest.
     [[nodiscard]] double offset(bool& resting) {
         resting = resting_.size() >= least_resting;
         if (resting) return median(resting_);
@@ -104,7 +104,7 @@ void check_placeholders(const Log& log, Diagnostics& found) {
     for (const Role role : {Role::commanded, Role::feedback, Role::actual}) {
         const std::string prefix(prefix_of(role));
         if (!log.has(role) || log.find(prefix + ".y") == nullptr)
-            continue;  // a lathe's log shows no marks between passes
+            continue;  // the log of a lathe shows no marks between passes
         const auto axis = [&](char letter) { return log.find(fmt::format("{}.{}", prefix, letter))->values; };
         const std::optional<Placeholder> placeholder = find_placeholder({axis('x'), axis('y'), axis('z')});
         if (!placeholder) continue;

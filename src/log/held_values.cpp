@@ -10,7 +10,7 @@ namespace clsurf {
 namespace {
 
 struct Samples {
-    std::vector<double> times, values;  ///< times rise
+    std::vector<double> times, values;  ///< in ascending order of time
 };
 
 /// Times of records [begin, begin + out.size()) [s].
@@ -47,7 +47,7 @@ std::vector<double> held_values(const Log& slow, const Channel& channel, const L
         copy_times(fast, first, times);
         for (std::size_t i = 0; i < times.size(); ++i) {
             const double time = times[i] + rule.offset;
-            // NaN is after every sample, and too far from all.
+            // NaN is after every sample, and beyond any age.
             const auto after = std::upper_bound(samples.times.begin(), samples.times.end(), time);
             if (after == samples.times.begin()) continue;
             const std::size_t k = static_cast<std::size_t>(after - samples.times.begin()) - 1;

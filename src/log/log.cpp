@@ -36,7 +36,7 @@ bool Log::has(Role role) const {
     const auto has_axis = [&](Role of, const char* axis) { return find(std::string(prefix_of(of)) + axis) != nullptr; };
     if (!has_axis(role, ".x") || !has_axis(role, ".z")) return false;
     if (has_axis(role, ".y")) return true;
-    // A lathe: no role has a Y. Where another role has one, this one's is missing.
+    // A lathe: no role has a Y. If another role has one, this one's is missing.
     return std::ranges::none_of(std::array{Role::commanded, Role::feedback, Role::actual},
                                 [&](Role other) { return has_axis(other, ".y"); });
 }

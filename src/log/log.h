@@ -1,6 +1,6 @@
 #pragma once
-// Log: what a controller recorded, one record per interpolation period, as views on the raw data.
-// A Log owns its storage without knowing files: `keep_alive` holds a mapping or vectors.
+// Log: the record of a controller, one row per interpolation period, as views on the raw data. A Log owns its storage
+// without knowing files: `keep_alive` is a mapping or vectors.
 
 #include <memory>
 #include <optional>
@@ -15,8 +15,8 @@
 
 namespace clsurf {
 
-/// Which of the three recorded positions: what the interpolator commanded, what the motor encoder
-/// fed back, what the linear or ring scale measured.
+/// The three kinds of recorded positions: set points of the interpolator, feedback of the motor encoder, measurement
+/// of the linear or ring scale.
 enum class Role : std::uint8_t { commanded, feedback, actual };
 
 [[nodiscard]] std::string_view name_of(Role role);    ///< "commanded", …
@@ -24,7 +24,7 @@ enum class Role : std::uint8_t { commanded, feedback, actual };
 
 struct Channel {
     std::string name;  ///< "cmd.x", "line", …: docs/formats/biip.md
-    std::string unit;  ///< UTF-8; those of log/channel.h where the name is known
+    std::string unit;  ///< UTF-8; from log/channel.h if the name is known
     ChannelView values;
 };
 
@@ -32,7 +32,7 @@ struct ProgramReference {
     std::string name;
     std::string sha256;                 ///< 64 hexadecimal digits; empty: not recorded
     std::optional<std::uint64_t> size;  ///< [bytes]
-    std::string sha256_lf = {};         ///< with all line ends LF; empty: as sha256, or not recorded
+    std::string sha256_lf = {};         ///< with all line ends LF; empty: same as sha256, or not recorded
 };
 
 struct Log {
@@ -43,19 +43,19 @@ struct Log {
     bool closed = true;  ///< false: the writer was stopped before it finished
     std::vector<Channel> channels;
     std::vector<ProgramReference> programs;
-    std::string metadata;             ///< the JSON text that came with it; empty: none
+    std::string metadata;             ///< the JSON text of the file; empty: none
     double work_rotation = 0;         ///< of the work system about Z [deg], with work_offset
-    std::optional<Vec3> work_offset;  ///< [mm], machine = workpiece + offset, where the log tells
+    std::optional<Vec3> work_offset;  ///< [mm], machine = workpiece + offset, if the log gives it
     Diagnostics diagnostics;
     std::shared_ptr<const void> keep_alive;
 
     /// The channel of that name, or nullptr.
     [[nodiscard]] const Channel* find(std::string_view channel) const;
-    /// All three linear axes of the role are there; or X and Z, where no role has a Y (a lathe).
+    /// Whether all three linear axes of the role exist; or X and Z, if no role has a Y (a lathe).
     [[nodiscard]] bool has(Role role) const;
     /// Time of a point since the first record [s]: the channel `time`, or index · period.
     [[nodiscard]] double time_of(PointIndex point) const;
-    /// The median rising step of the channel `time` over the first 10^4 records [s]; 0: not known.
+    /// The median positive step of the channel `time` over the first 10^4 records [s]; 0: unknown.
     [[nodiscard]] double measured_period() const;
 };
 

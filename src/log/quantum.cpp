@@ -24,7 +24,7 @@ double quantum_of(const ChannelView& channel) {
     const auto n = static_cast<std::size_t>(std::min(channel.count, looked_at));
     std::vector<double> values(n);
     copy_block(channel, (channel.count - static_cast<PointIndex>(n)) / 2, values);
-    // Differences of differences: at constant speed the way of a period is no grid.
+    // Second differences: at constant speed the distance per period is no grid.
     for (std::size_t i = 2; i < n; ++i) {
         const double step = std::abs(values[i] - 2 * values[i - 1] + values[i - 2]);
         if (step > least_change && std::isfinite(step)) steps.push_back(step);
@@ -34,7 +34,7 @@ double quantum_of(const ChannelView& channel) {
     std::nth_element(steps.begin(), hundredth, steps.end());
     const double smallest = *std::min_element(steps.begin(), hundredth + 1);
     if (*hundredth >= 50 * smallest || smallest <= least_quantum) return 0;
-    // A grid: nearly all steps are whole multiples of the smallest one.
+    // A grid means that nearly all steps are whole multiples of the smallest one.
     std::size_t on_grid = 0;
     for (const double step : steps) {
         const double ratio = step / smallest;
@@ -53,7 +53,7 @@ bool on_grid(const std::vector<double>& values, double step, double slack) {
     return static_cast<double>(on) > 0.99 * static_cast<double>(values.size());
 }
 
-/// The shortest decimal number that is this number of 32 bits.
+/// The shortest decimal representation of a 32-bit float, as a number.
 double shortest_decimal(float value) {
     std::array<char, 32> text{};
     const char* const end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
@@ -62,8 +62,8 @@ double shortest_decimal(float value) {
     return read;
 }
 
-/// Whether a value was a number of 32 bits before it was written as a double or as text: as many digits as it needs, or
-/// rounded to `step`.
+/// Whether a value was a 32-bit float before it was written as a double or as text: with as many digits as a float
+/// needs, or rounded to `step`.
 bool was_float(double value, double step) {
     const auto narrow = static_cast<float>(value);
     const double place = std::numeric_limits<float>::epsilon() * std::abs(value);
@@ -72,7 +72,7 @@ bool was_float(double value, double step) {
            std::abs(value - shortest_decimal(narrow)) <= 1e-3 * place;
 }
 
-/// Whether nearly all values are such; most columns fail at once.
+/// Whether nearly all values satisfy the predicate; most columns fail at once.
 template <typename Predicate>
 bool nearly_all(const std::vector<double>& values, Predicate&& is_such) {
     std::size_t others = 0;
@@ -85,7 +85,7 @@ bool were_floats(const std::vector<double>& values, double step) {
     return nearly_all(values, [&](double value) { return was_float(value, step); });
 }
 
-/// The same of a modulo axis whose positions count on (log/turns.h): what lies within a turn was a number of 32 bits.
+/// The same for unwrapped positions of a modulo axis (log/turns.h): the values within a turn were 32-bit floats.
 bool were_floats_of_a_turn(const std::vector<double>& values, double step) {
     return nearly_all(values, [&](double value) {
         const double within = value - deg_per_turn * std::floor(value / deg_per_turn);
@@ -93,7 +93,7 @@ bool were_floats_of_a_turn(const std::vector<double>& values, double step) {
     });
 }
 
-/// The smallest difference of numbers of this size in a type.
+/// The spacing of the numbers of this size in a type.
 double last_place(ScalarType type, double size) {
     if (type < ScalarType::f32) return 1;
     return size * (type == ScalarType::f32 ? double{std::numeric_limits<float>::epsilon()}
@@ -105,7 +105,7 @@ double last_place(ScalarType type, double size) {
 double resolution_of(const ChannelView& channel) {
     constexpr PointIndex section_count = 64, section_length = 256;  // records
     constexpr double exact = 1e-3;                                  // share of a step
-    std::vector<double> stored, changes;                            // as they are stored, where the axis moves
+    std::vector<double> stored, changes;                            // as they are stored, while the axis moves
     double low = 0, high = 0;
     std::vector<double> values(static_cast<std::size_t>(std::min(channel.count, section_length)));
     for (PointIndex s = 0; s < section_count && !values.empty(); ++s) {
@@ -121,14 +121,14 @@ double resolution_of(const ChannelView& channel) {
             changes.push_back(change);
         }
     }
-    // Numbers of a few digits are the coarser the greater they are.
+    // Numbers with few significant digits have a coarser step the greater they are.
     const double size = std::max(std::abs(low), std::abs(high));
     std::vector<double> great;
     std::copy_if(stored.begin(), stored.end(), std::back_inserter(great),
                  [&](double value) { return std::abs(value) >= 0.5 * size; });
     const double place = last_place(channel.type, size);
     double step = place;
-    // Coarser than a tenth of the travel, a grid would be no grid.
+    // A step coarser than a tenth of the travel is not a grid.
     for (double decimal = 1e4; decimal > place; decimal /= 10) {
         if (decimal > 0.1 * (high - low) || !on_grid(great, decimal, exact * decimal + 2 * place)) continue;
         step = decimal;
@@ -139,7 +139,7 @@ double resolution_of(const ChannelView& channel) {
     const double place_of_turn = last_place(ScalarType::f32, deg_per_turn);
     const bool may_be_turns = channel.type == ScalarType::f64 && size > 0.5 * deg_per_turn && step < place_of_turn;
     if (may_be_turns && were_floats_of_a_turn(great, step)) step = place_of_turn;
-    // An encoder's steps are no decimals.
+    // The steps of an encoder are not decimal.
     const double quantum = quantum_of(channel) / std::abs(channel.scale);
     if (quantum > step && on_grid(changes, quantum, 0.02 * quantum + 2 * place)) step = quantum;
     return step * std::abs(channel.scale);

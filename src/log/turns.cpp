@@ -19,14 +19,14 @@ namespace clsurf {
 namespace {
 
 constexpr double end_rounding = 1e-3;  // [deg] of positions at both ends of a turn
-constexpr double longest_rest = 90;    // [deg] more in a period is no motion that a wrap can be told from
-constexpr double still = 0.05;         // [deg] noise of an axis that stands where it wraps
-constexpr double longest_wrap = 2;     // a wrap may be so many times as long as the steps before and after it
+constexpr double longest_rest = 90;    // [deg] a larger step per period cannot be distinguished from a wrap
+constexpr double still = 0.05;         // [deg] noise of an axis at rest at the wrap
+constexpr double longest_wrap = 2;     // largest ratio of a wrap to the steps before and after it
 
-/// The same step on the shorter way round [deg].
+/// The same step in the shorter direction [deg].
 double shorter_way(double step) { return std::remainder(step, deg_per_turn); }
 
-/// What a channel does in some records.
+/// Statistics of a channel over some records.
 struct TurnSummary {
     double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
     PointIndex wraps = 0, first_wrap = -1;
@@ -66,7 +66,7 @@ TurnSummary summarise(const ChannelView& channel, PointIndex first, PointIndex e
 struct AxisChannels {
     char letter = 'a';
     std::vector<Channel*> channels;
-    TurnSummary summary;  ///< of the first of them that wraps
+    TurnSummary summary;  ///< of the first channel that wraps
 };
 
 std::vector<AxisChannels> rotary_axes(Log& log) {
@@ -88,7 +88,7 @@ void look_for_wraps(std::vector<AxisChannels>& axes, PointIndex records) {
     for (const AxisChannels& axis : axes)
         for (const Channel* channel : axis.channels) views.push_back(&channel->values);
     std::vector<std::vector<TurnSummary>> blocks(static_cast<std::size_t>((records + block_points - 1) / block_points));
-    // Channels of a record lie side by side: a block of all of them is read while it is in the cache.
+    // The channels of a record are adjacent in memory: a block of all of them is read while it is in the cache.
     for_each_block(records, [&](PointIndex first, PointIndex end) {
         for (const ChannelView* view : views)
             blocks[static_cast<std::size_t>(first / block_points)].push_back(summarise(*view, first, end));
@@ -103,13 +103,14 @@ void look_for_wraps(std::vector<AxisChannels>& axes, PointIndex records) {
     }
 }
 
-/// Columns of positions that count on, and what kept the log alive until now.
+/// Unwrapped columns of positions, and the previous owner of the log's data.
 struct TurnColumns {
     std::vector<Column<double>> numbers;
     std::vector<Column<std::int64_t>> counts;
     std::shared_ptr<const void> before;
 
-    /// The positions of a channel. The first one is within half a turn of `start`; NaN: it stays where it is.
+    /// Adds the unwrapped positions of a channel. The first one is within half a turn of `start`; NaN: it is
+    /// unchanged.
     ChannelView add(const ChannelView& channel, double start) {
         Column<double> positions(static_cast<std::size_t>(channel.count));
         copy_block(channel, 0, positions);
@@ -120,7 +121,7 @@ struct TurnColumns {
             last = position;
         }
         const double counts_of_turn = deg_per_turn / channel.scale;
-        // Whole counts stay what they are: the rounding of positions is known from them.
+        // Integer counts stay integers: the rounding of positions is determined from them.
         if (channel.type < ScalarType::f32 && std::abs(counts_of_turn - std::round(counts_of_turn)) < 1e-6) {
             Column<std::int64_t>& column = counts.emplace_back(positions.size());
             std::ranges::transform(positions, column.begin(), [&](double position) {
@@ -153,7 +154,7 @@ void count_turns_on(Log& log) {
     const auto columns = std::make_shared<TurnColumns>();
     for (const AxisChannels& axis : axes) {
         if (!axis.summary.is_modulo()) continue;
-        // Where an axis stands at the end of a turn, roles may begin at both ends of it.
+        // If an axis is at rest at the end of a turn, roles may begin at opposite ends of it.
         const double start = first_finite(axis.channels.front()->values);
         for (Channel* channel : axis.channels) channel->values = columns->add(channel->values, start);
         log.diagnostics.add(

@@ -14,15 +14,15 @@ Vec3 turned_by(const Vec3& v, const RotaryAxis& axis, double angle) {
     return turned(v, axis.direction, std::sin(angle), std::cos(angle));
 }
 
-/// The angle about `axis` that takes a to b, both of the same part along it.
+/// The angle about `axis` that takes a to b, both with equal components along it.
 double angle_about(const Vec3& axis, const Vec3& a, const Vec3& b) {
-    // Across the axis first: near it the parts along it would drown the rest.
+    // The perpendicular components first: near the axis the components along it would dominate.
     const Vec3 across_a = a - axis.dot(a) * axis;
     const Vec3 across_b = b - axis.dot(b) * axis;
     return std::atan2(axis.dot(across_a.cross(across_b)), across_a.dot(across_b));
 }
 
-/// `angle` by whole turns next to `before`, inside the range. False: none of them is inside.
+/// Shifts `angle` by whole turns to the value inside the range that is nearest to `before`. False if there is none.
 bool wrap_near(double& angle, double before, const AngleRange& range) {
     double wrapped = angle + full_turn * std::round((before - angle) / full_turn);
     if (wrapped > range.high) wrapped -= full_turn * std::ceil((wrapped - range.high) / full_turn);
@@ -130,8 +130,9 @@ RotarySolutions solve_rotary(const Kinematics& kinematics, const Vec3& axis, con
     const Vec3& e2 = kinematics.rotation.direction;
     const Vec3& k = kinematics.tool_axis;
     RotarySolutions solutions;
-    // z = T(θ) k = R(−φ) t in the basis e2, e1, e2 × e1: its parts along e1 and e2 are known, its length
-    // across e2 is that of t. (Of the cross product, which is exact near the pole where 1 − cos² is not.)
+    // z = T(θ) k = R(−φ) t in the basis e2, e1, e2 × e1: its components along e1 and e2 are known, its component
+    // perpendicular to e2 has the length of that of t. (The cross product is accurate near the pole; 1 − cos² is
+    // not.)
     const Vec3 normal = e2.cross(e1);
     const double s2 = normal.squaredNorm();
     const double c = e1.dot(e2);
@@ -177,7 +178,7 @@ std::vector<RotaryAngles> follow_rotary(const Kinematics& kinematics, std::span<
                     !wrap_near(angles.rotation, origin.angles.rotation, rotation))
                     continue;
                 const double travel = origin.travel + travel_between(angles, origin.angles);
-                // At the pole both branches go on: each keeps its own rotation.
+                // At the pole both branches continue, each with its own rotation.
                 State& state = states[i][static_cast<std::size_t>(solutions.count == 1 ? from : s)];
                 if (travel < state.travel) state = {angles, travel, from};
             }

@@ -1,6 +1,6 @@
 #pragma once
 // Kinematics of machines with two rotary axes: from axis positions to the tool's tip and direction in
-// the workpiece, and back. One table of chains, by what carries the rotary axes:
+// the workpiece, and back. One table of chains, by the part that carries each rotary axis:
 //
 //     table-table   q = m + T(−θ) ( d + R(−φ) (p − o) ) + L k
 //     head-head     q = p + R(φ) ( b + T(θ) L k )
@@ -8,8 +8,8 @@
 //
 // q axis positions, p tip, k tool axis with both angles zero; T turns about the tilt axis by θ, R about
 // the rotation axis by φ. In all three the tool axis in the workpiece is t = R(φ) T(θ) k. Angles are
-// positive for the motion of the tool relative to the workpiece; a machine that counts the other way
-// has a sign of −1, which is applied where angles come in or go out, and nowhere else.
+// positive for the motion of the tool relative to the workpiece; a machine that counts in the other direction
+// has a sign of −1, which is applied only on input and output of angles.
 
 #include <array>
 #include <cstdint>
@@ -25,19 +25,19 @@ namespace clsurf {
 
 enum class KinematicsType : std::uint8_t { xyz, table_table, head_head, table_head };
 
-/// The word of a machine file: "xyz", "table-table", …
+/// The name in a machine file: "xyz", "table-table", …
 [[nodiscard]] std::string_view name_of(KinematicsType type);
 [[nodiscard]] std::span<const KinematicsType> kinematics_types();
 
-/// How the controller takes the tool axis from block to block (simulation/path/tool_axis_path.h).
+/// How the controller interpolates the tool axis from block to block (simulation/path/tool_axis_path.h).
 enum class ToolAxisInterpolation : std::uint8_t {
-    linear,  ///< angles in proportion to the way
+    linear,  ///< angles proportional to the arc length
     vector,  ///< along the great circle
-    safe,    ///< likewise, but near the pole
+    safe,    ///< likewise, but not near the pole
 };
 [[nodiscard]] std::string_view name_of(ToolAxisInterpolation interpolation);
 
-/// Turns `v` about the unit vector `axis` by an angle with the given sine and cosine (Rodrigues).
+/// Rotates `v` about the unit vector `axis` by an angle with the given sine and cosine (Rodrigues).
 [[nodiscard]] inline Vec3 turned(const Vec3& v, const Vec3& axis, double sine, double cosine) {
     return cosine * v + sine * axis.cross(v) + (1 - cosine) * axis.dot(v) * axis;
 }
@@ -58,7 +58,7 @@ struct ToolPose {
     Vec3 axis = Vec3::UnitZ();  ///< unit, from the tip to the spindle
 };
 
-/// Distances of the tip from the lines that the rotary axes turn about [mm]: what a small angle moves it by.
+/// Distances of the tip from the axes of rotation [mm]: its displacement per radian of a small rotation.
 struct LeverArms {
     double tilt = 0, rotation = 0;
 };
@@ -72,22 +72,22 @@ struct Kinematics {
     Vec3 centre_from_tilt = Vec3::Zero();    ///< d [mm]
     Vec3 tilt_point = Vec3::Zero();          ///< m [mm]
     Vec3 tilt_from_rotation = Vec3::Zero();  ///< b [mm]
-    double tool_length = 0;                  ///< L, tip to the point whose position q is [mm]
-    bool always_tool_centre_point = false;   ///< programs have no word for it: positions are always tips
+    double tool_length = 0;                  ///< L, from the tip to the point at q [mm]
+    bool always_tool_centre_point = false;   ///< there is no word for it in programs: positions are always tips
 
     ToolAxisInterpolation interpolation = ToolAxisInterpolation::linear;
-    double axis_tolerance = 0.1 * rad_per_deg;  ///< that `safe` may leave the great circle [rad]
+    double axis_tolerance = 0.1 * rad_per_deg;  ///< by which `safe` may leave the great circle [rad]
 
     [[nodiscard]] bool has_rotary() const { return type != KinematicsType::xyz; }
 
-    /// The pair's angles from A, B, C as a program counts them [rad]; an axis not programmed (NaN) is at 0.
+    /// The angles of both axes from A, B, C of a program [rad]; an axis that is not programmed (NaN) is at 0.
     [[nodiscard]] RotaryAngles angles_of(const Vec3& abc) const;
-    /// A, B, C as a program counts them; an axis that the machine does not have is at 0.
+    /// A, B, C of a program; an axis that the machine does not have is at 0.
     [[nodiscard]] Vec3 programmed(const RotaryAngles& angles) const;
-    /// Tip and tool axis in the workpiece. Total: any angles.
+    /// Tip and tool axis in the workpiece. Defined for all angles.
     [[nodiscard]] ToolPose to_workpiece(const Vec3& linear, const RotaryAngles& angles) const;
     [[nodiscard]] LeverArms lever_arms(const Vec3& linear, const RotaryAngles& angles) const;
-    /// Positions of the linear axes for a tip and the angles. The inverse of to_workpiece().tip.
+    /// Positions of the linear axes for a tip and the angles: the inverse of to_workpiece().tip.
     [[nodiscard]] Vec3 to_axes(const Vec3& tip, const RotaryAngles& angles) const;
     /// t = R(φ) T(θ) k.
     [[nodiscard]] Vec3 axis_of(const RotaryAngles& angles) const;
@@ -95,19 +95,19 @@ struct Kinematics {
     [[nodiscard]] Vec3 zero_position() const { return to_axes(Vec3::Zero(), {}); }
 };
 
-/// The angles that give a tool axis: two of them, the one with the greater tilt first; one where they
-/// meet or at the pole; none where the axis is out of reach (an inclined tilt axis).
+/// The angles for a tool axis: two solutions, that with the greater tilt first; one solution if they coincide or at
+/// the pole; none if the axis is out of reach (an inclined tilt axis).
 struct RotarySolutions {
     std::array<RotaryAngles, 2> angles;
     int count = 0;
-    bool pole = false;  ///< the tool axis is along the rotation axis: any rotation does
+    bool pole = false;  ///< the tool axis is along the rotation axis: any rotation is a solution
 };
 
-/// Less than this from the rotation axis (sine of the angle) is the pole.
+/// A tool axis nearer to the rotation axis (sine of the angle) is at the pole.
 inline constexpr double pole_sine = 1e-9;
 
-/// Solves R(φ) T(θ) k = `axis` (unit); at the pole the rotation is `before.rotation`. Angles in (−π, π].
-/// For two axes that cross: Paden, Kahan 1986, subproblem 2.
+/// Solves R(φ) T(θ) k = `axis` (unit); at the pole the rotation is `before.rotation`. Angles in (−π, π]. For two
+/// intersecting axes: Paden, Kahan 1986, subproblem 2.
 [[nodiscard]] RotarySolutions solve_rotary(const Kinematics& kinematics, const Vec3& axis, const RotaryAngles& before);
 
 /// The range of an angle [rad].
@@ -116,9 +116,9 @@ struct AngleRange {
     [[nodiscard]] bool contains(double angle) const { return angle >= low && angle <= high; }
 };
 
-/// The angles for a whole series of tool axes with the least sum of ways |Δθ| + |Δφ| over both
-/// solutions at each (dynamic programming), so that a cut need not change over. From `before` on.
-/// Shorter than `axes`: the next one is out of reach. O(axes).
+/// The angles for a series of tool axes with the least total travel |Δθ| + |Δφ| over both solutions at each (dynamic
+/// programming), so that a cut does not change between solutions unnecessarily. Starts from `before`. If the result
+/// is shorter than `axes`, the next one is out of reach. O(axes).
 [[nodiscard]] std::vector<RotaryAngles> follow_rotary(const Kinematics& kinematics, std::span<const Vec3> axes,
                                                       const RotaryAngles& before, const AngleRange& tilt,
                                                       const AngleRange& rotation);

@@ -1,6 +1,6 @@
 #pragma once
-// The limits of a machine as one table: what each is called, where it stands in a machine file and in a Machine, and
-// which derivative of the position it holds.
+// The limits of a machine in one table: the name of each, its key in a machine file, its member in a Machine, and the
+// derivative of the position that it limits.
 
 #include <array>
 #include <cstdint>
@@ -28,12 +28,12 @@ struct LimitTableRow {
     std::string_view name;         ///< of reports: "tangential_acceleration"
     std::string_view key;          ///< of machine files and budgets: "max_acceleration"
     int order;                     ///< of the derivative; 0: a distance
-    Unit unit, rotary_unit;        ///< as reports have it
+    Unit unit, rotary_unit;        ///< in reports
     double MachineAxis::*of_axis;  ///< nullptr: not a limit of an axis
-    double PathLimits::*of_path;   ///< nullptr: not one of the path
+    double PathLimits::*of_path;   ///< nullptr: not a limit of the path
 };
 
-/// By LimitedQuantity.
+/// Indexed by LimitedQuantity.
 inline constexpr std::array limit_table{
     LimitTableRow{LimitedQuantity::speed, "speed", "max_speed", 1, unit::mm_min,
                   Unit{"deg/min", deg_per_rad* seconds_per_minute}, &MachineAxis::max_speed, nullptr},
@@ -58,7 +58,7 @@ inline constexpr std::array limit_table{
     return limit_table[static_cast<std::size_t>(quantity)];
 }
 
-/// A limit that somebody stated.
+/// A limit that the user or a machine file gives.
 struct StatedLimit {
     LimitedQuantity quantity = LimitedQuantity::speed;
     char axis = 0;     ///< 'x' … 'c'; 0: the path

@@ -12,7 +12,7 @@ namespace {
 
 bool is_acceleration(std::string_view key) { return key == "max_acceleration" || key == "max_normal_acceleration"; }
 
-/// What is assumed of a machine whose file says nothing.
+/// Assumed uncertainties of a machine whose file gives none.
 std::vector<ParameterUncertainty> assumed_uncertainty(const Kinematics& kinematics) {
     std::vector<std::string> axes(axis_names.begin(), axis_names.end());
     if (kinematics.has_rotary()) {
@@ -30,20 +30,20 @@ std::vector<ParameterUncertainty> assumed_uncertainty(const Kinematics& kinemati
     return rows;
 }
 
-/// Standard normal, the same on every platform: the sum of twelve uniform numbers, less six.
+/// Standard normal, the same on every platform: the sum of twelve uniform numbers, minus six.
 double draw_normal(std::mt19937_64& random) {
     double sum = -6;
     for (int k = 0; k < 12; ++k) sum += static_cast<double>(random() >> 11) * 0x1p-53;
     return sum;
 }
 
-/// Whose turn it is among so many machines.
+/// Index of a machine among `count` machines.
 struct Turn {
     std::size_t number, count;
 };
 
-/// Which of `size` alternatives a machine gets: each of them in turn, or, if there are more alternatives than machines, some
-/// from all over the list.
+/// The index of a machine's alternative among `size`: each in turn, or, if there are more alternatives than machines, evenly
+/// spaced ones.
 std::size_t alternative(Turn turn, std::size_t size) {
     const auto [number, count] = turn;
     return count >= size ? number % size : (2 * (number % count) + 1) * size / (2 * count);
@@ -74,7 +74,7 @@ std::vector<Machine> machines_drawn_from(const Machine& machine, int count) {
     std::vector<Machine> drawn(static_cast<std::size_t>(count), machine);
     for (std::size_t k = 0; k < drawn.size(); ++k) {
         std::mt19937_64 random(k + 1);
-        // Not the lowest alternatives of all values in one machine.
+        // The offset by the row avoids one machine with the lowest alternatives of all values.
         for (std::size_t row = 0; row < rows.size(); ++row)
             draw(rows[row], speed_error, {k + row, drawn.size()}, random, drawn[k]);
     }

@@ -8,7 +8,7 @@
 namespace clsurf {
 namespace {
 
-/// A value that plans the motion: one of both, and the unit of the machine file in ours.
+/// A value that determines planned speeds: one of both members, and the unit of the machine file in internal units.
 struct PlanningValue {
     double* real = nullptr;
     int* whole = nullptr;

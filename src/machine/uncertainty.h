@@ -1,12 +1,12 @@
 #pragma once
-// How well the values of a machine file are known.
+// Uncertainty of the values of a machine file.
 
 #include <string>
 #include <vector>
 
 namespace clsurf {
 
-/// How well one value is known: by its standard error, by what it is at least, or by values that the runs did not tell apart.
+/// Uncertainty of one value: its standard error, a lower bound, or values that the runs could not distinguish.
 struct ParameterUncertainty {
     std::string key;                     ///< as in the machine file: "max_acceleration", "lookahead_blocks" …
     std::string of;                      ///< "x" …, "path", "controller"
