@@ -6,14 +6,14 @@
 namespace clsurf {
 namespace {
 
-/// Squares above it are no chance: 1 in 16,000 (χ² with one degree of freedom).
+/// Larger squares are significant: 1 in 16,000 by chance (χ² with one degree of freedom).
 constexpr double gate = 16;
-constexpr double hardly = 0.01;       ///< of the greatest error or innovation: what is less is left out
-constexpr PointIndex tried = 32;      ///< places that a jump is looked for at, in the innovations that it changes
-constexpr PointIndex beside = 2;      ///< records: jumps lie between records, too
-constexpr PointIndex longest = 4000;  ///< records: a motion that is steadier has no jumps
+constexpr double hardly = 0.01;       ///< of the greatest error or innovation: smaller ones are omitted
+constexpr PointIndex tried = 32;      ///< positions at which a jump is tested, within the innovations that it changes
+constexpr PointIndex beside = 2;      ///< records: jumps may be between records
+constexpr PointIndex longest = 4000;  ///< records: in a steadier motion no jumps are sought
 
-/// A motion whose acceleration is 0 and then 1 mm/s², smoothed.
+/// The smoothed response to an acceleration step from 0 to 1 mm/s².
 struct Response {
     std::vector<double> innovation;             ///< from the jump on
     std::array<std::vector<double>, 4> errors;  ///< of all points, in standard deviations
@@ -52,7 +52,8 @@ double greatest_of(std::span<const double> values) {
     return most;
 }
 
-/// Without what is small far from the middle; each the greatest of those beside it, without sign.
+/// Cuts off small errors far from the middle; each remaining one becomes the greatest absolute value of its
+/// neighbours.
 std::vector<double> trimmed(const std::vector<double>& errors, PointIndex widened) {
     const auto middle = static_cast<PointIndex>(errors.size() / 2);
     const double least = hardly * greatest_of(errors);
@@ -87,7 +88,7 @@ void AccelerationCorners::raise(std::span<const Eigen::Array4d> innovations, Poi
                                 Inflation& inflation) const {
     if (innovation_.empty()) return;
     const auto n = static_cast<PointIndex>(innovations.size());
-    // The same places however much is read of the path.
+    // The same test positions for any section of the path that is read.
     for (PointIndex at = (step_ - from % step_) % step_; at < n; at += step_) {
         Eigen::Array4d sum = Eigen::Array4d::Zero();
         double squares = 0;

@@ -16,7 +16,7 @@ CLSURF_VECTORISED void measure(const float* x, const float* y, const float* z, f
         const float dy = y[i + 1] - y[i];
         const float dz = z[i + 1] - z[i];
         const float squared = dx * dx + dy * dy + dz * dz;
-        steps[i] = squared >= 0 ? std::sqrt(squared) : 0.0F;  // NaN is no way
+        steps[i] = squared >= 0 ? std::sqrt(squared) : 0.0F;  // a step to or from NaN has no length
     }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// ArcLength: arc length from point to point and in total. A prefix sum for every 64th point is enough to know in
-// O(1) that two points are far apart along the path.
+// ArcLength: arc length from point to point and in total. A prefix sum for every 64th point decides in O(1) whether
+// two points are far apart along the path.
 
 #include "core/column.h"
 #include "toolpath/positions.h"
@@ -9,7 +9,7 @@ namespace clsurf {
 
 class ArcLength {
 public:
-    /// `positions` must outlive it where they are gathered when they are read. O(points), parallel; then O(1).
+    /// `positions` must outlive it if they are gathered on reading. O(points), parallel; then O(1).
     explicit ArcLength(const Positions& positions);
 
     /// Arc length from point i to the next [mm]; 0 from or to a missing position.
@@ -20,7 +20,7 @@ public:
 
     /// Arc length to point 64 k, for each k, and to the end [mm].
     [[nodiscard]] const Column<double>& sums() const { return sums_; }
-    /// How many these are.
+    /// Number of these sums.
     [[nodiscard]] static std::size_t sum_count(PointIndex points) {
         return static_cast<std::size_t>((points + stride - 1) / stride + 1);
     }
@@ -28,11 +28,11 @@ public:
     /// Arc length from the first point to point i [mm]. O(64).
     [[nodiscard]] double to(PointIndex i) const;
 
-    /// Whether the arc length between two points is at least `distance` [mm]. O(1) but where it is close.
+    /// Whether the arc length between two points is at least `distance` [mm]. O(1) unless it is a close decision.
     [[nodiscard]] bool at_least(PointIndex i, PointIndex j, double distance) const;
 
-    /// Where positions are gathered when they are read: the steps take no memory until they are asked for again. Nobody may
-    /// be reading.
+    /// If positions are gathered on reading: frees the steps; they are computed again when needed. No thread may be
+    /// reading.
     void forget();
 
 private:

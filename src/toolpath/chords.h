@@ -1,6 +1,6 @@
 #pragma once
-// Chords: for a point that moves along a run, the points a given arc length before and after it. A direction
-// over an arc length, not over a number of samples, is not lost in noise where the tool is slow.
+// Chords: for a point that moves along a run, the points at a given arc length before and after it. A direction over
+// an arc length, instead of a number of samples, is not lost in noise if the tool is slow.
 
 #include "core/point.h"
 #include "toolpath/arc_length.h"
@@ -9,15 +9,15 @@ namespace clsurf {
 
 class Chords {
 public:
-    /// Stands at `point` of the run [first, last]; chords reach over `arc_length` [mm] to each side, less at
-    /// the run's ends. O(points in the window).
+    /// Starts at `point` of the run [first, last]; chords extend over `arc_length` [mm] to each side, less at the
+    /// run's ends. O(points in the window).
     Chords(const ArcLength& lengths, PointRange run, PointIndex point, float arc_length)
         : lengths_(&lengths), run_(run), arc_length_(arc_length), at_(point), behind_(point), ahead_(point) {
         while (behind_ > run_.first && arc_length_behind_ < arc_length_) arc_length_behind_ += step(--behind_);
         extend();
     }
 
-    /// Moves on by one point. Amortised O(1).
+    /// Advances by one point. Amortised O(1).
     void advance() {
         const float gone = step(at_);
         ++at_;

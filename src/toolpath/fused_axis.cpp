@@ -11,26 +11,29 @@
 namespace clsurf {
 namespace {
 
-constexpr PointIndex half_window = 8;    ///< records to each side over which way and speed are compared
-constexpr double sure = 3;               ///< standard errors by which a lead must differ from a whole number
-constexpr double known_lead = 0.1;       ///< records: the standard error of a lead that counts
-constexpr double most_difference = 0.3;  ///< an encoder that is off by more of the motion is not that of the axis
-constexpr int alignment_steps = 4;       ///< of Gauss and Newton
-constexpr double sure_compliance = 5;    ///< standard errors
-constexpr double reversal_sigmas = 12;   ///< an axis has turned when it has come back by so many deviations
-/// The motor's way from a reversal [mm] from which on the backlash is crossed; measured between it and twice of it. Where the
-/// motor turns round again sooner, it is a quarter of the way until there, and below the least nothing is measured.
+constexpr PointIndex half_window = 8;  ///< records to each side over which displacement and speed are compared
+constexpr double sure = 3;             ///< standard errors by which a lead must differ from a whole number
+constexpr double known_lead = 0.1;     ///< records: the standard error below which a lead is used
+constexpr double most_difference =
+    0.3;                               ///< share of the motion: an encoder that differs by more is not that of the axis
+constexpr int alignment_steps = 4;     ///< of the Gauss–Newton method
+constexpr double sure_compliance = 5;  ///< standard errors
+constexpr double reversal_sigmas = 12;  ///< an axis has reversed if it has moved back by this many standard deviations
+/// Distance of the motor from a reversal [mm] at which the backlash is certainly crossed; measured between it and twice of
+/// it. If the motor reverses again earlier, a quarter of the distance until then is used; below the least nothing is
+/// measured.
 constexpr double beyond_backlash = 0.1, least_beyond = 0.02;
-constexpr double sure_backlash = 5;       ///< standard errors
-constexpr double transit_backlash = 1.5;  ///< what the motor moves after a reversal while the table may still stand …
-constexpr double transit_sigmas = 3;      ///< … with so many standard deviations of a difference
-constexpr PointIndex margin = 1;          ///< records around it
+constexpr double sure_backlash = 5;  ///< standard errors
+constexpr double transit_backlash =
+    1.5;  ///< travel of the motor after a reversal during which the table may be at rest …
+constexpr double transit_sigmas = 3;           ///< … plus this many standard deviations of a difference
+constexpr PointIndex margin = 1;               ///< records around it
 constexpr PointIndex longest_range = 1 << 18;  ///< records that are smoothed at once: 200 bytes each
 constexpr double not_known = std::numeric_limits<double>::infinity();
 
 using Values = std::vector<double>;
 
-/// A difference of positions, with what it is made of.
+/// The difference of positions of both encoders, with its terms.
 struct Differences {
     Values scale, encoder;  ///< the encoder shifted to the scale's records
     [[nodiscard]] double at(PointIndex i) const {
@@ -75,7 +78,7 @@ bool agree(const Differences& both, const std::vector<PointRange>& samples) {
     return of_difference < most_difference * most_difference * of_scale;
 }
 
-/// The number of whole records at which the displacements of both over a window agree best.
+/// The whole number of records at which the displacements of both over a window agree best.
 double whole_lead(const Differences& both, const std::vector<PointRange>& samples) {
     std::array<double, 2 * most_lead + 1> squares{};
     const auto displacement = [](const Values& x, PointIndex i) {
@@ -104,14 +107,14 @@ struct Alignment {
     double yield = 0;                                     ///< [mm] rms, over a window
 };
 
-/// The remaining difference between both displacements over a window is the remaining lead times the change of speed, and the compliance of
-/// the drive times that of the acceleration: least squares of both. Windows lie inside `ranges`; in them the motor does not
-/// turn round.
+/// The remaining difference between both displacements over a window is the remaining lead times the change of speed, plus
+/// the compliance of the drive times the change of acceleration: least squares of both. Windows are inside `ranges`; the
+/// motor does not reverse in them.
 Alignment alignment_step(const Differences& both, const std::vector<PointRange>& ranges) {
     double vv = 0, va = 0, aa = 0, vd = 0, ad = 0, dd = 0, count = 0;
     const auto e = [&](PointIndex i) { return both.encoder[static_cast<std::size_t>(i)]; };
-    const auto speed = [&](PointIndex i) { return 0.5 * (e(i + 1) - e(i - 1)); };  // [mm a record]
-    // Over half a window to each side, where rounding hardly counts [mm a record²].
+    const auto speed = [&](PointIndex i) { return 0.5 * (e(i + 1) - e(i - 1)); };  // [mm per record]
+    // Over half a window to each side, so that rounding is negligible [mm per record²].
     constexpr PointIndex half = half_window / 2;
     const auto acceleration = [&](PointIndex i) { return (e(i + half) - 2 * e(i) + e(i - half)) / (half * half); };
     constexpr PointIndex reach = half_window + half;
@@ -140,7 +143,7 @@ Alignment alignment_step(const Differences& both, const std::vector<PointRange>&
     return found;
 }
 
-/// Brings the encoder to the scale's records.
+/// Shifts the encoder to the scale's records.
 Alignment align(const AxisRecords& records, double start, const std::vector<PointRange>& ranges, Differences& both) {
     double lead = start;
     Alignment found;
@@ -153,7 +156,7 @@ Alignment align(const AxisRecords& records, double start, const std::vector<Poin
     if (std::abs(lead - std::round(lead)) < sure * found.lead_error) lead = std::round(lead);
     if (!(found.compliance > sure_compliance * found.compliance_error)) found.yield = 0;
     copy_ahead(records.encoder, records.count, 0, lead, both.encoder);
-    // What comes from beyond a gap belongs to another time.
+    // Values interpolated across a gap are invalid.
     const auto beyond = static_cast<PointIndex>(std::ceil(std::abs(lead))) + (lead == std::round(lead) ? 0 : 1);
     for (const PointRange& piece : records.pieces) {
         const PointIndex n = std::min(beyond, piece.size());
@@ -166,10 +169,11 @@ Alignment align(const AxisRecords& records, double start, const std::vector<Poin
 
 struct Backlash {
     double size = 0;     ///< [mm]; 0: none
-    double transit = 0;  ///< [mm] what the motor moves after a reversal while the table may stand
+    double transit = 0;  ///< [mm] travel of the motor after a reversal during which the table may be at rest
 };
 
-/// Mean difference while the motor moves from `least` to twice of it before or after a reversal; NaN: not so far.
+/// Mean difference while the motor is between `least` and twice of it away from a reversal, before or after it; NaN: it
+/// does not move that far.
 double mean_beside(const Differences& both, PointIndex from, int step, PointRange within, double least) {
     const double origin = both.encoder[static_cast<std::size_t>(from)];
     double sum = 0, count = 0;
@@ -213,7 +217,8 @@ Backlash measure_backlash(const Differences& both, const std::vector<std::vector
     return {size, transit_backlash * std::abs(size) + transit_sigmas * sigma};
 }
 
-/// Where the difference is smooth: pieces without missing records, cut at reversals and without the motor's way there.
+/// Ranges in which the difference is smooth: pieces without missing records, cut at reversals, excluding the motor's
+/// travel there.
 std::vector<PointRange> smooth_ranges(const Differences& both, const std::vector<std::vector<Reversal>>& reversals,
                                       const std::vector<PointRange>& pieces, double transit) {
     std::vector<PointRange> ranges;
@@ -231,7 +236,7 @@ std::vector<PointRange> smooth_ranges(const Differences& both, const std::vector
             while (i <= pieces[p].last && !(distance_between(both, from, i) > transit)) ++i;
             return i + margin;
         };
-        // Where a log begins, nobody knows on which side of the backlash the table is.
+        // At the beginning of a log it is unknown on which side of the backlash the table is.
         PointIndex first = pieces[p].first;
         while (first < pieces[p].last && std::isnan(both.encoder[static_cast<std::size_t>(first)])) ++first;
         if (transit > 0) first = beyond_transit(first);
@@ -245,8 +250,9 @@ std::vector<PointRange> smooth_ranges(const Differences& both, const std::vector
     return ranges;
 }
 
-/// By what standard deviations of b̂ grow because a scale's rounding stays. Over the records of an estimate, positions that
-/// lie at k places between two codes round like a code k times as fine. The encoder tells: what it is off by changes slowly.
+/// Factor of the standard deviations of b̂ for the scale's rounding that smoothing does not average out. If the positions of
+/// the records of an estimate are at k different fractions of a code, they round like a code k times as fine. The encoder
+/// gives these fractions, because its error changes slowly.
 class Rounding {
 public:
     Rounding(double quantum, std::span<const double> encoder) : quantum_(quantum) {
@@ -259,7 +265,7 @@ public:
         }
     }
 
-    /// Of an estimate of standard deviation `sigma` at a record, which is as good as the mean of `records`.
+    /// For an estimate of standard deviation `sigma` at a record, which is as good as the mean of `records`.
     [[nodiscard]] double factor(std::size_t at, std::size_t records, double sigma) const {
         if (quantum_ == 0) return 1;
         const std::size_t n = sums_.size() - 1;
@@ -280,7 +286,7 @@ private:
     std::vector<std::array<std::uint32_t, places>> sums_;  ///< records at each place before a record
 };
 
-/// The same motion and noise, where every second record is known.
+/// The same motion and noise, with only every second record known.
 KalmanSmoother of_every_second(const KalmanSmoother& smoother) {
     SmootherModel model = smoother.model();
     model.period *= 2;
@@ -288,7 +294,7 @@ KalmanSmoother of_every_second(const KalmanSmoother& smoother) {
     return KalmanSmoother(model);
 }
 
-/// clsurf::hold_out(), with `half` = of_every_second(smoother), which is made once for all ranges.
+/// clsurf::hold_out(), with `half` = of_every_second(smoother), which is computed once for all ranges.
 void hold_out(std::span<const double> differences, const KalmanSmoother& smoother, const KalmanSmoother& half,
               std::span<const double> factors, std::vector<double>& ratios) {
     const std::size_t count = (differences.size() + 1) / 2;
@@ -301,7 +307,7 @@ void hold_out(std::span<const double> differences, const KalmanSmoother& smoothe
     half.sigmas(0, static_cast<PointIndex>(count), 0, sigmas);
     const double noise = smoother.model().position_sigma;
     for (std::size_t k = 0; k + block < count; k += block) {
-        // `block` records between block + 1 estimates, whose trapezoid mean has the same middle.
+        // `block` records between block + 1 estimates; the trapezoidal mean of the estimates has the same centre.
         double off = 0, variance = 0;
         for (std::size_t i = k; i < k + block; ++i) {
             off += differences[2 * i + 1] - 0.5 * (states[i][0][0] + states[i + 1][0][0]);
@@ -312,7 +318,7 @@ void hold_out(std::span<const double> differences, const KalmanSmoother& smoothe
     }
 }
 
-/// Fuses a range, states how well the difference is known in it, and tests that on records that are held out.
+/// Fuses a range, computes the uncertainty of the difference in it, and tests that on records that are held out.
 void fuse_range(const Differences& both, PointRange range, const KalmanSmoother& smoother, const KalmanSmoother& half,
                 double quantum, FusedAxis& axis) {
     const auto n = static_cast<std::size_t>(range.size());
@@ -394,7 +400,7 @@ FusedAxis fuse_axis(const AxisRecords& records, NoiseFitter& fitter) {
     copy_block(records.encoder, 0, both.encoder);
     axis.positions = both.scale;
     for (std::vector<float>& sigmas : axis.sigmas) sigmas.assign(n, static_cast<float>(not_known));
-    // An axis that stands in these sections may move between them.
+    // An axis at rest in these sections may move between them.
     std::vector<PointRange> samples = records.samples;
     NoiseFit scale = noise_of(both.scale, samples, floor_of(records.scale), fitter);
     if (!scale.moved) {
@@ -410,7 +416,7 @@ FusedAxis fuse_axis(const AxisRecords& records, NoiseFitter& fitter) {
     const double threshold = reversal_sigmas * encoder.sigma;
     std::vector<std::vector<Reversal>> reversals;
     std::vector<PointRange> ranges;
-    // The first lead is measured with the backlash in it.
+    // The first lead is measured without regard to backlash.
     for (int pass = 0; pass < 2; ++pass) {
         if (pass > 0) alignment = align(records, alignment.lead, ranges, both);
         reversals.clear();
@@ -430,7 +436,7 @@ FusedAxis fuse_axis(const AxisRecords& records, NoiseFitter& fitter) {
     }
     const NoiseFit fit = fitter.fit(differences, std::hypot(floor_of(records.scale), floor_of(records.encoder)));
     if (!fit.moved) return axis;
-    // What the drive yields is an error of its encoder.
+    // The deflection of the drive is an error of its encoder.
     axis.encoder_sigma = std::hypot(encoder.sigma, axis.yield);
     axis.weight = std::pow(scale.sigma / std::hypot(scale.sigma, axis.encoder_sigma), 2);
     SmootherModel model;

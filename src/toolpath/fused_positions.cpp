@@ -34,7 +34,7 @@ FusedPositions::FusedPositions(const Log& log, const Trajectory& path, const std
         axes_[k] = fuse_axis({path.axes[k], encoder->values, path.count, path.period, whole, samples}, fitter);
         const double coarse = quantum_of(path.axes[k]) / std::sqrt(12.0);
         const double fine = quantum_of(encoder->values) / std::sqrt(12.0);
-        // Fast parts are (1 − w) of the scale and w of the encoder.
+        // Fast components are weighted by 1 − w (scale) and w (encoder).
         floor_ = std::max(
             floor_, axes_[k].weight == 0 ? 0 : std::hypot((1 - axes_[k].weight) * coarse, axes_[k].weight * fine));
         scale_floor_ = std::max(scale_floor_, coarse);
@@ -47,12 +47,12 @@ FusedPositions::FusedPositions(const Log& log, const Trajectory& path, const std
                          1.0,
                          0.0};
     }
-    // An axis that stands shows no step. It is taken to have that of the others.
+    // An axis at rest shows no step. It is assumed to have that of the others.
     for (std::size_t k = 0; k < 3; ++k) {
         if (quantum_of(path.axes[k]) > 0) continue;
         for (float& sigma : axes_[k].sigmas[0]) sigma = std::hypot(sigma, static_cast<float>(scale_floor_));
     }
-    // What is not fused still lies in the log.
+    // Channels that are not fused still refer to the log.
     path_.keep_alive = std::make_shared<std::pair<std::shared_ptr<const void>, std::shared_ptr<const void>>>(
         path.keep_alive, std::move(columns));
 }

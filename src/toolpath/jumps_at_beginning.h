@@ -5,8 +5,8 @@
 
 namespace clsurf {
 
-/// A filter does not see jumps at its beginning, before it knows the motion: one that runs backward does. Raises factors of
-/// points from `first` on for the jumps that it sees. `measured` begins at point `from`, the first of a piece.
+/// A forward filter cannot detect jumps before it has learned the motion; a backward one can. Raises factors of points
+/// from `first` on for the jumps that it detects. `measured` begins at point `from`, the first of a piece.
 void raise_at_beginning(const AccelerationCorners& corners, const KalmanSmoother& smoother,
                         const Measurements& measured, PointIndex from, PointIndex first, Inflation& inflation);
 

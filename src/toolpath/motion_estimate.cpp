@@ -17,14 +17,15 @@
 namespace clsurf {
 namespace {
 
-constexpr double near_record = 0.05;  ///< leads so near a whole number of records are that number
-/// A channel that differs by more of the speed is not a measurement of it: a programmed feed, or a filtered display.
+constexpr double near_record = 0.05;  ///< leads this close to a whole number of records are rounded to it
+/// A channel that differs from the speed by a larger share is not a measurement of it: a programmed feed, or a
+/// filtered display.
 constexpr double most_disagreement = 0.05;
-/// Squared innovations above it are no chance: 1 in 16,000 (χ² with one degree of freedom).
+/// Larger squared innovations are significant: 1 in 16,000 by chance (χ² with one degree of freedom).
 constexpr double jump_gate = 16;
-/// Records around a jump that it disturbs, where positions count as much as the model; more where they count less.
+/// Records around a jump that it disturbs if positions have the same weight as the model; more if they have less.
 constexpr double disturbed = 4, disturbed_by_width = 2;
-/// So many standard deviations hold this share of the measured errors, as of a normal distribution.
+/// This many standard deviations cover this share of the measured errors, as in a normal distribution.
 constexpr double within_sigmas = 3, covered = 0.9973;
 constexpr double most_nees = 2;
 
@@ -46,7 +47,7 @@ MotionEstimate::MotionEstimate(const Log& log, const Trajectory& path, const std
     }
     measure_positions(pieces, fitter);
     across_.emplace(model_);
-    // The axes' own speeds are not those of a tool that also turns.
+    // With moving rotary axes, the axes' own speeds are not those of the tool.
     if (path.is_of_linear_axes()) measure_components(pieces);
     if (!model_.has_speed() && (path.role == Role::commanded || !log.has(Role::commanded))) measure_path_speed(pieces);
     calibrate(pieces);
@@ -60,7 +61,7 @@ void MotionEstimate::measure_positions(const std::vector<PointRange>& pieces, No
     }
     const double step = fused_ ? fused_->scale_floor() : floor;
     if (fused_) floor = fused_->floor();
-    // An axis that stands still teaches nothing of the motion.
+    // An axis at rest has no information on the motion.
     std::vector<std::vector<double>> moving;
     for (const PointRange& sample : sample_sections(pieces)) {
         std::array<std::vector<double>, 3> p;
@@ -112,8 +113,8 @@ double MotionEstimate::agreement(const std::vector<PointRange>& pieces, Residual
     return count > 0 ? std::sqrt(squares / count) : 0.0;
 }
 
-/// How many records measured(scratch, i) is ahead of estimated(scratch, i), Array3d both: where their differences are
-/// least, between records by the parabola through three sums of squares.
+/// How many records measured(scratch, i) leads estimated(scratch, i), both Array3d: the minimum of their differences,
+/// between records by a parabola through three sums of squares.
 template <typename Measured, typename Estimated>
 double MotionEstimate::lead_of(const std::vector<PointRange>& pieces, Measured&& measured,
                                Estimated&& estimated) const {
@@ -164,7 +165,7 @@ void MotionEstimate::measure_components(const std::vector<PointRange>& pieces) {
                                  return measured(s, i)[axis] - estimated(s, i)[axis];
                              }));
         }
-        // The residual holds what the positions do not know, too.
+        // The residual includes the uncertainty of the positions, too.
         const double known = across_->sigma(static_cast<int>(d) + 1);
         const double floor = std::max(quantum / std::sqrt(12.0), 1e-3 * known);
         const double sigma = std::sqrt(std::max(worst * worst - known * known, floor * floor));
@@ -196,9 +197,9 @@ void MotionEstimate::measure_path_speed(const std::vector<PointRange>& pieces) {
     along_.emplace(model);
 }
 
-/// What three standard deviations must be scaled by to hold 99.73 % of the errors, from errors that can be measured: of
-/// estimates from every second record against the differences of the records held out; of the estimates against the
-/// differences of the records next to them, since between records a speed is not defined better; and against the channel.
+/// The scale at which three standard deviations cover 99.73 % of the errors, from measurable errors: of estimates from
+/// every second record against the differences of the records held out; of the estimates against the differences of
+/// adjacent records, because between records a speed is not defined better; and against the channel.
 void MotionEstimate::calibrate(const std::vector<PointRange>& pieces) {
     SmootherModel model;  // of every second record, positions alone
     model.period = 2 * model_.period;
@@ -210,7 +211,7 @@ void MotionEstimate::calibrate(const std::vector<PointRange>& pieces) {
     const double known = std::pow(across_->sigma(1), 2);
     const double of_channel =
         path_speed_ == nullptr ? 0.0 : std::pow(quantum_of(path_speed_->values) / seconds_per_minute, 2) / 12;
-    std::array<std::vector<double>, 3> ratios;  // squared errors of the speed, in units of the variance stated of them
+    std::array<std::vector<double>, 3> ratios;  // squared errors of the speed, in units of their stated variance
     std::vector<double> of_difference_held_out;
     for (std::size_t k = 0; k < 3 && fused_; ++k) {
         const std::vector<double>& more = fused_->axes()[k].held_out;
@@ -257,9 +258,10 @@ void MotionEstimate::calibrate(const std::vector<PointRange>& pieces) {
     set_scale(ratios, of_difference_held_out);
 }
 
-/// By squared errors in units of the variance that is stated of them, of each kind. Changes their order.
+/// From squared errors in units of their stated variance, of each kind. Changes their order.
 void MotionEstimate::set_scale(std::array<std::vector<double>, 3>& ratios, std::vector<double>& of_difference) {
-    // While an axis moves by less than a step, its rounding stays: up to half a step, √3 of the standard deviation of steps.
+    // While an axis moves by less than a step, its rounding error is constant: up to half a step, √3 of the standard
+    // deviation of steps.
     double scale = rounding_rules_ ? 3 : 1;
     const auto raise = [](double& variance, std::vector<double>& of) {
         if (!of.empty()) variance = std::max(variance, nearest_quantile(of, covered) / (within_sigmas * within_sigmas));
@@ -289,8 +291,8 @@ PointIndex MotionEstimate::disturbed_points() const {
     return static_cast<PointIndex>(std::max(disturbed, disturbed_by_width * std::pow(model_.wandering, -1.0 / 8)));
 }
 
-/// Of points [first, last], where the innovations begin at `from`: the greatest around a point, if they are no chance. A jump
-/// shows in one of them, or in the sum of as many as the estimate averages over.
+/// For points [first, last], with innovations from `from` on: the greatest around a point, if they are significant. A jump
+/// shows in one of them, or in the sum over as many as the estimate averages.
 void MotionEstimate::set_inflation(const AccelerationCorners& corners, PointIndex from, PointIndex first,
                                    PointIndex last, Scratch& scratch) const {
     const PointIndex reach = disturbed_points();
@@ -338,7 +340,7 @@ void MotionEstimate::read(PointIndex first, PointIndex last, Scratch& scratch) c
 
 void MotionEstimate::estimate(PointRange piece, PointIndex first, PointIndex last, Scratch& scratch,
                               std::array<std::array<std::vector<double>, 3>, 4>& out) const {
-    // Jumps beside the points disturb them, too, and their innovations need settled gains.
+    // Jumps near the points disturb them, too, and their innovations need settled gains.
     const PointIndex reach = 3 * std::max(across_->reach(), along_ ? along_->reach() : 0) + 2 * disturbed_points();
     const PointIndex from = std::max(piece.first, first - reach);
     const PointIndex to = std::min(piece.last, last + reach);
@@ -352,7 +354,8 @@ void MotionEstimate::estimate(PointRange piece, PointIndex first, PointIndex las
     set_inflation(*corners_, from, first, last, scratch);
     if (from == piece.first) raise_at_beginning(*corners_, *across_, measured, from, first, scratch.inflation);
     if (along_) {
-        // What the speed measures is the velocity along the way that the positions tell.
+        // The channel measures the velocity component along the direction of the path, which follows from the
+        // positions.
         for (std::size_t i = 0; i < n; ++i) {
             const double speed = norm(scratch.states[i], 1);
             const double factor = speed > 0 ? scratch.path_speed[i] / speed : 0.0;
@@ -361,7 +364,7 @@ void MotionEstimate::estimate(PointRange piece, PointIndex first, PointIndex las
         }
         scratch.with_speed.resize(n);
         along_->smooth(measured, scratch.with_speed);
-        const double slowest = 3 * across_->sigma(1);  // slower, the way has no direction
+        const double slowest = 3 * across_->sigma(1);  // at a lower speed the path has no direction
         for (std::size_t i = 0; i < n; ++i) {
             SmoothedState& state = scratch.states[i];
             const double speed = norm(state, 1);
@@ -420,8 +423,8 @@ void MotionEstimate::position_sigmas(PointRange piece, PointIndex first, const S
     }
 }
 
-/// What the encoder's difference adds. Where the scale is used alone, and as near to it as its noise reaches, all is as
-/// uncertain as by the scale.
+/// The contribution of the encoder's difference. Where the scale is used alone, and up to the reach of its noise
+/// around, the uncertainty is that of the scale.
 void MotionEstimate::difference_sigmas(std::size_t axis, int derivative, PointRange piece, PointIndex first,
                                        std::span<double> out) const {
     const PointIndex reach = disturbed_points();

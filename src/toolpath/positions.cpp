@@ -10,8 +10,8 @@
 namespace clsurf {
 namespace {
 
-/// [mm] A kilometre from the first point no tool ever is; grids over such places would put all that is
-/// near each other into one cell.
+/// [mm] No tool is ever a kilometre from the first point; grids that span such distances would put all nearby points
+/// into one cell.
 constexpr double farthest_apart = 1e6;
 
 Vec3 first_finite(const Trajectory& trajectory) {
@@ -27,13 +27,13 @@ Vec3 first_finite(const Trajectory& trajectory) {
     return Vec3::Zero();
 }
 
-/// Where the columns are that are gathered into.
+/// The target columns.
 using GatheredColumns = std::array<float*, 3>;
 
 void gather_block(const Trajectory& trajectory, const Vec3& from, const GatheredColumns& columns, PointIndex first,
                   PointIndex last) {
-    // A quarter of a block at a time: the three axes of a record share its cache lines, which
-    // must still be there when the second and third axis are gathered.
+    // A quarter of a block at a time: the three axes of a record share its cache lines, which must still be in the
+    // cache when the second and third axis are gathered.
     constexpr PointIndex step = 2048;
     std::array<std::array<double, step>, 3> scratch;
     for (PointIndex begin = first; begin < last; begin += step) {

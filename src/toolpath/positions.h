@@ -1,7 +1,7 @@
 #pragma once
-// Positions: a trajectory gathered once into floats relative to an origin, for what looks at a point
-// and its neighbours again and again (passes, adjacency, drawing). Rounding is 2^-24 of the part's
-// size, 0.1 µm on 1.5 m; heights in micrometres are taken from the log itself, not from here.
+// Positions: a trajectory gathered once into floats relative to an origin, for algorithms that read a point and its
+// neighbours repeatedly (passes, adjacency, drawing). Rounding is 2^-24 of the part's size, 0.1 µm on 1.5 m; heights
+// in micrometres are taken from the log itself, not from here.
 
 #include <cmath>
 
@@ -16,13 +16,13 @@ namespace clsurf {
 struct Positions {
     Vec3 origin = Vec3::Zero();  ///< [mm]
     Column<float> x, y, z;       ///< [mm] relative to origin; NaN: no position
-    /// Of positions that are gathered when they are read; elsewhere nothing. Who reads columns needs them first.
+    /// Set if positions are gathered on reading, else empty. Code that reads the columns directly must request its
+    /// points first.
     BlockFillPointer fill;
-    Column<double> arc_lengths;  ///< with `fill`: as ArcLength::sums() has them
+    Column<double> arc_lengths;  ///< with `fill`: as in ArcLength::sums()
 
     [[nodiscard]] PointIndex size() const { return static_cast<PointIndex>(x.size()); }
-    /// Of positions that are gathered when they are read: they take no memory until they are asked for again. Nobody may be
-    /// reading.
+    /// If positions are gathered on reading: frees them until they are needed again. No thread may be reading.
     void forget();
     [[nodiscard]] Eigen::Vector3f operator[](PointIndex i) const {
         fill.need(i);
@@ -36,8 +36,8 @@ struct Positions {
 /// Gathers all points; the origin is the trajectory's first finite point. O(points), parallel.
 [[nodiscard]] Positions gather(const Trajectory& trajectory);
 
-/// The same, but a block is gathered when it is first read. `origin` and `arc_lengths` are those of the whole log. `block`: a power of
-/// two from 1024 on, which fills pages; small ones take less memory where points are looked at that are far from each other.
+/// The same, but a block is gathered when it is first read. `origin` and `arc_lengths` are those of the whole log. `block`: a
+/// power of two from 1024 on, which fills pages; small ones take less memory if the points that are read are far apart.
 /// Columns that are filled from these positions have the same blocks.
 [[nodiscard]] Positions gather_when_read(const Trajectory& trajectory, const Vec3& origin, Column<double> arc_lengths,
                                          PointIndex block = block_points);

@@ -9,14 +9,14 @@
 namespace clsurf {
 namespace {
 
-constexpr PointIndex looked_at = 2000;   ///< points of a section that the model is measured on
+constexpr PointIndex looked_at = 2000;   ///< points of a section on which the model is measured
 constexpr PointIndex sections = 48;      ///< evenly spaced over the pieces
 constexpr PointIndex least_piece = 100;  ///< points
-constexpr double gap = 1.5;              ///< periods between records that end a piece
+constexpr double gap = 1.5;              ///< periods; a longer interval between records ends a piece
 constexpr double most_wandering = 1e6, least_wandering = 1e-17;
-/// A model is sure of itself only so far: the wandering is found to a factor of √10.
+/// The likelihood determines the wandering only roughly: it is found to a factor of √10.
 constexpr double wandering_step = 3.1622776601683795;
-constexpr double moving_steps = 10;  ///< an axis that stays within so many steps teaches nothing of the motion
+constexpr double moving_steps = 10;  ///< an axis that stays within this many steps has no information on the motion
 
 }  // namespace
 
@@ -25,7 +25,7 @@ std::vector<PointRange> sample_sections(const std::vector<PointRange>& pieces) {
     for (const PointRange& piece : pieces) all += piece.size() >= least_piece ? piece.size() : 0;
     const PointIndex every = std::max(looked_at, all / sections);
     std::vector<PointRange> samples;
-    PointIndex next = 0;  // where the next section begins, counted from the piece's first point
+    PointIndex next = 0;  // start of the next section, counted from the piece's first point
     for (const PointRange& piece : pieces) {
         if (piece.size() < least_piece) continue;
         for (; next < piece.size(); next += every) {
@@ -111,10 +111,10 @@ NoiseFit NoiseFitter::fit(const std::vector<std::vector<double>>& series, double
             count += static_cast<double>(sums.count);
             log_variance = sums.log_variance;
         }
-        // Where the gains settle too late, few records are left, and no longer the same ones.
+        // If the gains settle too late, few records remain, and not the same ones.
         most = std::max(most, count);
         if (!(count > 0.5 * most)) break;
-        // The likelihood at its greatest over the uncertainty of a position, which the quantum bounds from below.
+        // The likelihood at its maximum over the uncertainty of a position, which is at least that of the quantum.
         const double variance = std::max(squares / count, floor * floor);
         const double cost = std::log(variance) + squares / count / variance + log_variance;
         if (!(cost < least)) continue;

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double least_turn = 1e-6;  // [rad]
 
-/// Goes along the motions with the axis that is in force.
+/// Goes through the motions with the active axis.
 class AxisReader {
 public:
     explicit AxisReader(const Motions& motions) : motions_(motions) {}
@@ -33,7 +33,7 @@ private:
         }
         if (motions_.rotary.empty()) return;
         const Vec3 angles = motions_.rotary[motion].vec();
-        if (angles.array().isNaN().any()) return;  // as the vector before left them
+        if (angles.array().isNaN().any()) return;  // the previous vector determines them
         angles_ = angles;
         axis_ = Vec3::UnitZ();
         known_ = std::abs(angles.x()) <= least_turn && std::abs(angles.y()) <= least_turn;

@@ -18,8 +18,8 @@
 namespace clsurf {
 namespace {
 
-constexpr double chord_turn = 0.5 * rad_per_deg;  ///< of a rotary axis, a chord
-constexpr double least_length = 1e-9;             ///< [mm] of a motion that goes somewhere
+constexpr double chord_turn = 0.5 * rad_per_deg;  ///< of a rotary axis, per chord
+constexpr double least_length = 1e-9;             ///< [mm] of a motion with a displacement
 constexpr int most_chords = 2000;                 ///< of a motion
 
 class TipMaker {
@@ -37,7 +37,7 @@ public:
           start_(start) {}
 
     Motions make() {
-        std::vector<std::int64_t> first(from_->kind.size() + 1);  // where each motion begins now
+        std::vector<std::int64_t> first(from_->kind.size() + 1);  // new index of the first motion of each
         to_.start = from_->start;
         to_.calls = from_->calls;
         tip_ = known(from_->start.vec());
@@ -83,8 +83,8 @@ private:
         return back_ * (kinematics_->to_axes(pose_ * tip, angles) - zero_);
     }
 
-    /// Control of the tip goes on or off: the same place now has other coordinates. Those that no word has
-    /// changed since stay where the machine is.
+    /// Tip control is switched on or off: the same position now has other coordinates. Coordinates that no word has
+    /// changed since keep the machine position.
     void read_anew(bool tips, const RotaryAngles& angles) {
         tips_ = tips;
         if (!is_zero(angles)) held_ = tips ? tip_ : position_of(tip_, angles);
@@ -128,7 +128,7 @@ private:
     void transform(std::int64_t motion, const RotaryAngles& before, const RotaryAngles& after) {
         const auto at = static_cast<std::size_t>(motion);
         const MotionKind kind = from_->kind[at];
-        // Where the motion before was one of the tip, the words count on from where the axes are.
+        // If the previous motion was one of the tip, the words count from the positions of the axes.
         const Vec3 begin = position_of(tip_, before);
         const Vec3 end = programmed(motion);
         if (const Curve* curve = from_->curve_of(motion)) {
@@ -164,14 +164,14 @@ private:
             take_time(first, tip_from, length > least_length ? length : (turned_to - turned_from).norm() / rad_per_deg);
     }
 
-    /// The motions from `first` on take the time of one whose feed counts along `programmed`, mm or degrees, in equal parts:
-    /// F of a turn says nothing of the way of the tip, and nor does the inverse of a time.
+    /// The motions from `first` on get the duration of one whose feed counts along `programmed`, mm or degrees, in equal
+    /// parts: F per revolution does not depend on the tip's path, and neither does inverse time.
     void take_time(std::size_t first, Vec3 at, double programmed) {
         const double parts = static_cast<double>(to_.kind.size() - first);
         for (std::size_t i = first; i < to_.kind.size(); ++i) {
             const Vec3 end = to_.end[i].vec();
             const double tip = (end - at).norm();
-            // Where the tip stands F counts degrees as before.
+            // If the tip is at rest, F counts degrees as before.
             if (tip > least_length && programmed > 0) to_.feed[i] *= static_cast<float>(tip * parts / programmed);
             at = end;
         }
@@ -190,8 +190,8 @@ private:
     Vec3 tip_;
     bool tips_ = false;
     Vec3 last_ = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< programmed
-    Vec3 held_ =
-        Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< in force until a word changes it; NaN: it did
+    Vec3 held_ = Vec3::Constant(
+        std::numeric_limits<double>::quiet_NaN());  ///< active until a word changes it; NaN: it has been changed
 };
 
 }  // namespace
@@ -209,7 +209,7 @@ void make_tip_motions(Program& program, const Kinematics& kinematics, const Vec3
 void solve_tool_axes(Program& program, const Machine& machine) {
     const Kinematics& kinematics = machine.kinematics;
     const auto range = [&](std::size_t axis) {
-        // Travel is what the axis shows; angles here have the sign applied.
+        // Travel limits apply to the displayed angle; angles here have the sign applied.
         const double sign = axis == 0 ? kinematics.tilt.sign : kinematics.rotation.sign;
         const MachineAxis& a = machine.rotary[axis];
         return sign > 0 ? AngleRange{a.travel_low, a.travel_high} : AngleRange{-a.travel_high, -a.travel_low};
@@ -219,7 +219,7 @@ void solve_tool_axes(Program& program, const Machine& machine) {
 
 namespace {
 
-/// The first motion of every axis that the program turns and the machine lacks.
+/// Reports the first motion of every axis that the program turns and the machine lacks.
 void note_missing_axes(Program& program, const Kinematics& kinematics) {
     const Motions& motions = program.motions;
     for (int k = 0; k < 3; ++k) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-/// An arc or helix in its own frame: angle 0 at the start, growing along the motion.
+/// An arc or helix in its own frame: angle 0 at the start, increasing along the motion.
 struct Helix {
     int u, v, w;           ///< axes of the plane, axis of rotation
     double sign;           ///< +1: angle grows from u to v
@@ -36,7 +36,7 @@ Helix make_helix(const Arc& arc, MotionKind kind, const Vec3& begin, const Vec3&
     h.radius_growth = to.norm() - h.radius;
     h.start_angle = angle_of(from);
     double sweep = h.sign * (angle_of(to) - h.start_angle);
-    // A difference of rounding size is a full circle, not none.
+    // A difference of the size of rounding is a full circle, not none.
     constexpr double same_angle = 1e-9;
     while (sweep <= same_angle) sweep += two_pi;
     while (sweep > two_pi + same_angle) sweep -= two_pi;
@@ -55,7 +55,7 @@ Vec3 point_of(const Helix& h, double fraction) {
     return p;
 }
 
-/// By the fraction.
+/// Derivative with respect to the fraction.
 Vec3 derivative_of(const Helix& h, double fraction) {
     const double angle = h.start_angle + h.sign * h.sweep * fraction;
     const double radius = h.radius + h.radius_growth * fraction;
@@ -67,8 +67,8 @@ Vec3 derivative_of(const Helix& h, double fraction) {
     return d;
 }
 
-/// On a helix the nearest place has another angle than p: the steeper, the more. From the better one of two first guesses,
-/// the steps of Gauss and Newton.
+/// On a helix the angle of the nearest point differs from that of p, the more the steeper it is. Gauss–Newton steps from
+/// the better one of two initial guesses.
 void look_along_rise(const Helix& h, const Vec3& p, double from, Projection& best) {
     constexpr int most_steps = 6;
     const auto consider = [&](double fraction) {

@@ -1,6 +1,6 @@
 #pragma once
-// Toolpath: the programmed motions as geometry: where the nearest point of a motion is, and how long
-// it is. Lines, arcs, helices and curves; dwells are points.
+// Toolpath: the programmed motions as geometry: the nearest point of a motion, and its length. Lines, arcs, helices
+// and curves; dwells are points.
 
 #include <memory>
 
@@ -17,21 +17,22 @@ struct Projection {
 
 class Toolpath {
 public:
-    /// `motions` must outlive it. `rest` stands for coordinates before the program sets them
-    /// (the controller's own start position) [mm].
+    /// `motions` must outlive it. `rest`: the coordinates before the program sets them (the controller's own start
+    /// position) [mm].
     Toolpath(const Motions& motions, const Vec3& rest) : motions_(&motions), rest_(rest) {}
 
     [[nodiscard]] std::int64_t size() const { return motions_->size(); }
     [[nodiscard]] const Motions& motions() const { return *motions_; }
     [[nodiscard]] Vec3 begin(std::int64_t motion) const { return known(motions_->begin_of(motion)); }
     [[nodiscard]] Vec3 end(std::int64_t motion) const { return known(motions_->end[static_cast<std::size_t>(motion)]); }
-    /// The curve of a motion with all its coordinates known; nullptr: it has none.
+    /// The curve of a motion with all its coordinates known; nullptr if it has none.
     [[nodiscard]] std::shared_ptr<const BezierCurve> curve(std::int64_t motion) const;
-    /// The point after a fraction of a motion's arc length.
+    /// The point at a fraction of a motion's arc length.
     [[nodiscard]] Vec3 at(std::int64_t motion, double fraction) const;
-    /// Unit vector of travel after a fraction of a motion's arc length; 0: a dwell, or a motion without a length.
+    /// Unit vector of travel at a fraction of a motion's arc length; 0: a dwell, or a motion without a length.
     [[nodiscard]] Vec3 direction(std::int64_t motion, double fraction) const;
-    /// The greatest curvature of a motion [1/mm]: of an arc or helix exactly, of a spline at 33 places; 0 of a line.
+    /// The greatest curvature of a motion [1/mm]: exact for an arc or helix, from 33 points of a spline; 0 for a
+    /// line.
     [[nodiscard]] double curvature(std::int64_t motion) const;
     /// Arc length along a motion [mm].
     [[nodiscard]] double length(std::int64_t motion) const;

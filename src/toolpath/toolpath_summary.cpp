@@ -11,7 +11,7 @@ void extend_by_arc(Box3& box, const Toolpath& path, std::int64_t motion) {
     for (int k = 0; k <= pieces; ++k) box.extend(path.at(motion, static_cast<double>(k) / pieces));
 }
 
-/// The box of a span of a spline, which turns less than an arc may.
+/// The box of a span of a spline, which turns less than an arc.
 void extend_by_curve(Box3& box, const BezierCurve& curve) {
     constexpr int pieces = 64;
     for (int k = 0; k <= pieces; ++k) {

@@ -62,7 +62,7 @@ const Channel& channel_of(const Log& log, Role role, char letter) {
                      "`clsurf info` lists the channels that the log has");
 }
 
-/// A linear axis; where the role has the other two only (a lathe), it stands at 0.
+/// A linear axis; if the role has only the other two (a lathe), it is at 0.
 ChannelView linear_axis(const Log& log, Role role, char letter) {
     static constexpr double zero = 0;
     const std::string name = std::string(prefix_of(role)) + "." + letter;
@@ -106,7 +106,7 @@ private:
     double tilt_factor_, rotation_factor_;
 };
 
-/// body(point, angles) for the points in order, until it says true; whether it did.
+/// Calls body(point, angles) for the points in order, until it returns true. Returns whether it did.
 template <typename Body>
 bool for_angles(const Log& log, const AngleReader& angles, Body&& body) {
     std::vector<double> tilt, rotation;
@@ -138,7 +138,7 @@ std::shared_ptr<const OwnColumns> make_columns(PointIndex count, Compute&& compu
     return columns;
 }
 
-/// Puts columns of its own under a trajectory.
+/// Replaces the columns of a trajectory by its own.
 void set_columns(Trajectory& trajectory, std::shared_ptr<const OwnColumns> columns) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         trajectory.axes[axis] = {reinterpret_cast<const std::byte*>(columns->at(axis).data()),
@@ -156,7 +156,7 @@ void set_columns(Trajectory& trajectory, std::shared_ptr<const OwnColumns> colum
 
 namespace {
 
-/// Moves tips to those of an upright ball of that radius by the stated axes.
+/// Moves tips to those of an upright ball of that radius, by the stated axes.
 void stand_upright(Trajectory& trajectory, double ball) {
     const ToolAxes& axes = *trajectory.stated_axes;
     const std::array<ChannelView, 3> linear = trajectory.axes;
