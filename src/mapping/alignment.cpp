@@ -18,12 +18,12 @@ namespace {
 
 // Lengths in mm.
 constexpr double sure_distance = 0.02;      ///< a finishing tolerance: full confidence
-constexpr double off_distance = 0.1;        ///< the walk may be on the wrong way from here on
-constexpr double lost_length = 1.0;         ///< arc length gone off before the walk counts as lost
-constexpr double near_distance = 0.1;       ///< a new start must be this near
-constexpr PointIndex trial_points = 400;    ///< moving points over which a new start must stay near
+constexpr double off_distance = 0.1;        ///< from here on the walk may be on a wrong part of the path
+constexpr double lost_length = 1.0;         ///< arc length off the path after which the walk counts as lost
+constexpr double near_distance = 0.1;       ///< largest distance of a restart
+constexpr PointIndex trial_points = 400;    ///< moving points over which a restart must stay near
 constexpr double least_jump = 10;           ///< to a placeholder
-constexpr double placeholder_reach = 1e-6;  ///< its position, moved to the workpiece
+constexpr double placeholder_reach = 1e-6;  ///< tolerance for its position in workpiece coordinates
 constexpr double first_retry = 1.0;         ///< arc length until a failed search is repeated; doubles
 
 class Aligner {
@@ -37,8 +37,8 @@ public:
     void run() {
         WalkState state;
         Vec3 before = first_position(log_);
-        double off_path = 0;        // gone since the walk went off
-        PointIndex off_since = -1;  // first point of that
+        double off_path = 0;        // arc length since the walk left the path
+        PointIndex off_since = -1;  // its first point
         double retry_after = lost_length;
         bool reported = false;
         for (PointIndex i = 0; i < log_.count; ++i) {
@@ -104,7 +104,7 @@ private:
         return Vec3::Zero();
     }
 
-    /// Reads through a window, since channels are gathered by block.
+    /// Reads through a window, because channels are gathered by block.
     Vec3 position(PointIndex i) {
         constexpr PointIndex window = 4096;
         if (i < window_begin_ || i >= window_begin_ + static_cast<PointIndex>(x_.size())) {
@@ -128,17 +128,17 @@ private:
         confidence_[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::lround(confidence * 255));
     }
 
-    /// Where the walk begins anew.
+    /// A restart of the walk.
     struct Rejoined {
         PointIndex point = 0;
         WalkState state;
     };
 
-    /// From point `off` on, where the walk went off, or, after a way that is none of the program's (a
-    /// retract, the way back to where a run is resumed), from the first point that is back on it; `now`
-    /// is the last point that was looked at. O(log(now − off)) searches.
+    /// Searches from point `off` on, at which the walk left the path, or, after a section that is not in the program
+    /// (a retract, the return to the point of continuation), from the first point that is back on it; `now` is the
+    /// last point that was read. O(log(now − off)) searches.
     std::optional<Rejoined> rejoin(PointIndex off, PointIndex now, std::int64_t from) {
-        // The first motion begins where the log does: that its first points lie on it proves nothing.
+        // The first motion begins at the first point of the log, so its first points are no evidence.
         if (from == 0) off = 0;
         if (const std::optional<WalkState> state = search(off, from)) return Rejoined{off, *state};
         const std::optional<WalkState> state = search(now, from);
@@ -154,8 +154,8 @@ private:
         return back;
     }
 
-    /// The first place at or after motion `from` (then: of the whole program) from where the walk
-    /// stays near for the points that follow.
+    /// The first place at or after motion `from` (then: in the whole program) from which the walk stays near for the
+    /// following points.
     std::optional<WalkState> search(PointIndex point, std::int64_t from) {
         if (!grid_) grid_.emplace(path_);
         const Vec3 p = log_.at(point);
@@ -185,7 +185,7 @@ private:
         return moving > 0;
     }
 
-    /// Whether the log has this position where none was recorded.
+    /// Whether this position is a placeholder of the log.
     bool is_placeholder(const Vec3& p) {
         if (!placeholder_) {
             const std::optional<Placeholder> found = find_placeholder(log_.axes);
@@ -200,7 +200,7 @@ private:
     PathWalk walk_;
     Diagnostics& diagnostics_;
     std::optional<MotionGrid> grid_;
-    std::optional<Vec3> placeholder_;  ///< NaN: the log has none; empty: nobody looked
+    std::optional<Vec3> placeholder_;  ///< NaN: the log has none; empty: not yet determined
     Column<std::uint32_t> motion_;
     Column<std::uint8_t> confidence_;
     std::vector<double> x_, y_, z_;

@@ -1,5 +1,5 @@
 #pragma once
-// Where in a subprogram a point is, and which calls led there.
+// The place of a point in a subprogram, and the calls that led there.
 
 #include <optional>
 #include <string>
@@ -11,13 +11,13 @@ namespace clsurf {
 
 /// A line of a program or subprogram.
 struct ProgramPlace {
-    std::string file;  ///< name of its file; what the log calls it where the file was not read
+    std::string file;  ///< name of its file; if the file was not read, its name in the log
     LineNumber line = 0;
-    std::string text;  ///< of the line; empty where the file was not read
+    std::string text;  ///< of the line; empty if the file was not read
 };
 
 struct CallChain {
-    std::optional<ProgramPlace> subprogram;  ///< nullopt: the point is none of a subprogram
+    std::optional<ProgramPlace> subprogram;  ///< nullopt: the point is not in a subprogram
     std::vector<ProgramPlace> calls;         ///< that led there, the main program's first
 };
 
@@ -33,7 +33,7 @@ public:
     CallChains(const Log& log, const Program& program, const LineMap& lines)
         : log_(&log), program_(&program), lines_(&lines) {}
 
-    /// By the motion of the point. Where the log names its programs, the line in the subprogram is the log's.
+    /// By the motion of the point. If the log names its programs, the line in the subprogram is the log's.
     [[nodiscard]] CallChain of(PointIndex point) const;
 
 private:

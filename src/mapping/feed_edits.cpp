@@ -17,20 +17,20 @@
 namespace clsurf {
 namespace {
 
-constexpr double another_feed = 0.03;           ///< of the programmed one
-constexpr double same_speed = 0.005;            ///< of a constant speed
-constexpr std::size_t fewest_of_section = 200;  ///< of a section
+constexpr double another_feed = 0.03;           ///< relative difference from the programmed one
+constexpr double same_speed = 0.005;            ///< relative scatter of a constant speed
+constexpr std::size_t fewest_of_section = 200;  ///< points of a section
 constexpr std::size_t most_reported = 3;
 
 /// Consecutive points whose motions have the same feed.
 struct FeedSection {
-    float feed = 0;  ///< [mm/s]; 0: none that is looked at
+    float feed = 0;  ///< [mm/s]; 0: not checked
     LineNumber first_line = 0, last_line = 0;
     std::vector<float> speeds;  ///< [mm/s]
 };
 
-/// The speed at which a section mostly ran where it is constant, or the one that it reached where that is more than
-/// programmed; none: nothing tells.
+/// The speed at which a section mostly ran if it is constant, or the highest one that it reached if that exceeds the
+/// programmed feed; none if the section is not informative.
 std::optional<double> speed_that_tells(FeedSection& run) {
     if (run.feed <= 0 || run.speeds.size() < fewest_of_section) return std::nullopt;
     const double middle = quantile_below(run.speeds, 0.5);

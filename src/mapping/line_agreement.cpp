@@ -15,12 +15,12 @@ namespace {
 
 constexpr PointIndex checked_sections = 64;   ///< evenly spaced over the log
 constexpr PointIndex checked_section = 1600;  ///< points
-/// A reported line agrees when the point lies this near to it [mm]: a corner tolerance of finishing
-/// (0.01 mm) with room for the two records by which a kernel's line leads its axes.
+/// A reported line agrees if the point is this near to it [mm]: a corner tolerance of finishing (0.01 mm), with a
+/// margin for the two records by which a kernel's line leads its axes.
 constexpr double agreeing_distance = 0.05;
 constexpr double blending_distance = 1.0;  ///< [mm] G64 without a tolerance
 
-/// Distance of a position to the motions that are allowed; NaN: none.
+/// Distance of a position from the allowed motions; NaN: there are none.
 double allowed_distance(const Toolpath& path, std::int64_t before, std::int64_t motion, const Vec3& position) {
     double best = std::numeric_limits<double>::quiet_NaN();
     if (motion < 0) return best;
@@ -32,7 +32,7 @@ double allowed_distance(const Toolpath& path, std::int64_t before, std::int64_t 
     return best;
 }
 
-/// 1 within a finishing tolerance; 0 where there is no motion.
+/// 1 within a finishing tolerance; 0 if there is no motion.
 double off_confidence(double distance) {
     if (!(distance == distance)) return 0.0;
     return distance <= agreeing_distance ? 1.0 : agreeing_distance / distance;
@@ -45,7 +45,7 @@ double corner_tolerance(const Program& program) {
     for (const ProgramEvent& event : program.events) {
         const PathMode* const mode = event.path_mode();
         if (mode == nullptr || mode->block_end != BlockEnd::rounded) continue;
-        // What a corner may lose, and what merging short blocks may add.
+        // The deviation at a corner, plus that of merged short blocks.
         const double tolerance = mode->tolerance + mode->merging_tolerance;
         if (!std::isnan(tolerance)) allowed = std::max(allowed, std::min(tolerance, blending_distance));
     }
@@ -67,7 +67,7 @@ LineAgreement check_lines(const Trajectory& path, const Program& program, const 
         map.read(begin, lines);
         std::int64_t earlier = -1, before = -1;
         std::int64_t motion = map.motion_at(begin);
-        // The first line of a section has no known one before it.
+        // The line before the first one of a section is unknown.
         bool known = begin == 0;
         for (std::size_t i = 1; i < x.size(); ++i) {
             const PointIndex point = begin + static_cast<PointIndex>(i);
@@ -103,7 +103,7 @@ void read_confidences(const Trajectory& path, const Program& program, const Line
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = map.confidence_at(begin + static_cast<PointIndex>(i));
     if (!map.from_log()) return;
     const Toolpath toolpath(program.motions, path.at(0));
-    // Where the first point's run begins, what was reported before it is known.
+    // If the first point begins a run, the previous line is known.
     std::int64_t motion = map.motion_at(begin);
     PointIndex first = begin;
     while (first > 0 && begin - first < checked_section && map.motion_at(first) == motion) --first;

@@ -16,11 +16,11 @@ namespace {
 
 constexpr PointIndex sampled_sections = 64;  ///< evenly spaced over the log
 constexpr PointIndex sampled_points = 1600;  ///< points
-constexpr std::size_t least_run = 5;         ///< moving points of a line whose middle tells it from the next one
-constexpr double steps_off = 1.5;            ///< chords that a point may lie off its line
-constexpr double least_confidence = 0.5;     ///< of an aligned point that tells where a line is
-constexpr double explained_share = 0.8;      ///< of all lines, or no edit explains them
-constexpr std::size_t most_shifts = 1000;    ///< and of lines, one in ten at most
+constexpr std::size_t least_run = 5;      ///< moving points of a line, so that its middle is distinct from the next one
+constexpr double steps_off = 1.5;         ///< chords by which a point may be off its line
+constexpr double least_confidence = 0.5;  ///< of an aligned point that locates a line
+constexpr double explained_share = 0.8;   ///< of all lines; else no edit explains them
+constexpr std::size_t most_shifts = 1000;  ///< in total, and at most one for ten lines
 
 class EditFinder {
 public:
@@ -45,14 +45,14 @@ public:
     }
 
 private:
-    /// A run of records that move and report one line; found_ has what geometry says of each.
+    /// A run of moving records with one reported line; found_ has the geometric line of each.
     struct Run {
         LineNumber line = 0;
         std::int64_t begin = 0;
         std::int64_t off_path = 0;  ///< records
     };
 
-    /// A line that is blended with the next one ends by half of the shorter of both too early.
+    /// If a line is blended with the next one, its end is early by up to half of the shorter of both.
     void collect_ends() {
         Run last, now;
         const auto close = [&](std::int64_t end) {
@@ -78,7 +78,7 @@ private:
                          [](const LineEnd& x, const LineEnd& y) { return x.line < y.line; });
     }
 
-    /// body(reported, aligned) for the points that move; 0: none.
+    /// Calls body(reported, aligned) for the moving points; 0: none.
     template <typename Body>
     void for_moving(const Body& body) const {
         constexpr PointIndex block = 4096;
@@ -98,8 +98,8 @@ private:
         }
     }
 
-    /// The aligned lines; 0 where the tool is off the program's path, and where a subprogram's own file runs and the
-    /// log counts its lines.
+    /// The aligned lines; 0 if the tool is off the program's path, or in the file of a subprogram whose lines the log
+    /// counts.
     void read_aligned(PointIndex begin, std::span<LineNumber> out) const {
         aligned_.read(begin, out);
         for (std::size_t i = 0; i < out.size(); ++i) {
@@ -119,7 +119,7 @@ private:
         return lines;
     }
 
-    /// Lines of the points in the new text. Of a line that was deleted, geometry tells what is there now.
+    /// Lines of the points in the new text. For a deleted line, the geometry gives the present line.
     void correct(LineEdits& edits, PointIndex lead) const {
         edits.lines.resize(static_cast<std::size_t>(path_.count));
         copy_block(lines_, 0, {edits.lines.data(), edits.lines.size()}, 0);
@@ -151,11 +151,11 @@ private:
     const Program& program_;
     const ChannelView& lines_;
     const LineMap& aligned_;
-    std::vector<LineEnd> ends_;  ///< by line
-    Column<LineNumber> found_;   ///< by geometry, of the records that move
+    std::vector<LineEnd> ends_;  ///< sorted by line
+    Column<LineNumber> found_;   ///< from the geometry, for the moving records
 };
 
-/// Looks at the middle of each run of points with one line.
+/// Checks the middle of each run of points with one line.
 class MiddleCheck {
 public:
     MiddleCheck(const Toolpath& path, const LineMap& map, double tolerance)
@@ -163,7 +163,7 @@ public:
 
     void look_at(PointIndex begin, std::span<const LineNumber> lines, std::span<const double> x,
                  std::span<const double> y, std::span<const double> z) {
-        // The first run and the last one are cut off by the section.
+        // The first and the last run are truncated by the section.
         std::size_t first = 0;
         bool whole = false;
         std::int64_t before = -1;
@@ -186,7 +186,7 @@ public:
 private:
     void judge(std::int64_t motion, std::int64_t before, const Vec3& p, double chord) {
         if (motion < 0 || !(chord > 0)) return;
-        // What was merged into the line counts as the line.
+        // Motions that were merged into the line count as the line.
         const bool merged = before >= 0 && before < motion && motion - before <= longest_merge;
         double nearest = path_.projection(motion, p).distance;
         for (std::int64_t m = merged ? before + 1 : motion; m < motion; ++m)

@@ -17,7 +17,7 @@ namespace clsurf {
 
 /// Lines inserted (by > 0) or deleted (by < 0).
 struct LineShift {
-    LineNumber before = 0;  ///< the first line of the old text that stands elsewhere now
+    LineNumber before = 0;  ///< the first line of the old text that has moved
     std::int64_t by = 0;
 };
 
@@ -29,12 +29,13 @@ struct LineEdits {
     [[nodiscard]] std::string text() const;
 };
 
-/// Whether points lie on the very line that the log gives them, by the middles of runs of points in evenly spaced
-/// sections: the share that does not, 0 … 1. Unlike check_lines() it tells a line from the next one. O(1).
+/// The share of points, 0 … 1, that are not exactly on the line that the log reports, from the middles of runs of
+/// points in evenly spaced sections. Unlike check_lines() it distinguishes adjacent lines. O(1).
 [[nodiscard]] double displaced_share(const Trajectory& path, const Program& program, const LineMap& map);
 
-/// The edits that explain how the reported lines differ from those that `aligned` found by geometry. `lines`: those
-/// of the main program, one for each point. nullopt: no edits of whole lines explain it. O(points + lines).
+/// The edits that explain the differences between the reported lines and those that `aligned` found by geometry.
+/// `lines`: those of the main program, one for each point. nullopt: no edits of whole lines explain them. O(points +
+/// lines).
 [[nodiscard]] std::optional<LineEdits> find_line_edits(const Trajectory& path, const Program& program,
                                                        const ChannelView& lines, const LineMap& aligned);
 

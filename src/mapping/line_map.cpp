@@ -43,7 +43,7 @@ LineMap::LineMap(Column<std::uint32_t> motion_of_point, Column<std::uint8_t> con
 
 namespace {
 
-/// By call: the line of the main program that runs it, itself or through others.
+/// By call: the line of the main program that runs it, directly or through other calls.
 std::vector<LineNumber> lines_of_calls(const Motions& motions) {
     std::vector<LineNumber> lines(motions.calls.size() + 1, 0);
     for (std::size_t k = 0; k < motions.calls.size(); ++k) {
@@ -55,7 +55,7 @@ std::vector<LineNumber> lines_of_calls(const Motions& motions) {
 
 }  // namespace
 
-/// A motion in a file of its own counts for the line of the main program that called it.
+/// A motion in another file counts for the line of the main program that called it.
 void LineMap::index_lines(const Program& program) {
     const Motions& motions = program.motions;
     const std::size_t lines = std::size_t{program.main().line_count()} + 1;
@@ -80,7 +80,7 @@ void LineMap::index_lines(const Program& program) {
         kind_of_line_[line] = std::max(kind_of_line_[line], kind_of_motion_[i]);
         ++first_of_line_[line + 1];
     }
-    // Counting sort; a line that runs again (a loop, a subprogram) has several motions.
+    // Counting sort; a line that runs repeatedly (a loop, a subprogram) has several motions.
     for (std::size_t line = 0; line < lines; ++line) first_of_line_[line + 1] += first_of_line_[line];
     by_line_.resize(first_of_line_[lines]);
     Column<std::uint32_t> next = first_of_line_;
@@ -89,7 +89,7 @@ void LineMap::index_lines(const Program& program) {
     }
 }
 
-/// A tool that is named twice in front of one motion is changed once: the next one is made ready.
+/// Two tool words before one motion are one change: the second one preselects the next tool.
 void LineMap::index_tools(const Program& program) {
     std::map<ToolWord, std::uint32_t> numbers;
     for (const ProgramEvent& event : program.events) {
@@ -160,7 +160,8 @@ void LineMap::read_kinds_of_lines(PointIndex begin, std::span<PointKind> out) co
         copy_block(channel_, begin + static_cast<PointIndex>(done), {lines.data(), n}, 0);
         for (std::size_t i = 0; i < n; ++i) {
             const std::uint32_t m = motion == nullptr ? no_motion : motion[done + i];
-            // A line that the program does not have is judged by info; here it cuts, so that it shows.
+            // A line that the program does not have is reported by info; here it counts as cutting, so that it is
+            // shown.
             out[done + i] = m != no_motion                     ? kind_of_motion_[m]
                             : lines[i] == 0                    ? PointKind::idle
                             : lines[i] >= kind_of_line_.size() ? PointKind::cut
@@ -206,7 +207,7 @@ std::vector<PointRange> LineMap::points_of(LineNumber first, LineNumber last) co
 }
 
 double LineMap::confidence_at(PointIndex point) const {
-    constexpr double edited_confidence = 0.95;  // the text is not the one that ran
+    constexpr double edited_confidence = 0.95;  // the text has been edited since the run
     const double least = match_.edited ? edited_confidence : 1.0;
     if (from_log()) return line_at(point) > 0 ? least : 0.0;
     checked_.need(point);

@@ -1,10 +1,10 @@
 #pragma once
-// LineMap: which line of the program each logged point belongs to.
+// LineMap: the program line of each logged point.
 //
-// Where the log has a line channel it is taken as it is and checked against the geometry. A kernel
-// reports the line of its planner, which leads the axes by a few records, changes where a blend
-// begins and reports the last line of what it merged, so the check allows the line before as well.
-// Where the log has none, log and program are aligned in order (mapping/alignment.h).
+// If the log has a line channel, it is used as it is and checked against the geometry. A kernel
+// reports the line of its planner, which leads the axes by a few records, changes at the beginning of a
+// blend and is the last line of merged ones, so the check allows the line before as well.
+// If the log has none, log and program are aligned in order (mapping/alignment.h).
 
 #include <memory>
 #include <span>
@@ -22,7 +22,7 @@
 
 namespace clsurf {
 
-/// What a point does, as far as the program tells.
+/// The activity at a point, as far as the program defines it.
 enum class PointKind : std::uint8_t {
     idle,  ///< no block, a dwell, or before the first motion
     rapid,
@@ -31,8 +31,8 @@ enum class PointKind : std::uint8_t {
 
 class LineMap {
 public:
-    /// Lines from the log's channel. `motion_of_point`: as track_motions() has them, where a line has several
-    /// motions; else empty.
+    /// Lines from the log's channel. `motion_of_point`: from track_motions(), if a line has several motions; else
+    /// empty.
     LineMap(const ChannelView& channel, const Program& program, std::shared_ptr<const void> keep_alive,
             Column<std::uint32_t> motion_of_point = {});
     /// Lines from an alignment: a motion per point (no_motion: none) and a confidence of 0 … 255.
@@ -43,22 +43,22 @@ public:
     [[nodiscard]] bool from_log() const { return from_log_; }
     [[nodiscard]] PointIndex count() const { return count_; }
 
-    /// Lines of points [begin, begin + out.size()), in the main program: for what runs in another file, the line
-    /// that called it; 0: none.
+    /// Lines of points [begin, begin + out.size()), in the main program: for points in another file, the line that
+    /// called it; 0: none.
     void read(PointIndex begin, std::span<LineNumber> out) const;
-    /// What these points do. Domain as read().
+    /// The kinds of these points. Domain as read().
     void read_kinds(PointIndex begin, std::span<PointKind> out) const;
     [[nodiscard]] LineNumber line_at(PointIndex point) const;
     /// Motions of a line of the main program, and of other files that it called, in the order in which they run.
     [[nodiscard]] std::span<const std::uint32_t> motions_of(LineNumber line) const;
-    /// What a line does: what cuts most among its motions.
+    /// The kind of a line: cut if one of its motions cuts, else rapid if one is rapid, else idle.
     [[nodiscard]] PointKind kind_of(LineNumber line) const {
         return line < kind_of_line_.size() ? kind_of_line_[line] : PointKind::idle;
     }
 
-    /// The motion of a point; −1: none. Lines of a channel: the one that the line's run is at.
+    /// The motion of a point; −1: none. With lines of a channel: the motion that the run of the line has reached.
     [[nodiscard]] std::int64_t motion_at(PointIndex point) const { return motion_at(point, line_at(point)); }
-    /// The same where the line of the point is known.
+    /// The same if the line of the point is known.
     [[nodiscard]] std::int64_t motion_at(PointIndex point, LineNumber line) const;
 
     /// Every run of consecutive points with that line, in order. O(points).
@@ -66,25 +66,25 @@ public:
     /// The same with the lines `first` … `last`.
     [[nodiscard]] std::vector<PointRange> points_of(LineNumber first, LineNumber last) const;
 
-    /// The line of a motion, as read() has it. Domain: a motion of the program.
+    /// The line of a motion, as in read(). Domain: a motion of the program.
     [[nodiscard]] LineNumber line_of_motion(std::int64_t motion) const {
         return line_of_motion_[static_cast<std::size_t>(motion)];
     }
-    /// Which of the program's tools makes a motion: equal numbers, equal tools. O(log tool changes).
+    /// The tool of a motion: equal numbers, equal tools. O(log tool changes).
     [[nodiscard]] std::uint32_t tool_of(std::int64_t motion) const;
     [[nodiscard]] bool one_tool() const { return tools_.size() < 2; }
 
-    /// Points off the program's path, on a way back to where a run goes on (mapping/program_runs.h), in order. They are
-    /// rapids, whatever line the log gives them.
+    /// Points off the program's path, on a return to the point of continuation (mapping/program_runs.h), in order. They
+    /// are rapids, whatever line the log gives them.
     [[nodiscard]] const std::vector<PointRange>& ways_back() const { return ways_back_; }
     void set_ways_back(std::vector<PointRange> ways) { ways_back_ = std::move(ways); }
     [[nodiscard]] bool on_way_back(PointIndex point) const;
 
-    /// How sure the line of a point is, 0 … 1, by what gave it: a log's line is certain unless the program was
-    /// edited. confidences() adds what the geometry says.
+    /// Confidence in the line of a point, 0 … 1, by its source: a log's line is certain unless the program was
+    /// edited. confidences() adds the agreement with the geometry.
     [[nodiscard]] double confidence_at(PointIndex point) const;
 
-    /// What it was made from: the numbers of a channel (from_log()), a motion and a confidence per point; empty: none.
+    /// Its source: the numbers of a channel (from_log()), a motion and a confidence per point; empty: none.
     [[nodiscard]] const ChannelView& channel() const { return channel_; }
     [[nodiscard]] const Column<std::uint32_t>& point_motions() const { return motion_of_point_; }
     [[nodiscard]] const Column<std::uint8_t>& confidences() const { return confidence_; }
@@ -93,7 +93,7 @@ public:
     [[nodiscard]] const ProgramMatch& match() const { return match_; }
     void set_match(ProgramMatch match) { match_ = std::move(match); }
 
-    /// What it was made from is in a file whose blocks are checked when they are read.
+    /// Its source is in a file whose blocks are checked when they are read.
     void check_when_read(BlockFillPointer checked) { checked_ = std::move(checked); }
 
 private:
@@ -118,7 +118,7 @@ private:
     Column<char> in_main_;               ///< by motion: it is in the main file; empty: all are
     Column<PointKind> kind_of_motion_;
     Column<PointKind> kind_of_line_;       ///< by line number
-    Column<std::uint32_t> first_of_line_;  ///< by line number: where in by_line_ its motions begin
+    Column<std::uint32_t> first_of_line_;  ///< by line number: index in by_line_ of its first motion
     Column<std::uint32_t> by_line_;        ///< motions sorted by line
     std::vector<ToolChange> tools_;        ///< in order
     std::vector<PointRange> ways_back_;

@@ -9,24 +9,24 @@
 namespace clsurf {
 namespace {
 
-/// Records by which a line may lead the positions (a planner is ahead of its axes, and measured positions lag), or come
-/// later (negative). Of each sign the shortest comes first.
+/// Records by which a line may lead the positions (a planner is ahead of its axes, and measured positions lag), or
+/// follow them (negative). The shortest of each sign comes first.
 constexpr std::array<std::int64_t, 19> leads{0, 1, -1, 2, -2, 3, -3, 4, -4, 5, 6, 8, -6, -8, 11, 15, 20, 26, 32};
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t lines_for_lead = 4096;
-constexpr double shorter_lead = 1.0;       ///< what a longer lead must explain in addition
+constexpr double shorter_lead = 1.0;       ///< additional cost that a longer lead must save
 constexpr double lead_changes = 1.0;       ///< records
 constexpr double slightly_off = 4.0;       ///< records that cost 1
 constexpr double most_cost = 3.0;          ///< of a line
-constexpr double records_off = 28.0;       ///< that cost most: slightly_off · (2^most_cost − 1)
-constexpr double near_cost = 1.0;          ///< of a line whose shift is worth a try
+constexpr double records_off = 28.0;       ///< with the highest cost: slightly_off · (2^most_cost − 1)
+constexpr double near_cost = 1.0;          ///< of a line whose shift is tested
 constexpr double explained_cost = 0.5;     ///< of the lines of a section, at most
-constexpr double shift_cost = 5.0;         ///< two long lines that are clearly off
-constexpr double most_doubt = 9.0;         ///< of a line end: three of its uncertainties, squared
-constexpr std::size_t most_ends = 8;       ///< of one line that is looked at
-constexpr std::ptrdiff_t most_tries = 64;  ///< shifts that one line end suggests
+constexpr double shift_cost = 5.0;         ///< as much as two long lines that are clearly off
+constexpr double most_doubt = 9.0;         ///< of a line end: three times its uncertainty, squared
+constexpr std::size_t most_ends = 8;       ///< of one line that are evaluated
+constexpr std::ptrdiff_t most_tries = 64;  ///< shifts suggested by one line end
 
-/// When the tool came to the ends of lines near a record.
+/// The records at which the tool came to the ends of lines near a record.
 class Arrivals {
 public:
     Arrivals(const LineEnd& end, const Column<LineNumber>& found, std::int64_t lead)
@@ -45,7 +45,7 @@ public:
             while (known <= last && at(known) == 0) ++known;
         }
         if (known < first || known > last) return;
-        std::int64_t behind = known;  // where the line below was found
+        std::int64_t behind = known;  // where the previous line was found
         for (std::int64_t i = known - 1; i >= first; --i) {
             if (at(i) == 0) continue;
             if (at(i) < at(behind)) {
@@ -56,7 +56,7 @@ public:
             }
             behind = i;
         }
-        // Lower lines may have ended anywhere on a way off the path.
+        // Lower lines may have ended anywhere on a section off the path.
         if (at(first) == 0) steps_.push_back({0, -infinity, static_cast<double>(behind - end.record)});
         std::reverse(steps_.begin(), steps_.end());
         behind = known;
@@ -76,13 +76,13 @@ public:
 
     [[nodiscard]] bool known() const { return end_ != 0; }
 
-    /// What it costs to say that the reported line is this one, 0 … most_cost.
+    /// The cost of the assumption that the reported line is this one, 0 … most_cost.
     [[nodiscard]] double cost(std::int64_t line) const {
         const Step* step = step_of(line);
         return step != nullptr ? cost_of(*step) : most_cost;
     }
 
-    /// How far the end of this line is from where a lead puts it, as a square in units of its uncertainty.
+    /// The distance of this line's end from its expected record with a lead, squared, in units of its uncertainty.
     [[nodiscard]] double doubt(std::int64_t line, double lead) const {
         const Step* step = step_of(line);
         if (step == nullptr) return most_doubt;
@@ -91,7 +91,7 @@ public:
         return std::min(most_doubt, off * off);
     }
 
-    /// body(first, last) for the ranges of lines that the reported one may be.
+    /// Calls body(first, last) for the ranges of lines that the reported one may be.
     template <typename Body>
     void for_likely(const Body& body) const {
         for (std::size_t k = 0; k < steps_.size(); ++k) {
@@ -101,8 +101,8 @@ public:
     }
 
 private:
-    /// The tool came to the end of this line, and of those up to the next step, between two records, counted from where
-    /// the report ends. They differ where it was off the path.
+    /// The tool came to the end of this line, and of those up to the next step, between two records, relative to the
+    /// end of the report. The records differ if it was off the path.
     struct Step {
         LineNumber line = 0;
         double first = 0, last = 0;
@@ -121,7 +121,7 @@ private:
 
     double blend_, early_, late_;
     std::vector<Step> steps_;
-    LineNumber end_ = 0;  ///< what lies behind the last step is not known from here on
+    LineNumber end_ = 0;  ///< beyond the last step, lines from here on are unknown
 };
 
 class ShiftSearch {
@@ -156,13 +156,13 @@ public:
     }
 
 private:
-    /// A shift that explains the lines up to here.
+    /// The best shift that explains the lines up to this one.
     struct State {
         std::int64_t shift = 0;
         double cost = 0;
         std::size_t since = 0;
     };
-    /// Lines with one shift; lines are counted among those that were reported.
+    /// Lines with a common shift; indices count the reported lines.
     struct Section {
         std::size_t begin = 0;
         std::int64_t shift = 0;
@@ -184,7 +184,7 @@ private:
         return line > 0 && std::binary_search(with_motion_.begin(), with_motion_.end(), line);
     }
 
-    /// Mean over the times that the line was run; 0: nothing is known of them.
+    /// Mean over the executions of the line; 0 if nothing is known of them.
     template <typename Of>
     [[nodiscard]] double mean(const std::vector<Arrivals>& all, double without_motion, std::int64_t line,
                               const Of& of) const {
@@ -198,7 +198,8 @@ private:
         return mean(all, most_cost, line, [](const Arrivals& a, std::int64_t l) { return a.cost(l); });
     }
 
-    /// The shifts of the first `count` lines that cost least, line by line (Viterbi): what they cost. best_ leads back.
+    /// The shifts of the first `count` lines with the least cost, line by line (Viterbi). Returns the cost; best_ gives
+    /// the path back.
     double walk(std::int64_t lead, std::size_t count) {
         best_.assign(count, {});
         std::vector<State> states{State{}};
@@ -233,7 +234,7 @@ private:
         states.push_back(offered);
     }
 
-    /// The first one is empty where the first lines are shifted.
+    /// The first one is empty if the first lines are shifted.
     [[nodiscard]] std::vector<Section> sections_of_walk() const {
         std::vector<Section> sections;
         for (State state = best_.back();; state = best_[state.since - 1]) {
@@ -245,7 +246,7 @@ private:
         return sections;
     }
 
-    /// Deleted lines may look like a section of their own that fits badly. It is joined with the next one.
+    /// Deleted lines may look like a separate section that fits badly. It is merged with the next one.
     void join_deleted(std::vector<Section>& sections, std::int64_t lead) const {
         for (std::size_t k = 1; k + 1 < sections.size();) {
             const Section& section = sections[k];
@@ -263,8 +264,8 @@ private:
         }
     }
 
-    /// Puts the beginning of a section where the lines around it fit best. The lead is the one that these lines fit best with,
-    /// because it changes with the speed. On both sides, lines are looked at until they clearly tell the two shifts apart.
+    /// Moves the beginning of a section to where the lines around it fit best. The lead is the one that these lines fit best
+    /// with, because it changes with the speed. On both sides, lines are added until they clearly distinguish the two shifts.
     void place(std::vector<Section>& sections, std::size_t k, std::int64_t lead) const {
         const std::int64_t before = sections[k - 1].shift, after = sections[k].shift;
         const std::size_t least_first = sections[k - 1].begin + (k > 1 ? 1 : 0);
@@ -288,8 +289,8 @@ private:
         }
     }
 
-    /// The same with one lead. Lines that were deleted in front of a section fit neither it nor the one before it, and
-    /// their records may lie off the path.
+    /// The same with one lead. Lines that were deleted before a section fit neither it nor the previous one, and their
+    /// records may be off the path.
     void place(std::vector<Section>& sections, std::size_t k, std::size_t first,
                const std::deque<std::vector<Arrivals>>& arrivals, double lead, double& least) const {
         const std::int64_t by = sections[k].shift - sections[k - 1].shift;
@@ -307,7 +308,7 @@ private:
             usual += std::min(as_before, as_after);
         }
         usual /= static_cast<double>(arrivals.size());
-        std::size_t deleted = 0;  // the first line that is
+        std::size_t deleted = 0;  // the first deleted line
         for (std::size_t at = 0; at < arrivals.size(); ++at) {
             while (deleted < at && std::int64_t{line_of(first + deleted)} < std::int64_t{line_of(first + at)} + by)
                 ++deleted;
@@ -337,7 +338,7 @@ private:
     std::span<const LineEnd> ends_;
     const Column<LineNumber>& found_;
     std::span<const LineNumber> with_motion_;
-    std::vector<std::size_t> begins_;  ///< of each line, in ends_
+    std::vector<std::size_t> begins_;  ///< index in ends_ of each line's first end
     std::vector<State> best_;          ///< after each line
 };
 

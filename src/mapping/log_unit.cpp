@@ -11,8 +11,8 @@
 namespace clsurf {
 namespace {
 
-constexpr double least_extent = 0.1;    ///< [mm] of the program, on an axis that tells a unit
-constexpr double extents_differ = 0.1;  ///< share: rapids and approaches of the log belong to no motion at feed
+constexpr double least_extent = 0.1;    ///< [mm] of the program, on an axis that is informative
+constexpr double extents_differ = 0.1;  ///< share: rapids and approaches of the log are not part of any motion at feed
 
 struct LogScale {
     const char* name;

@@ -1,5 +1,5 @@
 #pragma once
-// LogUnit: whether the positions of a log are in another unit than the log says.
+// LogUnit: whether the positions of a log are in a unit other than the stated one.
 
 #include <optional>
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace clsurf {
 
-/// A unit that would make the positions as large as the path of the program.
+/// A unit that makes the positions as large as the path of the program.
 struct LogUnit {
     std::string name;      ///< "inch"
     std::string evidence;  ///< a clause: the extents of both
 };
 
-/// Nothing unless the path extends over 1/25.4, 1/1000 or 1000 of the program's path on both of its longer axes, within a
+/// nullopt unless the path extends over 1/25.4, 1/1000 or 1000 of the program's path on both of its longer axes, within a
 /// tenth. O(points + motions), parallel.
 [[nodiscard]] std::optional<LogUnit> other_unit(const Trajectory& path, const Program& program);
 

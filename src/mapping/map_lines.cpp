@@ -24,24 +24,25 @@
 namespace clsurf {
 namespace {
 
-/// More disagreement than this among the checked points is worth a warning.
+/// A larger share of disagreement among the checked points causes a warning.
 constexpr double disagreeing_share = 0.005;
-/// Where most points are off, a work offset is looked for.
+/// If a larger share of points is off, a work offset is searched for.
 constexpr double offset_share = 0.5;
-constexpr PointIndex least_checked = 10;  ///< points that can tell a foreign log
-/// A log of another program, as its hash says, may differ from this one by this much.
+constexpr PointIndex least_checked = 10;  ///< points that suffice to recognise a foreign log
+/// The limit instead of offset_share for a log of another program, according to its hash.
 constexpr double other_share = 0.05;
-/// Runs of points whose middle lies off its line, and points on unknown lines: an edit may have moved the lines behind it.
+/// Share of runs of points whose middle is off its line, and of points on unknown lines, from which an edit may have
+/// shifted lines.
 constexpr double displaced = 0.02;
-/// Edits that explain the displaced points leave no more than this share of them.
+/// Edits are accepted if the share of displaced points falls at least by this factor.
 constexpr double unexplained_share = 0.5;
-/// So many that the lines mean nothing where no edit explains them.
+/// A share at which the lines are meaningless unless an edit explains them.
 constexpr double all_displaced = 0.3;
-/// A path that fits although its line numbers do not has no more points off than this.
+/// A path fits, although its line numbers do not, if no larger share of points is off.
 constexpr double fitting_share = 0.1;
 constexpr double sure_confidence = 0.9;  ///< of an aligned point
 
-/// Part of the aligned points that are farther off than a finishing tolerance.
+/// Share of the aligned points that are farther off than a finishing tolerance.
 double off_share(const LineMap& map) {
     constexpr PointIndex looked_at = 10'000;
     const PointIndex stride = std::max<PointIndex>(1, map.count() / looked_at);
@@ -61,7 +62,7 @@ ChannelView view_of(const Column<LineNumber>& lines) {
             0.0};
 }
 
-/// Puts the lines of a log and a program together.
+/// Combines the lines of a log and a program.
 class LineMapper {
 public:
     LineMapper(const Trajectory& path, const Log& log, const Program& program, ProgramIdentity identity,
@@ -116,23 +117,24 @@ private:
         return a.checked > 0 ? static_cast<double>(a.disagreeing) / static_cast<double>(a.checked) : 0.0;
     }
 
-    /// More of the points than this off the program's path, or on lines that it does not have: the log is of another one.
+    /// If a larger share of points is off the program's path, or on lines that it does not have, the log belongs to
+    /// another program.
     [[nodiscard]] double foreign_share() const {
         return identity_ == ProgramIdentity::other ? other_share : offset_share;
     }
 
-    /// Points whose line is not where they are: it lies elsewhere, or the program does not have it.
+    /// Share of points whose line does not match their position: it is elsewhere, or the program does not have it.
     [[nodiscard]] double off_line_share(const LineMap& map) const {
         return displaced_share(path_, program_, map) + find_unknown_lines(path_, program_, map).share();
     }
 
-    /// The program's runs in this log, and how the tool came back between them.
+    /// The program's runs in this log, and the returns of the tool between them.
     void find_runs(LineMap& map) {
         runs_ = find_program_runs(map);
         map.set_ways_back(find_ways_back(path_, program_, map, runs_));
     }
 
-    /// Whether the positions would fit in another unit: no work offset aligns them.
+    /// Whether the positions would fit in another unit: then no work offset aligns them.
     bool find_other_unit() {
         const std::optional<LogUnit> unit = other_unit(path_, program_);
         if (!unit) return false;
@@ -149,7 +151,7 @@ private:
         return map;
     }
 
-    /// `numbers`: of the file that runs; `lines`: of the main program.
+    /// `numbers`: of the active file; `lines`: of the main program.
     LineMap reported(const ChannelView& numbers, const ChannelView& lines, std::shared_ptr<const void> keep_alive) {
         Column<std::uint32_t> motions;
         if (lines_are_ambiguous(program_.motions))
@@ -157,8 +159,8 @@ private:
         return {lines, program_, std::move(keep_alive), std::move(motions)};
     }
 
-    /// Whether lines that were moved fit the path much better than those `before`, with a share `off_line` of points off
-    /// their lines. Short lines next to each other may look displaced without any edit; an edit near the end displaces few.
+    /// Whether shifted lines fit the path much better than those `before`, with a share `off_line` of points off their
+    /// lines. Adjacent short lines may look displaced without any edit; an edit near the end displaces few.
     [[nodiscard]] bool explains(const LineMap& moved, const LineMap& before, double off_line) const {
         if (off_line_share(moved) <= unexplained_share * off_line) return true;
         const double disagreed = share_of(check_lines(path_, program_, before));
@@ -166,7 +168,7 @@ private:
                share_of(check_lines(path_, program_, moved)) <= unexplained_share * disagreed;
     }
 
-    /// The log's lines where they stand in the text that was edited after the run. `reported_lines`: as the log has them.
+    /// The log's lines, converted to the text that was edited after the run. `reported_lines`: as in the log.
     std::optional<LineMap> look_for_edits(const Channel& channel, const ProgramLines& own,
                                           const LineMap& reported_lines, double off_line) {
         Diagnostics of_alignment;
@@ -197,7 +199,7 @@ private:
         return map;
     }
 
-    /// The map of lines that were moved. Numbers of the main program are moved, those of other files stay.
+    /// The map of converted lines. Numbers of the main program are converted, those of other files are not.
     LineMap moved_lines(const Channel& channel, const ProgramLines& own, Column<LineNumber> lines) {
         auto moved = std::make_shared<const Column<LineNumber>>(std::move(lines));
         if (!own.lines) return reported(view_of(*moved), view_of(*moved), moved);
@@ -209,7 +211,7 @@ private:
         return reported(view_of(numbers), view_of(*moved), moved);
     }
 
-    /// Where the log's numbers mean nothing in this program (block numbers, other lines), but its path fits.
+    /// If the log's numbers are meaningless in this program (block numbers, other lines), but its path fits.
     std::optional<LineMap> fitting_geometry() {
         Diagnostics of_alignment;
         LineMap map = align_lines(path_, program_, of_alignment);
@@ -225,7 +227,8 @@ private:
         return map;
     }
 
-    /// Nothing compares a point with a line that the program does not have: their share alone tells a foreign log.
+    /// There is no geometry to compare for a line that the program does not have: the share of such points alone
+    /// identifies a foreign log.
     void judge_unknown_lines(const LineMap& map) {
         const UnknownLines lines = find_unknown_lines(path_, program_, map);
         if (lines.share() <= disagreeing_share) return;
@@ -236,7 +239,7 @@ private:
             if (!match_.foreign.empty()) return;
             match_.foreign = text;
             match_.foreign_hint = "the program was cut off, or it is another one; --force continues anyway";
-        } else if (diagnostics_.count("log.line-range") == 0) {  // else info has said so
+        } else if (diagnostics_.count("log.line-range") == 0) {  // else info has reported it
             diagnostics_.add({Severity::warning, "map.line-range", Place::of_point(log_.name, lines.first), text,
                               "another program, or another version of it?"});
         }
@@ -257,7 +260,7 @@ private:
     ProgramIdentity identity_;
     Diagnostics& diagnostics_;
     ProgramMatch match_;
-    bool lines_valid_ = false;  ///< no edit moved a line: what lies off its line is led by it
+    bool lines_valid_ = false;  ///< no edit shifted a line: points off their line are due to the lead
     std::vector<ProgramRun> runs_;
 };
 

@@ -22,8 +22,8 @@ MotionGrid::MotionGrid(const Toolpath& path) : path_(path), grid_(cell_for(path)
     for (std::int64_t m = 0; m < path.size(); ++m) {
         const double length = path.length(m);
         if (!(length > 0)) continue;
-        // A point per half cell of arc length: a motion is in every cell that it passes, but for clipped
-        // corners, which the search in neighbour cells makes good.
+        // A point per half cell of arc length: a motion is in every cell that it passes, except for clipped corners,
+        // which the search in neighbour cells covers.
         const auto steps = static_cast<int>(std::ceil(2 * length / grid_.side()));
         CellGrid::Key before = ~CellGrid::Key{0};
         for (int k = 0; k <= steps; ++k) {

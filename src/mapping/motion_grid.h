@@ -15,7 +15,7 @@ public:
     /// Cells of about the motions' mean length. O(length / cell). `path` must outlive it.
     explicit MotionGrid(const Toolpath& path);
 
-    /// Motions that come within `distance` [mm] of p, in order. `distance` ≤ a cell, or fewer are found.
+    /// Motions that come within `distance` [mm] of p, in order. If `distance` exceeds a cell, some may be missed.
     [[nodiscard]] std::vector<std::int64_t> near(const Vec3& p, double distance) const;
 
 private:

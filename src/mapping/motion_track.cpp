@@ -14,16 +14,15 @@
 namespace clsurf {
 namespace {
 
-constexpr std::int64_t look_elsewhere = 8;  ///< motions that may be searched per point, on the average
-constexpr std::int64_t group_window = 256;  ///< motions of one line that a walk sees ahead of it
+constexpr std::int64_t look_elsewhere = 8;  ///< motions that may be searched per point, on average
+constexpr std::int64_t group_window = 256;  ///< motions of one line that a walk may look ahead
 
-/// Motions that run one after the other and stand in the same line of the same file, or are made by the same
-/// line that calls.
+/// Consecutive motions of one line of one file, or of the calls of one line.
 struct Section {
     std::uint32_t first = 0, last = 0;
 };
 
-/// The sections of each line of each file, in the order in which they run.
+/// The sections of each line of each file, in the order of execution.
 class LineSections {
 public:
     explicit LineSections(const Program& program) {
@@ -37,7 +36,7 @@ public:
             own[i] = key(motions.file.empty() ? 0 : motions.file[i], motions.line[i]);
         Column<std::uint32_t> with_own(keys_, 0);
         for (const std::size_t k : own) with_own[k] = 1;
-        // A line that calls and moves nothing itself stands for what it called.
+        // A line that calls and has no motion of its own represents the called motions.
         const std::vector<std::size_t> caller = callers(program);
         const auto called = [&](std::size_t i) {
             const std::size_t k = motions.call.empty() ? no_key : caller[motions.call[i]];
@@ -57,7 +56,7 @@ public:
     }
 
     [[nodiscard]] std::size_t files() const { return base_.size(); }
-    /// Those of a line; none where the file does not have it.
+    /// Those of a line; none if the file does not have it.
     [[nodiscard]] std::span<const Section> of(std::size_t file, LineNumber line) const {
         const std::size_t end = file + 1 < base_.size() ? base_[file + 1] : keys_;
         if (base_[file] + line >= end) return {};
@@ -92,7 +91,7 @@ private:
 
     std::size_t keys_ = 0;
     std::vector<std::size_t> base_;       ///< by file: key of its line 0
-    Column<std::uint32_t> first_of_key_;  ///< by key: where in sections_ its own begin
+    Column<std::uint32_t> first_of_key_;  ///< by key: index in sections_ of its first one
     Column<Section> sections_;            ///< sorted by key, then by motion
 };
 
@@ -127,7 +126,7 @@ public:
     }
 
 private:
-    /// The first section of the run's line that begins behind `motion`; nullptr: none.
+    /// The first section of the run's line that begins after `motion`; nullptr: none.
     [[nodiscard]] const Section* next_after(std::int64_t motion) const {
         const Section* next = nullptr;
         for_files([&](std::size_t file) {
@@ -163,7 +162,7 @@ private:
     void go_on(const Vec3& p, double chord) {
         const WalkState next = walk_.advance(state_, p, chord, reach());
         if (next.distance > settled && next.motion == section_.last) {
-            // A kernel that merges lines may report one line through several of its runs.
+            // A kernel that merges lines may report one line for several of its runs.
             const Section* again = next_after(section_.last);
             if (again != nullptr && again->first - state_.motion <= longest_merge) {
                 const WalkState beyond = walk_.advance(state_, p, chord, again->last);
@@ -177,13 +176,13 @@ private:
         state_ = next;
     }
 
-    /// The last motion of the section that the walk may see.
+    /// The last motion of the section within the walk's window.
     [[nodiscard]] std::int64_t reach() const {
         return std::min<std::int64_t>(section_.last,
                                       std::max<std::int64_t>(state_.motion, section_.first) + group_window);
     }
 
-    /// To the motions that the line allows where the walk was on `from` before.
+    /// Distance from the motions that the line allows if the walk was on `from` before.
     double allowed_distance(std::int64_t from, const Section& of, const Vec3& p) {
         const MotionRange range = allowed_motions(from, of.first, toolpath_.size());
         const std::int64_t last =
@@ -196,8 +195,8 @@ private:
         return best;
     }
 
-    /// The first run of the line, ahead and then from the start, on which the point is; the order of the
-    /// runs holds where it is on none, or where too many have been looked at.
+    /// The first run of the line that the point is on, searching ahead and then from the start. If it is on none, or
+    /// too many have been searched, the next run in order is kept.
     void look_for(std::int64_t from, const Vec3& p) {
         const Section in_order = section_;
         const Section* candidate = next_after(in_order.first);
@@ -217,7 +216,7 @@ private:
         }
     }
 
-    static constexpr double settled = 0.01;  ///< [mm] a point as near as that has not left its motion
+    static constexpr double settled = 0.01;  ///< [mm] a point this near is still on its motion
 
     const Trajectory& path_;
     Toolpath toolpath_;

@@ -17,11 +17,11 @@ constexpr double kept_share = 0.8;          ///< of the pairs in a round
 constexpr int pair_rounds = 5;
 constexpr int follow_rounds = 6;
 constexpr std::size_t followed_most = 1500;  ///< points of a log that are followed along the program
-constexpr double window_share = 0.01;        ///< of the program: how far a point may be from where it is expected
-constexpr std::size_t best_places = 6;       ///< of the log on the program that are followed
-constexpr double place_share = 0.005;        ///< of the program: matches nearer to each other are one place
+constexpr double window_share = 0.01;        ///< of the program: how far a point may be from its expected place
+constexpr std::size_t best_places = 6;       ///< places of the log on the program that are followed
+constexpr double place_share = 0.005;        ///< of the program: matches nearer to each other count as one place
 
-/// Puts points at equal distances on a way that comes in pieces.
+/// Resamples a path that comes in pieces at equal distances.
 class EvenPoints {
 public:
     explicit EvenPoints(double spacing) { profile_.spacing = spacing; }
@@ -53,11 +53,11 @@ private:
     double walked_ = 0;
 };
 
-/// Distances between points of a path: nothing that moves or turns it changes them.
+/// Distances between points of a path: invariant to shift and rotation.
 struct Distances {
     std::vector<std::size_t> lags;
-    std::vector<std::vector<float>> along;   ///< per lag: from each point to the one so much later
-    std::vector<std::vector<float>> rising;  ///< the same along Z, which no pose turns
+    std::vector<std::vector<float>> along;   ///< per lag: from each point to the one this much later
+    std::vector<std::vector<float>> rising;  ///< the same along Z, which no pose rotates
 
     Distances(const PathProfile& profile, std::vector<std::size_t> given) : lags(std::move(given)) {
         for (const std::size_t lag : lags) {
@@ -72,7 +72,7 @@ struct Distances {
     }
 };
 
-/// A place of the log on the program: point k of the log is point first + k · scale.
+/// A place of the log on the program: point k of the log corresponds to point first + k · scale.
 struct Match {
     double first = 0, scale = 1;
     double cost = std::numeric_limits<double>::infinity();
@@ -93,12 +93,12 @@ double cost_of(const Distances& program, const Distances& log, double first, dou
             cost += std::min(most, std::abs(mine[k] - its[i]) + std::abs(log.rising[l][k] - program.rising[l][i]));
         }
     }
-    // What lies outside of the program fits badly.
+    // Points outside the program count as a bad fit.
     return 2 * compared < wanted ? std::numeric_limits<double>::infinity()
                                  : (cost + most * static_cast<double>(wanted - compared)) / static_cast<double>(wanted);
 }
 
-/// The best matches, each of another place; the best first. `apart`: of places [points].
+/// The best matches at distinct places, best first. `apart`: of places [points].
 std::vector<Match> best_of(std::vector<Match> matches, double apart) {
     std::erase_if(matches, [](const Match& a) { return !std::isfinite(a.cost); });
     std::stable_sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) { return a.cost < b.cost; });
@@ -129,20 +129,20 @@ std::vector<Match> match(const PathProfile& program, const PathProfile& log) {
     };
     const double step = std::max(1.0, std::floor(n / 8000));
     for (double first = -m / 2; first < n - m / 2; first += step) add(first, 1);
-    // Passes that are alike fit passes beside them nearly as well: each place counts once, or the best one would be
-    // all of the first few.
+    // Passes that are alike fit adjacent passes nearly as well: each place counts once, else all of the first few
+    // would be variants of the best one.
     const double one_place = std::max(2 * step, place_share * n);
     const std::vector<Match> coarse = best_of(std::move(matches), one_place);
     matches.clear();
-    add(0, n / m);  // both whole
+    add(0, n / m);  // both complete
     for (const Match& place : coarse) {
         for (double fine = -step; fine <= step; fine += 1) add(place.first + fine, 1);
     }
     return best_of(std::move(matches), one_place);
 }
 
-/// Pairs along the match, made better by turns: the pose of the pairs, and for each point of the log the nearest one of
-/// the program near where it is expected.
+/// Pairs along the match, refined alternately: the pose of the pairs, and for each point of the log the nearest point
+/// of the program near its expected place.
 Eigen::Isometry3d follow(const PathProfile& program, const PathProfile& log, const Match& found) {
     const std::size_t stride = std::max<std::size_t>(1, log.size() / followed_most);
     std::vector<double> at;
@@ -210,7 +210,7 @@ PathProfile profile_of(const Toolpath& path, std::size_t most_points) {
 }
 
 PathProfile profile_of(const Trajectory& path, double spacing) {
-    constexpr double most_points = 1 << 21;  // of a path of the program's size, driven some 60 times
+    constexpr double most_points = 1 << 21;  // of a path of the program's size, run some 60 times
     EvenPoints points(spacing);
     double length = 0;
     std::vector<double> x(static_cast<std::size_t>(block_points)), y(x.size()), z(x.size());

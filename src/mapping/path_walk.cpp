@@ -11,7 +11,7 @@ PathWalk::PathWalk(const Toolpath& path) : path_(path) {
 WalkState PathWalk::advance(const WalkState& from, const Vec3& p, double chord, std::int64_t last) const {
     WalkState best = from;
     WalkWindow<double> window(chord);
-    double gone = -from.fraction * length(from.motion);  // to the start of motion m
+    double gone = -from.fraction * length(from.motion);  // arc length to the start of motion m
     for (std::int64_t m = from.motion; m <= last; ++m) {
         const bool moves = length(m) > 0;
         if (moves || m == from.motion) {

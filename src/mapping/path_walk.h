@@ -9,7 +9,7 @@
 
 namespace clsurf {
 
-/// Where a walk is on the path.
+/// The state of a walk on the path.
 struct WalkState {
     std::int64_t motion = 0;
     double fraction = 0;  ///< of the motion's length, 0 … 1
@@ -28,7 +28,7 @@ public:
         return advance(from, p, chord, path_.size() - 1);
     }
 
-    /// [mm] A walk that is farther off is lost.
+    /// [mm] A walk that is farther from the path is lost.
     static constexpr double lost_distance = WalkWindow<double>::lost_distance;
 
 private:

@@ -8,7 +8,7 @@
 
 namespace clsurf {
 
-/// take(point, motion) for each point; motion −1: none. Parallel, in order within a block.
+/// Calls take(point, motion) for each point; motion −1: none. Parallel, in order within a block.
 template <typename Take>
 void for_each_motion(const LineMap& lines, PointRange points, const Take& take) {
     parallel_for(points.size(), block_points, [&](std::int64_t first, std::int64_t last) {

@@ -11,12 +11,12 @@
 namespace clsurf {
 namespace {
 
-constexpr double part_of_program = 0.02;     ///< motions that may be missing at an end: approach, retract
-constexpr double begins_again_before = 0.1;  ///< of the motions: here a run begins …
-constexpr double begins_again_after = 0.9;   ///< … after one that came as far as this
+constexpr double part_of_program = 0.02;     ///< share of motions that may be missing at an end: approach, retract
+constexpr double begins_again_before = 0.1;  ///< share of the motions: a run begins before this …
+constexpr double begins_again_after = 0.9;   ///< … if the previous one came as far as this
 constexpr double least_pause = 1.0;          ///< [s]
 
-/// How many motions with a length there are before each one, and before the end: a log has no points on the others.
+/// Number of motions with a length before each one, and before the end: a log has no points on the others.
 Column<std::uint32_t> count_before(const Program& program, const Vec3& start) {
     const Toolpath path(program.motions, start);
     Column<std::uint32_t> before(static_cast<std::size_t>(path.size()) + 1, 0);
@@ -77,7 +77,7 @@ public:
         }
     }
 
-    /// The share of the motions that the log does not have.
+    /// The share of the motions that are missing in the log.
     double finish() {
         end_pause(log_.records);
         double missing = 0;

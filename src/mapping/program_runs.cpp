@@ -11,7 +11,7 @@
 namespace clsurf {
 namespace {
 
-constexpr int least_again = 3;  ///< motions that cut again: fewer may be a number that flickers
+constexpr int least_again = 3;  ///< repeated cutting motions: fewer may be a number that flickers
 
 class RunFinder {
 public:
@@ -59,9 +59,9 @@ private:
     }
 
     std::vector<ProgramRun> runs_{1};
-    std::vector<bool> had_;            ///< motions that the last run had
-    std::optional<ProgramRun> again_;  ///< where the log went back: perhaps a run
-    int count_ = 0;                    ///< motions that cut there and, too, in the run before
+    std::vector<bool> had_;            ///< motions of the last run
+    std::optional<ProgramRun> again_;  ///< where the log went back: possibly a run
+    int count_ = 0;                    ///< cutting motions since then that the previous run had, too
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// The runs of a program in one log: several parts cut one after the other, or a run that was stopped and begun again
+// The runs of a program in one log: several parts cut one after the other, or a run that was stopped and restarted
 // from an earlier line.
 
 #include <span>
@@ -11,17 +11,17 @@
 namespace clsurf {
 
 struct ProgramRun {
-    PointIndex first = 0;           ///< the point with which it begins
-    std::int64_t first_motion = 0;  ///< of those that it has, both ends included …
+    PointIndex first = 0;           ///< its first point
+    std::int64_t first_motion = 0;  ///< of its motions, both ends included …
     std::int64_t last_motion = -1;  ///< … last < first: none
 };
 
-/// At least one, in order. A run begins where the log goes back in the program, and motions that cut follow which the run
-/// before had already: a number that flickers begins none. O(points).
+/// At least one, in order. A run begins where the log goes back in the program and then executes cutting motions that the
+/// previous run already had: a number that flickers begins none. O(points).
 [[nodiscard]] std::vector<ProgramRun> find_program_runs(const LineMap& lines);
 
-/// For each run but the first: the points just before it at which the tool is off the program's path, on its way back to
-/// where it goes on. Empty where there are none. O(points).
+/// For each run but the first: the points just before it at which the tool is off the program's path, returning to the
+/// point of continuation. Empty if there are none. O(points).
 [[nodiscard]] std::vector<PointRange> find_ways_back(const Trajectory& path, const Program& program,
                                                      const LineMap& lines, std::span<const ProgramRun> runs);
 

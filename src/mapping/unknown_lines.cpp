@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t read_at_once = 4096;
 
-/// body(first, lines) for blocks of points.
+/// Calls body(first, lines) for blocks of points.
 template <typename Body>
 void for_lines(const LineMap& map, const Body& body) {
     std::array<LineNumber, read_at_once> lines;

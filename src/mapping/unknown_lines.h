@@ -1,5 +1,5 @@
 #pragma once
-// Points whose log gives them a line that the program does not have: of another program, or of one that was cut off.
+// Points with a reported line that the program does not have: of another program, or of one that was truncated.
 
 #include <limits>
 
@@ -8,7 +8,7 @@
 namespace clsurf {
 
 struct UnknownLines {
-    PointIndex moving = 0;   ///< points that move on a line; 0 also where the program has all lines
+    PointIndex moving = 0;   ///< points that move on a line; 0 also if the program has all lines
     PointIndex unknown = 0;  ///< those of them whose line the program does not have
     PointIndex first = -1;   ///< the first of these
     LineNumber low = std::numeric_limits<LineNumber>::max(), high = 0;  ///< their lines
@@ -18,8 +18,8 @@ struct UnknownLines {
     }
 };
 
-/// Points at rest do not count: a control may report any line before and after the program. A line is known where any
-/// file of the program has it, since the log may count the lines of the file that runs. O(points).
+/// Points at rest do not count: a control may report any line before and after the program. A line is known if any
+/// file of the program has it, because the log may count the lines of the current file. O(points).
 [[nodiscard]] UnknownLines find_unknown_lines(const Trajectory& path, const Program& program, const LineMap& map);
 
 }  // namespace clsurf

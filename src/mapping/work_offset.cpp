@@ -27,33 +27,33 @@ constexpr PointIndex sections = 64;   ///< evenly spaced over the log
 constexpr PointIndex section = 1600;  ///< points
 constexpr std::size_t samples_of_section = 24;
 constexpr std::size_t least_samples = 100;
-constexpr std::size_t least_changes = 10;  ///< of the line, for a first guess from them
+constexpr std::size_t least_changes = 10;  ///< of the line, for an initial guess from them
 constexpr double near = 0.05;              ///< [mm] on the path: a corner tolerance of finishing
 constexpr double most_near = 2;            ///< [mm] with the program's own corner tolerance
 constexpr double near_share = 0.9;
-constexpr double found_share = 0.5;   ///< a guess that has this part of the points in reach is refined
-constexpr double reach = 0.5;         ///< [mm] the grid's cells are at least this large
+constexpr double found_share = 0.5;   ///< a guess with this share of the points within reach is refined
+constexpr double reach = 0.5;         ///< [mm] least size of the grid's cells
 constexpr double same_shift = 0.02;   ///< [mm]
-constexpr double least_turn = 0.01;   ///< [mm] at the part's rim; a turn that moves less is none
-constexpr double more_points = 0.01;  ///< share of the points that tells poses apart, which are one pass apart
-constexpr double far_better = 1.5;    ///< residuals of poses that are not alike
+constexpr double least_turn = 0.01;   ///< [mm] at the part's rim; a smaller rotation is none
+constexpr double more_points = 0.01;  ///< share of the points that distinguishes poses one pass apart
+constexpr double far_better = 1.5;    ///< ratio of the residuals of distinct poses
 constexpr std::size_t profile_points = 32768;
-constexpr std::size_t hypotheses = 400;  ///< pairs of line changes that are tried
+constexpr std::size_t hypotheses = 400;  ///< pairs of line changes that are tested
 constexpr double pair_tolerance = 1;     ///< [mm] of a line change from the end of its line, and the corner tolerance
 constexpr int most_rounds = 30;
 constexpr double settled = 1e-5;        ///< [mm]
-constexpr double least_scatter = 1e-3;  ///< [mm] residuals below count the same
-constexpr double determined = 1e-3;     ///< of the points' directions, in the weakest direction
+constexpr double least_scatter = 1e-3;  ///< [mm] smaller residuals count as this
+constexpr double determined = 1e-3;     ///< share of the points' directions in the weakest direction
 
-/// A moving point and where it may lie.
+/// A moving point and its possible motions.
 struct PathSample {
     Vec3 position;
-    MotionRange motions;  ///< empty: anywhere
+    MotionRange motions;  ///< empty: all
 };
 
 struct PathSamples {
     std::vector<PathSample> points;
-    std::vector<PointPair> at_changes;  ///< where a line changes: the position, and the end of the line
+    std::vector<PointPair> at_changes;  ///< at a line change: the position, and the end of the line
 };
 
 PathSamples take_samples(const Trajectory& path, const Toolpath& toolpath, const LineMap* map, int system = 0) {
@@ -131,7 +131,7 @@ public:
         rim_ = std::sqrt(square / static_cast<double>(samples_.size()));
     }
 
-    /// The guess made better; none where too few points come near, or a direction is not determined.
+    /// Refines the guess; none if too few points are near, or a direction is not determined.
     std::optional<Eigen::Isometry3d> refine(Eigen::Isometry3d pose, bool turns) {
         for (int round = 0; round < most_rounds; ++round) {
             project(pose);
@@ -146,7 +146,7 @@ public:
         }
         return pose;
     }
-    /// As refine(), without a turn that is none.
+    /// As refine(), without a negligible rotation.
     std::optional<Eigen::Isometry3d> refine(const Eigen::Isometry3d& guess) {
         const std::optional<Eigen::Isometry3d> turned = refine(guess, true);
         if (turned && std::abs(turn_of(*turned)) * rim_ > least_turn) return turned;
@@ -172,7 +172,7 @@ public:
         if (distances.empty()) return std::numeric_limits<double>::infinity();
         return median(distances);
     }
-    /// How far two poses bring the part apart [mm].
+    /// Distance of the part in two poses [mm].
     [[nodiscard]] double apart(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const {
         return (a * centre_ - b * centre_).norm() + std::abs(turn_of(a.inverse() * b)) * rim_;
     }
@@ -181,7 +181,7 @@ public:
     }
 
 private:
-    /// From the moved point to its projection, the motion's direction there (zero at its ends), and the point.
+    /// Vector from the moved point to its projection, the motion's direction there (zero at its ends), and the point.
     struct Residual {
         Vec3 off, direction, point;
     };
@@ -217,8 +217,8 @@ private:
         }
     }
 
-    /// Weighted least squares across the directions; weights fall with the distance over its median. Shift [mm], and
-    /// turn about Z through `centre` [rad]; NaN: a direction is not determined.
+    /// Weighted least squares perpendicular to the directions; weights decrease with the distance over its median.
+    /// Shift [mm], and rotation about Z through `centre` [rad]; NaN: a direction is not determined.
     [[nodiscard]] Eigen::Vector4d solve(const Vec3& centre, bool turns) const {
         std::vector<double> distances;
         for (const Residual& r : residuals_) distances.push_back((r.off - r.direction.dot(r.off) * r.direction).norm());
@@ -232,7 +232,7 @@ private:
             const double ratio = distances[i] / scatter;
             const double weight = 1 / (1 + ratio * ratio);
             const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - r.direction * r.direction.transpose();
-            Eigen::Matrix<double, 3, 4> moves;  // of the point, by shift and by turn at the rim
+            Eigen::Matrix<double, 3, 4> moves;  // of the point, by shift and by rotation at the rim
             moves.leftCols<3>().setIdentity();
             const Vec3 arm = r.point - centre;
             moves.col(3) = Vec3(-arm.y(), arm.x(), 0) / std::max(rim_, least_scatter);
@@ -263,7 +263,7 @@ private:
     std::vector<Residual> residuals_;
 };
 
-/// The pose that most line changes agree with: two of them far apart say it, and the others vote.
+/// The pose that most line changes agree with: pairs that are far apart give hypotheses, and the others vote.
 std::optional<Eigen::Isometry3d> guess_from_changes(const std::vector<PointPair>& pairs, double tolerance) {
     if (pairs.size() < least_changes) return std::nullopt;
     Box3 box;
@@ -303,7 +303,7 @@ std::vector<Vec3> guesses_from_boxes(const Box3& program, const Box3& log) {
     return guesses;
 }
 
-/// To a micrometre, or a ten-thousandth of a degree, as offsets are entered: "12.5", "-3".
+/// To a micrometre, or a ten-thousandth of a degree, the resolution of offsets: "12.5", "-3".
 std::string decimals(double value, int digits) {
     std::string text = fixed_text(value, digits);
     text.resize(text.find_last_not_of('0') + 1);
@@ -311,7 +311,7 @@ std::string decimals(double value, int digits) {
     return text;
 }
 
-/// The poses that fit; several where they fit alike. The nearest first.
+/// The poses that fit; several if they fit equally well. The nearest first.
 std::vector<Eigen::Isometry3d> best_of(const std::vector<Eigen::Isometry3d>& guesses, Fit& fit) {
     struct Fitting {
         Eigen::Isometry3d pose;
@@ -340,7 +340,7 @@ std::vector<Eigen::Isometry3d> best_of(const std::vector<Eigen::Isometry3d>& gue
     return best;
 }
 
-/// Coordinates before the program sets them: unknown, and no motion to lie on.
+/// Coordinates before the program sets them are unknown: such motions have no points.
 Toolpath known_path(const Program& program) {
     return {program.motions, Vec3::Constant(std::numeric_limits<double>::quiet_NaN())};
 }
@@ -396,7 +396,8 @@ std::string pose_numbers(const Eigen::Isometry3d& pose) {
 
 namespace {
 
-/// Each of several systems that the program does not set has a pose of its own: those that the lines of the log say.
+/// If the program cuts in several systems that it does not set, each has a pose of its own, from the lines of the
+/// log.
 bool note_systems(const Trajectory& path, const Program& program, const LineMap& map, Diagnostics& diagnostics) {
     const std::vector<int> systems = unknown_systems(program.motions);
     if (systems.size() < 2) return false;
@@ -450,7 +451,7 @@ bool note_pose(const Trajectory& path, const Program& program, const LineMap* ma
     }
     if (poses.empty()) return false;
     const Eigen::Isometry3d* found = &poses.front();
-    constexpr double least_shift = 1e-3;  // [mm] displaced by nothing, they are off for another reason
+    constexpr double least_shift = 1e-3;  // [mm] with a smaller shift, the points are off for another reason
     const std::string turn = decimals(-Fit::turn_of(*found) * deg_per_rad, 4);
     if (turn == "0" && found->translation().norm() < least_shift) return false;
     const Eigen::Isometry3d pose = path.pose() * found->inverse();
@@ -460,7 +461,7 @@ bool note_pose(const Trajectory& path, const Program& program, const LineMap* ma
         how = fmt::format("turned by {} deg about Z, and displaced", turn);
         by = found->inverse().translation();
     }
-    // Rounded corners lie inside of the programmed ones: a best fit is off by some of it.
+    // Rounded corners are inside the programmed ones: the best fit is off by a part of that.
     const double tolerance = corner_tolerance(program);
     const std::string known_to =
         tolerance > near ? fmt::format("; its corners may be rounded by {} mm, which limits the accuracy of the shift",
