@@ -12,7 +12,7 @@ namespace {
 
 constexpr int after_all_rows = 1000;  ///< report_rank of channels
 
-/// Positions and lines are shown otherwise, and time is a field of its own.
+/// Positions and lines are shown in other ways, and time is a separate field.
 bool in_reports(const std::string& name) {
     return !name.starts_with("cmd.") && !name.starts_with("fb.") && !name.starts_with("act.") && name != "time" &&
            name != "line" && name != "program";

@@ -6,7 +6,7 @@
 
 namespace clsurf {
 
-/// What the values of a channel mean.
+/// The meaning of a channel's values.
 struct ChannelClasses {
     std::string channel, label;
     std::vector<FieldClass> classes;

@@ -1,5 +1,5 @@
 #pragma once
-// Field: one number per point that can be coloured, plotted and exported, with what it means.
+// Field: one number per point that can be coloured, plotted and exported, with its description.
 
 #include <cstdint>
 #include <optional>
@@ -17,22 +17,22 @@ enum class FieldScale : std::uint8_t {
     diverging,   ///< signed, 0 in the middle of the colour map
 };
 
-/// Which values are the good ones of a sequential field: a picture shows them light.
+/// Which end of a sequential field is good: a picture shows it light.
 enum class FieldPreference : std::uint8_t { none, lower, higher };
 
-/// A range of values, in inside units.
+/// A range of values, in internal units.
 struct ValueRange {
     double low = 0, high = 0;
 };
 
-/// What one value of a field means whose values are names: a limit, a cause, a kind of motion.
+/// The meaning of one value of a field whose values are classes: a limit, a cause, a kind of motion.
 struct FieldClass {
     float value = 0;
     std::string name;
-    bool good = false;  ///< all is well: pictures show it in a light grey
+    bool good = false;  ///< no problem: pictures show it in light grey
 };
 
-/// A unit that owns its name: that of a channel is known only when its log is read.
+/// A unit that owns its name: that of a channel is known only after its log is read.
 struct FieldUnit {
     std::string name;       ///< "mm/min"; empty: none
     double per_inside = 1;  ///< shown = inside · per_inside
@@ -45,35 +45,36 @@ struct FieldUnit {
 };
 
 struct FieldInfo {
-    std::string name;   ///< "speed", the word of --color
+    std::string name;   ///< "speed", as given to --color
     std::string label;  ///< "Path speed"
-    FieldUnit unit;     ///< as shown; values are stored in inside units
+    FieldUnit unit;     ///< as shown; values are stored in internal units
     FieldScale scale = FieldScale::sequential;
     std::string note;                    ///< how it was computed, "21-point window (20 ms)"; may be empty
     char axis = 0;                       ///< 'x' … 'c' of a component; 0: of all axes together
-    std::vector<std::string> also = {};  ///< other words for it: "velocity"
-    int report_rank = 0;       ///< its place among the fields that a report has by default, from 1; 0: not there
-    bool percentiles = false;  ///< reports give the percentiles of its absolute value
+    std::vector<std::string> also = {};  ///< synonyms: "velocity"
+    int report_rank = 0;                 ///< its rank among the default fields of a report, from 1; 0: not there
+    bool percentiles = false;            ///< reports give the percentiles of its absolute value
     FieldPreference preference = FieldPreference::none;
-    std::vector<FieldClass> classes = {};  ///< of names; empty: values are numbers
-    std::string class_word = {};           ///< values are numbers of things, which nothing lies between: "line"
-    /// What its colours always span, so that pictures of different runs compare; else the data decide (range.h).
+    std::vector<FieldClass> classes = {};  ///< of classes; empty: values are numbers
+    std::string class_word = {};           ///< values are numbers of discrete things: "line"
+    /// The fixed range of its colours, so that pictures of different runs can be compared; else the data decide
+    /// (range.h).
     std::optional<ValueRange> usual_range = {};
-    double slack = 0;                 ///< beyond usual_range that still counts as its end, inside units
-    double least_span = 0;            ///< of colours, inside units: smaller differences do not matter
+    double slack = 0;                 ///< beyond usual_range that still counts as its end, internal units
+    double least_span = 0;            ///< of colours, internal units: smaller differences do not matter
     double least_span_of_median = 0;  ///< likewise, as a share of the median
-    /// Of a difference that counts as a discontinuity where some points in a row exceed it, inside units; 0: none.
+    /// Of a difference that counts as a discontinuity if some consecutive points exceed it, internal units; 0: none.
     double threshold = 0;
 };
 
-/// Whether values are names or numbers of things: between two of them is nothing.
+/// Whether values are classes or discrete numbers: there is nothing between two of them.
 [[nodiscard]] inline bool has_classes(const FieldInfo& info) {
     return !info.classes.empty() || !info.class_word.empty();
 }
 
 struct Field {
     FieldInfo info;
-    Column<float> values;  ///< one per point, inside units; NaN: no value there
+    Column<float> values;  ///< one per point, internal units; NaN: no value there
 };
 
 }  // namespace clsurf

@@ -120,7 +120,7 @@ std::vector<Field> FieldSet::get_all(const std::vector<std::string>& names, Poin
 
 namespace {
 
-/// What a log would have to be like to have the field; empty: no log has it.
+/// Requirements of a log for the field; empty: no log has it.
 std::string what_has(std::string_view name) {
     if (name == "limit")
         return "only a simulated log says what limits its speed: leave the log out, and give --machine FILE; of a recorded "

@@ -1,5 +1,5 @@
 #pragma once
-// FieldSet: the registry of fields. Providers offer them, and whoever colours, plots or exports asks for them by name.
+// FieldSet: the registry of fields. Providers offer them; code that colours, plots or exports gets them by name.
 //
 // To add a field of positions: one row in field_table.cpp. Other kinds: field_provider.h.
 
@@ -16,39 +16,40 @@ namespace clsurf {
 
 class FieldSet {
 public:
-    /// No fields, of a log with `points` points.
+    /// An empty set, for a log with `points` points.
     explicit FieldSet(PointIndex points) : points_(points) {}
-    /// Positions and channels of a log: PositionFields and ChannelFields. Shares their columns, refers to none of them.
+    /// Positions and channels of a log: PositionFields and ChannelFields. Shares their columns, and keeps no references
+    /// to the objects.
     FieldSet(const Log& log, const Trajectory& path, const Passes& passes, Derivation derivation = {});
 
-    /// Fields come in the order in which providers are added. Throws std::logic_error: a name is taken, and the provider
+    /// Fields are in the order in which providers are added. Throws std::logic_error if a name is taken and the provider
     /// has no prefix.
     FieldSet& add(std::shared_ptr<const FieldProvider> provider);
 
-    /// All of them.
+    /// All fields.
     [[nodiscard]] std::vector<FieldInfo> fields() const;
-    /// Names of those that a report has where none are named: that can be computed, in its order, at most `most`; channels
-    /// by their own names.
+    /// Names of the default fields of a report, if they can be computed, in its order, at most `most`; channels by their
+    /// own names.
     [[nodiscard]] std::vector<std::string> report_names(std::size_t most) const;
-    /// By its name, by another word for it ("velocity"), or a channel as `log.NAME`.
+    /// By its name, a synonym ("velocity"), or a channel as `log.NAME`.
     [[nodiscard]] bool has(std::string_view name) const { return find(name).has_value(); }
-    /// Whether a field is known and all is there that it needs.
+    /// Whether a field is known and its inputs are available.
     [[nodiscard]] bool can_compute(std::string_view name) const;
-    /// The name of what such a word means; itself where nothing is called that.
+    /// The name that a synonym stands for; the word itself if it is unknown.
     [[nodiscard]] std::string usual_name(std::string_view word) const;
 
-    /// One value per point. Throws UsageError: an unknown field (with a suggestion), or something is missing that the field
-    /// needs. O(points), parallel.
+    /// One value per point. Throws UsageError: an unknown field (with a suggestion), or a missing input. O(points),
+    /// parallel.
     [[nodiscard]] Field get(std::string_view name) const;
-    /// Several at once, in that order: what they have in common (derivatives above all) is computed once.
+    /// Several at once, in that order: shared intermediate results (above all derivatives) are computed once.
     [[nodiscard]] std::vector<Field> get_all(const std::vector<std::string>& names) const;
     /// The same at points [first, last] only.
     [[nodiscard]] std::vector<Field> get_all(const std::vector<std::string>& names, PointRange points) const;
 
 private:
     struct Entry {
-        FieldInfo info;        ///< with the name by which it is listed
-        std::string own_name;  ///< that its provider knows
+        FieldInfo info;        ///< with its name in listings
+        std::string own_name;  ///< its name in its provider
         std::size_t provider = 0;
     };
     struct Found {
@@ -64,7 +65,7 @@ private:
     std::vector<Entry> entries_;
 };
 
-/// Throws UsageError: none of `fields` is called that; the nearest is suggested.
+/// Throws UsageError: no field has this name; the nearest is suggested.
 [[noreturn]] void unknown_field(std::string_view name, const std::vector<FieldInfo>& fields);
 
 }  // namespace clsurf

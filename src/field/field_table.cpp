@@ -55,7 +55,7 @@ void error_component(const FieldBlock& block, float* out) {
     for (std::size_t i = 0; i < block.count(); ++i) out[i] = static_cast<float>(measured[i] - commanded[i]);
 }
 
-/// Angle between commanded and measured tool axis, by atan2: good near 0.
+/// Angle between commanded and measured tool axis; atan2 keeps it accurate near 0.
 double orientation_error(const Vector& commanded, const Vector& measured, std::size_t i) {
     return angle_between(Vec3(commanded[0][i], commanded[1][i], commanded[2][i]),
                          Vec3(measured[0][i], measured[1][i], measured[2][i]));
@@ -78,13 +78,13 @@ double squared_to_step(const Vector& commanded, const Vector& measured, std::siz
     return std::fmax(0.0, far2 - 2 * t * dot + t * t * step2);
 }
 
-/// Distance of the measured point to the commanded path round it. The projection is followed from point to point, a lag behind
-/// the command.
+/// Distance of the measured point from the commanded path around it. The projection is followed from point to point; it lags
+/// behind the command.
 void contour_error(const FieldBlock& block, float* out) {
-    constexpr std::ptrdiff_t farthest_start = FieldBlock::commanded_before - 6;  // a few steps more can be looked at
+    constexpr std::ptrdiff_t farthest_start = FieldBlock::commanded_before - 6;  // a few more steps can be searched
     const Vector& commanded = block.vector(needs::commanded);
     const Vector& measured = block.vector(needs::measured);
-    std::ptrdiff_t projection = -1;  // the step before the same time: where a lagging axis is
+    std::ptrdiff_t projection = -1;  // the step before the same time: the position of a lagging axis
     for (std::size_t i = 0; i < block.count(); ++i) {
         const auto here = static_cast<std::ptrdiff_t>(i);
         projection = std::max<std::ptrdiff_t>(std::min(projection + 1, here), here - farthest_start);
@@ -107,17 +107,17 @@ constexpr Unit deg_s2{"deg/s²", deg_per_rad};
 constexpr FieldScale up = FieldScale::sequential;
 constexpr FieldScale both = FieldScale::diverging;
 constexpr FieldSubject tip = FieldSubject::tip;
-constexpr int of_axes = 100;  ///< place in reports: after the fields of the path
+constexpr int of_axes = 100;  ///< rank in reports: after the fields of the path
 constexpr FieldSubject tool_axis = FieldSubject::tool_axis;
 constexpr FieldSubject rotary_axis = FieldSubject::rotary_axis;
 
-/// Small values are the good ones.
+/// Small values are good.
 constexpr FieldRow lower(FieldRow row) {
     row.preference = FieldPreference::lower;
     return row;
 }
 
-/// A speed: fast is good, and a tenth of the median is the least that its colours span.
+/// A speed: fast is good, and its colours span at least a tenth of the median.
 constexpr FieldRow faster(FieldRow row) {
     row.preference = FieldPreference::higher;
     row.least_span_of_median = 0.1;
@@ -125,7 +125,7 @@ constexpr FieldRow faster(FieldRow row) {
 }
 
 constexpr auto table = std::to_array<FieldRow>({
-    // name, label, unit, colours, axis, of what, needs, kernel, other words, place in reports, percentiles there
+    // name, label, unit, colours, axis, subject, needs, kernel, synonyms, rank in reports, percentiles there
     faster({"speed",
             "Path speed",
             unit::mm_min,

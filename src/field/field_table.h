@@ -1,5 +1,5 @@
 #pragma once
-// The table of our fields of positions. To add a field: one row in field_table.cpp.
+// The table of built-in fields of positions. To add a field: one row in field_table.cpp.
 
 #include <span>
 

@@ -7,11 +7,11 @@ namespace clsurf {
 namespace {
 
 constexpr double rise_seconds = 0.005;  ///< over which a ramp …
-constexpr float least_rise = 0.02F;     ///< … becomes faster by this share at least
+constexpr float least_rise = 0.02F;     ///< … must become faster by this share
 constexpr double longest_fall = 0.05;   ///< [s] for which a pass may brake before its ramp
-constexpr float least_gain = 0.1F;      ///< by which the end of a ramp is faster than its slowest point
+constexpr float least_gain = 0.1F;      ///< by which the end of a ramp exceeds its slowest point
 
-/// Points of the ramp that begins at `end` and runs inwards.
+/// Number of points of the ramp that begins at `end` and extends inwards.
 PointIndex ramp_length(const Column<float>& speed, PointIndex end, int direction, PointIndex count, double period) {
     const auto at = [&](PointIndex k) { return speed[static_cast<std::size_t>(end + direction * k)]; };
     const PointIndex stride = std::max<PointIndex>(1, std::lround(rise_seconds / period));

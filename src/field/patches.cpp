@@ -9,7 +9,7 @@
 namespace clsurf {
 namespace {
 
-/// Sets of points that grow and meet (union by size, path halving).
+/// Sets of points that grow and merge (union by size, path halving).
 class DisjointSets {
 public:
     explicit DisjointSets(std::size_t count) : parent_(count), size_(count, 1) {
@@ -19,7 +19,7 @@ public:
         while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
         return i;
     }
-    /// The size of the set that both are in from now on.
+    /// Merges the sets of both; returns the new size.
     std::size_t join(std::size_t a, std::size_t b) {
         a = root(a);
         b = root(b);
@@ -72,7 +72,7 @@ float end_without_patches(const Field& field, const Passes& passes, const Adjace
     std::unordered_map<PointIndex, std::size_t> rank_of;
     rank_of.reserve(beyond.size());
     for (std::size_t k = 0; k < beyond.size(); ++k) rank_of.emplace(beyond[k], k);
-    // Adjacency is a relation of points to nearest points: each of two may know the other alone.
+    // Adjacency is a relation of points to nearest points, so it need not be symmetric.
     std::vector<std::vector<std::size_t>> connected(beyond.size());
     const auto connect = [&](std::size_t k, PointIndex other) {
         const auto found = rank_of.find(other);
@@ -108,7 +108,7 @@ float end_with_sections(const Field& field, const Passes& passes, const Adjacenc
     for (const Pass& pass : passes) {
         if (pass.kind != PassKind::cut) continue;
         for (PointIndex i = pass.first; i <= pass.last; ++i) {
-            // Few points lie farther out than all before them.
+            // Few points exceed all before them.
             if (!(size_of(i) > farthest) || !exceeds(i) || size_of(i) > std::numeric_limits<float>::max()) continue;
             if ((!shown || shown(i)) && is_of_section(i, pass, neighbours, size, exceeds)) farthest = size_of(i);
         }

@@ -15,11 +15,11 @@ namespace clsurf {
 namespace {
 
 constexpr double finest_step = 1e-6;               ///< [mm]
-constexpr double least_curvature = 1e-3;           ///< [1/mm] a path of a radius of 1 m counts as straight
+constexpr double least_curvature = 1e-3;           ///< [1/mm] a path with a radius of 1 m counts as straight
 constexpr double apart = 2;                        ///< steps between points that differ
 constexpr double corner_reach = 0.1;               ///< [mm] of a corner on each side of its middle
 constexpr double corner_angle = 45 * rad_per_deg;  ///< a smaller one is curvature, as of programmed paths
-constexpr PointIndex sample_points = 512;          ///< of a section that tells the noise
+constexpr PointIndex sample_points = 512;          ///< of a section from which noise is measured
 constexpr PointIndex samples = 16;
 
 using Columns = std::array<std::vector<double>, 3>;
@@ -29,8 +29,8 @@ void read(const Trajectory& path, PointIndex first, PointIndex count, Columns& p
     path.read(first, p[0], p[1], p[2]);
 }
 
-/// The step [mm] whose rounding has the deviation of the noise: from third differences, in which a smooth motion leaves hardly
-/// anything. Those of noise of deviation σ have √20 σ.
+/// The step [mm] whose rounding has the deviation of the noise: from third differences, which are nearly zero for a smooth
+/// motion. Those of noise of deviation σ have √20 σ.
 double step_of_noise(const Trajectory& path) {
     std::vector<double> differences;
     Columns p;
@@ -58,7 +58,8 @@ double step_of_rounding(const Log& log, Role role) {
     return step;
 }
 
-/// No value in corners, such as controllers round between a pass and the next: they would hide the curvature of the surface.
+/// No value in corners, for example those that controllers round between passes: they would hide the curvature of the
+/// surface.
 void leave_out_corners(const std::vector<Vec3>& points, std::vector<double>& curvature) {
     std::vector<double> arc_length(points.size(), 0);
     for (std::size_t i = 1; i < points.size(); ++i)
@@ -86,7 +87,7 @@ void PathCurvature::compute(PointIndex first, std::span<double> out) const {
     Columns p;
     read(path_, from, to - from + 1, p);
     std::vector<Vec3> points;
-    std::vector<std::size_t> kept(out.size(), 0);  // the point before each one asked for, or that itself
+    std::vector<std::size_t> kept(out.size(), 0);  // for each requested point, the kept point before it, or itself
     const auto finish = [&](PointIndex begin, PointIndex end) {
         std::vector<double> curvature = resolved_curvatures(points, step_, least_curvature, Unresolved::no_value);
         leave_out_corners(points, curvature);

@@ -17,14 +17,14 @@
 namespace clsurf {
 namespace {
 
-constexpr PointIndex section_points = 4096;  ///< of a block, worked on at once: fits the L1 cache
+constexpr PointIndex section_points = 4096;  ///< of a block, processed at once: fits the L1 cache
 
 constexpr unsigned bit_of_derivative(int d) { return needs::velocity << (d - 1); }
 constexpr unsigned bit_of_sigma(int d) { return needs::velocity_sigma << (d - 1); }
 
 using Columns = std::array<std::vector<double>, 3>;
 
-/// What derivatives are taken of, read by block.
+/// The values to be differentiated, read by block.
 class Samples {
 public:
     explicit Samples(Trajectory path) : path_(std::move(path)) {}
@@ -49,18 +49,18 @@ private:
     std::optional<ChannelView> angles_;  ///< [rad]
 };
 
-/// A row that was asked for, and where its values go.
+/// A requested row, and the target of its values.
 struct Wanted {
     const FieldRow* row = nullptr;
-    float* out = nullptr;  ///< of the first point asked for
+    float* out = nullptr;  ///< of the first requested point
 };
 
-/// Rows that share positions and derivatives, and what they need, made once.
+/// Rows that share positions and derivatives, and their inputs, computed once.
 struct Plan {
     std::vector<Wanted> rows;
     FieldSubject subject = FieldSubject::tip;
     char axis = 0;          ///< of a rotary axis
-    bool smoothed = false;  ///< positions and derivatives are the estimate's
+    bool smoothed = false;  ///< positions and derivatives are those of the estimate
     unsigned needs = 0;     ///< of all rows
     const Log* log = nullptr;
     const MotionEstimate* estimate = nullptr;
@@ -76,7 +76,7 @@ struct Plan {
     }
 };
 
-/// Angles and tool axes have no measured speeds. Positions are as they are recorded, where they are not fused.
+/// Angles and tool axes have no measured speeds. Positions are as recorded, unless they are fused.
 bool is_smoothed(const FieldRow& row, const Derivation& derivation) {
     if (!derivation.estimate || row.subject != FieldSubject::tip) return false;
     const unsigned positions = derivation.estimate->fused() != nullptr ? needs::position : 0;
@@ -85,7 +85,7 @@ bool is_smoothed(const FieldRow& row, const Derivation& derivation) {
 
 Role measured_role_of(const Trajectory& path) { return path.role == Role::commanded ? Role::feedback : path.role; }
 
-/// Why a row cannot be computed; nullopt: all is there.
+/// Why a row cannot be computed; nullopt: it can.
 std::optional<UsageError> refusal(const FieldRow& row, const Log& log, const Trajectory& path,
                                   const Derivation& derivation) {
     if ((row.needs & needs::sigmas) != 0 && !derivation.estimate)
@@ -112,7 +112,7 @@ std::optional<UsageError> refusal(const FieldRow& row, const Log& log, const Tra
     return std::nullopt;
 }
 
-/// What a plan's rows are taken of.
+/// The values that a plan's rows are computed from.
 Samples samples_of(const Plan& plan, const Trajectory& path) {
     switch (plan.subject) {
         case FieldSubject::tool_axis: return Samples(tool_axes(*plan.log, path.role, path));
@@ -143,7 +143,7 @@ void complete(Plan& plan, const Trajectory& path, const Derivation& derivation) 
     plan.measured = positions(measured_role_of(path));
 }
 
-/// Fills what the rows of a plan read at points [first, last] of a piece, and lets them compute. Keeps its memory.
+/// Fills the inputs of a plan's rows at points [first, last] of a piece, and runs their kernels. Keeps its memory.
 class Section {
 public:
     Section(const Plan& plan, PointIndex origin) : plan_(plan), origin_(origin) {}
@@ -158,7 +158,7 @@ public:
         if (plan_.commanded) fill_error();
         fill_scalars(piece);
         for (const Wanted& wanted : plan_.rows) {
-            // A row sees what it asks for, however much the others need.
+            // A row gets only its own inputs, not those of the others.
             FieldBlock block(*wanted.row, count_);
             for (unsigned bit = 0; bit < needs::kinds; ++bit) {
                 if ((wanted.row->needs & (1U << bit)) != 0) block.set(1U << bit, filled_[bit]);
@@ -203,7 +203,7 @@ private:
         }
     }
 
-    /// Missing points at the ends repeat the end, where the tool rests.
+    /// Missing points at the ends repeat the end point, where the tool is at rest.
     void fill_error() {
         constexpr PointIndex before = FieldBlock::commanded_before;
         constexpr PointIndex after = FieldBlock::commanded_after;

@@ -16,31 +16,32 @@ namespace clsurf {
 
 /// How fields are derived from positions.
 struct Derivation {
-    /// Derivatives by a Kalman smoother, those of angles and tool axes apart; nullptr: all by least squares over a window.
+    /// Derivatives by a Kalman smoother, except those of angles and tool axes; nullptr: all by least squares over a
+    /// window.
     std::shared_ptr<const MotionEstimate> estimate;
-    /// [s] of another log whose fields are to be compared; 0: none. Windows then reach over standstills: a pause has no
-    /// length, and only their share of it appears at the adjacent places.
+    /// [s] of another log whose fields are to be compared; 0: none. Windows then extend across standstills: a pause has
+    /// no length, so only its share of the window appears at the adjacent places.
     double coarsest_period = 0;
-    double jerk_window = 0;  ///< [s] from the first point of it to the last one; 0: as derivative_filter() has it
+    double jerk_window = 0;  ///< [s] from its first point to the last one; 0: as in derivative_filter()
 
-    /// Of a derivative of a log with that period.
+    /// The filter of a derivative of a log with that period.
     [[nodiscard]] DerivativeFilter filter(int derivative, double period) const;
 };
 
 class PositionFields : public FieldProvider {
 public:
     /// Shares the columns of `log` and `path`; `rows` must outlive it. Derivatives are taken inside pieces of `passes`;
-    /// neighbouring turns of a spiral count as one piece, and where the tool stands a piece ends.
+    /// neighbouring turns of a spiral are one piece, and a piece ends at standstills.
     PositionFields(const Log& log, const Trajectory& path, const Passes& passes, Derivation derivation = {},
                    std::span<const FieldRow> rows = field_table());
 
-    /// The same fields, with derivatives inside pieces of other passes. O(1) where these are few.
+    /// The same fields, with derivatives inside pieces of other passes. O(1) if these are few.
     [[nodiscard]] PositionFields within(const Passes& passes) const;
 
     [[nodiscard]] std::vector<FieldInfo> fields() const override;
     [[nodiscard]] bool can_compute(std::string_view name) const override;
-    /// Rows with the same subject share positions and derivatives. O(points), parallel. `points` that begin at 0 and end at
-    /// the last one give the same values as any part of them, but for `contour_error` at the first 256 points of a part.
+    /// Rows with the same subject share positions and derivatives. O(points), parallel. The values at a point do not depend
+    /// on the requested `points`, except for `contour_error` at the first 256 points of a part.
     [[nodiscard]] std::vector<Field> compute(std::span<const std::string_view> names, PointRange points) const override;
 
 private:

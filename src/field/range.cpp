@@ -17,7 +17,7 @@ constexpr PointIndex sampled_points = 1'000'000;
 constexpr double automatic_low = 1;
 constexpr double automatic_high = 99;
 
-/// The values that the range is found from.
+/// The values from which the range is determined.
 struct Values {
     Column<float> sampled;   ///< evenly spaced, finite
     PointIndex cutting = 0;  ///< points
@@ -67,7 +67,7 @@ Values values_of_shown(const Field& field, const Passes& passes, const ShownPoin
     return values;
 }
 
-/// Widens a range to the least span of its field: about 0 or the middle, and from the end of the good values.
+/// Widens a range to the least span of its field: about 0 or the middle, or from the end of the good values.
 void widen_to_least_span(ShownRange& range, const FieldInfo& info, double median) {
     const double least =
         std::max(info.least_span * std::abs(info.unit.per_inside), info.least_span_of_median * std::abs(median));
@@ -84,7 +84,7 @@ void widen_to_least_span(ShownRange& range, const FieldInfo& info, double median
     range.note += "; no narrower, since smaller differences do not matter";
 }
 
-/// Ends at round numbers, so that a legend has few digits; of bins all edges.
+/// Ends at round numbers, so that a legend has few digits; for bins all edges.
 void round_outwards(ShownRange& range, int bins, bool even) {
     const double span = range.high - range.low;
     if (!(span > 0) || !std::isfinite(span)) return;
@@ -111,22 +111,22 @@ void round_outwards(ShownRange& range, int bins, bool even) {
     }
 }
 
-/// Where the points of a range are looked for.
+/// The data from which a range is determined.
 struct Source {
     const Field& field;
     const Passes& passes;
-    const Adjacency* neighbours;  ///< nullptr: not known
+    const Adjacency* neighbours;  ///< nullptr: unknown
     const ShownPoints& shown;
     std::span<const PointRange> defects;
 };
 
-/// The end that holds all values of the defects as well, in inside units.
+/// The end extended to all values of the defects, in internal units.
 float end_with_defects(const Source& source, float end, bool above) {
     for (const PointRange& section : source.defects) {
         for (PointIndex i = section.first; i <= section.last; ++i) {
             const float value = source.field.values[static_cast<std::size_t>(i)];
             if (!(above ? value > end : value < end) || !std::isfinite(value)) continue;
-            // Of a selection the other points are no longer cut.
+            // Points outside a selection no longer count as cut.
             if (source.passes[pass_of(source.passes, i)].kind != PassKind::cut) continue;
             if (!source.shown || source.shown(i)) end = value;
         }
@@ -134,7 +134,7 @@ float end_with_defects(const Source& source, float end, bool above) {
     return end;
 }
 
-/// An end of the range, moved to where nothing is cut off that may not be.
+/// An end of the range, extended so that it excludes nothing that must be shown.
 float widened(const Source& source, float end, bool above) {
     end = end_without_patches(source.field, source.passes, source.neighbours, source.shown, end, above, least_patch);
     const auto threshold = static_cast<float>(source.field.info.threshold);
@@ -153,7 +153,7 @@ std::string words_of_widening(const Source& source) {
     return ", widened for " + listed(reasons);
 }
 
-/// What all rules but the fixed ones do.
+/// The part common to all rules except the fixed ones.
 ShownRange range_of_values(const Source& source, const RangeRule& rule, Values& values) {
     const Field& field = source.field;
     const double unit = field.info.unit.per_inside;

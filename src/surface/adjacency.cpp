@@ -15,46 +15,47 @@ namespace {
 using Vec3f = Eigen::Vector3f;
 
 // All in step-overs.
-constexpr float nearest_neighbour = 0.2F;   ///< nearer is the same pass cut again
-constexpr float usual_neighbour = 1.6F;     ///< farther, a nearer one may have begun: it is sought
-constexpr float farthest_neighbour = 4.0F;  ///< on steep flanks passes are so far apart
-constexpr float along_tolerance = 0.35F;    ///< how far a projection may lie along the feed
+constexpr float nearest_neighbour = 0.2F;   ///< nearer ones are the same pass cut again
+constexpr float usual_neighbour = 1.6F;     ///< if it is farther, a nearer one may have begun: it is searched for
+constexpr float farthest_neighbour = 4.0F;  ///< on steep flanks passes are this far apart
+constexpr float along_tolerance = 0.35F;    ///< how far a projection may be off along the feed
 constexpr float steep_share = 0.12F;        ///< squared cosine to the horizontal below which a neighbour is above
 constexpr float direction_chord = 0.75F;    ///< arc length of the chords that give the feed direction
 constexpr double grid_cell = 4.0;
-constexpr double grid_records = 1.5;  ///< no less than so many records of usual length: cells hold a point of each pass
-constexpr float search_again = 0.25F;      ///< arc length without a neighbour after which it is sought anew
-constexpr float own_arc_length = 1.7F;     ///< the way to a neighbour is this many distances or more
+constexpr double grid_records =
+    1.5;  ///< least cell size in records of usual length, so that a cell has a point of each pass
+constexpr float search_again = 0.25F;      ///< arc length without a neighbour after which it is searched again
+constexpr float own_arc_length = 1.7F;     ///< least ratio of arc length to distance of a neighbour
 constexpr float running_along = 0.8660F;   ///< cos 30°
-constexpr PointIndex part_points = 65536;  ///< of a pass, walked by one thread
+constexpr PointIndex part_points = 65536;  ///< of a pass, per thread
 
-/// A place on another pass that is followed while the own point moves on.
+/// A point on another pass that is followed while the own point advances.
 struct Follower {
     PointIndex point = -1;  ///< −1: lost
-    PointRange pass;        ///< it stays inside
-    float since = 1e30F;    ///< own way since it was lost or sought [step-overs]
-    int direction = 1;      ///< along its pass in which it was followed last
+    PointRange pass;        ///< it stays inside this pass
+    float since = 1e30F;    ///< own arc length since it was lost or searched for [step-overs]
+    int direction = 1;      ///< along its pass, of the last step
 };
 
-/// The plane across the feed at a point. Nothing is normalised: roots would cost more than the walk.
+/// The plane normal to the feed at a point. Nothing is normalised: roots would cost more than the walk.
 struct Across {
     Vec3f here = Vec3f::Zero();
     Vec3f chord = Vec3f::Zero();  ///< along the feed
     float chord_squared = 0;
 
-    /// From here to a place, without what lies along the feed.
+    /// The vector from here to a point, without its component along the feed.
     [[nodiscard]] Vec3f aside(const Vec3f& q) const {
         const Vec3f d = q - here;
         return d - d.dot(chord) / chord_squared * chord;
     }
 
-    /// Left and right of a way that leads aside: by its horizontal part, and on steep walls (where neighbours lie
-    /// above each other) by the upward part.
+    /// Left or right for a direction: by its horizontal component, and on steep walls (with neighbours above each
+    /// other) by the upward component.
     [[nodiscard]] Side side_of(const Vec3f& d) const {
         const float left = chord.x() * d.y() - chord.y() * d.x();  // d · (z × chord)
         const float horizontal = chord.x() * chord.x() + chord.y() * chord.y();
         if (left * left > steep_share * d.squaredNorm() * horizontal) return left > 0 ? Side::left : Side::right;
-        // The component along chord × (z × chord), which is upwards.
+        // The component along chord × (z × chord), which points upwards.
         const float up = d.z() * chord_squared - d.dot(chord) * chord.z();
         return up > 0 ? Side::left : Side::right;
     }
@@ -97,7 +98,7 @@ public:
     }
 
 private:
-    /// False where the feed has no direction yet (standing still).
+    /// False if the feed has no direction yet (at rest).
     bool turn(Across& across, PointIndex i, const Vec3f& chord) const {
         across.here = p_[i];
         const float squared = chord.squaredNorm();
@@ -116,7 +117,7 @@ private:
                 f.point = cross(across, f.point, f.pass, f.direction);
                 if (!valid(across, f.point, f.pass, side) || !elsewhere(i, f.point)) {
                     f.point = -1;
-                    f.since = search_again;  // seek at once
+                    f.since = search_again;  // search at once
                 }
             }
             const float usual = usual_neighbour * step_over_;
@@ -130,12 +131,12 @@ private:
         }
     }
 
-    /// Walks from `n` to the point of its pass that is nearest to the plane across the feed, first in the
-    /// direction in which it went before.
+    /// Walks from `n` to the point of its pass that is nearest to the plane normal to the feed, first in the previous
+    /// direction.
     [[nodiscard]] PointIndex cross(const Across& across, PointIndex n, const PointRange& pass, int& direction) const {
         const auto distance = [&](PointIndex k) { return std::abs((p_[k] - across.here).dot(across.chord)); };
         const float begin = distance(n);
-        // Whichever way brings it nearer to the plane; a pass that runs away ends the walk.
+        // In the direction in which it comes nearer to the plane; a pass that moves away ends the walk.
         for (int attempt = 0; attempt < 2; ++attempt) {
             PointIndex k = n;
             float best = begin;
@@ -143,7 +144,7 @@ private:
             while (k + direction >= pass.first && k + direction <= pass.last) {
                 const float next = distance(k + direction);
                 if (next > best) break;
-                // Where the neighbour stood still the points do not come nearer: go on, within reason.
+                // If the neighbour was at rest the points do not come nearer: continue within limits.
                 standing = next == best ? standing + 1 : 0;
                 if (standing > 100'000) break;
                 k += direction;
@@ -155,8 +156,8 @@ private:
         return n;
     }
 
-    /// `n` is next to where its pass crosses the plane, beside the point, on that side. Records may be farther apart than
-    /// passes are: what counts is how far away the pass is, not its point.
+    /// Whether `n` is next to the intersection of its pass with the plane, at the side of the point. Records may be
+    /// farther apart than passes: the distance of the pass counts, not that of its point.
     [[nodiscard]] bool valid(const Across& across, PointIndex n, const PointRange& pass, Side side) const {
         const Vec3f d = p_[n] - across.here;
         const float along = d.dot(across.chord);
@@ -171,20 +172,20 @@ private:
         return across.side_of(aside) == side;
     }
 
-    /// One of the steps from and to `n`, which lies `along` the feed (times the chord), crosses the plane.
+    /// Whether one of the steps from and to `n`, which is `along` the feed (times the chord), crosses the plane.
     [[nodiscard]] bool crosses(const Across& across, PointIndex n, float along, const PointRange& pass) const {
         const auto over = [&](PointIndex k) { return (p_[k] - across.here).dot(across.chord) * along <= 0; };
         return (n > pass.first && over(n - 1)) || (n < pass.last && over(n + 1));
     }
 
-    /// The neighbour is another part of the path: the way to it is much longer than the distance.
+    /// Whether the neighbour is another part of the path: the arc length to it is much longer than the distance.
     [[nodiscard]] bool elsewhere(PointIndex i, PointIndex n) const {
-        // Far apart along the way is enough; only near a turn is the distance asked for.
+        // A long arc length is sufficient; the distance is needed only near a turn.
         const float most = own_arc_length * farthest_neighbour * step_over_;
         return arc_length_.at_least(i, n, most) || arc_length_.at_least(i, n, own_arc_length * (p_[n] - p_[i]).norm());
     }
 
-    /// The neighbour's pass runs along or against the feed.
+    /// Whether the neighbour's pass runs along or against the feed.
     [[nodiscard]] bool parallel(const Across& across, PointIndex n, const PointRange& pass) const {
         PointIndex a = n;
         PointIndex b = n;
@@ -196,9 +197,9 @@ private:
         return dot * dot > running_along * running_along * chord.squaredNorm() * across.chord_squared;
     }
 
-    /// Looks for the nearest neighbours of the lost sides in the grid.
+    /// Searches the grid for the nearest neighbours on the lost sides.
     void seek(const Across& across, PointIndex i, std::array<Follower, 2>& followers) const {
-        // A follower that is not lost gives way only to a nearer neighbour.
+        // A follower that is not lost is replaced only by a nearer neighbour.
         std::array<float, 2> best{1e30F, 1e30F};
         for (std::size_t s = 0; s < 2; ++s) {
             if (followers[s].point >= 0) best[s] = across.aside(p_[followers[s].point]).norm() - 0.1F * step_over_;

@@ -1,7 +1,7 @@
 #pragma once
-// ClSurface: the cutter-location surface, rebuilt from the tool path: passes, and for each point its
-// neighbours on both adjacent passes. The drawn mesh, the measured mismatch and the normal that turns a lag
-// into a depth all come from it.
+// ClSurface: the cutter-location surface, rebuilt from the tool path: passes, and for each point its neighbours on
+// both adjacent passes. It is the source of the drawn mesh, of the measured differences, and of the normal along
+// which a lag becomes a depth.
 
 #include <algorithm>
 #include <optional>
@@ -16,13 +16,13 @@ namespace clsurf {
 
 struct ClSurface {
     Positions positions;
-    Passes passes;  ///< by turns back and by returning to themselves (a turn of a spiral is one)
-    std::vector<PointRange> step_over_moves;  ///< steps sideways from one closed loop to the next, in order
+    Passes passes;  ///< cut at reversals of direction, and at returns to themselves (a turn of a spiral is one pass)
+    std::vector<PointRange> step_over_moves;  ///< moves from one closed loop to the next, in order
     Adjacency neighbours;
     double step_over = 0;  ///< [mm]; 0: a single pass, no neighbours
-    /// Points that cut and belong to no finishing pass (surface/finishing.h); among the passes they count as rapid.
+    /// Cutting points that belong to no finishing pass (surface/finishing.h); in `passes` they count as rapid.
     PointIndex not_finishing = 0;
-    /// What was measured before, of a surface of which only parts are looked at; elsewhere nothing.
+    /// Earlier measurements, for a surface of which only parts are read; else empty.
     std::optional<double> cut_length;                ///< [mm] of all cut passes
     std::vector<bool> low_links;                     ///< by pass: stays_low() (machined/contact_points.h)
     std::vector<Eigen::AlignedBox3f> boxes;          ///< [mm] of the positions shown and measured, by block
@@ -39,13 +39,13 @@ struct ClSurface {
     return sum;
 }
 
-/// The parts of ranges, which rise, between steps sideways and inside them.
+/// Splits ascending ranges into parts between and inside step-over moves.
 class StepOverMoveCutter {
 public:
     /// `step_over_moves` must outlive it.
     explicit StepOverMoveCutter(std::span<const PointRange> step_over_moves) : step_over_moves_(step_over_moves) {}
 
-    /// f(part, whether it is a step sideways) for the next range. Amortised O(parts).
+    /// Calls f(part, whether it is a step-over move) for the next range. Amortised O(parts).
     template <typename F>
     void cut(PointRange range, F&& f) {
         for (; next_ < step_over_moves_.size() && step_over_moves_[next_].first <= range.last; ++next_) {
@@ -55,7 +55,7 @@ public:
                                     std::min(range.last, step_over_move.last)};
             if (inside.size() > 0) f(inside, true);
             range.first = std::max(range.first, inside.last + 1);
-            if (step_over_move.last > range.last) return;  // goes on in the next range
+            if (step_over_move.last > range.last) return;  // continues in the next range
         }
         if (range.size() > 0) f(range, false);
     }

@@ -27,7 +27,7 @@ CutGroups::CutGroups(const CutOrder& order, const Passes& passes) {
     of_pass_.resize(passes.size());
     for (std::size_t k = 0; k < passes.size(); ++k) {
         OfPass& pass = of_pass_[k];
-        // A pass may begin some points before the run that cuts it.
+        // A pass may begin some points before its run.
         const auto run = range_at(runs_, passes[k].last);
         pass.run = static_cast<std::uint32_t>(run - runs_.begin());
         pass.first = order.lines->motion_at(std::max(passes[k].first, run->first));

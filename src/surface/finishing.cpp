@@ -11,19 +11,19 @@
 namespace clsurf {
 namespace {
 
-constexpr double beside_share = 0.3;      ///< of the shorter pass that lies beside the other one
-constexpr std::size_t many_passes = 5;    ///< side by side: a finished surface, whatever its shape
+constexpr double beside_share = 0.3;      ///< of the shorter pass that is adjacent to the other one
+constexpr std::size_t many_passes = 5;    ///< adjacent to each other: a finished surface of any shape
 constexpr double surface_share = 0.6;     ///< of a smaller group that has a neighbour
 constexpr std::size_t fewest_passes = 2;  ///< of a group
-/// Of the points of a smaller group that have a neighbour: it lies above or below.
+/// Share of the points of a smaller group with a neighbour above or below.
 constexpr double stacked_share = 0.5;
-constexpr float upright = 0.9F;           ///< squared cosine to z of what lies above
+constexpr float upright = 0.9F;           ///< squared cosine to z of a neighbour above
 constexpr double many_beside = 0.4;       ///< of a group of many passes that has a neighbour
 constexpr float plumb = 0.98F;            ///< squared cosine to z: the turns of a helix, up to 8° steep
 constexpr double plumb_share = 0.9;       ///< of the points of a helix
-constexpr double plunge_diameter = 50;    ///< pitches: a helix that is narrower leads into the material
-constexpr PointIndex turn_parts = 8;      ///< of a turn, by its points; a helix …
-constexpr PointIndex climbing_parts = 6;  ///< … climbs in so many of them; levels are joined in a few
+constexpr double plunge_diameter = 50;    ///< pitches: a narrower helix leads into the material
+constexpr PointIndex turn_parts = 8;      ///< of a turn, in points; a helix …
+constexpr PointIndex climbing_parts = 6;  ///< … climbs in this many of them; levels are joined in a few
 
 /// Disjoint sets of passes.
 class Groups {
@@ -40,18 +40,18 @@ private:
     std::vector<std::size_t> parent_;
 };
 
-/// How the points of a pass lie beside others.
+/// Statistics of the neighbours of a pass's points.
 struct Beside {
     PointIndex points = 0;                                ///< with a neighbour
-    PointIndex stacked = 0;                               ///< of them, with one above or below
-    PointIndex plumb = 0;                                 ///< of them, with one exactly above or below
-    PointIndex climbing = 0;                              ///< all of them, where the pass climbs all along
-    double distance = 0;                                  ///< [mm] to the plumb ones, summed
+    PointIndex stacked = 0;                               ///< of these, with one above or below
+    PointIndex plumb = 0;                                 ///< of these, with one vertically above or below
+    PointIndex climbing = 0;                              ///< all of these, if the pass climbs all along
+    double distance = 0;                                  ///< [mm] to vertical neighbours, sum
     Eigen::AlignedBox3f box;                              ///< of the points
     std::unordered_map<std::size_t, PointIndex> of_pass;  ///< neighbours by pass
 };
 
-/// The height changes all along the pass, as on a helix, and not in one place, where a level is left for the next.
+/// Whether the height changes all along the pass, as on a helix, and not in one place, as between levels.
 bool climbs_all_along(const Positions& positions, const Pass& pass) {
     if (pass.size() <= turn_parts) return false;
     const auto height_at = [&](PointIndex part) {
@@ -67,7 +67,7 @@ bool climbs_all_along(const Positions& positions, const Pass& pass) {
 Beside look_beside(const ClSurface& surface, const Pass& pass) {
     Beside found;
     if (climbs_all_along(surface.positions, pass)) found.climbing = pass.size();
-    // Neighbours stay on one pass for long: they are counted run by run.
+    // Neighbours stay on one pass for long: they are counted per run.
     struct Counter {
         PointRange range{0, -1};
         std::size_t pass = 0;
@@ -109,12 +109,12 @@ Beside look_beside(const ClSurface& surface, const Pass& pass) {
     return found;
 }
 
-/// Passes that lie beside one another.
+/// A group of adjacent passes.
 struct Group {
     std::size_t passes = 0;
     PointIndex points = 0;
     Beside beside;
-    double climb = 0;  ///< [mm] difference in height of each pass, summed
+    double climb = 0;  ///< [mm] difference in height of each pass, sum
 
     void add(const Pass& pass, const Beside& its) {
         ++passes;
@@ -140,7 +140,8 @@ struct Group {
     }
 
 private:
-    /// A helix down into the material: its turns lie exactly above each other, and it is narrow for its pitch.
+    /// Whether it is a helix down into the material: its turns are vertically above each other, and it is narrow for
+    /// its pitch.
     [[nodiscard]] bool plunges() const {
         const auto plumb_points = static_cast<double>(beside.plumb);
         if (beside.plumb == 0 || plumb_points < plumb_share * static_cast<double>(beside.points)) return false;

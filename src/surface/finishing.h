@@ -8,9 +8,9 @@
 
 namespace clsurf {
 
-/// By pass: true where it cuts and belongs to a group of passes that lie side by side. A group is what neighbours join:
-/// two passes belong together where a good part of the shorter one has a neighbour on the other. A few passes above
-/// each other are levels of a pocket or turns of a plunge; many are a wall that was finished. O(points).
+/// By pass: whether it cuts and belongs to a group of adjacent passes. Two passes belong to one group if a large part
+/// of the shorter one has neighbours on the other. A few passes above each other are levels of a pocket or turns of a
+/// plunge; many are a finished wall. O(points).
 [[nodiscard]] std::vector<bool> find_finishing_passes(const ClSurface& surface);
 
 }  // namespace clsurf

@@ -5,7 +5,7 @@ namespace {
 
 using Vec3f = Eigen::Vector3f;
 
-constexpr float missing_width = 1.7F;  ///< of a gap, in widths of those beside it, that a pass is missing from
+constexpr float missing_width = 1.7F;  ///< of a gap with a missing pass, in widths of the adjacent ones
 
 }  // namespace
 
@@ -20,7 +20,7 @@ bool misses_pass(const ClSurface& surface, PointIndex point, Side side) {
     for (const Side beyond : {Side::left, Side::right}) {
         if (!surface.neighbours.has(beyond, m)) continue;
         const Vec3f next = p[surface.neighbours.neighbour(beyond, m)] - p[m];
-        if (next.dot(gap) <= 0) continue;  // of the two beside it the one away from here
+        if (next.dot(gap) <= 0) continue;  // use the neighbour on the far side
         constexpr float much = missing_width * missing_width;
         return gap.squaredNorm() > much * own.norm() * next.norm() &&
                gap.head<2>().squaredNorm() > much * own.head<2>().norm() * next.head<2>().norm();

@@ -12,15 +12,16 @@ namespace {
 constexpr float turning_cosine = -0.5F;       ///< chords that enclose more than 120° turn back
 constexpr double chord_step_overs = 1.5;      ///< arc length of a chord
 constexpr float corner_tolerance = 1e-6F;     ///< [mm²] of reach times chord; less is no progress
-constexpr double shortest_pass = 2.0;         ///< step-overs of arc length; a shorter piece belongs to its link
+constexpr double shortest_pass = 2.0;         ///< step-overs of arc length; a shorter piece is part of its link
 constexpr float vertical_slope = 0.02F;       ///< horizontal per vertical arc length of an approach
 constexpr float vertical_tolerance = 0.005F;  ///< [mm]
-constexpr float least_approach = 0.1F;        ///< [mm]; a shorter vertical piece is left alone
-constexpr float rounded_corner = 0.1F;        ///< [mm] aside, of a controller that rounds the corner before an approach
+constexpr float least_approach = 0.1F;        ///< [mm]; a shorter vertical piece is not removed
+constexpr float rounded_corner = 0.1F;        ///< [mm] sideways, if the controller rounds the corner before an approach
 
 float aside(const Eigen::Vector3f& offset) { return std::hypot(offset.x(), offset.y()); }
 
-/// Where a rounded corner between a rapid and a vertical approach ends, from its middle on: it is steep, and becomes vertical.
+/// The end of a rounded corner between a rapid and a vertical approach, from its middle on: it is steep, and becomes
+/// vertical.
 PointIndex end_of_corner(const Positions& p, PointIndex from, PointIndex to, int direction) {
     PointIndex i = from;
     while (i != to && aside(p[i + direction] - p[from]) < rounded_corner) {
@@ -32,7 +33,7 @@ PointIndex end_of_corner(const Positions& p, PointIndex from, PointIndex to, int
     return i;
 }
 
-/// Points of [from, to] in steps of `direction` that only move along z, counted from `from`.
+/// Number of points of [from, to], in steps of `direction` from `from`, that only move along z.
 PointIndex vertical_points(const Positions& p, PointIndex from, PointIndex to, int direction) {
     PointIndex i = end_of_corner(p, from, to, direction);
     const Eigen::Vector3f start = p[i];
@@ -48,7 +49,7 @@ PointIndex vertical_points(const Positions& p, PointIndex from, PointIndex to, i
 /// A cutting run without its vertical approach and retract.
 void append_run(Passes& passes, const Positions& p, Pass run) {
     const PointIndex down = vertical_points(p, run.first, run.last, +1);
-    if (down > 0 && down == run.size() - 1) {  // nothing but vertical: drilling
+    if (down > 0 && down == run.size() - 1) {  // only vertical: drilling
         append_pass(passes, {run.first, run.last, PassKind::rapid});
         return;
     }
@@ -105,9 +106,9 @@ Passes find_runs(const Positions& positions, const LineMap& lines) {
 
 namespace {
 
-/// True where the way turns back.
+/// Whether the path turns back.
 bool turns_back(const Positions& p, const Chords& chords, float arc_length) {
-    // Near the end of a run there is no way ahead to judge by.
+    // Near the end of a run the path ahead is too short for a decision.
     if (chords.arc_length_behind() < 0.5F * arc_length || chords.arc_length_ahead() < 0.5F * arc_length) return false;
     const Eigen::Vector3f here = p[chords.point()];
     const Eigen::Vector3f back = here - p[chords.behind()];
@@ -117,7 +118,7 @@ bool turns_back(const Positions& p, const Chords& chords, float arc_length) {
     return dot < 0 && dot * dot > turning_cosine * turning_cosine * back.squaredNorm() * ahead.squaredNorm();
 }
 
-/// Pieces between two links that are too short to be passes belong to the link.
+/// Pieces between two links that are too short to be passes become part of the link.
 void append_cleaned(Passes& passes, const ArcLength& arc_length, const Passes& pieces, double least) {
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         Pass piece = pieces[i];
@@ -129,7 +130,7 @@ void append_cleaned(Passes& passes, const ArcLength& arc_length, const Passes& p
     }
 }
 
-/// The point of [from, to] that lies farthest in a direction: the first such from `from` on.
+/// The point of [from, to] that is farthest in a direction: the first such from `from` on.
 PointIndex farthest(const Positions& p, PointIndex from, PointIndex to, const Eigen::Vector3f& direction) {
     PointIndex best = from;
     float most = 0;
@@ -144,8 +145,8 @@ PointIndex farthest(const Positions& p, PointIndex from, PointIndex to, const Ei
     return best;
 }
 
-/// Chords see a turn before it comes. The pass itself ends at its outermost point, the next begins
-/// at its own; what lies between is the link.
+/// Chords detect a turn before it begins. The pass ends at its outermost point, and the next begins at its own; the
+/// points between are the link.
 void tighten_links(Passes& passes, const Positions& p, const ArcLength& lengths, float arc_length) {
     for (std::size_t k = 1; k + 1 < passes.size(); ++k) {
         Pass& link = passes[k];
@@ -156,7 +157,7 @@ void tighten_links(Passes& passes, const Positions& p, const ArcLength& lengths,
         const Chords leaving(lengths, {link.last, after.last}, link.last, arc_length);
         const PointIndex end = farthest(p, link.first, link.last, p[link.first] - p[arriving.behind()]);
         const PointIndex begin = farthest(p, link.last, link.first, p[link.last] - p[leaving.ahead()]);
-        if (end >= begin) continue;  // no way between the corners: leave it as it was seen
+        if (end >= begin) continue;  // no points between the corners: leave the link as detected
         before.last = end;
         link.first = end + 1;
         link.last = std::max(end + 1, begin - 1);

@@ -1,12 +1,11 @@
 #pragma once
-// Passes: the trajectory cut into pieces. A pass is a maximal run of cutting points whose neighbour
-// passes lie to the side, not ahead; what joins passes are links and rapids.
+// Passes: the trajectory cut into pieces. A pass is a maximal run of cutting points whose neighbour passes are to the
+// side, not ahead; links and rapids join passes.
 //
-// Runs are what the program tells apart (cutting or not). Within a run the way turns back where the
-// chords behind and ahead enclose more than 120°; what does so links two passes. The chord is
-// measured in way (1.5 step-overs), not in samples, so that it bridges both corners of a step-over
-// move however slowly they are taken. Loops and spirals turn back nowhere: they are cut where the
-// neighbour of a point lies in its own pass (surface/cl_surface.h).
+// Runs follow from the program (cutting or not). Within a run the path turns back where the chords before and after a
+// point enclose more than 120°; such a section links two passes. The chord is an arc length (1.5 step-overs), not a
+// number of samples, so that it bridges both corners of a step-over move at any speed. Loops and spirals do not turn
+// back: they are cut where the neighbour of a point is in its own pass (surface/cl_surface.h).
 
 #include <cstdint>
 #include <span>
@@ -20,7 +19,7 @@
 
 namespace clsurf {
 
-/// `other` is cutting that makes no finished surface: pockets, drilling, single contours (surface/finishing.h).
+/// `other` is cutting that does not finish a surface: pockets, drilling, single contours (surface/finishing.h).
 enum class PassKind : std::uint8_t { cut, link, rapid, other };
 
 /// Whether the surface has points of this kind.
@@ -36,10 +35,10 @@ struct Pass {
 /// All pieces in order; together they cover every point of the trajectory exactly once.
 using Passes = Column<Pass>;
 
-/// Appends a piece, unless it is empty; joins it with the one before when it is of the same kind.
+/// Appends a piece, unless it is empty; joins it with the previous one if both are of the same kind.
 void append_pass(Passes& passes, Pass piece);
 
-/// The number of the piece that has a point. O(log passes).
+/// The number of the piece that contains a point. O(log passes).
 [[nodiscard]] inline std::size_t pass_of(const Passes& passes, PointIndex point) {
     return static_cast<std::size_t>(range_at(passes, point) - passes.begin());
 }
@@ -51,14 +50,14 @@ void append_pass(Passes& passes, Pass piece);
     return points;
 }
 
-/// One cut of `count` points: for what is counted over all values of a field that has no passes.
+/// One cut of `count` points: for statistics over all values of a field without passes.
 [[nodiscard]] inline Passes all_as_one_cut(PointIndex count) { return Passes(1, Pass{0, count - 1, PassKind::cut}); }
 
-/// Cutting runs and what lies between. A vertical approach or retract at the ends of a run, and
-/// points without a position, are not cutting. O(points), parallel.
+/// Cutting runs and the points between them. A vertical approach or retract at the ends of a run, and points without
+/// a position, are not cutting. O(points), parallel.
 [[nodiscard]] Passes find_runs(const Positions& positions, const LineMap& lines);
 
-/// Runs cut into passes at turns back, for a step-over [mm] > 0; links between. O(points), parallel.
+/// Runs cut into passes at reversals of direction, for a step-over [mm] > 0; links between. O(points), parallel.
 [[nodiscard]] Passes find_passes(const Positions& positions, const ArcLength& lengths, const Passes& runs,
                                  double step_over);
 

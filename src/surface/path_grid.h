@@ -1,6 +1,6 @@
 #pragma once
-// PathGrid: sparse points of the cutting passes by cell, to find a nearby part of the path. Used only where a
-// search along the adjacent pass starts or is lost.
+// PathGrid: sparse points of the cutting passes by cell, to find a nearby part of the path. Used only if a search
+// along the adjacent pass begins or is lost.
 
 #include <cstdint>
 #include <vector>
@@ -21,7 +21,7 @@ public:
         std::int32_t pass = 0;  ///< index into passes
     };
 
-    /// f(entry) for every entry in the 27 cells round a position.
+    /// Calls f(entry) for every entry in the 27 cells around a position.
     template <typename F>
     void for_each_near(const Eigen::Vector3f& p, F&& f) const {
         grid_.for_each_near(p.cast<double>(), [&](CellGrid::Key cell) {

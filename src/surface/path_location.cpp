@@ -5,7 +5,8 @@ namespace {
 
 constexpr int farthest_walk = 8;  ///< points from the adjacency's neighbour to the crossing
 
-/// Whether a point is of a cutting pass. Hardly any that is has no neighbour: only there the passes are asked.
+/// Whether a point belongs to a cutting pass. Nearly all that do have a neighbour, so the passes are searched only
+/// for the rest.
 bool cuts(const ClSurface& surface, PointIndex point) {
     const Adjacency& neighbours = surface.neighbours;
     return neighbours.has(Side::left, point) || neighbours.has(Side::right, point) ||
@@ -23,8 +24,8 @@ PathLocation beside(const ClSurface& surface, const PathLocation& from, const Ei
     PointIndex k = surface.neighbours.neighbour(side, own);
     float at = along(k);
     if (at == 0) return {k, 0};
-    // Towards the plane: the neighbour pass runs along with the feed or against it. It ends where a link or a rapid
-    // begins: a lift in the plane would be as near to it as the pass is.
+    // Towards the plane: the adjacent pass runs along or against the feed. It ends at a link or a rapid, because a
+    // lift in the plane would be as near to it as the pass is.
     const auto goes_on = [&](PointIndex next) { return next >= 0 && next < p.size() && cuts(surface, next); };
     int direction = +1;
     if (!goes_on(k + 1) || (goes_on(k - 1) && std::abs(along(k - 1)) < std::abs(along(k + 1)))) direction = -1;
@@ -41,7 +42,7 @@ PathLocation beside(const ClSurface& surface, const PathLocation& from, const Ei
         k = next;
         at = then;
     }
-    // Standing still, or the pass ends here: the nearest point is as near as it gets.
+    // At rest, or at the end of the pass: the nearest point is the best one.
     return {k, 0};
 }
 

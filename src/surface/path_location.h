@@ -1,8 +1,7 @@
 #pragma once
-// PathLocation: a place on the path between two logged points, and the point where the plane normal to the feed at
-// one location meets the adjacent pass. A comparison with the nearest logged point instead would compare places
-// up to half a period apart along the feed: while braking at 600 mm/s², this alone is a speed difference of
-// 0.3 mm/s.
+// PathLocation: a place on the path between two logged points; and the intersection of an adjacent pass with the plane
+// normal to the feed at a location. A comparison with the nearest logged point instead would compare places up to half a
+// period apart along the feed: while braking at 600 mm/s², this alone is a speed difference of 0.3 mm/s.
 
 #include <cmath>
 #include <utility>
@@ -31,19 +30,19 @@ template <typename T>
     return {interpolate(p.x, at), interpolate(p.y, at), interpolate(p.z, at)};
 }
 
-/// Where the plane through `from`, normal to `feed` (any length), meets the pass on that side; none
-/// where there is no neighbour. O(1): the adjacency knows the point next to it.
+/// The intersection of the pass on that side with the plane through `from`, normal to `feed` (any length); none if
+/// there is no neighbour. O(1): the adjacency has the point next to it.
 [[nodiscard]] PathLocation beside(const ClSurface& surface, const PathLocation& from, const Eigen::Vector3f& feed,
                                   Side side);
 
-/// The same away from `before`, where the way from pass to pass came from: sides are those of the
-/// feed, which turns round on every other pass of a zigzag.
+/// The same on the side away from `before`, the location on the previous pass: sides are relative to the feed, which
+/// is reversed on every other pass of a zigzag.
 [[nodiscard]] PathLocation beyond(const ClSurface& surface, const PathLocation& before, const PathLocation& from,
                                   const Eigen::Vector3f& feed);
 
-/// f(at, before) for the places on the passes on one side of `from`, the adjacent pass first, as long as f returns true.
-/// `before`: the place on the pass before. `feed`(place): the direction of travel there. Returns the place on the adjacent
-/// pass.
+/// Calls f(at, before) for the places on the passes on one side of `from`, the adjacent pass first, as long as f returns
+/// true. `before`: the place on the previous pass. `feed`(place): the direction of travel there. Returns the place on the
+/// adjacent pass.
 template <typename FeedAt, typename F>
 PathLocation walk_aside(const ClSurface& surface, const PathLocation& from, Side side, FeedAt&& feed, F&& f) {
     PathLocation before = from;

@@ -10,8 +10,8 @@
 namespace clsurf {
 namespace {
 
-constexpr double most_programmed_points = 20e6;  ///< a longer program has them farther apart
-constexpr double spacing_of_step_over = 0.5;     ///< how far points lie apart at most, in step-overs
+constexpr double most_programmed_points = 20e6;  ///< longer programs get wider spacing
+constexpr double spacing_of_step_over = 0.5;     ///< largest distance of points, in step-overs
 constexpr int most_closer_looks = 4;
 
 struct Sampled {
@@ -29,7 +29,7 @@ struct Sampled {
     }
 };
 
-/// Where the first motions know no axis yet, a NaN start would hide the whole path.
+/// A NaN start would hide the whole path if the first motions do not set an axis.
 Toolpath toolpath_of(const Program& program) { return {program.motions, Vec3::Zero()}; }
 
 double cutting_length(const Toolpath& path) {
@@ -47,7 +47,7 @@ Sampled sample(const Toolpath& path, double spacing) {
     for (std::int64_t i = 0; i < motions.size(); ++i) {
         const MotionKind kind = motions.kind[static_cast<std::size_t>(i)];
         if (is_cut(kind)) {
-            // A line that hardly passes the spacing is not worth a point in its middle.
+            // A line slightly longer than the spacing does not need a point in its middle.
             const auto pieces =
                 static_cast<int>(std::clamp(std::floor(path.length(i) / spacing + 0.5), 1.0, most_programmed_points));
             for (int k = 1; k < pieces; ++k)
@@ -58,7 +58,7 @@ Sampled sample(const Toolpath& path, double spacing) {
     return sampled;
 }
 
-/// The median length of the cutting motions that move [mm]; 0: none does.
+/// The median length of the cutting motions that move [mm]; 0 if none does.
 double usual_length(const Toolpath& path) {
     std::vector<double> lengths;
     for (std::int64_t i = 0; i < path.size(); ++i) {
@@ -90,8 +90,8 @@ ProgrammedSurface build_programmed_surface(const Program& program) {
     const double coarsest = std::max(cutting_length(path) / most_programmed_points, 1e-4);
     double spacing = std::max(coarsest, usual_length(path));
     ProgrammedSurface programmed = stitch_sampled(sample(path, spacing), program);
-    // Passes and neighbours need points closer than passes lie. Points of long motions lie so far apart that the
-    // first estimate of the step-over can be too large, so each look estimates it again.
+    // Passes and neighbours need points closer than the passes. Points of long motions are so far apart that the
+    // first estimate of the step-over can be too large, so each iteration estimates it again.
     for (int look = 0; look < most_closer_looks && programmed.surface.step_over > 0; ++look) {
         const double wanted = std::max(coarsest, spacing_of_step_over * programmed.surface.step_over);
         if (wanted >= 0.9 * spacing) break;

@@ -16,7 +16,7 @@ Passes cut_at(const Passes& passes, const std::vector<PointRange>& ranges) {
             if (first > at) pieces.push_back({at, first - 1, PassKind::rapid});
             pieces.push_back({first, last, pass.kind});
             at = last + 1;
-            if (ranges[next].last > pass.last) break;  // goes on in the next pass
+            if (ranges[next].last > pass.last) break;  // continues in the next pass
         }
         if (at <= pass.last) pieces.push_back({at, pass.last, PassKind::rapid});
     }

@@ -1,5 +1,5 @@
 #pragma once
-// A part of a surface: some of its points, as all that is drawn and counted.
+// A part of a surface: some of its points, to be drawn and counted alone.
 
 #include <vector>
 
@@ -7,11 +7,11 @@
 
 namespace clsurf {
 
-/// Leaves the points of `ranges`, which rise and do not overlap: passes end where a range ends, what lies outside counts as
-/// rapid, and nobody has a neighbour or a step-over move there. Point numbers stay. O(points).
+/// Keeps the points of `ranges`, which are ascending and disjoint: passes end at the end of a range, other points count as
+/// rapid and have no neighbours or step-over moves. Point numbers stay. O(points).
 void keep_points(ClSurface& surface, const std::vector<PointRange>& ranges);
 
-/// Points that are in both. Each rises. O(ranges).
+/// Points that are in both. Both are ascending. O(ranges).
 [[nodiscard]] std::vector<PointRange> intersection(const std::vector<PointRange>& a, const std::vector<PointRange>& b);
 
 /// Points of the cut passes `first` … `last`, numbered from 1.

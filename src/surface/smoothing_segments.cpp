@@ -21,8 +21,8 @@ std::array<double, 3> position(const Trajectory& path, PointIndex i) {
     return p;
 }
 
-/// Where the tool stands inside a range, in order. Looked at are records half a standstill apart: one that is long enough
-/// holds two of them.
+/// Standstills inside a range, in order. The search reads records half a standstill apart: a standstill of sufficient
+/// length contains two of them.
 std::vector<PointRange> standstills(const Trajectory& path, PointRange range) {
     const PointIndex least = points_in(standing_seconds, path.period, fewest_standing);
     const PointIndex stride = std::max<PointIndex>(1, (least - 1) / 2);
@@ -46,7 +46,7 @@ std::vector<PointRange> standstills(const Trajectory& path, PointRange range) {
             if (found.empty() || still.first > found.back().last) found.push_back(still);
         }
     }
-    // Where the motions between are shorter than a window, the tool creeps: step by step of its positions.
+    // If the motions between are shorter than a window, the tool creeps, one position step at a time.
     std::vector<PointRange> kept;
     for (std::size_t k = 0; k < found.size(); ++k) {
         const bool after_motion = k == 0 || found[k].first - found[k - 1].last >= least;

@@ -1,6 +1,6 @@
 #pragma once
-// Pieces: the sections of a trajectory over which its points may be smoothed together. A window across a link
-// or a gap in time would give speeds that the tool never had.
+// Pieces: the sections of a trajectory within which its points may be smoothed together. A window across a link or a
+// gap in time would give speeds that the tool never had.
 
 #include <memory>
 #include <vector>
@@ -12,18 +12,18 @@
 
 namespace clsurf {
 
-/// Passes in order, neighbouring turns of a spiral as one piece, cut where records are missing.
-/// O(points) where the log has a time channel, O(passes) otherwise.
+/// Passes in order, with neighbouring turns of a spiral as one piece, cut at missing records. O(points) if the log
+/// has a time channel, else O(passes).
 [[nodiscard]] std::vector<PointRange> smoothing_segments(const Log& log, const Passes& passes);
 
-/// The same cut where the tool stands, at least as long as a derivative's window and for three records: a window that reached from
-/// there into the motion would show speed before it begins. The records that stand are pieces of their own; the first and the last of
-/// them bound the motions, whose speed is then that at their ends. O(points / window), parallel.
+/// The same, cut at standstills that last at least a derivative's window and three records: a window that extended from there
+/// into the motion would show speed before it begins. The records at rest are pieces of their own. The first and the last of
+/// them also bound the adjacent motions, so that these begin and end at zero speed. O(points / window), parallel.
 [[nodiscard]] std::vector<PointRange> split_at_standstills(const std::vector<PointRange>& pieces,
                                                            const Trajectory& path);
 
-/// What derives speeds of passes as `method` asks, in pieces that end at standstills; nullptr: savgol. `log` and `path` must
-/// outlive it. O(points).
+/// The estimator of speeds for `method`, in pieces that end at standstills; nullptr: savgol. `log` and `path` must outlive
+/// it. O(points).
 [[nodiscard]] std::shared_ptr<const MotionEstimate> estimate_motion(DerivativeMethod method, const Log& log,
                                                                     const Trajectory& path, const Passes& passes);
 

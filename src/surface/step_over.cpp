@@ -13,10 +13,10 @@ namespace clsurf {
 namespace {
 
 constexpr std::size_t probes_wanted = 384;
-/// Another part of the path: it is this many times farther along the way than straight across.
+/// A point is on another part of the path if the arc length to it is this many times its distance.
 constexpr double arc_length_over_distance = 3.0;
-constexpr double same_place = 1e-3;   ///< [mm]; nearer is the same pass cut again
-constexpr double finest_cells = 256;  ///< cells along the part's diagonal in the first look
+constexpr double same_place = 1e-3;   ///< [mm]; nearer points are the same pass cut again
+constexpr double finest_cells = 256;  ///< cells along the part's diagonal in the first iteration
 constexpr int coarsest_look = 7;
 constexpr double enough = 0.5;  ///< share of probes that must have found a neighbour
 
@@ -68,15 +68,15 @@ Eigen::AlignedBox3f box_of(const Positions& p, const Passes& runs) {
     return box;
 }
 
-/// A point of the path and how far along it lies.
+/// A point of the path and its arc length.
 struct Sample {
     PointIndex point = 0;
     double arc_length = 0;  ///< [mm]
     std::size_t run = 0;    ///< by number
-    bool joined = false;    ///< the sample before lies on the same run
+    bool joined = false;    ///< the previous sample is on the same run
 };
 
-/// Points of the cutting runs, one per `spacing` [mm] of arc length or little more.
+/// Points of the cutting runs, one per `spacing` [mm] of arc length or slightly more.
 std::vector<Sample> thinned(const Passes& runs, const ArcLength& arc_length, double spacing) {
     std::vector<std::vector<Sample>> of_block;
     for (std::size_t number = 0; number < runs.size(); ++number) {
@@ -119,7 +119,7 @@ double estimate_step_over(const Positions& positions, const Passes& runs, const 
             const Eigen::Vector3f here = positions[path[k].point];
             const std::vector<std::uint32_t>* near = cells.near(here);
             if (near == nullptr) continue;
-            // The way before it, so that the distance does not depend on how it was thinned.
+            // The segment before it is included, so that the distance does not depend on the thinning.
             const Eigen::Vector3f before = path[k].joined ? positions[path[k - 1].point] : here;
             for (const std::uint32_t i : *near) {
                 Probe& probe = probes[i];

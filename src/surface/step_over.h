@@ -8,8 +8,8 @@
 
 namespace clsurf {
 
-/// Step-over [mm] of the cutting runs, or 0 where no part of the path has another beside it (a single
-/// pass). `groups`: of the runs. O(points), parallel.
+/// Step-over [mm] of the cutting runs; 0 if no part of the path has another next to it (a single pass). `groups`: of
+/// the runs. O(points), parallel.
 [[nodiscard]] double estimate_step_over(const Positions& positions, const Passes& runs, const ArcLength& arc_length,
                                         const CutGroups& groups = {});
 

@@ -10,20 +10,21 @@
 namespace clsurf {
 namespace {
 
-constexpr double link_reach = 4.0;  ///< step-overs of arc length round a seam in which the link of a loop is looked for
+constexpr double link_reach =
+    4.0;  ///< step-overs of arc length around a seam within which the link of a loop is searched for
 constexpr float direction_half = 0.25F;  ///< step-overs of arc length from a point to the ends of its own chord
 constexpr float run_near = 0.6F;         ///< … and of the chords before and after it
 constexpr float run_far = 2.0F;
 constexpr float step_over_move_cosine =
-    0.7F;  ///< a step-over move turns off by more than 45° and comes back into the old direction
+    0.7F;  ///< a step-over move turns off by more than 45° and returns to the old direction
 
-/// Where closed loops are joined by a step sideways: what runs along, step-over moves, and runs along again.
+/// Finds the step-over moves between closed loops: adjacent sections before and after with the same direction.
 class StepOverMoveFinder {
 public:
     StepOverMoveFinder(const Positions& positions, const ArcLength& arc_length, double step_over)
         : p_(positions), arc_length_(arc_length), step_over_(static_cast<float>(step_over)) {}
 
-    /// The step-over move nearest round a seam inside a pass; empty: a spiral has none.
+    /// The step-over move nearest to a seam inside a pass; empty: a spiral has none.
     [[nodiscard]] PointRange step_over_move_at(PointIndex seam, const PointRange& pass) const {
         const PointIndex first = back(seam, static_cast<float>(link_reach), pass.first);
         const PointIndex last = ahead(seam, static_cast<float>(link_reach), pass.last);
@@ -64,8 +65,8 @@ private:
     float step_over_;
 };
 
-/// A loop or a spiral has come round where its neighbour lies in the same piece: there the piece is
-/// cut, so that every turn is a pass. Adds the steps sideways from loop to loop to `step_over_moves`.
+/// A loop or a spiral has completed a turn where its neighbour is in the same piece: the piece is cut there, so that
+/// every turn is a pass. Adds the moves from loop to loop to `step_over_moves`.
 Passes cut_at_returns(const Passes& passes, const Adjacency& neighbours, const StepOverMoveFinder& finder,
                       std::vector<PointRange>& step_over_moves) {
     Passes turns;
@@ -113,7 +114,7 @@ void stitch_runs(ClSurface& surface, const Passes& runs, const ArcLength& arc_le
                        surface.step_over_moves);
 }
 
-/// The runs again, without the passes that are no finishing passes; counts their points.
+/// The runs again, without passes that are not finishing; counts their points.
 Passes without_other_cutting(const ClSurface& surface, const Passes& runs, PointIndex& left_out) {
     const std::vector<bool> finishing = find_finishing_passes(surface);
     Passes rest;

@@ -6,11 +6,11 @@
 
 namespace clsurf {
 
-/// Stitches the runs of a trajectory into a surface; what is no finishing pass is left out. `step_over` [mm], 0: estimated. O(points).
+/// Stitches the runs of a trajectory into a surface of its finishing passes. `step_over` [mm], 0: estimated. O(points).
 [[nodiscard]] ClSurface stitch(Positions positions, const LineMap& lines, double step_over = 0);
 
-/// For pictures: where finishing passes are less than a tenth of the cutting, a picture of them shows next to nothing. All cutting
-/// becomes passes then, without neighbours. Elsewhere the surface stays as it is. O(points).
+/// For pictures: if finishing passes are less than a tenth of the cutting, a picture of them shows next to nothing. Then all
+/// cutting becomes passes, without neighbours. Else the surface is unchanged. O(points).
 void show_all_cutting(ClSurface& surface);
 
 }  // namespace clsurf

@@ -9,14 +9,14 @@
 namespace clsurf {
 namespace {
 
-// Bands and seams of triangles depend on the bands beside them. With two passes each, some triangles at the edge of a part
+// Bands and seams of triangles depend on the adjacent bands. With two passes each, some triangles at the edge of a part
 // are not those of the whole surface (tests/cli/read_pieces.py).
 constexpr std::size_t passes_along = 8;  ///< before and after the part
 constexpr int passes_aside = 4;
 
 using PassNumbers = std::set<std::size_t>;
 
-/// Adds the passes beside a pass. Neighbours stay on one pass for long.
+/// Adds the passes adjacent to a pass. Neighbours stay on one pass for long.
 void add_beside(const ClSurface& surface, const Pass& pass, PassNumbers& found) {
     for (const Side side : {Side::left, Side::right}) {
         PointRange known;
@@ -49,7 +49,7 @@ PassNumbers passes_of(const ClSurface& surface, const PointRange& own) {
     return all;
 }
 
-/// Appends points and passes, and keeps what is no neighbour apart.
+/// Appends points and passes, and separates passes that are not consecutive.
 class PartBuilder {
 public:
     explicit PartBuilder(const ClSurface& whole) : whole_(whole) {
@@ -105,7 +105,7 @@ private:
         add_point(-1, Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
     }
 
-    /// −1: it is not in the part.
+    /// −1 if it is not in the part.
     [[nodiscard]] PointIndex place_of(PointIndex point) const {
         if (!any_has(part_.ranges, point)) return -1;
         const auto range = range_at(part_.ranges, point);

@@ -1,5 +1,5 @@
 #pragma once
-// SurfacePart: the passes of a shard with the passes beside them, as a surface of their own with few points.
+// SurfacePart: the passes of a shard with their adjacent passes, as a separate surface with few points.
 
 #include <vector>
 
@@ -8,14 +8,14 @@
 namespace clsurf {
 
 struct SurfacePart {
-    ClSurface surface;          ///< its passes that do not follow each other are held apart by a point that is nowhere
-    Column<PointIndex> points;  ///< of the whole surface, by point, rising; −1: nowhere
+    ClSurface surface;               ///< passes that are not consecutive are separated by a point without a position
+    Column<PointIndex> points;       ///< of the whole surface, by point, ascending; −1: no position
     std::vector<PointRange> ranges;  ///< of the whole surface that are in it
-    PointRange own;                  ///< points of the part that it was made for
+    PointRange own;                  ///< the points of the part that it was made for
 };
 
-/// The points `own`, which begin and end where passes do, with some passes before and after them, and on either side the
-/// passes beside them, as far as a seam of the drawn surface looks. O(points of these passes).
+/// The points `own`, which begin and end at pass limits, with some passes before and after them, and on either side the
+/// adjacent passes, as far as a seam of the drawn surface needs them. O(points of these passes).
 [[nodiscard]] SurfacePart part_with_neighbours(const ClSurface& surface, const PointRange& own);
 
 }  // namespace clsurf
