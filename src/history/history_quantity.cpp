@@ -13,7 +13,7 @@ namespace {
 
 using Defects = std::span<const RecordedDefect>;
 
-/// The greatest value of a member over defects, 0 where there are none.
+/// The greatest value of a member over defects, 0 if there are none.
 template <auto member>
 double greatest(Defects defects) {
     double most = 0;

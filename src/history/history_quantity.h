@@ -9,7 +9,7 @@
 
 namespace clsurf {
 
-/// Which defects count. Empty: all.
+/// Selects defects. Empty: all.
 struct DefectFilter {
     std::optional<std::int64_t> pass;                             ///< a section of that pass
     std::optional<std::pair<LineNumber, LineNumber>> lines = {};  ///< a section that has one of these lines
@@ -20,21 +20,21 @@ struct DefectFilter {
 };
 
 struct HistoryQuantity {
-    std::string_view name;   ///< "worst_score", as --quantity has it
+    std::string_view name;   ///< "worst_score", as in --quantity
     std::string_view label;  ///< "Worst score"
     std::string_view unit;   ///< "µm"; empty: none
-    /// Of the whole run, which did not fail; NaN: not known.
+    /// For a whole run that did not fail; NaN: unknown.
     double (*of_run)(const RunRecord& run);
-    double least_deviation;  ///< a run that differs from the usual one by 3.5 times that may be worth a look
-    /// Of some of its defects, none of which may be there; nullptr: it is of the whole run only.
+    double least_deviation;  ///< a deviation from the median of 3.5 times this may be worth a look
+    /// For some of its defects, possibly none; nullptr: the quantity exists for whole runs only.
     double (*of_defects)(std::span<const RecordedDefect> defects);
 };
 
-/// Of the whole run; NaN: not known, as all of a run that failed.
+/// For the whole run; NaN: unknown, also if the run failed.
 [[nodiscard]] double value_of(const HistoryQuantity& quantity, const RunRecord& run);
 
 [[nodiscard]] std::span<const HistoryQuantity> history_quantities();
-/// Throws UsageError with the nearest one.
+/// Throws UsageError with the nearest name.
 [[nodiscard]] const HistoryQuantity& find_history_quantity(std::string_view name);
 
 }  // namespace clsurf

@@ -15,7 +15,7 @@ void MemoryPlan::add(std::size_t number, std::uint64_t expected) {
 
 std::optional<PlannedRun> MemoryPlan::start() {
     if (running_ >= jobs_ || one_alone_) return std::nullopt;
-    // The first one that fits: a large run does not keep small ones waiting, and has its turn when they are done.
+    // The first one that fits: a large run does not delay small ones; it runs when they are done.
     const auto next = std::ranges::find_if(
         waiting_, [&](const PlannedRun& run) { return budget_ == 0 || used_ + run.reserve <= budget_; });
     PlannedRun run;
@@ -44,10 +44,11 @@ bool MemoryPlan::finish(const PlannedRun& run, bool too_little) {
 }
 
 std::uint64_t expected_memory(std::uint64_t log_bytes, bool compressed) {
-    // Measured: 92 MB for a log of 1.9 MB, 113 MB for one of 7.2 MB, that is 85 MB and four times the log. Twice as much.
+    // Measured: 92 MB for a log of 1.9 MB, 113 MB for one of 7.2 MB, that is 85 MB plus four times the log. Twice as much
+    // is reserved.
     constexpr double least = 170e6;
     constexpr double per_byte = 8;
-    constexpr double unpacked = 8;  // a packed log, at most
+    constexpr double unpacked = 8;  // a compressed log, at most
     return static_cast<std::uint64_t>(least + per_byte * (compressed ? unpacked : 1) * static_cast<double>(log_bytes));
 }
 

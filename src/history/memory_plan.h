@@ -1,8 +1,8 @@
 #pragma once
-// MemoryPlan: which of many runs may be judged at the same time, within a number of jobs and a budget of memory.
+// MemoryPlan: which of many runs may be judged at the same time, within a number of jobs and a memory budget.
 //
-// Each run has a reserve, what it is expected to need at most. Reserves of runs that work at the same time never exceed
-// the budget. A run that needed more than its reserve is tried again alone, with the whole budget.
+// Each run has a reserve, its expected peak memory. The reserves of concurrent runs never exceed
+// the budget. A run that needed more than its reserve is repeated alone, with the whole budget.
 
 #include <cstdint>
 #include <deque>
@@ -12,9 +12,9 @@
 namespace clsurf {
 
 struct PlannedRun {
-    std::size_t number = 0;     ///< of the caller
+    std::size_t number = 0;     ///< the caller's number of the run
     std::uint64_t reserve = 0;  ///< [bytes]
-    bool alone = false;         ///< it has the whole budget: the second attempt, or it needs as much
+    bool alone = false;         ///< it has the whole budget: a second attempt, or a run that is expected to need it
 };
 
 class MemoryPlan {
@@ -22,11 +22,11 @@ public:
     /// `budget` [bytes], 0: no limit; jobs ≥ 1.
     MemoryPlan(std::size_t jobs, std::uint64_t budget) : jobs_(jobs), budget_(budget) {}
 
-    /// A run that is to be judged, expected to need so much [bytes].
+    /// Adds a run that is expected to need this much memory [bytes].
     void add(std::size_t number, std::uint64_t expected);
-    /// The next one that may begin now; nothing: none may, or none is left.
+    /// The next run that may begin now; nullopt: none may, or all have begun.
     [[nodiscard]] std::optional<PlannedRun> start();
-    /// It has ended. `too_little`: for lack of memory. Returns whether it will be tried again.
+    /// Marks a run as ended. `too_little`: for lack of memory. Returns whether it will be repeated.
     bool finish(const PlannedRun& run, bool too_little);
 
     [[nodiscard]] std::size_t running() const { return running_; }
@@ -39,10 +39,10 @@ private:
     std::size_t running_ = 0;
     bool one_alone_ = false;
     std::deque<PlannedRun> waiting_;
-    std::deque<PlannedRun> again_;  ///< alone, when all others are done
+    std::deque<PlannedRun> again_;  ///< alone, after all others have ended
 };
 
-/// What judging a log of that size is expected to need at most [bytes], twice what was measured.
+/// Expected peak memory for judging a log of that size [bytes], twice the measured one.
 [[nodiscard]] std::uint64_t expected_memory(std::uint64_t log_bytes, bool compressed);
 
 /// "8G", "500M", "1.5GiB" → bytes. Throws UsageError, naming `option`.

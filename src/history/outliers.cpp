@@ -10,7 +10,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double mad_of_sigma = 0.6745;  ///< as in the published score; 1 / deviation_of_mad has another fifth digit
+constexpr double mad_of_sigma = 0.6745;  ///< as in the published score; 1 / deviation_of_mad differs in the fifth digit
 constexpr double sigma_of_mean_deviation = 1.253314;  ///< √(π/2), of a normal distribution
 
 /// The runs of each program, by its content.
@@ -28,7 +28,8 @@ std::vector<double> modified_z_scores(std::span<const double> values, double lea
     std::vector<double> known;
     std::ranges::copy_if(values, std::back_inserter(known), [](double v) { return std::isfinite(v); });
     if (known.empty()) return {};
-    const double middle = midpoint_median(std::vector(known));  // the order stays: it decides how the mean is rounded
+    const double middle =
+        midpoint_median(std::vector(known));  // the order is kept: it affects the rounding of the mean
     double mean = 0;
     for (double& value : known) {
         value = std::abs(value - middle);

@@ -1,8 +1,8 @@
 #pragma once
-// Outliers: runs that stand out among the runs of the same program, by any quantity.
+// Outliers: runs that deviate from the other runs of the same program, by any quantity.
 //
-// The modified z-score 0.6745 (x − median) / MAD, above 3.5; where more than half of the values are equal and the MAD is
-// 0, the mean absolute deviation takes its place: (x − median) / (1.253314 · MeanAD).
+// The criterion is a modified z-score 0.6745 (x − median) / MAD above 3.5. If more than half of the values are equal and
+// the MAD is 0, the mean absolute deviation is used instead: (x − median) / (1.253314 · MeanAD).
 // Source: Iglewicz and Hoaglin: How to Detect and Handle Outliers. ASQC Quality Press, 1993.
 
 #include <optional>
@@ -16,18 +16,18 @@ namespace clsurf {
 struct RunOutlier {
     std::size_t run = 0;  ///< index among the given runs
     const HistoryQuantity* quantity = nullptr;
-    double value = 0, usual = 0;  ///< that of the run, and the median of all runs of the program
+    double value = 0, usual = 0;  ///< of the run, and the median of all runs of the program
     double z = 0;                 ///< modified z-score
 };
 
 constexpr double outlier_score = 3.5;
-constexpr std::size_t least_runs_for_outliers = 5;  ///< of a program; fewer tell nothing
+constexpr std::size_t least_runs_for_outliers = 5;  ///< of a program; fewer are not informative
 
-/// The modified z-score of each value; empty: all values are equal, or there are none. NaN is left as it is.
-/// `least_deviation`: the standard deviation is taken to be at least that, so that rounding is no outlier. O(n).
+/// The modified z-score of each value; empty: all values are equal, or there are none. NaN stays NaN.
+/// `least_deviation`: lower bound of the standard deviation, so that rounding is no outlier. O(n).
 [[nodiscard]] std::vector<double> modified_z_scores(std::span<const double> values, double least_deviation = 0);
 
-/// The farthest first. Judged runs only. O(runs · quantities).
+/// Largest z-score first. Judged runs only. O(runs · quantities).
 [[nodiscard]] std::vector<RunOutlier> find_outliers(std::span<const RunRecord> runs);
 
 }  // namespace clsurf

@@ -17,7 +17,7 @@ namespace {
     throw UsageError(fmt::format("--param: {}={} {}", parameter.name, parameter.value, why), hint);
 }
 
-/// A number with or without its unit: how many bytes of the text it takes, 0: it is none.
+/// A number with or without its unit: the number of bytes that it takes, 0 if there is none.
 std::size_t read_number(std::string_view text, double& value) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc() && std::isfinite(value) ? static_cast<std::size_t>(end - text.data()) : 0;

@@ -1,5 +1,5 @@
 #pragma once
-// ParameterRules: which parameters runs may have, and of what kind their values are.
+// ParameterRules: the allowed parameters of runs, and the kinds of their values.
 
 #include <optional>
 #include <string>
@@ -17,8 +17,8 @@ struct ParameterRule {
     std::string name;
     ParameterKind kind = ParameterKind::text;
     std::string unit = {};                 ///< of a number, "mm"; empty: none
-    std::optional<double> low, high;       ///< of a number, both ends included
-    std::vector<std::string> values = {};  ///< of a text: all that are allowed; empty: any
+    std::optional<double> low, high;       ///< of a number, inclusive
+    std::vector<std::string> values = {};  ///< of a text: all allowed values; empty: any
     bool required = false;
     friend bool operator==(const ParameterRule&, const ParameterRule&) = default;
 };
@@ -26,15 +26,15 @@ struct ParameterRule {
 struct ParameterRules {
     std::vector<ParameterRule> rules;  ///< empty: any parameter is allowed
 
-    /// The parameters as they are kept: a number without its unit. Throws UsageError: a name that is not known or that
-    /// cannot be one, a value of another kind, out of its range or in another unit, a required one that is missing.
-    /// With `all` false others may follow: nothing is missing yet.
+    /// The parameters as they are stored: numbers without units. Throws UsageError: an unknown or invalid name, a
+    /// value of another kind, out of its range or in another unit, a missing required one. With `all` false others may
+    /// follow: a missing one is no error.
     [[nodiscard]] std::vector<RunParameter> checked(std::vector<RunParameter> parameters, bool all = true) const;
-    /// Numbers with their unit, as they are read again: "0.05 mm". Domain: checked ones.
+    /// Numbers with their unit, in input form: "0.05 mm". Domain: checked parameters.
     [[nodiscard]] std::vector<RunParameter> with_units(std::vector<RunParameter> parameters) const;
 };
 
-/// The name of a parameter of which two sets have different rules, or which only one of them has; empty: they agree.
+/// The name of a parameter with different rules in two sets, or with a rule in only one of them; empty: they agree.
 [[nodiscard]] std::string first_difference(const ParameterRules& a, const ParameterRules& b);
 
 /// "tool=D6R3". Throws UsageError: no "=", no name, no value.

@@ -1,5 +1,5 @@
 #pragma once
-// What a history keeps of a judged part.
+// The record of a judged part in a history.
 
 #include <vector>
 
@@ -8,10 +8,11 @@
 
 namespace clsurf {
 
-/// The defects of a report as a history keeps them, in its order.
+/// The defects of a report as they are stored in a history, in its order.
 [[nodiscard]] std::vector<RecordedDefect> recorded_defects(const QualityReport& report);
 
-/// Everything but what files, user and clock say: id, times, program, log and their hashes, machine, version, parameters.
+/// Everything except data from files, user and clock: id, times, program, log and their hashes, machine, version,
+/// parameters.
 [[nodiscard]] RunRecord record_of(const Part& part, const Quality& quality, bool within_budget);
 
 }  // namespace clsurf

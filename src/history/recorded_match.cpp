@@ -21,10 +21,10 @@ bool share_lines(const RecordedDefect& a, const RecordedDefect& b) {
     });
 }
 
-/// [mm] Infinite: they are not the same one.
+/// [mm] Infinite: they are different defects.
 double distance_between(const RecordedDefect& a, const RecordedDefect& b) {
     if (a.cause != b.cause || a.systematic != b.systematic) return std::numeric_limits<double>::infinity();
-    if (a.systematic) return 0;  // of the whole part
+    if (a.systematic) return 0;  // a defect of the whole part
     const double distance = (a.tip - b.tip).norm();
     return distance <= same_place || share_lines(a, b) ? distance : std::numeric_limits<double>::infinity();
 }

@@ -1,5 +1,5 @@
 #pragma once
-// RunComparison: a recorded run against an earlier one.
+// RunComparison: comparison of a recorded run with an earlier one.
 
 #include <span>
 #include <vector>
@@ -23,8 +23,8 @@ struct RunComparison {
 /// Both with their defects.
 [[nodiscard]] RunComparison compare_runs(const RunRecord& reference, const RunRecord& run);
 
-/// The judged run of that program with the lowest worst score, the deepest defect deciding where it is the same, then the
-/// earlier one; but `except`. nullptr: there is none.
+/// The judged run of that program with the lowest worst score, excluding `except`; among equals that with the shallower
+/// deepest defect, then the earlier one. nullptr if there is none.
 [[nodiscard]] const RunRecord* best_run(std::span<const RunRecord> runs, const RunRecord& except);
 
 }  // namespace clsurf

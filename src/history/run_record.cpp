@@ -12,7 +12,7 @@ const std::string* RunRecord::parameter(std::string_view name) const {
 }
 
 std::string identity_text(const RunRecord& run) {
-    // A file that could not be read has no hash: its name stands for it.
+    // A file that could not be read has no hash: its name is used instead.
     const auto file = [](const std::string& hash, const std::string& name) {
         return hash.empty() ? "name " + name : "sha256 " + hash;
     };

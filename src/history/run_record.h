@@ -1,6 +1,6 @@
 #pragma once
-// RunRecord: what a history keeps of one judged run: which program and log it was, on which machine, what `check`
-// found, and the parameters that its user gave it.
+// RunRecord: the record of one judged run in a history: its program, log and machine, the findings of `check`, and
+// the parameters that its user gave it.
 
 #include <cstdint>
 #include <limits>
@@ -20,10 +20,10 @@ struct RecordedSection {
     friend bool operator==(const RecordedSection&, const RecordedSection&) = default;
 };
 
-/// A defect in shown units, its words those of reports.
+/// A defect in shown units, with the words of reports.
 struct RecordedDefect {
     std::string cause;              ///< "feed_drop"
-    std::string quantity;           ///< "speed": the one that shows it best
+    std::string quantity;           ///< "speed": the quantity that shows it best
     int severity = 1;               ///< 1 to 4
     double score = 0;               ///< peak over threshold
     double depth_um = 0;            ///< [µm] ≥ 0
@@ -31,8 +31,8 @@ struct RecordedDefect {
     bool systematic = false;        ///< lag that alternates with the direction of travel
     double speed_jump_percent = 0;  ///< against the neighbours, signed
     double length_mm = 0, area_mm2 = 0;
-    Vec3 tip = Vec3::Zero();       ///< [mm] tool tip where it is strongest
-    Vec3 position = Vec3::Zero();  ///< [mm] contact point there where the tool is known, else the tip
+    Vec3 tip = Vec3::Zero();       ///< [mm] tool tip at its strongest place
+    Vec3 position = Vec3::Zero();  ///< [mm] contact point there if the tool is known, else the tip
     std::vector<RecordedSection> sections;
 };
 
@@ -42,24 +42,24 @@ struct RunParameter {
     friend bool operator==(const RunParameter&, const RunParameter&) = default;
 };
 
-/// How much the passes of a run differ from their neighbours, over all of it. NaN: not known.
+/// How much the passes of a run differ from their neighbours, over the whole run. NaN: unknown.
 struct RunMismatch {
     double median = std::numeric_limits<double>::quiet_NaN();
     double p99 = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// NaN: not known.
+/// NaN: unknown.
 struct RunRecord {
     std::int64_t id = 0;       ///< number in its history, from 1
     std::string time;          ///< UTC, "2026-11-24T07:30:00Z"
     std::string recorded;      ///< when the row was written, in the same form
-    std::string program, log;  ///< their files, as they were named
+    std::string program, log;  ///< their files, as the user named them
     std::string program_sha256, log_sha256;
-    std::string machine;   ///< empty: not known
-    std::string tool;      ///< "ball:6"; empty: not known
+    std::string machine;   ///< empty: unknown
+    std::string tool;      ///< "ball:6"; empty: unknown
     std::string version;   ///< of clsurf
-    std::string settings;  ///< the options that it was judged by, as words of a command line
-    std::string failure;   ///< why it could not be judged at all; empty: it could
+    std::string settings;  ///< the options of `check`, as words of a command line
+    std::string failure;   ///< the reason if it could not be judged at all; empty: it could
     double duration_s = std::numeric_limits<double>::quiet_NaN();
     std::int64_t points = 0, passes = 0;  ///< of cut passes
     bool judged = false;
@@ -75,23 +75,23 @@ struct RunRecord {
     double ra_um = std::numeric_limits<double>::quiet_NaN();
     double rz_um = std::numeric_limits<double>::quiet_NaN();
     std::vector<RunParameter> parameters;  ///< in the order of their names, each name once
-    std::vector<RecordedDefect> found;  ///< the defects themselves, worst first; a history reads them only where asked
+    std::vector<RecordedDefect> found;  ///< the defects themselves, worst first; a history reads them only on request
 
-    /// Nothing of it was measured: its counts and its worst values are not 0 but unknown.
+    /// Nothing was measured: its counts and its worst values are not 0 but unknown.
     [[nodiscard]] bool failed() const { return !failure.empty(); }
-    /// The value of a parameter; nullptr: the run has none of that name.
+    /// The value of a parameter; nullptr if the run has none of that name.
     [[nodiscard]] const std::string* parameter(std::string_view name) const;
 };
 
-/// What tells runs apart: program, log and parameters, by content. Two records of the same run have the same text, whatever
-/// they were judged by.
+/// Identity of a run: program, log and parameters, by content. Two records of the same run have the same text, regardless
+/// of the settings of `check`.
 [[nodiscard]] std::string identity_text(const RunRecord& run);
 
-/// Whether a judged run has what a failed one could not judge: the same program and log (by name where the failed one could not
-/// be read), and at least its parameters, because those of a log are not known before it is read.
+/// Whether a judged run replaces a failed one: the same program and log (by name if the failed one could not be read), and at
+/// least its parameters, because those of a log are unknown before it is read.
 [[nodiscard]] bool supersedes(const RunRecord& judged, const RunRecord& failed);
 
-/// Puts parameters into the order of their names. Throws UsageError: a name that is given twice.
+/// Sorts parameters by name. Throws UsageError for a name that is given twice.
 void sort_parameters(std::vector<RunParameter>& parameters);
 
 }  // namespace clsurf

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double significance = 0.05;  ///< the usual level
 
-/// From 1; equal values share their mean rank.
+/// Ranks from 1; equal values share their mean rank.
 std::vector<double> ranks_of(std::span<const double> values) {
     std::vector<std::size_t> order(values.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

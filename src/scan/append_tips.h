@@ -7,7 +7,7 @@
 
 namespace clsurf {
 
-/// Appends the tips [mm] of a motion at feed: places on its spline, if it is one, and its end.
+/// Appends the tips [mm] of a motion at feed: points on its spline, if it is one, and its end.
 inline void append_tips(const Motions& motions, std::int64_t motion, std::vector<Vec2>& tips) {
     if (const Curve* curve = motions.curve_of(motion)) {
         constexpr int divided = 32;

@@ -11,11 +11,11 @@ namespace clsurf {
 namespace {
 
 constexpr std::size_t width = 9;    ///< places of the running median
-constexpr std::size_t around = 10;  ///< places on each side that tell the scatter there
+constexpr std::size_t around = 10;  ///< places on each side for the local scatter
 
 /// Points of the same x.
 struct ScannedPlace {
-    ScanPoint middle;  ///< its z is the median of theirs
+    ScanPoint middle;  ///< its z is the median of the points
     std::size_t first = 0, end = 0;
 };
 
@@ -50,7 +50,7 @@ double median_slope(std::span<const ScannedPlace> places) {
     return midpoint_median(of_place);
 }
 
-/// How far each point lies above the running median.
+/// Height of each point above the running median.
 std::vector<double> heights_above_median(std::span<const ScanPoint> points, std::span<const ScannedPlace> places) {
     std::vector<double> heights(points.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -66,7 +66,7 @@ std::vector<double> heights_above_median(std::span<const ScanPoint> points, std:
     return heights;
 }
 
-/// Without points that are the running median themselves: their distance is 0, whatever the scatter.
+/// Excludes points that are the running median themselves: their distance is 0 for any scatter.
 double scatter_of(std::vector<double>& values) {
     std::erase(values, 0.0);
     if (values.empty()) return 0;
@@ -74,8 +74,8 @@ double scatter_of(std::vector<double>& values) {
     return deviation_of_mad * median(values);
 }
 
-/// The least step of heights: what the resolution of an instrument makes of a plane is no scatter. Rounding is that of the
-/// usual height: a single one may be the mark of a missing value, such as 1e300.
+/// The least step of heights: steps of the instrument's resolution on a plane are no scatter. The rounding is relative to
+/// the usual height: a single one may be a code for a missing value, for example 1e300.
 double resolution_of(std::span<const ScanPoint> points) {
     double least = std::numeric_limits<double>::infinity();
     std::vector<double> heights;

@@ -1,10 +1,10 @@
 #pragma once
-// A scan that can be fitted: outliers rejected, places that were scanned more than once made one.
+// Preparation of a scan for fitting: outliers are rejected, and repeated measurements of one place are combined.
 //
-// A point is an outlier where it lies far from the running median of nine places, which are the four next ones on each
-// side and its own, along the median slope of the nine (Siegel 1982). At the ends they are the first and the last nine.
-// Up to three places in a row may be wrong: of eight slopes to others, five are right. The height of a place is the median
-// of all points there.
+// A point is an outlier if it is far from the running median of nine places (its own and the next four on each
+// side) along the median slope of the nine (Siegel 1982). At the ends these are the first and the last nine.
+// Up to three consecutive places may be wrong: of eight slopes to others, five are right. The height of a place is the
+// median of all points there.
 
 #include <cstddef>
 #include <span>
@@ -19,14 +19,14 @@ struct ScanPoint {
 };
 
 struct CleanScan {
-    std::vector<double> x, z;         ///< [mm] of the points that are kept, x rising strictly
-    std::vector<ScanPoint> rejected;  ///< in rising x
+    std::vector<double> x, z;         ///< [mm] of the accepted points, x strictly increasing
+    std::vector<ScanPoint> rejected;  ///< in ascending x
     std::size_t averaged = 0;         ///< points that were averaged with another one of the same x
     double scatter = 0;  ///< [mm] standard deviation about the running median, from the median absolute one
 };
 
-/// `points` in rising x. `threshold`: multiples of the scatter, that of the whole scan or that of the 21 places around,
-/// whichever is greater, so that a tight curve is no outlier; 0: none is rejected. O(points).
+/// `points` in ascending x. `threshold`: multiples of the scatter, that of the whole scan or that of the 21 places
+/// around, whichever is greater, so that a tight curve is no outlier; 0: none is rejected. O(points).
 [[nodiscard]] CleanScan clean_scan(std::span<const ScanPoint> points, double threshold);
 
 }  // namespace clsurf

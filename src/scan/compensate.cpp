@@ -27,8 +27,8 @@ std::vector<Vec2> resampled(const std::vector<Vec2>& tips, double step) {
     return even;
 }
 
-/// What the ball leaves: under each tip the place where it touches. A program of lines has corners; its slope at a tip is
-/// that of the chord over the length that a line of this tolerance may have.
+/// The surface that the ball leaves: under each tip the point of contact. A program of lines has corners; its slope at a
+/// tip is that of the chord over the length of a line of this tolerance.
 std::vector<Vec2> contacts_of(const std::string& name, const std::vector<Vec2>& even, double radius, double tolerance) {
     if (radius == 0) return even;
     std::vector<Vec2> contacts;
@@ -36,7 +36,7 @@ std::vector<Vec2> contacts_of(const std::string& name, const std::vector<Vec2>& 
     const double chord = std::sqrt(8 * tolerance * radius);
     const auto reach = static_cast<std::size_t>(std::max(1.0, std::round(chord / step)));
     for (std::size_t i = 0; i < even.size(); ++i) {
-        // Equal reach on both sides: the chord is then parallel to the curve in the middle, to third order.
+        // Equal length on both sides: the chord is then parallel to the curve in the middle, to third order.
         const std::size_t n = std::max<std::size_t>(1, std::min({reach, i, even.size() - 1 - i}));
         const Vec2& before = even[i >= n ? i - n : i];
         const Vec2& after = even[std::min(i + n, even.size() - 1)];
@@ -57,7 +57,7 @@ std::vector<Vec2> contacts_of(const std::string& name, const std::vector<Vec2>& 
     return contacts;
 }
 
-/// The fitted deviation; beyond the first and the last one it is theirs.
+/// The fitted deviation; beyond the first and the last one it is constant.
 class FittedDeviation {
 public:
     FittedDeviation(const std::string& name, std::span<const ScanPoint> deviations, const CompensationRules& rules)
@@ -69,9 +69,9 @@ public:
         fit_ = fit_windows(scan_.x, scan_.z, rules.fit);
     }
 
-    /// Throws where the pass goes on without deviations.
+    /// Throws InputError if the pass continues without deviations.
     void check_cover(double from, double to) const {
-        constexpr double share = 0.02;  // of the pass, that may lie beyond at each end
+        constexpr double share = 0.02;  // of the pass, that may be uncovered at each end
         const double most_beyond = share * (to - from);
         if (scan_.x.front() - from > most_beyond || to - scan_.x.back() > most_beyond)
             throw InputError(

@@ -8,14 +8,14 @@
 namespace clsurf {
 namespace {
 
-/// How many chords stay within `error` of a piece, and of the path of a ball that follows it.
+/// Number of chords that stay within `error` of a piece, and of the path of a ball that follows it.
 std::size_t chords_of(const FitPiece& piece, double radius, double error) {
     constexpr int looked_at = 8;
     double second = 0;
     for (int k = 0; k <= looked_at; ++k) {
         const double x = piece.begin + (piece.end - piece.begin) * k / looked_at;
         const FitJet jet = piece.jet(x);
-        // The path turns as the fit does, over a chord that is as much longer as the ball is larger.
+        // The path turns like the fit, over a chord that is longer by the factor 1 + radius · curvature.
         const double curvature = std::abs(jet.second) / std::pow(1 + jet.slope * jet.slope, 1.5);
         second = std::max(second, std::abs(jet.second) * (1 + radius * curvature));
     }
@@ -84,7 +84,7 @@ std::optional<Gouge> CutPath::gouge() const {
     std::size_t first = 0;
     for (std::size_t i = 0; i < samples_.size(); ++i) {
         const Vec2 centre = samples_[i] + Vec2(0, radius_);
-        // Contacts rise in x, centres need not: those of a loop go back.
+        // Contacts increase in x, centres need not: in a loop they go back.
         while (first < contacts_.size() && contacts_[first].x() < contacts_[i].x() - 2 * radius_) ++first;
         for (std::size_t k = first; k < contacts_.size() && contacts_[k].x() < contacts_[i].x() + 2 * radius_; ++k) {
             const double depth = radius_ - (contacts_[k] - centre).norm();
@@ -102,7 +102,7 @@ std::optional<Gouge> CutPath::gouge() const {
 }
 
 std::vector<Vec2> CutPath::points() const {
-    constexpr double share = 0.9;  // of the tolerance; chords between samples and rounding have the rest
+    constexpr double share = 0.9;  // of the tolerance; the rest is for chords between samples and rounding
     const double tolerance = share * tolerance_;
     std::vector<Vec2> ends{samples_.front()};
     Sleeve sleeve;

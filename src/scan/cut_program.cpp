@@ -12,13 +12,13 @@
 namespace clsurf {
 namespace {
 
-constexpr double same_place = 1e-6;  ///< [mm] between spans that hang together
+constexpr double same_place = 1e-6;  ///< [mm] between connected spans
 
 std::string number(double value, bool plus) {
     return without_end_zeros(plus ? signed_text(value, cut_decimals) : fixed_text(value, cut_decimals));
 }
 
-/// Letters, digits and a few marks: what no dialect takes for anything but a comment.
+/// Letters, digits and a few marks, which are safe in comments of every dialect.
 std::string comment_text(std::string_view text) {
     std::string kept;
     for (const char c : text) {
@@ -29,7 +29,7 @@ std::string comment_text(std::string_view text) {
     return kept;
 }
 
-/// Writes blocks as a dialect has them.
+/// Writes blocks in the form of a dialect.
 class BlockWriter {
 public:
     explicit BlockWriter(const CutProgramRules& rules)
@@ -85,7 +85,7 @@ public:
         }
         at_ = span.end;
     }
-    /// Bézier curves one after the other: each knot between two of them three times, so that each is shaped by its own points.
+    /// Consecutive Bézier curves: each knot between two of them three times, so that each is shaped by its own points.
     void nurbs(std::span<const CutSpan> spans) {
         std::vector<std::string> points, knots{"0"};
         const auto add = [&](const Vec2& at) { points.push_back(axis('X', at.x()) + " " + axis('Z', at.y())); };
@@ -115,7 +115,7 @@ public:
         }
         return std::move(text_);
     }
-    /// Whether a place is written as the tool's place already is.
+    /// Whether a place has the same text as the present position.
     [[nodiscard]] bool stands_at(const Vec2& place) const {
         return axis('X', place.x()) == axis('X', at_.x()) && axis('Z', place.y()) == axis('Z', at_.y());
     }
@@ -161,7 +161,7 @@ std::string span_program(const std::vector<CutSpan>& spans, const CutProgramRule
     for (std::size_t first = 0; first < spans.size();) {
         if (!writer.stands_at(spans[first].begin)) writer.line(spans[first].begin);
         std::size_t end = first + 1;
-        // Of those that hang together one NURBS.
+        // Connected spans become one NURBS.
         while (knotted && end < spans.size() && (spans[end].begin - spans[end - 1].end).norm() < same_place) ++end;
         if (knotted)
             writer.nurbs(std::span(spans).subspan(first, end - first));

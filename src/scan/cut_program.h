@@ -11,7 +11,7 @@ namespace clsurf {
 
 struct CutProgramRules {
     std::string_view dialect = "linuxcnc";
-    std::string_view name;   ///< of what it was made from, for the comment
+    std::string_view name;   ///< of the source, for the comment
     double feed = 0;         ///< [mm/min]
     double clearance_z = 0;  ///< [mm] height of the approach and the retract
     double y = 0;            ///< [mm] plane of the cut
@@ -25,7 +25,7 @@ inline constexpr int cut_decimals = 4;
 
 /// Lines between points. `points`: at least two.
 [[nodiscard]] std::string line_program(const std::vector<Vec2>& points, const CutProgramRules& rules);
-/// A spline a span; a line where one ends beside the begin of the next. Domain: writes_spans().
+/// A spline per span; a line at a gap between two spans. Domain: writes_spans().
 [[nodiscard]] std::string span_program(const std::vector<CutSpan>& spans, const CutProgramRules& rules);
 
 }  // namespace clsurf

@@ -1,5 +1,5 @@
 #pragma once
-// What remains between scanned points and the fit through them.
+// Residuals of scanned points from the fit.
 
 #include <vector>
 
@@ -9,10 +9,10 @@
 namespace clsurf {
 
 struct FitResiduals {
-    std::vector<double> values;  ///< [mm] by point: measured less fitted
+    std::vector<double> values;  ///< [mm] by point: measured minus fitted
     double rms = 0;              ///< [mm]
-    double worst = 0;            ///< [mm] the greatest, without its sign
-    double worst_x = 0;          ///< [mm] where that is
+    double worst = 0;            ///< [mm] the greatest, absolute
+    double worst_x = 0;          ///< [mm] its place
 };
 
 /// Domain: at least one point. O(points).

@@ -17,13 +17,13 @@ double distance_to_line(const Vec2& p, const Vec2& a, const Vec2& b) {
     return (p - a - t * chord).norm();
 }
 
-/// How far `places` are from a line of chords at most; both in rising x.
+/// Greatest distance of `places` from a polyline; both in ascending x.
 double greatest_distance(std::span<const Vec2> places, std::span<const Vec2> chords) {
     double greatest = 0;
     std::size_t near = 0;
     for (const Vec2& place : places) {
         while (near + 2 < chords.size() && chords[near + 1].x() < place.x()) ++near;
-        constexpr std::size_t beside = 64;  // on steep flanks points of a run are in no order of x
+        constexpr std::size_t beside = 64;  // on steep flanks points of a run are not sorted by x
         const std::size_t first = near < beside ? 0 : near - beside;
         const std::size_t end = std::min(chords.size() - 1, near + beside + 1);
         double least = (place - chords[first]).norm();

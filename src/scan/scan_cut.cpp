@@ -20,13 +20,13 @@ std::vector<ScanPoint> placed_scan(std::span<const Vec3> places, const SensorMou
 
 namespace {
 
-/// Throws where polynomials swing away from the points between them, as they do in gaps.
+/// Throws InputError if polynomials oscillate away from the points between them, as they do in gaps.
 void check_range(const std::string& name, const CleanScan& scan, const CutPath& path) {
     const auto [low, high] = std::minmax_element(scan.z.begin(), scan.z.end());
     const double range = *high - *low;
     for (const Vec2& place : path.contacts()) {
         const double beyond = std::max(*low - place.y(), place.y() - *high);
-        constexpr double tolerance = 1;  // mm: of planes, whose range is noise
+        constexpr double tolerance = 1;  // mm: for planes, whose range is noise
         if (!(beyond <= range + tolerance))
             throw InputError(
                 Place::of_file(name),

@@ -41,7 +41,7 @@ FitPiece polynomial_of(std::span<const double> x, std::span<const double> z, std
     return piece;
 }
 
-/// a (1 − w) + b w over the piece where one passes into the other, w = 3 q² − 2 q³.
+/// a (1 − w) + b w over the piece of the transition, w = 3 q² − 2 q³.
 FitPiece blended(const FitPiece& left, const FitPiece& right, double from, double to) {
     const std::vector<double> a = left.over(from, to).ordinates, b = right.over(from, to).ordinates;
     const std::size_t degree = a.size() - 1;
@@ -62,7 +62,7 @@ FitPiece blended(const FitPiece& left, const FitPiece& right, double from, doubl
     return piece;
 }
 
-/// The first points of windows that follow each other; a last one with too few points is part of the one before.
+/// The first points of consecutive windows; a last one with too few points is merged into the one before.
 std::vector<std::size_t> window_starts(std::size_t points, std::size_t window, std::size_t fewest) {
     std::vector<std::size_t> starts{0};
     while (starts.back() + window < points && points - (starts.back() + window) >= fewest)
@@ -107,9 +107,9 @@ WindowedFit fit_blended(std::span<const double> x, std::span<const double> z, st
     return fit;
 }
 
-/// The least squares of polynomials with continuous value and slope. The inner ordinates are free, with the first and the
-/// last of all; the ordinate where two pieces meet lies between its neighbours, as their lengths divide it (Farin, Curves
-/// and Surfaces for CAGD, 5th ed., section 5.5).
+/// The least-squares polynomials with continuous value and slope. The inner ordinates are free, and so are the first and
+/// the last of all; the ordinate at a joint of two pieces divides the line between its neighbours in the ratio of their
+/// lengths (Farin, Curves and Surfaces for CAGD, 5th ed., section 5.5).
 class ContinuousFit {
 public:
     ContinuousFit(std::span<const double> x, std::span<const double> z, std::size_t degree, std::size_t window)
@@ -134,7 +134,7 @@ public:
             normal);
         const Eigen::Map<const Eigen::VectorXd> heights(z_.data(), static_cast<Eigen::Index>(z_.size()));
         Eigen::VectorXd found = solver.solve(matrix.transpose() * heights);
-        // The normal equations square the condition; their residual brings the digits back.
+        // The normal equations square the condition; one refinement by the residual restores the digits.
         found += solver.solve(matrix.transpose() * (heights - matrix * found));
         WindowedFit fit;
         for (std::size_t k = 0; k < starts_.size(); ++k) fit.pieces.push_back(piece_of(k, found));
@@ -148,13 +148,13 @@ private:
     }
     /// The first of degree + 1 unknowns that shape piece k.
     [[nodiscard]] std::size_t first_of(std::size_t k) const { return k * (degree_ - 1); }
-    /// What the ordinate before piece k has of the unknown on its left; of the one on its right it has the rest.
+    /// Weight of the unknown on the left in the ordinate before piece k; the one on the right has the rest.
     [[nodiscard]] double left_share(std::size_t k) const {
         if (k == 0) return 1;
         if (k == starts_.size()) return 0;
         return length_of(k) / (length_of(k - 1) + length_of(k));
     }
-    /// Factors of the unknowns at t of piece k.
+    /// Coefficients of the unknowns at t of piece k.
     [[nodiscard]] Ordinates row_of(std::size_t k, double t) const {
         Ordinates row = bernstein(degree_, t);
         const double left = left_share(k), right = left_share(k + 1);
