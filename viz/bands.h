@@ -1,7 +1,7 @@
 #pragma once
 // Bands: triangles between adjacent passes, over vertices selected along the path. They use every vertex, so
-// no cracks open. Seams fill the gaps of bands: turns, ends of passes, corners, the start of a loop. A missing
-// pass stays open. Pixels determine what is drawn (detail.h); required detail determines what a page gets
+// that there are no cracks. Seams fill the gaps of bands: turns, ends of passes, corners, the start of a loop. The gap of
+// a missing pass stays open. Pictures select vertices by pixels (detail.h), pages by the detail that they need
 // (io/page/kept_points.h).
 
 #include <array>
@@ -12,38 +12,38 @@
 
 namespace clsurf::viz {
 
-/// Points of a surface in their order.
+/// Points of a surface in path order.
 struct SectionVertices {
     Column<PointIndex> points;
-    Column<std::uint8_t> joined;  ///< 1: goes on from the vertex before
-    Column<std::uint8_t> links;   ///< 1: on the way from one pass to the next
+    Column<std::uint8_t> joined;  ///< 1: connected to the previous vertex
+    Column<std::uint8_t> links;   ///< 1: on a link between passes
 };
 
-/// The passes with the steps sideways between closed loops as links of their own: bands end there, so that how
-/// fast such a step was made is not drawn into the adjacent passes.
+/// The passes, with the sideways moves between closed loops as separate links. Bands end at links, so that the speed
+/// of such a move is not drawn into the adjacent passes.
 [[nodiscard]] Passes sections_of_path(const ClSurface& surface);
 
-/// The vertices of points, rising: one each; those of rapids are joined to nothing. Domain: the ends of
+/// One vertex per point; `points` increase. Points of rapids are not connected. Domain: the ends of
 /// all passes and links are among them.
 [[nodiscard]] SectionVertices section_vertices(const ClSurface& surface, std::span<const PointIndex> points);
 
 struct Bands {
     Column<std::uint32_t> triangles;  ///< 3 vertex numbers each
-    Column<std::uint32_t> segments;   ///< 2 each: where a pass has no other beside it
+    Column<std::uint32_t> segments;   ///< 2 each: of passes without an adjacent one
 };
 
-/// Where nearness is measured: a position of the surface → linear · position + shift.
+/// The frame in which distances are measured: linear · position of the surface + shift.
 struct NearnessFrame {
     Eigen::Matrix3f linear = Eigen::Matrix3f::Identity();
     Eigen::Vector3f shift = Eigen::Vector3f::Zero();
 };
 
-/// A point is stood for by the vertex before or after it, whichever is nearer in `frame`; by none that is farther
-/// than `reach` there. O(vertices), parallel.
+/// Each point is represented by the previous or next vertex, whichever is closer in `frame`; by none if both are farther
+/// than `reach`. O(vertices), parallel.
 [[nodiscard]] Bands join_passes(const ClSurface& surface, const SectionVertices& vertices, const NearnessFrame& frame,
                                 float reach);
 
-/// The same in three: what is made at vertices before `first`, from there to before `end`, and from `end` on.
+/// The same in three parts: cells made at vertices before `first`, from there to before `end`, and from `end` on.
 [[nodiscard]] std::array<Bands, 3> join_passes(const ClSurface& surface, const SectionVertices& vertices,
                                                const NearnessFrame& frame, float reach, std::int64_t first,
                                                std::int64_t end);

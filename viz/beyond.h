@@ -1,5 +1,5 @@
 #pragma once
-// Beyond: what the colours of a map leave out: values beyond the range by more than can be read off it, and missing ones.
+// Beyond: what the colours of a map cannot show: values clearly beyond the range, and missing ones.
 
 namespace clsurf::viz {
 

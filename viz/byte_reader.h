@@ -1,5 +1,5 @@
 #pragma once
-// Values in a row of bytes, as they are in memory.
+// Reads values from a sequence of bytes in their in-memory form.
 
 #include <bit>
 #include <cstddef>
@@ -19,7 +19,7 @@ void append_bytes(std::string& bytes, std::span<const T> values) {
     bytes.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
 }
 
-/// Takes values off the front; false: there are fewer.
+/// Takes values from the front; false: not enough bytes.
 template <typename T, std::size_t Size>
 bool take_bytes(std::string_view& bytes, std::span<T, Size> values) {
     static_assert(std::is_trivially_copyable_v<T>);

@@ -1,7 +1,7 @@
 #pragma once
-// Canvas: meshes and flat drawing → pixels. What is drawn where is decided in scene.cpp; vtk_module/picture.cpp draws.
+// Canvas: meshes and flat drawing → pixels. scene.cpp decides what is drawn where; vtk_module/picture.cpp draws.
 //
-// Flat things are placed in pixels of the finished picture, from its lower left corner.
+// Flat items are placed in pixels of the finished picture, from its lower left corner.
 
 #include <string>
 #include <string_view>
@@ -18,7 +18,7 @@
 
 namespace clsurf::viz {
 
-/// Everything of a picture. Quads are drawn first, then lines by their levels, then texts.
+/// The content of a picture. Quads are drawn first, then lines by level, then texts.
 struct Sheet {
     int width = 0, height = 0;
     Rgb background{255, 255, 255};
@@ -26,21 +26,21 @@ struct Sheet {
     std::vector<FlatQuad> quads;
     std::vector<FlatLine> lines;
     std::vector<FlatText> texts;
-    bool keep_drawing = false;  ///< the image gets its drawing, too
+    bool keep_drawing = false;  ///< the image also gets its drawing
 };
 
 /// Width of a text [px].
 [[nodiscard]] double text_width(const FlatText& text);
-/// Where a text stands: as wide as it is, and as high as its size [px].
+/// The rectangle of a text [px]; its height is the text size.
 [[nodiscard]] Rect text_rect(const FlatText& text);
 /// Interrupts the lines behind a text.
 [[nodiscard]] FlatLine halo_of(const FlatText& text, const Rgb& background);
-/// Shortens a text in its middle until it is at most so wide [px].
+/// Shortens a text in its middle to at most a width [px].
 [[nodiscard]] FlatText fitted(FlatText text, double width);
 
-/// Draws at `supersample` times the size and takes the mean, for smooth edges. Throws SystemError.
+/// Draws at `supersample` times the size and averages, for smooth edges. Throws SystemError.
 [[nodiscard]] Image draw(const Sheet& sheet, const std::string& gl, int supersample);
-/// The same with meshes that were drawn by a MeshPainter, of a sheet without panels.
+/// The same for a sheet without panels, with meshes that a MeshPainter has drawn.
 [[nodiscard]] Image draw(const Sheet& flat, const MeshSamples& meshes, const std::string& gl, int supersample);
 
 }  // namespace clsurf::viz

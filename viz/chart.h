@@ -10,7 +10,7 @@
 
 namespace clsurf::viz {
 
-/// What a value of a curve means whose values are names.
+/// The name of a value of a curve with classes.
 struct CurveClass {
     double value = 0;
     std::string name;
@@ -20,15 +20,15 @@ struct CurveClass {
 struct Curve {
     std::string label;                     ///< "Path speed [mm/min]"
     std::vector<double> values;            ///< shown units; NaN: a gap
-    std::vector<CurveClass> classes = {};  ///< of names: they are drawn as bands; empty: values are numbers
-    std::vector<double> reference = {};    ///< drawn under it in grey, in the same frame; empty: none
+    std::vector<CurveClass> classes = {};  ///< drawn as bands; empty: values are numbers
+    std::vector<double> reference = {};    ///< drawn below the curve in grey, in the same frame; empty: none
     std::string reference_label = {};      ///< "predicted"
 };
 
 struct ChartCursor {
     double x = 0;
     std::string label;           ///< "point 812, line 204"
-    std::vector<double> values;  ///< one per curve, shown at the cursor; none: the label alone, at the first curve
+    std::vector<double> values;  ///< one per curve, shown at the cursor; none: only the label, at the first curve
 };
 
 struct ChartLook {
@@ -40,12 +40,12 @@ struct ChartLook {
     std::string title, subtitle, x_label, footnote;
 };
 
-/// An empty sheet of that look.
+/// An empty sheet with that look.
 [[nodiscard]] Sheet sheet_of(const ChartLook& look);
-/// The height of its text [px], of which `lines` fit into the picture.
+/// The height of its text [px]; `lines` lines of it fit into the picture.
 [[nodiscard]] double text_size_of(const ChartLook& look, double lines);
 
-/// Draws the curves over common x values (rising). Throws SystemError.
+/// Draws the curves over common x values (increasing). Throws SystemError.
 [[nodiscard]] Image draw_chart(std::span<const double> x, const std::vector<Curve>& curves,
                                const std::vector<ChartCursor>& cursors, const ChartLook& look);
 

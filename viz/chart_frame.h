@@ -1,5 +1,5 @@
 #pragma once
-// ChartFrame: a rectangle of a sheet with two axes, its grid and its numbers.
+// ChartFrame: a rectangle of a sheet with two axes, grid and numbers.
 
 #include <limits>
 #include <span>
@@ -16,7 +16,7 @@ inline constexpr Rgb chart_grid{222, 222, 226};
 struct ChartFrame {
     Rect rect;
     double x_low = 0, x_high = 1, y_low = 0, y_high = 1;
-    /// Where values lie on the sheet [px].
+    /// The position of values on the sheet [px].
     [[nodiscard]] Vec2 at(double x, double y) const {
         const double u = x_high > x_low ? (x - x_low) / (x_high - x_low) : 0.5;
         const double v = y_high > y_low ? (y - y_low) / (y_high - y_low) : 0.5;
@@ -24,31 +24,31 @@ struct ChartFrame {
     }
 };
 
-/// The range of values that a chart shows. What is not finite has no part in it.
+/// The range of values that a chart shows. Values that are not finite are ignored.
 struct ValueRange {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
     void widen(std::span<const double> values);
 };
 
-/// Fits the y axis to a range, with a share of it as room on both sides, but none below 0 for values that are not. A flat curve
-/// gets some anyway.
+/// Fits the y axis to a range, with a share of it as margin on both sides. The margin does not extend below 0 if no value
+/// does. A constant curve gets a margin anyway.
 void fit_y(ChartFrame& frame, ValueRange range, double room_share);
 
 /// The points of a curve that a width of pixels can show: the lowest and highest of each column, in
-/// their order, so that no extreme is lost. A gap (NaN) within one column is closed. O(points).
+/// order, so that no extreme is lost. A gap (NaN) within one column is closed. O(points).
 [[nodiscard]] std::vector<Vec2> thin_curve(std::span<const double> x, std::span<const double> y, double x_low,
                                            double x_high, int columns);
 
-/// A curve over x (rising), with gaps where it has no value; `line` is its look.
+/// A curve over x (increasing), with gaps for missing values; `line` is its look.
 void add_line(Sheet& sheet, const ChartFrame& frame, std::span<const double> x, std::span<const double> values,
               FlatLine line);
 
-/// Grid lines at round values, numbers of a text size [px] at the left, and below where `x_labels` says so.
+/// Grid lines at round values, with numbers of a text size [px] at the left and, if `x_labels` is set, below.
 void add_grid(Sheet& sheet, const ChartFrame& frame, double text, bool x_labels);
-/// The grid lines of the y axis with their numbers, two at least where the range has a length, and the frame.
+/// The grid lines of the y axis with their numbers, at least two if the range is not empty, and the frame.
 void add_y_axis(Sheet& sheet, const ChartFrame& frame, double text);
-/// The lines up from the x axis, and its numbers, alone; two lines at least where the range has a length.
+/// Only the vertical grid lines and the numbers of the x axis; at least two lines if the range is not empty.
 void add_x_grid(Sheet& sheet, const ChartFrame& frame, double text, bool x_labels);
 
 }  // namespace clsurf::viz

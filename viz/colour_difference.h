@@ -1,5 +1,5 @@
 #pragma once
-// How different two colours look: CIE L*a*b* and ΔE00.
+// Perceived difference of two colours: CIE L*a*b* and ΔE00.
 
 #include <array>
 
@@ -14,7 +14,7 @@ using Lab = std::array<double, 3>;
 [[nodiscard]] Lab lab_of(const std::array<double, 3>& rgb);
 [[nodiscard]] Lab lab_of(const Rgb& rgb);
 
-/// CIEDE2000 (ISO/CIE 11664-6) with kL = kC = kH = 1. About 1 is just seen side by side.
+/// CIEDE2000 (ISO/CIE 11664-6) with kL = kC = kH = 1. A difference of about 1 is just visible side by side.
 [[nodiscard]] double delta_e00(const Lab& first, const Lab& second);
 
 }  // namespace clsurf::viz

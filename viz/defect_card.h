@@ -1,5 +1,5 @@
 #pragma once
-// DefectCard: one defect on a third of a page: where it is, and the curves that prove it.
+// DefectCard: one defect on a third of a page: its position, and the curves that show it.
 
 #include <array>
 #include <string>
@@ -20,11 +20,11 @@ struct CardChart {
     std::string title, x_label;
     std::vector<double> x;
     std::vector<CardCurve> curves;            ///< the last on top
-    std::vector<double> band_low, band_high;  ///< what is usual, per x; empty: no band
-    double marked_from = 0, marked_to = 0;    ///< the section at fault; equal: none
-    std::vector<double> ticks;                ///< small ticks at x, where lines of the program begin
+    std::vector<double> band_low, band_high;  ///< the usual range, per x; empty: no band
+    double marked_from = 0, marked_to = 0;    ///< the defective section; equal: none
+    std::vector<double> ticks;                ///< small ticks at x, where program lines begin
     std::vector<std::pair<double, std::string>> tick_labels;
-    bool dots = false;  ///< at each value
+    bool dots = false;  ///< a dot at each value
 };
 
 struct CardKey {
@@ -32,29 +32,30 @@ struct CardKey {
     Rgb rgb{0, 0, 0};
 };
 
-/// How the map of a card lies on the part: its scale, and directions in the picture (to the right, up), as long as they are seen.
+/// The orientation of a card's map: its scale, and directions in the picture (to the right, up), with their projected
+/// lengths.
 struct CardBearings {
     double mm_per_pixel = 0;                                             ///< 0: not known
-    Vec2 feed = Vec2::Zero();                                            ///< of the pass at fault; zero: not known
+    Vec2 feed = Vec2::Zero();                                            ///< of the defective pass; zero: not known
     std::array<Vec2, 3> axes{Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};  ///< X, Y, Z of the part
 };
 
 struct DefectCard {
     std::string title, subtitle;
-    Image map;  ///< at the left; below it its scale, the direction of feed, and axes
+    Image map;  ///< at the left, above its scale, the direction of feed, and axes
     CardBearings bearings;
     std::vector<CardKey> key;
     std::string band_name;          ///< "usual ± threshold"
-    std::vector<CardChart> charts;  ///< the first across, the others side by side below it
+    std::vector<CardChart> charts;  ///< the first over the full width, the others next to each other below it
 };
 
-/// The size of a card's map for a card of a size [px].
+/// The size of the map for a card of a given size [px].
 struct CardMapSize {
     int width = 0, height = 0;
 };
 [[nodiscard]] CardMapSize card_map_size(int width, int height);
 
-/// Draws a card; its drawing too, where the map has one. Domain: the map has the size of card_map_size(). Throws SystemError.
+/// Draws a card, and its drawing if the map has one. Domain: the map has the size of card_map_size(). Throws SystemError.
 [[nodiscard]] Image draw_card(const DefectCard& card, int width, int height, const std::string& gl);
 
 }  // namespace clsurf::viz

@@ -1,5 +1,5 @@
 #pragma once
-// Drawing: a picture as lines and texts over the pixels of its surfaces, for SVG and PDF.
+// Drawing: a picture as lines and texts over its rendered surfaces, for SVG and PDF.
 
 #include <vector>
 
@@ -8,11 +8,11 @@
 
 namespace clsurf::viz {
 
-/// All places in pixels of the finished picture, from its lower left corner.
+/// All positions are in pixels of the finished picture, from its lower left corner.
 struct Drawing {
-    /// A surface, without anything flat: as fine as it was drawn, which is finer than the picture.
+    /// The rendered surfaces without flat items, in the resolution of rendering, which is finer than the picture.
     struct Ground {
-        int width = 0, height = 0;  ///< [px] of its own
+        int width = 0, height = 0;  ///< [px] of this image
         Column<std::uint8_t> rgb;   ///< rows from the top
         Rect place;
     };
@@ -20,12 +20,12 @@ struct Drawing {
     Rgb background{255, 255, 255};
     std::vector<Ground> grounds;
     std::vector<FlatQuad> quads;
-    std::vector<FlatLine> lines;  ///< the lowest first
+    std::vector<FlatLine> lines;  ///< from bottom to top
     std::vector<FlatText> texts;
     std::vector<double> text_widths;  ///< [px] of each text
 };
 
-/// Puts everything of another one on it, with its lower left corner at a place.
+/// Adds the content of another drawing with its lower left corner at (x, y).
 void add(Drawing& onto, const Drawing& other, double x, double y);
 
 }  // namespace clsurf::viz

@@ -1,5 +1,5 @@
 #pragma once
-// DrawnParts: what was drawn of a map whose surface was in memory in parts (scene.h).
+// DrawnParts: the drawn parts of a map whose surface was in memory in parts (scene.h).
 
 #include <optional>
 #include <string>
@@ -13,15 +13,15 @@ namespace clsurf::viz {
 
 struct DrawnParts {
     MeshSamples samples;
-    DepthBuffer depth;  ///< of what hides the edges of the box
+    DepthBuffer depth;  ///< for hiding the edges of the box
     Beyond beyond;
 
-    /// Parts that come after these on the path. Domain: of the same map, in a picture of the same size.
+    /// Adds parts that are later on the path. Domain: the same map, in a picture of the same size.
     void add(const DrawnParts& later);
 
-    /// What read() takes.
+    /// The input of read().
     [[nodiscard]] std::string bytes() const;
-    /// Of a picture with that camera. Nothing: these are not all of its bytes.
+    /// For a picture with that camera. Nothing: incomplete or wrong bytes.
     [[nodiscard]] static std::optional<DrawnParts> read(std::string_view bytes, const Camera& camera);
 };
 

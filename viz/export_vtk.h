@@ -1,6 +1,6 @@
 #pragma once
-// The CL surface with its columns for ParaView and VTK, as .vtp (XML PolyData); as .vtkhdf: vtkhdf.h. Passes are polylines, gaps
-// between them triangles.
+// The CL surface with its columns for ParaView and VTK, as .vtp (XML PolyData); as .vtkhdf: vtkhdf.h. Passes are polylines;
+// triangles fill the gaps between them.
 
 #include <cstdint>
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace clsurf::viz {
 
-/// A column of point data, written in its own type: numbers of lines and points need more than the 24 bits of a float.
+/// A column of point data, written in its own type: line and point numbers need more than the 24 bits of a float.
 /// Not copied.
 struct PointData {
     std::string name;
@@ -23,21 +23,21 @@ struct PointData {
 /// Writes into the file at `path` (an io::AtomicFile's temporary one). Throws SystemError.
 void write_vtp(const std::string& path, const ClSurface& surface, const std::vector<PointData>& data);
 
-/// A part of a surface as .vtp: its own points, and those beside it that its triangles need. All pieces together have
-/// every pass and every triangle of the surface once.
+/// A part of a surface as .vtp: its own points, and adjacent ones that its triangles need. Every pass and every triangle of
+/// the surface is in exactly one piece.
 struct VtkPiece {
-    Column<PointIndex> points;  ///< of the surface; first the own ones, in order
+    Column<PointIndex> points;  ///< of the surface; own points first, in order
     PointIndex own_points = 0;
     Column<double> xyz;                              ///< [mm]
     Column<std::int64_t> line_offsets, line_points;  ///< polylines of the own passes
     Column<std::int64_t> triangles;                  ///< 3 points each
 };
-/// Every point of every pass, and the bands between adjacent passes as they are drawn, over all points. `points` and `own_points`
+/// Every point of every pass, and the bands between adjacent passes over all points. `points` and `own_points`
 /// stay empty.
 [[nodiscard]] VtkPiece whole_of(const ClSurface& surface);
-/// What belongs to the part's own points.
+/// The cells of the part's own points.
 [[nodiscard]] VtkPiece piece_of(const SurfacePart& part);
-/// Points that are not its own are marked in `vtkGhostType`, as VTK does it.
+/// Points that are not its own are marked in `vtkGhostType`, as usual in VTK.
 void write_vtp(const std::string& path, VtkPiece piece, const std::vector<PointData>& data);
 
 }  // namespace clsurf::viz

@@ -1,5 +1,5 @@
 #pragma once
-// Fields whose values are names: each class has a colour of its own, and nothing lies between two of them.
+// Fields whose values are names: each class has its own colour, without intermediate colours.
 
 #include <map>
 #include <string>
@@ -12,38 +12,38 @@
 
 namespace clsurf::viz {
 
-/// A class as a picture shows it.
+/// A class as shown in a picture.
 struct ShownClass {
     std::string name;
-    float value = 0;  ///< NaN: of all that have no colour of their own
+    float value = 0;  ///< NaN: all classes without a colour of their own
     Rgb rgb{0, 0, 0};
     double share = 0;  ///< of the cutting points, 0 … 1
 };
 
-/// How many points have each value.
+/// The number of points with each value.
 using ValueCounts = std::map<float, PointIndex>;
-/// Those of cut passes. O(points + runs of equal values).
+/// Counts points of cut passes. O(points + runs of equal values).
 [[nodiscard]] ValueCounts count_values(const Column<float>& values, const Passes& passes);
 
-/// The classes of one or several fields, and which values they are of.
+/// The classes of one or several fields, and their values.
 class FieldClasses {
 public:
-    /// Most that have a colour of their own. The rest are shown together in two greys that alternate from value to value.
+    /// The most classes with a colour of their own. The others have two greys that alternate from value to value.
     static constexpr std::size_t most_named = 9;
 
     FieldClasses() = default;
     /// O(classes log classes).
     FieldClasses(const FieldInfo& info, const ValueCounts& counts);
-    /// Shares are those of `values` on cut passes. O(points + classes log classes).
+    /// Shares are of `values` on cut passes. O(points + classes log classes).
     FieldClasses(const FieldInfo& info, const Column<float>& values, const Passes& passes)
         : FieldClasses(info, count_values(values, passes)) {}
 
     [[nodiscard]] const std::vector<ShownClass>& shown() const { return shown_; }
-    /// A value on scale(): the middle of its class's step; NaN: it has none.
+    /// The position of a value on scale(): the middle of its class's step; NaN: no class.
     [[nodiscard]] float place_of(float value) const;
-    /// The colour of a value; white: it has none.
+    /// The colour of a value; white: no class.
     [[nodiscard]] Rgb rgb_of(float value) const;
-    /// Steps in the colours of the classes, one wide.
+    /// One step per class, of width one, in the colours of the classes.
     [[nodiscard]] ColourScale scale() const;
 
 private:
@@ -51,13 +51,13 @@ private:
         float value = 0;
         std::size_t colour = 0;  ///< index into colours_
     };
-    std::vector<Entry> entries_;  ///< in rising order of values
+    std::vector<Entry> entries_;  ///< by increasing value
     std::vector<Rgb> colours_;
-    std::vector<ShownClass> shown_;  ///< in falling order of shares; those that occur
+    std::vector<ShownClass> shown_;  ///< by decreasing share; only those that occur
 };
 
-/// The values become those of the points in the middle of vertices, as places on a scale of classes; and cells whose
-/// corners are of different classes are divided so that each part is of the class of its nearest corner.
+/// Sets the value of each vertex to that of its middle point, as a position on the scale of classes. Divides cells whose
+/// corners are of different classes, so that each part has the class of its nearest corner.
 void divide_by_class(Detail& detail, const Column<float>& values, const FieldClasses& classes);
 
 }  // namespace clsurf::viz

@@ -1,27 +1,27 @@
 #pragma once
-// The colours that suit a field.
+// The default colours of fields.
 
 #include "field/field.h"
 #include "viz/colour_map.h"
 
 namespace clsurf::viz {
 
-/// Light where values are good, and for signed values at 0; the same for the colour-blind in all cases.
+/// Light for good values, and for signed values at 0; safe for colour-blind readers.
 [[nodiscard]] ColourMap usual_colour_map(const FieldInfo& field);
 
-/// The same for lines and dots on white, where the lightest colours could not be seen.
+/// The same for lines and dots on white, without the lightest colours, which would not be visible.
 [[nodiscard]] ColourMap colour_map_of_lines(const FieldInfo& field);
 
-/// The name of that map, as make_colour_map() takes it.
+/// The name of that map for make_colour_map().
 [[nodiscard]] std::string usual_colour_map_name(const FieldInfo& field);
 
-/// Colours of a field over a range in shown units, in a map or in its usual one. What the field does not count as beyond, or
-/// the eye could not read from a legend, has the colour of the end.
+/// Colours of a field over a range in shown units, in a given map or its default one. A value beyond an end has the colour of
+/// the end if the field does not count it as beyond, or if the difference cannot be read from a legend.
 [[nodiscard]] ColourScale scale_of(const FieldInfo& field, double low, double high, int bins = 0);
 [[nodiscard]] ColourScale scale_of(const FieldInfo& field, double low, double high, int bins, ColourMap map);
 
-/// How different two values (in inside units) look in the usual colours of a field over its usual range, which it must
-/// have: CIEDE2000.
+/// The difference CIEDE2000 of the colours of two values (in internal units), in the default colours of a field over its
+/// default range. Domain: the field has one.
 [[nodiscard]] double colour_difference_of(const FieldInfo& field, double a, double b);
 
 }  // namespace clsurf::viz

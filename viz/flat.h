@@ -1,5 +1,5 @@
 #pragma once
-// Flat things of a picture: texts, rectangles and lines over its surfaces, placed in pixels of the finished picture, from
+// Flat items of a picture: texts, rectangles and lines over its surfaces, placed in pixels of the finished picture, from
 // its lower left corner.
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct Rect {
 };
 
 enum class Align : std::uint8_t { left, centre, right };
-/// The share of a text's width that lies left of its place.
+/// The share of a text's width to the left of its position.
 [[nodiscard]] constexpr double share_at_left(Align align) {
     return align == Align::left ? 0 : align == Align::right ? 1 : 0.5;
 }
@@ -34,7 +34,7 @@ struct FlatQuad {
     Rect rect;
     Rgb rgb{0, 0, 0};
 };
-/// What lies above what among lines; within a level they have no order.
+/// The drawing order of lines; within a level there is no order.
 enum class Level : std::uint8_t { area, casing, mark, inlay, edge, line, halo, dot, dot_fill };
 
 struct FlatLine {
@@ -42,12 +42,12 @@ struct FlatLine {
     double width = 1;
     Rgb rgb{0, 0, 0};
     Level level = Level::line;
-    std::optional<Rect> clip{};  ///< nothing is drawn outside; by default, all of it is drawn
-    /// Of a band between two edges, point by point, instead of `width`: the other edge.
+    std::optional<Rect> clip{};  ///< clipping rectangle; by default everything is drawn
+    /// The second edge of a band, point by point; used instead of `width`.
     std::vector<Vec2> opposite{};
 };
 
-/// Its points; of a band, once around it.
+/// Its points; for a band, its closed outline.
 [[nodiscard]] inline std::vector<Vec2> outline_of(const FlatLine& line) {
     std::vector<Vec2> around = line.points;
     around.insert(around.end(), line.opposite.rbegin(), line.opposite.rend());

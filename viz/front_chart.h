@@ -1,5 +1,5 @@
 #pragma once
-// A Pareto front: ways to run a part, by time and mismatch above, by time and jerk below.
+// A Pareto front: runs of a part by time and mismatch above, by time and jerk below.
 
 #include <optional>
 #include <string>
@@ -16,7 +16,7 @@ struct FrontSymbol {
     bool on_front = false;
 };
 
-/// Symbols have the numbers of their rows, from 1. The first row is the reference.
+/// Symbols are numbered like their rows, from 1. The first row is the reference.
 struct FrontPicture {
     std::vector<FrontSymbol> rows;
     std::optional<std::size_t> chosen;

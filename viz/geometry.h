@@ -1,5 +1,5 @@
 #pragma once
-// Geometry: what is drawn, already cut to what pixels can show (detail.h makes it, scene.h draws it).
+// Geometry: the cells to draw, already reduced to what pixels can show (made by detail.h, drawn by scene.h).
 
 #include <cstdint>
 #include <cstring>
@@ -9,7 +9,7 @@
 
 namespace clsurf::viz {
 
-/// Puts one column behind another.
+/// Appends a column to another.
 template <typename T>
 void append(Column<T>& all, const Column<T>& part) {
     const std::size_t at = all.size();
@@ -18,7 +18,7 @@ void append(Column<T>& all, const Column<T>& part) {
 }
 
 struct Geometry {
-    Vec3 origin = Vec3::Zero();       ///< [mm]; vertices are relative to it, so float is enough
+    Vec3 origin = Vec3::Zero();       ///< [mm]; vertices are relative to it, so that float is sufficient
     Column<float> xyz;                ///< 3 per vertex [mm]
     Column<std::uint8_t> rgb;         ///< 3 per vertex
     Column<float> normals;            ///< 3 per vertex, unit length; empty: not lit

@@ -1,7 +1,7 @@
 #pragma once
-// GlContext: an OpenGL context that is current on its own buffer, without a window or a display.
-// `osmesa` is Mesa's software renderer (the same pixels everywhere); `egl` is surfaceless EGL, a GPU
-// where there is one.
+// GlContext: a current OpenGL context with its own buffer, without a window or a display.
+// `osmesa` is Mesa's software renderer (the same pixels everywhere); `egl` is surfaceless EGL, on a GPU
+// if there is one.
 
 #include <memory>
 #include <string>
@@ -16,9 +16,9 @@ public:
     virtual ~GlContext() = default;
 
     virtual void make_current() = 0;
-    /// What OpenGL calls itself: "llvmpipe (LLVM 15.0.6, 256 bits)".
+    /// OpenGL's renderer string: "llvmpipe (LLVM 15.0.6, 256 bits)".
     [[nodiscard]] virtual std::string renderer() const = 0;
-    /// Its version and whose it is: "4.5 (Core Profile) Mesa 22.3.6".
+    /// Version and vendor: "4.5 (Core Profile) Mesa 22.3.6".
     [[nodiscard]] virtual std::string version() const = 0;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Two pictures compared for snapshots: how many values differ, and by how much.
+// Comparison of two pictures for snapshots: how many values differ, and by how much.
 
 #include <cstdint>
 
@@ -7,8 +7,8 @@
 
 namespace clsurf::viz {
 
-/// A picture fails when more than `failing_share` of its values differ by more than `threshold`, or
-/// any by more than three times that. Values are 0 … 1.
+/// A picture fails if more than `failing_share` of its values differ by more than `threshold`, or
+/// one by more than three times that. Values are 0 … 1.
 struct CompareRule {
     double threshold = 1.0 / 255.0;
     double failing_share = 0.0002;
@@ -18,19 +18,19 @@ struct Comparison {
     bool equal = false;            ///< within the rule
     double max_error = 0;          ///< 0 … 1
     double mean_error = 0;         ///< 0 … 1
-    double psnr = 0;               ///< [dB]; infinite: the same
-    double delta_e = 0;            ///< largest colour difference that an eye sees, CIE76 over 3 × 3 means
+    double psnr = 0;               ///< [dB]; infinite: identical
+    double delta_e = 0;            ///< largest visible colour difference, CIE76 over 3 × 3 means
     std::int64_t pixels_over = 0;  ///< pixels with a value over the threshold
 };
 
-/// Domain: pictures of one size.
+/// Domain: pictures of the same size.
 [[nodiscard]] Comparison compare(const Image& a, const Image& b, const CompareRule& rule);
 
-/// Gives both pictures the same pixels wherever one of them has words or numbers. Domain: pictures of one size.
+/// Gives both pictures the same pixels in all areas with words or numbers. Domain: pictures of the same size.
 void blank_texts(Image& a, Image& b);
 
-/// Where they differ: the first picture in pale grey, differences from yellow (small) to red, and in a strip below what these
-/// colours mean. Throws SystemError.
+/// The first picture in pale grey, with differences from yellow (small) to red, and a strip below that explains the
+/// colours. Throws SystemError.
 [[nodiscard]] Image difference_picture(const Image& a, const Image& b);
 
 }  // namespace clsurf::viz

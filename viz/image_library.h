@@ -1,7 +1,7 @@
 #pragma once
-// OpenImageIO behind a table of functions in a shared library of its own, loaded when the first
-// picture is read or written. OpenImageIO as Debian builds it brings 250 libraries, and 0.3 s to load
-// them, which neither `query` nor `moves` should pay and `render` need not wait for.
+// OpenImageIO behind a table of functions in a separate shared library, loaded when the first
+// picture is read or written. Debian's OpenImageIO depends on 250 libraries, which take 0.3 s to
+// load: `query` and `moves` avoid that, and `render` loads them in the background.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,15 +11,15 @@ namespace clsurf::viz {
 struct Drawing;
 
 struct ImageLibrary {
-    /// Bytes of a new picture into `sink(context, bytes, size)`; false: `sink` got the error's text. `format`:
-    /// "png", "jpeg", "tiff", "webp". `texts` is kept by PNG.
+    /// Writes the bytes of a picture with `sink(context, bytes, size)`; false: `sink` got the error message. `format`:
+    /// "png", "jpeg", "tiff", "webp". PNG stores `texts`.
     bool (*encode)(const char* format, const std::uint8_t* rgb, int width, int height, const char* description,
                    const char* texts, void* context, void (*sink)(void* context, const void* bytes, std::size_t size));
-    /// A drawing as one page of PDF, in pieces into `sink`; false: there is no memory for it.
+    /// Writes a drawing as one page of PDF, in pieces, with `sink`; false: out of memory.
     bool (*pdf)(const Drawing& drawing, const char* title, void* context,
                 void (*sink)(void* context, const void* bytes, std::size_t size));
-    /// Asks for room with `take(context, width, height)`, which may refuse with nullptr, and fills it
-    /// with RGB; false: `report` got the error's text. `texts` gets what encode() was given.
+    /// Allocates with `take(context, width, height)`, which may refuse by returning nullptr, and fills the memory
+    /// with RGB; false: `report` got the error message. `texts` gets the texts that encode() stored.
     bool (*read)(const char* path, void* context, std::uint8_t* (*take)(void* context, int width, int height),
                  void (*texts)(void* context, const char* boxes), void (*report)(void* context, const char* text));
     struct Errors {

@@ -7,7 +7,7 @@ namespace clsurf::viz {
 
 struct Drawing;
 
-/// As ImageLibrary::pdf.
+/// See ImageLibrary::pdf.
 [[nodiscard]] bool write_pdf(const Drawing& drawing, const char* title, void* context,
                              void (*sink)(void* context, const void* bytes, std::size_t size));
 

@@ -1,5 +1,5 @@
 #pragma once
-// LabelPlacer: room for labels on a panel, so that none lies on another one.
+// LabelPlacer: finds room for labels on a panel, so that they do not overlap.
 
 #include <optional>
 #include <vector>
@@ -8,19 +8,19 @@
 
 namespace clsurf::viz {
 
-/// The place in a rectangle that is nearest to another one.
+/// The point of a rectangle closest to another point.
 [[nodiscard]] Vec2 nearest_in(const Rect& rect, const Vec2& to);
 
 class LabelPlacer {
 public:
     explicit LabelPlacer(const Rect& panel);
 
-    /// Nothing is placed there any more [px].
+    /// Marks a rectangle [px] as occupied.
     void take(const Rect& rect);
     void take_line(const Vec2& from, const Vec2& to);
-    /// Takes the free rectangle of a size [px] whose middle is nearest to `centre`, inside the panel. Where there is one, a
-    /// line from it to `anchor` meets nothing that is taken. Nothing: there is none within twelve times its height. O(1),
-    /// whatever is taken.
+    /// Occupies the free rectangle of a size [px] inside the panel whose middle is closest to `centre`. If given, a
+    /// line from it to `anchor` crosses nothing that is occupied. Nothing: none within twelve times its height. O(1),
+    /// independent of the number of labels.
     [[nodiscard]] std::optional<Rect> place(const Vec2& centre, const Vec2& size,
                                             const std::optional<Vec2>& anchor = std::nullopt);
 
@@ -33,7 +33,7 @@ private:
 
     Rect panel_;
     int columns_ = 0, rows_ = 0;
-    std::vector<bool> taken_;  ///< by cells of the panel, row by row
+    std::vector<bool> taken_;  ///< occupied cells of the panel, row by row
 };
 
 }  // namespace clsurf::viz

@@ -1,6 +1,6 @@
 #pragma once
-// Large libraries that few commands need are linked to shared libraries of our own, which stand beside the program and are loaded
-// at the first need: all other commands start without them. Each gives a table of functions.
+// Large libraries that few commands need are linked to separate shared libraries next to the program, which are loaded
+// on first use: all other commands start without them. Each provides a table of functions.
 
 #include <string>
 
@@ -8,7 +8,7 @@
 
 namespace clsurf::viz {
 
-/// What the function `entry` of the library `file` returns; nullptr: it cannot be loaded.
+/// Calls the function `entry` of the library `file` and returns its result; nullptr: it cannot be loaded.
 [[nodiscard]] const void* load_table(const char* file, const char* entry);
 
 /// The same as a struct of function pointers. Throws SystemError.

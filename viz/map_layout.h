@@ -1,11 +1,12 @@
 #pragma once
-// MapLayout: the sizes of the items on the sheet of a map, from the size of the picture, and its inks.
+// MapLayout: the sizes of the items on the sheet of a map, derived from the size of the picture, and its text colours.
 
 #include "viz/map_panel.h"
 
 namespace clsurf::viz {
 
 /// The layout of title and legend. `usual`: title above the part, legend at its right. `wide`: title in a column at the left,
+/// so that the part has the full height. `tall`: legend below the part, so that the part has the full width.
 /// so that the part has the full height. `tall`: legend below the part, so that the part has the full width.
 enum class Arrangement : std::uint8_t { usual, wide, tall };
 
@@ -23,10 +24,10 @@ struct MapLayout {
     [[nodiscard]] Rect map_area(const Look& look) const;
 };
 
-/// So wide that there is room beside the part.
+/// Whether the picture is wide enough for a title next to the part.
 [[nodiscard]] bool is_wide(const Look& look);
 
-/// What is read on a background.
+/// A text colour that is readable on a background.
 [[nodiscard]] Rgb ink_for(const Rgb& background);
 [[nodiscard]] Rgb faint(const Rgb& ink, const Rgb& background);
 

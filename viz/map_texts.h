@@ -1,5 +1,5 @@
 #pragma once
-// Words that maps have in common.
+// Texts that several maps use.
 
 #include <string>
 #include <string_view>
@@ -12,15 +12,15 @@ namespace clsurf::viz {
 
 /// "27517 points, 42 passes, 0.5 mm apart".
 [[nodiscard]] std::string counts_of(const ClSurface& surface);
-/// The same of a surface of which a part was selected (surface/selection.h): "61 of 18531 points, 1 pass, …".
+/// The same for a surface with a selected part (surface/selection.h): "61 of 18531 points, 1 pass, …".
 [[nodiscard]] std::string counts_of_selection(const ClSurface& surface);
 /// A footnote: the ramps at the ends of passes are drawn paler, because all passes have them.
 inline constexpr std::string_view ramps_note = "paler: ramps at the ends of passes";
-/// A footnote: what the numbers beside the names of values are.
+/// A footnote: the meaning of the numbers after the names of values.
 inline constexpr std::string_view shares_note = "shares of the cutting points";
-/// A footnote where the tool is known, since places on the part are then contact points.
+/// A footnote if the tool is known, because positions on the part are then contact points.
 inline constexpr std::string_view tool_tip_note = "axes show the tool tip: `clsurf query --at tip:X,Y`";
-/// What the footnote says of a range.
+/// The footnotes about a range.
 [[nodiscard]] std::vector<std::string> notes_of(const ShownRange& range);
 
 }  // namespace clsurf::viz

@@ -1,5 +1,5 @@
 #pragma once
-// Sections of passes as bands in the picture: as wide as their strips of the part are seen, so that they stay on it.
+// Sections of passes as bands in the picture, with the projected width of their strips, so that they stay on the part.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace clsurf::viz {
 
-/// A band in the picture by its two edges, point by point [px].
+/// A band in the picture, given by its two edges, point by point [px].
 struct Band {
     std::vector<Vec2> left, right;
 
@@ -18,26 +18,26 @@ struct Band {
     [[nodiscard]] std::vector<Vec2> centre_line() const;
 };
 
-/// Of even width about a straight line.
+/// A band of constant width along a straight line.
 [[nodiscard]] Band band_of(const Vec2& from, const Vec2& to, double width);
-/// Along its middle [px].
+/// Length along its middle [px].
 [[nodiscard]] double length_of(const Band& band);
-/// From one length along its middle to another.
+/// The band between two lengths along its middle.
 [[nodiscard]] Band part_of(const Band& band, double from, double to);
-/// Of a share of the width.
+/// The same band with a share of its width.
 [[nodiscard]] Band narrowed(const Band& band, double share);
 
-/// Whether a place [px] lies on it.
+/// Whether a point [px] is on it.
 [[nodiscard]] bool covers(const Band& band, const Vec2& at);
 
-/// A section of a pass in the picture, all of it seen or all of it hidden.
+/// A section of a pass in the picture, completely visible or completely hidden.
 struct Stroke {
     Band band;
     bool hidden = false;
 };
 
-/// What lies in the picture of a section: from half way to the one adjacent pass to half way to the other, or the pass itself
-/// where the surface ends there; but at least `least_size` wide and long [px]. `corner`: of the panel.
+/// The visible part of a section: from halfway to one adjacent pass to halfway to the other, or to the pass itself
+/// if the surface ends there; at least `least_size` wide and long [px]. `corner`: of the panel.
 [[nodiscard]] std::vector<Stroke> strokes_of(const ClSurface& surface, const PointRange& section, const Camera& camera,
                                              const Vec2& corner, const Look& look, const DepthBuffer& depth,
                                              double least_size);

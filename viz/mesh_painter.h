@@ -1,5 +1,5 @@
 #pragma once
-// MeshPainter: the samples of a mesh that is in memory in parts.
+// MeshPainter: draws the samples of a mesh that is in memory in parts.
 
 #include <memory>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace clsurf::viz {
 
-/// Draws the mesh of a panel in parts, which are in memory one at a time. All parts give the same samples as the whole mesh.
+/// Draws the mesh of a panel in parts, one in memory at a time. Together they give the same samples as the whole mesh.
 class MeshPainter {
 public:
     MeshPainter() = default;
@@ -17,7 +17,7 @@ public:
     MeshPainter& operator=(const MeshPainter&) = delete;
     virtual ~MeshPainter() = default;
 
-    /// Adds the next part to samples of the size that empty() has. Throws SystemError.
+    /// Adds the next part to samples with the size of empty(). Throws SystemError.
     virtual void draw(const MeshPanel& part, MeshSamples& samples) = 0;
     [[nodiscard]] virtual MeshSamples empty() const = 0;
 };

@@ -15,16 +15,16 @@ namespace clsurf::viz {
 struct MeshPanel {
     Rect rect;
     Camera camera;      ///< of the panel's size
-    Geometry geometry;  ///< painted; where there is a ramp, its colours are darkened by `rgb`
-    /// Colours along a ramp, so that what lies between two vertices is a colour of the ramp too, and
-    /// not a mixture of two of its colours.
-    std::vector<Rgb> ramp;  ///< empty: `rgb` alone
-    Column<float> along;    ///< per vertex, 0 … 1; outside, the nearest end
+    Geometry geometry;  ///< painted; with a ramp, `rgb` only darkens the colours of the ramp
+    /// Colours along a ramp, so that points between two vertices have a colour of the ramp, too, and
+    /// not a mixture of the colours of the vertices.
+    std::vector<Rgb> ramp;  ///< empty: only `rgb`
+    Column<float> along;    ///< per vertex, 0 … 1; clamped
     Column<float> pale;     ///< per vertex, 0: the ramp's colour; 1: a lighter tone of it; empty: 0
-    bool stepped = false;   ///< the ramp's colours are steps; otherwise they run into each other
-    /// Cells with a corner that has no value: triangles hatched, the others in one colour.
+    bool stepped = false;   ///< the ramp's colours are steps; otherwise they are interpolated
+    /// Cells with a corner without a value: triangles are hatched, the others have one colour.
     Column<std::uint32_t> bare_triangles, bare_segments, bare_points;
-    Rgb bare_colour{0, 0, 0};        ///< of the hatching's lines, and of the other cells
+    Rgb bare_colour{0, 0, 0};        ///< of hatching lines, and of the other cells
     Rgb bare_ground{255, 255, 255};  ///< between the lines
     double line_width = 1.5;
     double point_size = 2;

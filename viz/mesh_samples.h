@@ -1,6 +1,6 @@
 #pragma once
-// MeshSamples: colours and depths of meshes, sample by sample, so that parts which were drawn apart give the picture of the whole
-// (sort-last rendering with depth compositing: Molnar, Cox, Ellsworth, Fuchs, IEEE CG&A 14(4), 1994).
+// MeshSamples: colours and depths of meshes, sample by sample, so that parts that were drawn separately give the picture of
+// the whole (sort-last rendering with depth compositing: Molnar, Cox, Ellsworth, Fuchs, IEEE CG&A 14(4), 1994).
 
 #include <array>
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace clsurf::viz {
 
-/// Cells of a mesh, in the order in which they are drawn: of two at the same depth the earlier one is seen.
+/// Cells of a mesh, in drawing order: of two at the same depth the earlier one is visible.
 enum class CellKind : std::uint8_t { lines_and_points, triangles, bare_triangles, bare_lines_and_points };
 constexpr std::size_t cell_kinds = 4;
 
@@ -26,11 +26,11 @@ struct SampleRect {
     }
 };
 
-/// What one kind of cells gave in a rectangle, in rows from the bottom.
+/// The samples of one kind of cells in a rectangle, in rows from the bottom.
 struct DrawnSamples {
     SampleRect rect;
-    std::span<const std::uint8_t> rgb;  ///< 3 a sample
-    std::span<const float> depth;       ///< 0 … 1, as OpenGL has it: less is nearer; 1: nothing is there
+    std::span<const std::uint8_t> rgb;  ///< 3 per sample
+    std::span<const float> depth;       ///< 0 … 1, as in OpenGL: less is nearer; 1: empty
 };
 
 class MeshSamples {
@@ -39,9 +39,9 @@ public:
     /// Without meshes.
     MeshSamples(int width, int height) : width_(width), height_(height) {}
 
-    /// What is nearer covers what was there. O(samples of the rectangle). Domain: the rectangle lies in the picture.
+    /// Nearer samples replace existing ones. O(samples of the rectangle). Domain: the rectangle is inside the picture.
     void add(CellKind kind, const DrawnSamples& drawn);
-    /// Parts that come later in the whole mesh. Domain: of the same size.
+    /// Adds parts that are later in the whole mesh. Domain: the same size.
     void add(const MeshSamples& later);
 
     /// The colours, in rows from the bottom, over a background.
@@ -50,14 +50,14 @@ public:
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
 
-    /// What read() takes: of each row the samples from the first to the last one that a mesh covers. Little-endian.
+    /// The input of read(): of each row the samples from the first to the last one that a mesh covers. Little-endian.
     [[nodiscard]] std::string bytes() const;
-    /// Takes its bytes off the front of `bytes`. Nothing: they are none, or cut.
+    /// Takes its bytes from the front of `bytes`. Nothing: wrong or truncated bytes.
     [[nodiscard]] static std::optional<MeshSamples> read(std::string_view& bytes);
 
 private:
     struct Layer {
-        Column<std::uint8_t> rgb;  ///< empty: nothing of this kind
+        Column<std::uint8_t> rgb;  ///< empty: no cells of this kind
         Column<float> depth;
     };
     [[nodiscard]] std::size_t count() const { return SampleRect{0, 0, width_, height_}.count(); }

@@ -8,14 +8,15 @@ namespace clsurf::viz {
 struct ImageLibrary;
 struct VtkLibrary;
 
-/// Begins to load VTK and OpenImageIO in the background, and ends when they are loaded. A program must not end while a library is
-/// being loaded: the constructors of its static objects would run beside the destructors that exit() calls.
+/// Loads VTK and OpenImageIO in the background; the destructor waits until they are loaded. A program must not end while a
+/// library is being loaded: the constructors of its static objects would run at the same time as the destructors that exit()
+/// calls.
 class PictureLibrariesPreload {
 public:
     PictureLibrariesPreload();
 
 private:
-    // Nobody reads these. A library that cannot be loaded is an error in the code that draws.
+    // The results are not used: if a library cannot be loaded, the code that draws reports it.
     std::future<const ImageLibrary&> image_;
     std::future<const VtkLibrary&> vtk_;
 };

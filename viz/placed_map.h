@@ -1,5 +1,5 @@
 #pragma once
-// PlacedMap: where the panels of a map and its words stand on the sheet, and what its camera sees.
+// PlacedMap: the positions of the panels and texts of a map on the sheet, and its camera.
 
 #include <vector>
 
@@ -16,18 +16,18 @@ struct PlacedMap {
     Camera camera;
 };
 
-/// Of the surface or the relief of a panel along the axes of a view [mm]. O(points), parallel.
+/// The extent of the surface or the relief of a panel along the axes of a view [mm]. O(points), parallel.
 [[nodiscard]] Box3 extent_of_panel(const MapPanel& map, const ViewAxes& axes);
 
-/// Of the arrangements that fit the shape of the picture, the one in which the part is largest. The camera has the size of
-/// the panels, and sees what the part fills of Look::box, where there is one, else all that is drawn. O(points), parallel.
+/// Selects the arrangement in which the part is largest, among those that fit the shape of the picture. The camera has the
+/// size of the panels, and shows the part inside Look::box, if there is one, otherwise everything. O(points), parallel.
 [[nodiscard]] PlacedMap placed_map(const std::vector<MapPanel>& panels, const Look& look);
 
-/// Where panel k is [px]: at the left or the top, where names follow; a map in the middle of what its legend leaves.
+/// The position of panel k [px]: at the left or the top if names follow; otherwise centred in the area without the legend.
 [[nodiscard]] Rect panel_rect(const std::vector<MapPanel>& panels, std::size_t k, const Look& look,
                               const PlacedMap& placed);
 
-/// Where legend or names stand, right of the `last` panel or below it [px].
+/// The area of legend or names, to the right of the `last` panel or below it [px].
 [[nodiscard]] Rect legend_rect(const std::vector<MapPanel>& panels, const Rect& last, const Look& look,
                                const PlacedMap& placed);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Relief: a height map as a mesh, for maps of quantities that do not belong to a point of the log.
+// Relief: a height map as a mesh, for quantities that do not belong to points of the log.
 
 #include <span>
 
@@ -25,8 +25,8 @@ struct Relief {
 /// Extent along the axes of a view [mm]. O(vertices).
 [[nodiscard]] Box3 extent_of(const Relief& relief, const Eigen::Matrix3d& axes);
 
-/// Its triangles with `values` per vertex, lit; vertices without a height, and those outside of the
-/// request's box, are left out. O(vertices).
+/// Its triangles with `values` per vertex, with lighting. Vertices without a height or outside
+/// the request's box are omitted. O(vertices).
 [[nodiscard]] Detail relief_detail(const Relief& relief, std::span<const float> values, const DetailRequest& request);
 
 }  // namespace clsurf::viz

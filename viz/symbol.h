@@ -1,5 +1,5 @@
 #pragma once
-// Symbols of charts, made of strips: a line's width has square ends.
+// Symbols of charts, composed of strips, because lines have square ends.
 
 #include <cstddef>
 
@@ -9,7 +9,7 @@ namespace clsurf::viz {
 
 enum class SymbolShape : std::uint8_t { disc, diamond, square, triangle };
 
-/// `radius`: of the disc [px]; the others look as large.
+/// `radius`: of the disc [px]; the other symbols appear as large.
 void add_symbol(Sheet& sheet, const Vec2& at, SymbolShape shape, double radius, const Rgb& rgb,
                 Level level = Level::dot);
 

@@ -1,5 +1,5 @@
 #pragma once
-// A quantity over runs in their order, one symbol each, with the medians before and after a change.
+// A quantity over consecutive runs, one symbol each, with the medians before and after a change.
 
 #include <optional>
 #include <string>
@@ -11,7 +11,7 @@ namespace clsurf::viz {
 
 struct TrendSymbol {
     double value = 0;       ///< NaN: a gap
-    std::string run;        ///< what stands below it, "12"
+    std::string run;        ///< label below it, "12"
     std::string day;        ///< and below that, "2026-11-24"
     std::size_t group = 0;  ///< index of its group
 };
@@ -24,9 +24,9 @@ struct TrendLevels {
 
 struct TrendPicture {
     std::vector<TrendSymbol> symbols;
-    std::vector<std::string> groups;  ///< names, each with a colour and a shape of its own; one empty name: no legend
+    std::vector<std::string> groups;  ///< names, each with its own colour and symbol; one empty name: no legend
     std::string y_label;
-    std::optional<double> limit;  ///< a line across
+    std::optional<double> limit;  ///< a horizontal line
     std::optional<TrendLevels> levels;
 };
 

@@ -7,10 +7,10 @@
 
 namespace clsurf::viz {
 
-/// As a document of its own (SVG 1.1): texts are texts, surfaces are embedded PNGs. Throws SystemError.
+/// A stand-alone document (SVG 1.1): texts are texts, surfaces are embedded PNGs. Throws SystemError.
 [[nodiscard]] std::string svg_text(const Drawing& drawing, const std::string& title);
 
-/// One page of 0.75 points a pixel: texts are texts, with their fonts. The same drawing gives the same bytes. Throws
+/// One page with 0.75 points per pixel: texts are texts, with embedded fonts. The same drawing gives the same bytes. Throws
 /// SystemError.
 [[nodiscard]] std::string pdf_bytes(const Drawing& drawing, const std::string& title);
 

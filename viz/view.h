@@ -1,6 +1,6 @@
 #pragma once
 // View: directions, zoom and box → a camera with parallel projection, so that lengths can be measured
-// in the picture. Pure numbers, no OpenGL.
+// in the picture. Numbers only, no OpenGL.
 
 #include <optional>
 #include <string>
@@ -24,28 +24,28 @@ struct Zoom {
 
 struct Camera {
     Vec3 centre = Vec3::Zero();  ///< in the middle of the picture [mm]
-    double depth = 0;            ///< along `towards`, from `centre` to what is nearest or farthest [mm]
-    Vec3 right, up, towards;     ///< unit vectors; `towards` points from the part to the eye
+    double depth = 0;            ///< along `towards`, from `centre` to the nearest or farthest point [mm]
+    Vec3 right, up, towards;     ///< unit vectors; `towards` points from the part to the viewer
     double mm_per_pixel = 1;
     int width = 0, height = 0;  ///< [px]
 
     [[nodiscard]] Projection projection() const;
-    /// Whether a position lies in the picture.
+    /// Whether a position is in the picture.
     [[nodiscard]] bool shows(const Vec3& p) const {
         const Vec2 at = pixel(p);
         return at.x() >= 0 && at.y() >= 0 && at.x() <= width && at.y() <= height;
     }
-    /// Pixel of a position, from the picture's lower left corner.
+    /// The pixel of a position, from the picture's lower left corner.
     [[nodiscard]] Vec2 pixel(const Vec3& p) const {
         return Vec2(right.dot(p - centre), up.dot(p - centre)) / mm_per_pixel + 0.5 * Vec2(width, height);
     }
 };
 
-/// Rows: to the right of the picture, up in it, and towards the eye. Unit vectors.
+/// Rows: right and up in the picture, and towards the viewer. Unit vectors.
 using ViewAxes = Eigen::Matrix3d;
 [[nodiscard]] ViewAxes axes_of(const View& view);
 
-/// A camera that shows an extent along the axes of a view whole with a small margin, or the `zoom`
+/// A camera that shows the whole extent along the axes of a view with a small margin, or the `zoom`
 /// part of that picture. An empty extent is a point at zero.
 [[nodiscard]] Camera camera_for(const ViewAxes& axes, const Box3& extent, int width, int height, const Zoom& zoom);
 

@@ -38,7 +38,7 @@ void write_all(int descriptor, std::string_view bytes, const std::string& path) 
     }
 }
 
-/// The descriptor that a name stands for: "-", "/dev/stdout", "/dev/fd/3". −1: it is a name in a folder.
+/// The descriptor that a name denotes: "-", "/dev/stdout", "/dev/fd/3". −1: a name in a folder.
 int named_descriptor(std::string_view path) {
     if (path == "-" || path == "/dev/stdout") return STDOUT_FILENO;
     if (path == "/dev/stderr") return STDERR_FILENO;
@@ -54,16 +54,16 @@ int named_descriptor(std::string_view path) {
 
 std::string path_of(int descriptor) { return fmt::format("/proc/self/fd/{}", descriptor); }
 
-/// Opens where a stream goes; −1 where `path` is a file, or is not there yet.
+/// Opens the target of a stream; −1 if `path` is a file or does not exist yet.
 int open_stream(const std::string& path) {
     const int named = named_descriptor(path);
-    if (named == STDOUT_FILENO) std::fflush(stdout);  // what was printed before comes first
+    if (named == STDOUT_FILENO) std::fflush(stdout);  // earlier output comes first
     const int descriptor = named < 0 ? -1 : ::fcntl(named, F_DUPFD_CLOEXEC, 0);
     if (named >= 0 && descriptor < 0) fail(path, "cannot write");
     if (named >= 0) return descriptor;
     struct stat status {};
     if (::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode)) return -1;
-    // A rename would put a file in the place of a device or a pipe.
+    // A rename would replace the device or the pipe by a file.
     const int opened = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
     if (opened < 0) fail(path, "cannot write");
     return opened;
@@ -78,7 +78,7 @@ AtomicFile::AtomicFile(std::string path, Replaces replaces, Unfinished unfinishe
         return;
     }
     if (replaces == Replaces::no_input) claim_.emplace(path_);
-    // What a link points at is replaced, not the link.
+    // The target of a link is replaced, not the link.
     char* target = ::realpath(path_.c_str(), nullptr);
     if (target != nullptr) path_ = target;
     std::free(target);
@@ -105,7 +105,7 @@ void AtomicFile::open_beside() {
     if (descriptor_ >= 0) {
         temporary_ = path_of(descriptor_);
         if (::access(temporary_.c_str(), F_OK) == 0) return;
-        ::close(descriptor_);  // without /proc it could never get its name
+        ::close(descriptor_);  // without /proc the file could not be named later
     } else if (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL && errno != ENOENT) {
         fail(path_, "cannot write");
     }
@@ -114,13 +114,13 @@ void AtomicFile::open_beside() {
     if (descriptor_ < 0) fail(path_, "cannot write");
     temporary_ = pattern;
     named_ = true;
-    // mkstemp makes it private; an output has the rights that any new file would have.
+    // mkstemp makes the file private; an output gets the permissions of any new file.
     const mode_t mask = ::umask(0);
     ::umask(mask);
     ::fchmod(descriptor_, 0666 & ~mask);
 }
 
-/// A file without a name, as libraries seek in what they write and a pipe cannot.
+/// A file without a name, because libraries seek in their output and a pipe cannot.
 void AtomicFile::open_for_stream() {
     std::error_code error;
     const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
@@ -137,7 +137,7 @@ AtomicFile::~AtomicFile() {
     if (named_ && !stays_) ::unlink(temporary_.c_str());
 }
 
-/// Links cannot replace a file, so it gets a name beside its target first.
+/// A link cannot replace a file, so the file first gets a name next to its target.
 void AtomicFile::give_a_name() {
     if (named_) return;
     std::random_device random;
@@ -205,7 +205,7 @@ void AtomicFile::commit() {
     if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, "cannot rename into place");
     named_ = false;
     if (claim_) claim_->release();
-    // The name itself must survive a power cut too; a folder that cannot be synchronised is no error.
+    // The name must survive a power failure, too. A folder that cannot be synchronised is not an error.
     const int folder = ::open(folder_of(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder >= 0) {
         ::fsync(folder);

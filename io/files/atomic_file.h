@@ -1,11 +1,10 @@
 #pragma once
-// AtomicFile: an output that appears whole or not at all. Written to a file without a name in its
-// target's folder, synchronised, and given the name by commit(): whatever ends the program before that,
-// be it SIGKILL, leaves nothing behind. File systems that have no nameless files (NFS, some overlays)
-// get "NAME.XXXXXX" beside the target, which is removed when it is destroyed before commit(), and stays
-// when the program is killed.
+// AtomicFile: an output that appears complete or not at all. It is written to a file without a name in the
+// folder of the target, synchronised, and named by commit(). If the program ends before that, even by SIGKILL,
+// no file remains. File systems without unnamed files (NFS, some overlays) get "NAME.XXXXXX" next to the target:
+// it is removed if the object is destroyed before commit(), and remains if the program is killed.
 //
-// "-", /dev/stdout, /dev/fd/N, devices and pipes are written to as they are, all at once by commit().
+// "-", /dev/stdout, /dev/fd/N, devices and pipes are written directly, all at once by commit().
 
 #include <cstddef>
 #include <optional>
@@ -17,17 +16,17 @@
 
 namespace clsurf::io {
 
-/// Whether an output may replace an input, as `compare --update` does.
+/// Whether an output may replace an input, as in `compare --update`.
 enum class Replaces { no_input, an_input };
 
-/// What becomes of an output that is not committed. What cannot be made again stays: it is written to NAME.part, which
-/// commit() renames.
+/// What happens to an output that is not committed. An output that cannot be recomputed is kept: it is written to NAME.part,
+/// which commit() renames.
 enum class Unfinished { vanishes, stays };
 
 class AtomicFile {
 public:
-    /// Opens a file beside `path`. Throws SystemError (no such folder, not writable), UsageError where `path` is
-    /// an input (io/files/overwrite_guard.h), or where an unfinished output of that name has stayed.
+    /// Opens a file in the folder of `path`. Throws SystemError (no such folder, not writable), UsageError if `path` is
+    /// an input (io/files/overwrite_guard.h), or if an unfinished output of that name exists.
     explicit AtomicFile(std::string path, Replaces replaces = Replaces::no_input,
                         Unfinished unfinished = Unfinished::vanishes);
     AtomicFile(const AtomicFile&) = delete;
@@ -39,11 +38,11 @@ public:
     void write(std::string_view text) { write(std::as_bytes(std::span(text.data(), text.size()))); }
     /// Overwrites bytes at `offset` that were written before (for headers).
     void write_at(std::size_t offset, std::span<const std::byte> bytes);
-    /// Hands what was written to the system: then it survives the end of the program. Throws SystemError.
+    /// Passes the written bytes to the system, so that they survive the end of the program. Throws SystemError.
     void save() { flush(); }
-    /// Where to write for libraries that want a path: a file that is there and empty.
+    /// The path for libraries that need one: an empty file that exists.
     [[nodiscard]] const std::string& temporary_path() const { return temporary_; }
-    /// Flushes, synchronises and renames. Throws SystemError; InputError where an input became shorter
+    /// Flushes, synchronises and renames. Throws SystemError; InputError if an input became shorter
     /// while it was read (check_mapped_files()).
     void commit();
 
@@ -57,10 +56,10 @@ private:
 
     std::string path_;
     std::optional<OutputClaim> claim_;
-    int stream_ = -1;        ///< of a device, a pipe or standard output; −1: a file
+    int stream_ = -1;        ///< a device, a pipe or standard output; −1: a file
     std::string temporary_;  ///< a path of the file
-    bool named_ = false;     ///< that path is a name in the folder
-    bool stays_ = false;     ///< without commit(), too
+    bool named_ = false;     ///< temporary_ is a name in the folder
+    bool stays_ = false;     ///< the file is kept without commit(), too
     std::string buffer_;
     int descriptor_ = -1;
 };

@@ -15,20 +15,20 @@
 namespace clsurf::io {
 namespace {
 
-// A log compresses to a tenth, rarely to a hundredth (a machine at rest). A few hundred MiB are free,
-// so that small files of any ratio pass.
+// A log compresses to a tenth, rarely to a hundredth (a machine at rest). A few hundred MiB are always allowed,
+// so that small files pass at any ratio.
 constexpr std::size_t free_bytes = std::size_t{256} << 20;
 constexpr std::size_t most_ratio = 100;
 constexpr std::size_t first_bytes = std::size_t{1} << 16;
-constexpr std::uint64_t most_decoder_memory = std::uint64_t{256} << 20;  ///< an xz header may ask for 4 GiB
+constexpr std::uint64_t most_decoder_memory = std::uint64_t{256} << 20;  ///< an xz header may request 4 GiB
 constexpr int gzip_window = 15 + 16;                                     ///< 32 KiB, gzip wrapper only
 
-/// The unpacked bytes, grown as they come and never beyond the limit of the input.
+/// The unpacked bytes. The buffer grows as needed, up to the limit for the input.
 class Unpacked {
 public:
     explicit Unpacked(const Source& packed) : packed_(packed), most_(free_bytes + most_ratio * packed.bytes.size()) {}
 
-    /// Room for more bytes behind those that are there. Throws InputError at the limit.
+    /// Space for more bytes after the present ones. Throws InputError at the limit.
     std::span<std::byte> room() {
         if (used_ == bytes_->size()) {
             if (used_ >= most_) {
@@ -82,7 +82,7 @@ Source unpack_gzip(const Source& packed) {
         at += given - stream.avail_in;
         out.grow(free - stream.avail_out);
         if (result == Z_STREAM_END) {
-            // Another member follows, or zeros that fill a tape's block.
+            // Another member follows, or zeros that pad a tape block.
             while (at < packed.bytes.size() && packed.bytes[at] == std::byte{0}) ++at;
             if (at == packed.bytes.size()) return out.finish();
             inflateReset(&stream);
@@ -155,7 +155,7 @@ constexpr auto packings = std::to_array<Packing>({
     {{0xfd, '7', 'z', 'X', 'Z', 0x00}, 6, unpack_xz},
 });
 
-/// What the bytes are packed by; nullptr: nothing that is known.
+/// The format that packed the bytes; nullptr: unknown.
 const Packing* packing_of(std::span<const std::byte> bytes) {
     for (const Packing& packing : packings) {
         if (bytes.size() < packing.magic_bytes) continue;

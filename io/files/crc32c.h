@@ -8,7 +8,7 @@
 
 namespace clsurf::io {
 
-/// CRC of pieces, one after the other.
+/// CRC of the concatenated pieces.
 [[nodiscard]] std::uint32_t crc32c(std::initializer_list<std::span<const std::byte>> pieces);
 [[nodiscard]] inline std::uint32_t crc32c(std::span<const std::byte> bytes) { return crc32c({bytes}); }
 

@@ -22,7 +22,7 @@
 namespace clsurf::io {
 namespace {
 
-constexpr double between_looks = 0.02;  ///< [s] at a file, which tells nobody that it grew
+constexpr double between_looks = 0.02;  ///< [s] between checks of a file, which does not notify of growth
 
 [[noreturn]] void fail_to_read(const std::string& name) {
     throw InputError(Place::of_file(name), std::string("cannot read: ") + std::strerror(errno));
@@ -60,14 +60,14 @@ std::size_t GrowingFile::read(std::size_t most, std::vector<std::byte>& out) {
     return copy_ >= 0 ? read_stream(most, out) : read_file(most, out);
 }
 
-/// Whether the name still is that of the file.
+/// Checks whether the name still refers to the open file.
 void GrowingFile::check_name() {
     if (path_ == "-") return;
     struct stat own {
     }, named{};
     if (::fstat(descriptor_, &own) != 0) fail_to_read(name_);
     if (::stat(path_.c_str(), &named) != 0) {
-        ended_ = errno == ENOENT;  // removed, or it got its final name
+        ended_ = errno == ENOENT;  // removed, or renamed to its final name
         return;
     }
     if (own.st_dev != named.st_dev || own.st_ino != named.st_ino)
@@ -75,7 +75,7 @@ void GrowingFile::check_name() {
 }
 
 std::size_t GrowingFile::read_file(std::size_t most, std::vector<std::byte>& out) {
-    check_name();  // first: what was written before the name went is read yet
+    check_name();  // first: bytes that were written before the name vanished are still read
     struct stat status {};
     if (::fstat(descriptor_, &status) != 0) fail_to_read(name_);
     const auto size = static_cast<std::size_t>(status.st_size);

@@ -13,25 +13,26 @@ namespace clsurf::io {
 
 class GrowingFile {
 public:
-    /// "-" is standard input. A named pipe need not have a writer yet. What comes from a stream is copied to a file without a
-    /// name in the folder for temporary files, so that whole() can read it again. Throws InputError (missing, a folder, not
-    /// readable), SystemError (no such copy).
+    /// "-" is standard input. A named pipe need not have a writer yet. The bytes of a stream are copied to a file without a
+    /// name in the folder for temporary files, so that whole() can read them again. Throws InputError (missing, a folder, not
+    /// readable), SystemError (the copy cannot be made).
     explicit GrowingFile(const std::string& path);
     GrowingFile(const GrowingFile&) = delete;
     GrowingFile& operator=(const GrowingFile&) = delete;
     ~GrowingFile();
 
     [[nodiscard]] const std::string& name() const { return name_; }
-    /// Appends at most `most` new bytes to `out`. Returns how many; 0: there are none now. Throws InputError: the file became
-    /// shorter than what was read of it, or another file has its name; SystemError: the copy of a stream cannot be written.
+    /// Appends at most `most` new bytes to `out`. Returns how many; 0: none yet. Throws InputError: the file became
+    /// shorter than what was read of it, or its name now refers to another file; SystemError: the copy of a stream cannot be
+    /// written.
     std::size_t read(std::size_t most, std::vector<std::byte>& out);
-    /// Bytes that were read before, of a regular file as they are now; fewer where it ends.
+    /// Bytes of a regular file that were read before, as they are now; fewer if the file ends earlier.
     [[nodiscard]] std::vector<std::byte> read_again(std::size_t begin, std::size_t size) const;
-    /// No more will come: the writer of a stream has closed it, or the file has no name any more.
+    /// No more bytes will come: the writer has closed the stream, or the file was removed or renamed.
     [[nodiscard]] bool ended() const { return ended_; }
-    /// Waits until there may be more, `seconds` at the longest, or until a signal comes.
+    /// Waits until there may be more bytes, at most `seconds`, or until a signal arrives.
     void wait(double seconds) const;
-    /// All bytes that there are now, mapped. Throws InputError.
+    /// All bytes so far, mapped. Throws InputError.
     [[nodiscard]] Source whole() const;
 
 private:

@@ -9,8 +9,8 @@
 namespace clsurf::io {
 namespace {
 
-/// The library's Grisu2 now and then prints more digits than a number needs (-1.2088699999999999): such numbers, of
-/// sixteen digits and more, are written again with as many as it takes to read them back.
+/// The library's Grisu2 sometimes prints more digits than a number needs (-1.2088699999999999). Numbers with
+/// sixteen digits or more are therefore written again with the fewest digits that read back as the same value.
 std::string with_shortest_numbers(const std::string& json) {
     constexpr std::string_view number_characters = "+-.0123456789eE";
     constexpr std::size_t suspicious = 17;  // characters: sixteen digits and the point

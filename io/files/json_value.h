@@ -1,5 +1,5 @@
 #pragma once
-// Values as JSON, the same in every report: what is not finite is null, invalid UTF-8 is U+FFFD.
+// Values as JSON, the same in every report: numbers that are not finite become null, invalid UTF-8 becomes U+FFFD.
 // Used inside io only.
 
 #include <string>
@@ -15,36 +15,36 @@ namespace clsurf::io {
 
 using Json = nlohmann::ordered_json;
 
-/// Grows when a key changes its meaning; new keys do not change it.
+/// Incremented if a key changes its meaning; new keys do not change it.
 constexpr int schema_version = 2;
 
-/// A report of ours: `schema_version` first, two blanks a level, an end of line.
+/// A report of clsurf: `schema_version` first, indented by two blanks, with a final line end.
 [[nodiscard]] std::string dump(const Json& report);
-/// The same of a format that others define, without our version.
+/// The same for a format that others define, without the version.
 [[nodiscard]] std::string dump_foreign(const Json& json);
 
 /// On one line, without blanks.
 [[nodiscard]] std::string dump_compact(const Json& json);
 
-/// A text as JSON; is_discarded() where it is malformed, nested deeper than 64 levels (writing and
-/// destroying values goes down their levels on the stack) or has an object with more than 10,000 keys (each
-/// is looked for among those before it).
+/// Parses JSON. Returns a discarded value (is_discarded()) if the text is malformed, nested deeper than 64 levels (values
+/// are written and destroyed recursively), or has an object with more than 10,000 keys (each key is compared with
+/// all earlier ones).
 [[nodiscard]] Json parse_bounded(std::string_view text);
 
-/// JSON has no NaN and no infinity.
+/// NaN and infinity become null: JSON does not have them.
 [[nodiscard]] Json number(double value);
 
-/// The same with so many decimals: as many as mean something. Never -0.
+/// The same with a fixed number of decimals, as many as are significant. Never -0.
 [[nodiscard]] Json number(double value, int decimals);
 
-/// A place [mm], to a hundredth of a micrometre.
+/// A position [mm], rounded to 0.01 µm.
 [[nodiscard]] Json vector(const Vec3& v);
-/// All digits: directions, and what other numbers are counted from.
+/// All digits: for directions and for the origin of other numbers.
 [[nodiscard]] Json exact_vector(const Vec3& v);
 
 [[nodiscard]] Json box(const Box3& b);
 
-/// Adds "position_mm" (the contact point where it is known, else the tip), "tip_mm" and, where it is known,
+/// Adds "position_mm" (the contact point if it is known, otherwise the tip), "tip_mm" and, if it is known,
 /// "contact_mm" to an object.
 void add_place(Json& json, const CutterPlace& place);
 

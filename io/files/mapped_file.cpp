@@ -48,16 +48,16 @@ Source read_stream(const std::string& name, int descriptor) {
     return {name, std::span<const std::byte>(*bytes), bytes};
 }
 
-/// A file that is mapped, where a signal handler can find it. Others than the handler hold `mapping_lock`.
+/// A mapped file, in a form that a signal handler can read. All code but the handler acquires `mapping_lock`.
 struct MappedRegion {
     std::atomic<const std::byte*> begin{nullptr};
     std::size_t size = 0;
     int descriptor = -1;
-    std::array<char, 256> name{};  ///< as the user named it, its end where it is longer
+    std::array<char, 256> name{};  ///< as given by the user; the end of a longer name
     bool taken = false;
 };
 
-/// More files than any subcommand reads; those beyond are not guarded.
+/// More files than any subcommand reads; further ones are not guarded.
 std::array<MappedRegion, 64> mappings;
 std::mutex mapping_lock;
 
@@ -76,8 +76,8 @@ MappedRegion* enter(const std::string& name, const void* address, std::size_t si
     return nullptr;
 }
 
-/// Of a guarded program: a file that became shorter while it was mapped, and is no longer. In other programs, calls that
-/// have ended must not make later ones fail.
+/// In a guarded program: a file that became shorter while it was mapped and is no longer mapped. In other programs,
+/// finished calls must not make later ones fail.
 std::array<char, 256> shortened{};
 bool guards_mappings = false;
 
@@ -98,7 +98,7 @@ void leave(MappedRegion* mapping) {
 
 constexpr const char* shorter = "became shorter while it was read";
 
-/// Writes "FILE: error: became shorter …" at once: threads that write at the same time must not mix their words.
+/// Writes "FILE: error: became shorter …" in one call, so that messages of several threads do not mix.
 void print_shorter(const char* name) {
     std::array<char, 512> text{};
     std::size_t length = 0;
@@ -107,14 +107,14 @@ void print_shorter(const char* name) {
         std::memcpy(text.data() + length, part, size);
         length += size;
     }
-    // Nothing can be done about a message that cannot be written.
+    // If the message cannot be written, nothing can be done.
     if (::write(STDERR_FILENO, text.data(), length) < 0) return;
 }
 
 /// One thread reports the error; the others wait for the end of the program.
 std::atomic_flag reported = ATOMIC_FLAG_INIT;
 
-/// Only what may be called in a handler is.
+/// Calls only functions that are safe in a signal handler.
 void on_bus_error(int number, siginfo_t* info, void*) {
     const auto* address = static_cast<const std::byte*>(info->si_addr);
     for (const MappedRegion& mapping : mappings) {
@@ -126,7 +126,7 @@ void on_bus_error(int number, siginfo_t* info, void*) {
         print_shorter(mapping.name.data());
         ::_exit(static_cast<int>(ExitCode::bad_input));
     }
-    ::signal(number, SIG_DFL);  // none of ours: it comes again, and ends the program as it would have
+    ::signal(number, SIG_DFL);  // not a guarded file: the signal repeats and ends the program as usual
 }
 
 }  // namespace

@@ -10,9 +10,9 @@
 
 namespace clsurf::io {
 
-/// Bytes and who keeps them alive. A value: copies share the bytes.
+/// Bytes and the owner of their memory. A value: copies share the bytes.
 struct Source {
-    std::string name;  ///< as the user named it; "<stdin>" for "-"
+    std::string name;  ///< as given by the user; "<stdin>" for "-"
     std::span<const std::byte> bytes;
     std::shared_ptr<const void> keep_alive;
 
@@ -22,16 +22,16 @@ struct Source {
 /// Maps a file. Throws InputError (missing, a directory, not readable).
 [[nodiscard]] Source map_file(const std::string& path);
 
-/// Maps a regular file that is open, as long as it is now. Throws InputError.
+/// Maps an open regular file at its present length. Throws InputError.
 [[nodiscard]] Source map_descriptor(const std::string& name, int descriptor);
 
-/// From now on a file that is cut short while it is mapped ends the program with a message and exit code
-/// 3, where reading behind its end would have killed it; and check_mapped_files() knows the files of the whole run, because
-/// the program's outputs were made from them. For programs; called once.
+/// After this call, a mapped file that is truncated ends the program with a message and exit code 3; without it, reading
+/// beyond the end would kill the program. check_mapped_files() then covers the files of the whole run, because
+/// the outputs were made from them. For programs; called once.
 void guard_mapped_files();
 
-/// Throws InputError where a file that is mapped became shorter, or with guard_mapped_files() one that was mapped: what was
-/// read of it may be zeros. O(mapped files).
+/// Throws InputError if a mapped file became shorter; after guard_mapped_files(), also if a file that was mapped earlier did.
+/// What was read of it may be zeros. O(mapped files).
 void check_mapped_files();
 
 }  // namespace clsurf::io

@@ -15,17 +15,17 @@
 namespace clsurf::io {
 namespace {
 
-/// What makes two names the same file.
+/// Two names with the same Inode are the same file.
 struct Inode {
     dev_t device = 0;
     ino_t number = 0;
     friend bool operator==(const Inode&, const Inode&) = default;
 };
 
-/// An output: the file that it replaces, or the folder and the name that a new one gets.
+/// An output: the file that it replaces, or the folder and the name of a new file.
 struct Output {
     int number = 0;
-    std::string path;  ///< as the user named it
+    std::string path;  ///< as given by the user
     std::optional<Inode> replaced;
     std::optional<Inode> folder;
     std::string name;  ///< in that folder
@@ -61,7 +61,7 @@ std::optional<Inode> inode_at(const std::string& path) {
         "choose another name for the output");
 }
 
-/// Both are the same file, or will be.
+/// Both are the same file, now or once they are written.
 bool same(const Output& a, const Output& b) {
     if (a.replaced || b.replaced) return a.replaced == b.replaced;
     return a.folder && a.folder == b.folder && a.name == b.name;

@@ -1,7 +1,7 @@
 #pragma once
-// Nothing overwrites an input: files are compared by device and inode, so that links, "./" and file systems
-// that do not tell upper from lower case are seen through. Every reader comes through map_file() and every
-// writer through AtomicFile, which ask here. Used inside io only, but for guard_inputs() and guard_input().
+// No output overwrites an input. Files are compared by device and inode, which also covers links, "./" and file systems
+// that ignore case. Every reader uses map_file() and every writer AtomicFile, and both check here.
+// Used inside io only, except guard_inputs() and guard_input().
 
 #include <sys/stat.h>
 
@@ -9,21 +9,21 @@
 
 namespace clsurf::io {
 
-/// From now on a file is read or written, not both, and is not written twice at the same time; standard output
-/// counts as written where it is a file. For programs; called once.
+/// After this call a file is read or written, not both, and is not written twice at the same time; standard output
+/// counts as written if it is a file. For programs; called once.
 void guard_inputs();
 
-/// For readers that do not come through map_file(): `path` is read. A missing file is not an error here.
-/// Throws UsageError where it is being written.
+/// Registers `path` as read, for readers that do not use map_file(). A missing file is not an error here.
+/// Throws UsageError if it is being written.
 void guard_input(const std::string& path);
 
-/// The same for a file that is open.
+/// The same for an open file.
 void guard_input(const std::string& path, const struct stat& status);
 
-/// A file that is being written, from now until release() or the end of the object. A file need not exist.
+/// Marks a file as being written, until release() or the end of the object. The file need not exist.
 class OutputClaim {
 public:
-    /// Throws UsageError: an input is there, or another output.
+    /// Throws UsageError: the path is an input, or another output.
     explicit OutputClaim(const std::string& path);
     OutputClaim(const OutputClaim&) = delete;
     OutputClaim& operator=(const OutputClaim&) = delete;

@@ -1,5 +1,5 @@
 #pragma once
-// SHA-256 (FIPS 180-4), by OpenSSL: which program a log belongs to, as BIIP metadata names it.
+// SHA-256 (FIPS 180-4) with OpenSSL. BIIP metadata identify the program of a log by it.
 
 #include <cstddef>
 #include <span>
@@ -7,7 +7,7 @@
 
 namespace clsurf::io {
 
-/// 64 hexadecimal digits, lower case. Throws SystemError where OpenSSL does not offer it.
+/// 64 hexadecimal digits, lower case. Throws SystemError if OpenSSL does not offer SHA-256.
 [[nodiscard]] std::string sha256(std::span<const std::byte> bytes);
 
 }  // namespace clsurf::io

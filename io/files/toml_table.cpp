@@ -19,7 +19,7 @@ TomlFile::TomlFile(const Source& source) : TomlFile(source.text(), source.name) 
 TomlFile::TomlFile(std::string_view text, std::string name) : name_(std::move(name)) {
     try {
         root_ = toml::parse(text, name_);
-    } catch (const toml::parse_error& error) {  // the library's only way to say so
+    } catch (const toml::parse_error& error) {  // the library reports errors only by exceptions
         const toml::source_position at = error.source().begin;
         throw InputError(Place::of_line(name_, at.line, static_cast<std::uint32_t>(at.column)),
                          std::string(error.description()));

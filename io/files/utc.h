@@ -1,5 +1,5 @@
 #pragma once
-// Times as files of ours keep them: UTC, ISO 8601, "2026-11-24T07:30:00Z". Their order is that of their texts.
+// Times as the project's files store them: UTC, ISO 8601, "2026-11-24T07:30:00Z". Their texts sort by time.
 
 #include <chrono>
 #include <string>
@@ -10,10 +10,10 @@ namespace clsurf::io {
 [[nodiscard]] std::string utc_now();
 /// UTC with milliseconds, "2026-11-24T07:30:00.125Z".
 [[nodiscard]] std::string utc_with_milliseconds(std::chrono::system_clock::time_point time);
-/// When a file was last modified, in the same form. Throws InputError.
+/// The modification time of a file in the same form. Throws InputError.
 [[nodiscard]] std::string utc_of_file(const std::string& path);
-/// "2026-11-24", "2026-11-24T07:30", "2026-11-24T07:30:00Z" or "+01:00" at its end → UTC. Without a zone it is UTC. Throws
-/// UsageError, naming `option`.
+/// "2026-11-24", "2026-11-24T07:30", "2026-11-24T07:30:00Z" or with "+01:00" at the end → UTC. A time without a zone is UTC.
+/// Throws UsageError, naming `option`.
 [[nodiscard]] std::string parse_utc(const std::string& text, const std::string& option);
 
 }  // namespace clsurf::io

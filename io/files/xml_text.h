@@ -1,12 +1,12 @@
 #pragma once
-// Text in XML.
+// Escaping of text for XML.
 
 #include <string>
 #include <string_view>
 
 namespace clsurf::io {
 
-/// For element content and for attributes in double quotes. Control characters, which XML does not have, stay as they are.
+/// For element content and for attributes in double quotes. Control characters, which XML does not allow, are not changed.
 [[nodiscard]] std::string xml_escaped(std::string_view text);
 
 }  // namespace clsurf::io

@@ -182,7 +182,7 @@ void read_metadata(Log& log, const Source& source) {
 int probe_biip(std::span<const std::byte> head, const LogOptions&) {
     if (head.size() < magic.size()) return 0;
     if (std::memcmp(head.data(), magic.data(), magic.size()) == 0) return 100;
-    // Damaged by a copy in text mode: still BIIP, and said so when it is opened.
+    // Damaged by a copy in text mode: still recognised as BIIP; opening it reports the damage.
     return std::memcmp(head.data(), magic.data(), 5) == 0 ? 90 : 0;
 }
 
@@ -198,7 +198,7 @@ RecordFrame frame_biip(const Source& beginning, const LogOptions&) {
     return Header(beginning).frame();
 }
 
-/// Every rule of the format page; channels are views on the mapping. Throws InputError; adds
+/// Checks every rule of the format page; channels are views on the mapping. Throws InputError; adds
 /// `log.unclosed`, `log.minor-version`.
 Log open_biip(const Source& source, const LogOptions& options) {
     refuse_damaged_signature(source);
@@ -253,7 +253,7 @@ void put(std::string& bytes, std::size_t at, const T& value) {
     std::memcpy(bytes.data() + at, &value, sizeof value);
 }
 
-/// Copies values of one channel into records, as they are or as doubles.
+/// Copies values of one channel into records, in their stored type or as doubles.
 void store(const ChannelView& view, std::size_t offset, PointIndex begin, PointIndex end,
            std::vector<std::byte>& records, std::size_t record_bytes, std::vector<double>& scratch) {
     const std::size_t n = static_cast<std::size_t>(end - begin);
@@ -319,7 +319,7 @@ void BiipWriter::append(std::span<const std::byte> records) {
 }
 
 void BiipWriter::close() {
-    // The count last: a file without it was not finished.
+    // The count is written last: a file without it was not finished.
     file_.write_at(count_at, std::as_bytes(std::span(&records_, 1)));
     file_.commit();
 }
@@ -340,13 +340,13 @@ Diagnostics fit_biip(Log& log) {
             channel.unit.clear();
         }
         if (channel.name.size() < name_bytes) continue;
-        // The end tells most: "/Nck/!SD/nckServoDataCmdTorque32 [u1, 4]".
+        // The end is the most specific part: "/Nck/!SD/nckServoDataCmdTorque32 [u1, 4]".
         std::string name;
         for (int number = 1; name.empty() || taken(name); ++number) {
             const std::string mark = number == 1 ? "" : fmt::format("~{}", number);
             std::size_t begin = channel.name.size() - (name_bytes - 1 - mark.size());
             while (begin < channel.name.size() && (static_cast<unsigned char>(channel.name[begin]) & 0xc0) == 0x80)
-                ++begin;  // a whole character
+                ++begin;  // cut at the beginning of a UTF-8 character
             name = channel.name.substr(begin) + mark;
         }
         notes.add({Severity::note,

@@ -6,7 +6,7 @@
 namespace clsurf::io {
 namespace {
 
-/// Takes parts of a text from its front; what does not fit leaves it as it is.
+/// Consumes a text from its front; if a part does not match, nothing is consumed.
 class Scanner {
 public:
     explicit Scanner(std::string_view text) : rest_(text) {}
@@ -23,13 +23,13 @@ public:
         rest_.remove_prefix(count);
         return value;
     }
-    /// One of some characters.
+    /// One of these characters.
     bool any_of(std::string_view wanted) {
         if (rest_.empty() || wanted.find(rest_.front()) == std::string_view::npos) return false;
         rest_.remove_prefix(1);
         return true;
     }
-    /// ".125" or ",125"; 0 where there is none.
+    /// ".125" or ",125"; 0 if there is none.
     [[nodiscard]] double fraction() {
         double value = 0;
         if (!any_of(".,")) return 0;
@@ -44,7 +44,7 @@ private:
     std::string_view rest_;
 };
 
-/// 2024-05-01, 2024/05/01, 01.05.2024. Dates with the month first cannot be told from those with the day first.
+/// 2024-05-01, 2024/05/01, 01.05.2024. Dates with the month first are not read: they look like dates with the day first.
 std::optional<std::int64_t> date(Scanner& scan) {
     const std::optional<int> first = scan.digits(1, 4);
     const char separator = scan.front();
@@ -61,7 +61,7 @@ std::optional<std::int64_t> date(Scanner& scan) {
     return std::chrono::sys_days(day).time_since_epoch().count();
 }
 
-/// "Z", "+02:00", "-0530", "+01": seconds to take off; nothing: no offset, and none that is malformed.
+/// "Z", "+02:00", "-0530", "+01": seconds to subtract. True without an offset, too; false: malformed.
 bool offset(Scanner& scan, double& seconds) {
     if (scan.any_of("Zz")) return true;
     const bool west = scan.front() == '-';

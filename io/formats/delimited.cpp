@@ -1,9 +1,9 @@
-// Text logs (docs/formats/csv.md): CSV and TSV with a header of channel names, LinuxCNC's halsampler text; columns named,
-// scaled and converted by a mapping file where the log does not do so.
+// Text logs (docs/formats/csv.md): CSV and TSV with a header of channel names, and LinuxCNC's halsampler text. A mapping file
+// names, scales and converts columns if the log does not.
 //
-// Text with one record a line. Separator: tab, semicolon, comma or blanks, whichever the first data
-// lines have. With semicolons a decimal comma is understood. Comments: text_table.h.
-// halsampler writes "sample value value …" separated by blanks, and "overrun" where it lost samples.
+// One record per line. Separator: tab, semicolon, comma or blanks, detected from the first data
+// lines. With semicolons a decimal comma is allowed. Comments: text_table.h.
+// halsampler writes "sample value value …" separated by blanks, and "overrun" if it lost samples.
 #include "io/formats/known_formats.h"
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 namespace clsurf::io {
 namespace {
 
-/// Dense columns; a bad number becomes NaN with a diagnostic that names line and column
-/// (`log.bad-number`), a short or long row likewise (`log.ragged-row`). Throws InputError: no
+/// Dense columns. A bad number becomes NaN with a diagnostic that names line and column
+/// (`log.bad-number`); a short or long row has the diagnostic `log.ragged-row`. Throws InputError: no
 /// channels, no period. O(bytes), parallel by sections of the text.
 Log open_text(const Source& source, const LogOptions& options, const char* format) {
     const std::optional<Mapping> mapping = mapping_of(options);
@@ -32,12 +32,12 @@ Log open_text(const Source& source, const LogOptions& options, const char* forma
 
 int probe_delimited(std::span<const std::byte> head, const LogOptions& options) {
     if (head.empty() || !is_text(head)) return 0;
-    // A program beside the log is not what the mapping describes.
+    // A mapping describes the log: the program that is given with it must not be taken for one.
     if (!options.mapping.empty()) {
         const std::vector<std::string> first = read_head(text_of(head)).first;
         return std::any_of(first.begin(), first.end(), is_value) ? 60 : 0;
     }
-    // A header that names a position by its role, or all three of them without; two of them beside a clock: a lathe.
+    // A log has a position column with a role in its name, or x, y and z without roles. A lathe has two of them and a clock.
     std::size_t axes = 0;
     bool clock = false;
     for (const ColumnPlan& column : read_head(text_of(head)).columns) {
@@ -75,7 +75,7 @@ Log open_halsampler(const Source& source, const LogOptions& options) {
     return open_text(source, options, "halsampler");
 }
 
-/// Of both formats.
+/// For both formats.
 RecordFrame frame_text(const Source& beginning, const LogOptions& options) {
     const std::optional<Mapping> mapping = mapping_of_growing(options);
     return {plan_text(beginning, mapping ? &*mapping : nullptr).data_begin, 0, mapping && mapping->halsampler, {}};

@@ -36,7 +36,7 @@ constexpr std::int64_t deepest_call = 64;
 constexpr const char* unknown_program = "(not recorded)";
 constexpr double turn_play = 0.05;  ///< [deg] noise of an encoder
 
-/// Signals whose channel is known; the axis letter follows.
+/// Signals with a known channel; the axis letter is appended.
 struct Known {
     std::string_view signal;
     std::string_view channel;
@@ -60,7 +60,7 @@ const Known* known_of(const EdgeRecording::Signal& signal) {
     return found == known_signals.end() ? nullptr : found;
 }
 
-/// "X1" → 'x'; a spindle or an unknown name: '\0'.
+/// "X1" → 'x'; '\0': a spindle or an unknown name.
 char axis_letter(std::string_view axis) {
     constexpr std::string_view letters = "XYZABCUVW";
     if (axis.empty() || letters.find(axis[0]) == std::string_view::npos) return '\0';
@@ -70,14 +70,14 @@ char axis_letter(std::string_view axis) {
 
 bool is_rotary(char letter) { return letter >= 'a' && letter <= 'c'; }
 
-/// Whether a position goes on from one end of a turn to the other: a step is a full turn more or less than the steps
-/// before and after it. No length does so, whatever its axis is called. Only steps of one cycle count: behind a gap an
+/// Whether a position jumps from one end of a turn to the other: a step differs by a full turn from the steps
+/// before and after it. A linear axis never does, whatever its name. Only steps of one cycle count: after a gap the
 /// axis may be anywhere.
 bool wraps_at_a_turn(const std::vector<double>& position, const std::vector<double>& cycles) {
     for (std::size_t i = 2; i + 1 < position.size(); ++i) {
         const double step = position[i] - position[i - 1];
         if (!(std::abs(step) > deg_per_turn / 2) || cycles[i + 1] - cycles[i - 2] != 3) continue;
-        // The next step may go back over the end of the turn.
+        // The next step may jump back over the end of the turn.
         const auto [low, high] = std::minmax({std::remainder(position[i - 1] - position[i - 2], deg_per_turn),
                                               std::remainder(position[i + 1] - position[i], deg_per_turn)});
         const double moved = step - std::copysign(deg_per_turn, step);
@@ -86,7 +86,7 @@ bool wraps_at_a_turn(const std::vector<double>& position, const std::vector<doub
     return false;
 }
 
-/// The axes with the name of a linear one that turn, such as a spindle Z1.
+/// Rotary axes that have the name of a linear one, for example a spindle Z1.
 std::set<std::string> turning_axes(const EdgeRecording& recording, const std::vector<double>& cycles, Log& log) {
     std::set<std::string> axes;
     for (std::size_t i = 0; i < recording.signals.size(); ++i) {
@@ -117,7 +117,7 @@ SourceColumn column_of(const EdgeRecording::Signal& signal, bool turns) {
     return column;
 }
 
-/// The events as lines: a block belongs to the deepest program that has been called.
+/// Converts events to lines: a block belongs to the innermost program that has been called.
 class CallStack {
 public:
     explicit CallStack(Log& log) : log_(log) {}
@@ -132,7 +132,7 @@ public:
                 ++incomplete_;
                 return;
             }
-            // What was called from here has ended.
+            // The programs called from this level have ended.
             paths_.resize(static_cast<std::size_t>(event.level) + 1);
             paths_.back() = event.path;
         }
@@ -167,14 +167,14 @@ private:
     }
 
     Log& log_;
-    std::vector<std::string> paths_;  ///< by level
+    std::vector<std::string> paths_;  ///< index: call level
     std::map<std::string, std::uint32_t> numbers_;
     std::vector<LineEvent> lines_;
     std::size_t incomplete_ = 0;
 };
 
 void add_lines(Log& log, OwnedColumns& owned, std::vector<EdgeEvent>& events, const std::vector<double>& cycles) {
-    // Announced twice, and not always in order.
+    // Events can be repeated and out of order.
     std::stable_sort(events.begin(), events.end(),
                      [](const EdgeEvent& a, const EdgeEvent& b) { return a.cycle < b.cycle; });
     CallStack stack(log);
@@ -213,7 +213,7 @@ int probe_edge(std::span<const std::byte> head, const LogOptions&) {
 }
 
 /// One record per row of HFData. `line` and `program` come from the block and call events: the line of
-/// the innermost program that runs. A recording that ends in the middle is read as far as it goes
+/// the innermost active program. A truncated recording is read as far as it goes
 /// (`log.unclosed`). Throws InputError with the line of the file. Memory: proportional to the rows.
 Log open_edge(const Source& source, const LogOptions& options) {
     const std::optional<Mapping> mapping = mapping_of(options);
@@ -234,7 +234,7 @@ Log open_edge(const Source& source, const LogOptions& options) {
         throw InputError(Place::of_file(source.name), "there is no signal 'CYCLE', which counts the records",
                          "expected it in Header.SignalListHFData");
     const std::vector<double> cycles = recording.columns[cycle_column];
-    // A mapping says itself what the axes are.
+    // A mapping defines the axes itself.
     const std::set<std::string> turning =
         map == nullptr ? turning_axes(recording, cycles, log) : std::set<std::string>{};
     std::vector<SourceColumn> columns;

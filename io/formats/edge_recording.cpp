@@ -23,7 +23,7 @@ Place place_of(const Source& source, std::size_t byte) {
         static_cast<std::uint32_t>(before.size() - (begin == std::string_view::npos ? 0 : begin + 1) + 1));
 }
 
-/// The parser's events, told apart by the keys above them: "Payload/HFData" is a list of rows.
+/// Handles the parser's events, which are distinguished by the enclosing keys: "Payload/HFData" is a list of rows.
 class RecordingReader : public nlohmann::json_sax<Json> {
 public:
     explicit RecordingReader(const Source& source) : source_(source) {}
@@ -87,7 +87,7 @@ public:
     }
     bool start_array(std::size_t) override {
         if (below("Payload")) seen_payload_ = true;
-        // Rows are arrays in the array HFData.
+        // Rows are arrays inside the array HFData.
         if (below("HFData") && in_list_) {
             in_row_ = true;
             row_.clear();
@@ -131,11 +131,11 @@ public:
     EdgeRecording recording;
 
 private:
-    /// What opens now belongs to this key: keys_ holds for each open object its latest key, and for
-    /// each open array the key that it belongs to.
+    /// Whether the value that begins now belongs to this key. keys_ has the latest key of each open object,
+    /// and for each open array the key that it belongs to.
     [[nodiscard]] bool below(std::string_view key) const { return !keys_.empty() && keys_.back() == key; }
 
-    /// The object that is open belongs to this key.
+    /// Whether the open object belongs to this key.
     [[nodiscard]] bool inside(std::string_view key) const { return keys_.size() > 1 && keys_[keys_.size() - 2] == key; }
 
     bool push() {
@@ -168,7 +168,7 @@ private:
         return true;
     }
 
-    /// −1 where it is no count that a double holds.
+    /// −1 if it is not an integer that a double represents exactly.
     static std::int64_t whole(double value) {
         constexpr double most = 9e15;
         return value >= 0 && value <= most ? static_cast<std::int64_t>(value) : -1;
@@ -180,7 +180,7 @@ private:
         recording.columns.resize(recording.signals.size());
         ++rows_seen_;
         if (row_.size() != recording.signals.size()) {
-            // Left out: it cannot be told which signals are missing.
+            // The row is left out: which signals are missing is unknown.
             recording.diagnostics.add({Severity::warning,
                                        "log.ragged-row",
                                        Place::of_file(source_.name),
@@ -197,12 +197,12 @@ private:
     std::vector<std::string> keys_;
     std::string key_;
     std::string machine_;  ///< MachineName
-    std::string started_;  ///< Initial.Time, else TimeStamp
+    std::string started_;  ///< Initial.Time, otherwise TimeStamp
     std::vector<double> row_;
     std::size_t rows_seen_ = 0;
-    std::size_t event_depth_ = 0;  ///< size of keys_ inside the event; 0: in none
+    std::size_t event_depth_ = 0;  ///< size of keys_ inside the event; 0: not in an event
     bool in_signal_ = false;
-    bool in_list_ = false;  ///< the array HFData is open, no row of it
+    bool in_list_ = false;  ///< the array HFData is open, but none of its rows
     bool in_row_ = false;
     bool seen_payload_ = false;
 };

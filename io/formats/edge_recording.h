@@ -1,5 +1,5 @@
 #pragma once
-// What a SINUMERIK Edge recording holds, read in one pass over its JSON.
+// The content of a SINUMERIK Edge recording, read in one pass over its JSON.
 // Used inside io only.
 
 #include <cstdint>
@@ -13,11 +13,11 @@ namespace clsurf::io {
 
 /// HFBlockEvent or HFCallEvent.
 struct EdgeEvent {
-    bool call = false;        ///< a program is called, or is back; else a block begins
+    bool call = false;        ///< a program is called or returns; otherwise a block begins
     std::int64_t cycle = -1;  ///< HFProbeCounter; < 0: missing
     std::int64_t line = -1;   ///< SeekOffset; < 0: missing
-    std::int64_t level = 0;   ///< CallStackLevel, of calls
-    std::string path;         ///< of calls
+    std::int64_t level = 0;   ///< CallStackLevel of a call
+    std::string path;         ///< of a call
 };
 
 struct EdgeRecording {
@@ -26,7 +26,7 @@ struct EdgeRecording {
         std::string axis;  ///< "X1"
     };
     std::vector<Signal> signals;
-    std::vector<std::vector<double>> columns;  ///< one a signal
+    std::vector<std::vector<double>> columns;  ///< one for each signal
     std::size_t rows = 0;
     std::vector<EdgeEvent> events;
     double cycle_ms = 0;      ///< CycleTimeMs; 0: not given
@@ -35,7 +35,7 @@ struct EdgeRecording {
     Diagnostics diagnostics;  ///< log.ragged-row, log.unclosed
 };
 
-/// Throws InputError with line and column: no JSON, nested too deep, rows before their signals.
+/// Throws InputError with line and column: not JSON, nested too deep, rows before their signals.
 [[nodiscard]] EdgeRecording read_edge_recording(const Source& source);
 
 }  // namespace clsurf::io

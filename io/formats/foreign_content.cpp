@@ -15,24 +15,24 @@ constexpr std::size_t head_bytes = 65536;
 
 std::string_view head_of(const Source& source) { return source.text().substr(0, head_bytes); }
 
-/// A record of numbers and times, with some words among them at most.
+/// Whether at least half of the fields, and two, are numbers or times.
 bool is_record(const std::vector<std::string>& fields) {
     const auto values = std::count_if(fields.begin(), fields.end(), is_value);
     return values >= 2 && 2 * values >= static_cast<std::ptrdiff_t>(fields.size());
 }
 
-/// Bytes that no text has: controls other than those of paper tape and ends of lines and files.
+/// Whether the text has control characters other than those of paper tape, line ends and ends of files.
 bool is_binary(std::string_view head) {
     constexpr std::string_view of_texts = "\t\n\v\f\r\x11\x12\x13\x14\x1a";
     const auto strange = std::count_if(head.begin(), head.end(), [&](char c) {
         return static_cast<unsigned char>(c) < 0x20 && of_texts.find(c) == std::string_view::npos;
     });
-    // Paper tape has leaders of NUL, and a damaged line its place: a few are harmless.
+    // Paper tape has leaders of NUL, and a damaged line may contain some: a few are accepted.
     constexpr std::ptrdiff_t harmless = 16;
     return strange > harmless && 20 * strange > static_cast<std::ptrdiff_t>(head.size());
 }
 
-/// As a recorder or a transfer leaves them that did not finish.
+/// An interrupted recorder or transfer leaves control characters.
 void refuse_control_characters(const Source& source, std::string_view head) {
     const auto found = std::find_if(head.begin(), head.end(), [](char c) {
         return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\r' && c != '\t';
@@ -56,7 +56,7 @@ std::optional<ForeignTable> recognise_table(const Source& source) {
     std::string_view rest = head.substr(std::min(read.data_begin, head.size()));
     (void)first_line(rest);
     const std::string_view next = first_line(rest);
-    // The last line of the head may be cut.
+    // The last line of the head may be incomplete.
     if (next.empty() || rest.empty()) return read.named ? std::optional(table) : std::nullopt;
     table.second = split(next, read.separator);
     if (table.second.size() != table.first.size() || !is_record(table.second)) return std::nullopt;

@@ -15,9 +15,9 @@
 namespace clsurf::io {
 namespace {
 
-constexpr std::size_t text_record_bytes = 100;              ///< about, of what is read at once
-constexpr std::size_t longest_head = std::size_t{1} << 20;  ///< [bytes] in which a log shows what it is
-constexpr std::size_t telling_lines = 4;                    ///< records of a text that show how it is written
+constexpr std::size_t text_record_bytes = 100;              ///< approximate size, for one read
+constexpr std::size_t longest_head = std::size_t{1} << 20;  ///< [bytes] within which the format must be recognised
+constexpr std::size_t telling_lines = 4;                    ///< records of a text from which its format is detected
 
 std::string_view text_of_bytes(const std::vector<std::byte>& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -50,7 +50,7 @@ std::size_t GrowingLog::read(PointIndex most) {
     return got;
 }
 
-/// Finds out what the log is, as soon as its head and some records are there.
+/// Recognises the format as soon as the head and some records are there.
 void GrowingLog::find_frame() {
     if (is_compressed(kept_))
         throw InputError(Place::of_file(file_.name()), "is compressed: such a log cannot be followed",
@@ -66,13 +66,13 @@ void GrowingLog::find_frame() {
             "judge it when it is complete, without --follow");
     }
     if (format == nullptr) {
-        if (kept_.size() > longest_head) (void)open_log(beginning, options_);  // says what is wrong
+        if (kept_.size() > longest_head) (void)open_log(beginning, options_);  // throws the specific error
         return;
     }
     try {
         frame_ = format->frame(beginning, options_);
     } catch (const InputError&) {
-        // Half a head, or one that is wrong: what comes will tell.
+        // The head is incomplete or wrong: more bytes will show which.
         if (kept_.size() > longest_head) throw;
         return;
     }
@@ -88,7 +88,7 @@ void GrowingLog::find_frame() {
     kept_.erase(kept_.begin(), end_of_head);
 }
 
-/// A file that was written anew from its beginning has another head, as a rule.
+/// A file that was rewritten from its beginning usually has another head.
 void GrowingLog::check_head() const {
     std::vector<std::byte> now = file_.read_again(0, std::min(head_.size(), longest_head));
     std::vector<std::byte> then(head_.begin(), head_.begin() + static_cast<std::ptrdiff_t>(now.size()));

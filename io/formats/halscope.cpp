@@ -1,9 +1,9 @@
-// LinuxCNC's halscope: what "Save log" writes (docs/formats/scopes.md).
+// LinuxCNC's halscope: the output of "Save log" (docs/formats/scopes.md).
 //
-// halscope's log files, of two kinds (scope_files.c of LinuxCNC):
-//   2.10:     "# Sampling period is 1000000 ns", then names and values separated by semicolons, with
-//             lines "# Position:" and "# Scale:" about the screen
-//   till 2.9: "Sampling period is 1000000 ns" (or nSec), then "NAME +1.5 NAME +2.5 " a record
+// There are two kinds of files (scope_files.c of LinuxCNC):
+//   2.10:      "# Sampling period is 1000000 ns", then names and values separated by semicolons, with
+//              lines "# Position:" and "# Scale:" about the screen
+//   up to 2.9: "Sampling period is 1000000 ns" (or nSec), then "NAME +1.5 NAME +2.5 " for each record
 #include "io/formats/known_formats.h"
 
 #include <array>
@@ -21,7 +21,7 @@ constexpr double seconds_per_nanosecond = 1e-9;
 /// Pins of motion and joints, by the end of their name.
 struct Pin {
     std::string_view name;
-    std::string_view channel;  ///< with a dot at its end: the axis letter follows
+    std::string_view channel;  ///< with a final dot: the axis letter is appended
     std::string_view unit;
 };
 constexpr auto pins = std::to_array<Pin>({
@@ -79,7 +79,7 @@ double period_of(std::string_view line, const Source& source) {
     return static_cast<double>(nanoseconds) * seconds_per_nanosecond;
 }
 
-/// Till 2.9: before each value stands its name; the columns of the names are ignored.
+/// Up to 2.9 each value follows its name; the columns of the names are skipped.
 TextPlan plan_named_values(const Source& source, std::string_view rest, const Mapping* mapping) {
     TextPlan plan;
     plan.separator = ' ';
@@ -127,7 +127,7 @@ int probe_halscope(std::span<const std::byte> head, const LogOptions&) {
     return text.starts_with(opening) || (text.starts_with("# ") && text.substr(2).starts_with(opening)) ? 95 : 0;
 }
 
-/// Channels are named after their HAL pins, or by a mapping. Throws InputError with the line.
+/// Channels have the names of their HAL pins, or those of a mapping. Throws InputError with the line.
 Log open_halscope(const Source& source, const LogOptions& options) {
     const std::optional<Mapping> mapping = mapping_of(options);
     const Mapping* map = mapping ? &*mapping : nullptr;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double held_periods = 3;
 
-/// When a log says it was recorded; without a date it could be any day.
+/// The recording time that a log states; nothing without a date.
 std::optional<ClockTime> recorded(const Log& log) {
     if (log.metadata.empty()) return std::nullopt;
     const Json json = parse_bounded(log.metadata);

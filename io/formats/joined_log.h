@@ -1,5 +1,5 @@
 #pragma once
-// A log with the channels of another one, which was recorded at the same time but at a lower rate.
+// Joins a log with the channels of another one that was recorded at the same time but at a lower rate.
 
 #include <optional>
 
@@ -12,10 +12,10 @@ struct JoinRules {
     std::optional<double> age = {};     ///< [s] for which a value is held; none: three periods of the slow log
 };
 
-/// Adds the channels of `slow` to `log`, each value held until the next one (log/held_values.h). Without an offset the
-/// times `recorded` in the metadata of both say how they belong together. Returns the warning `join.gap` for each channel
-/// that lacks values. Throws UsageError (no offset and no such times), InputError (no time in common, a channel that both
-/// have, no channel).
+/// Adds the channels of `slow` to `log`; each value is held until the next one (log/held_values.h). Without an offset, the
+/// times `recorded` in the metadata of both logs give it. Returns the warning `join.gap` for each channel
+/// with missing values. Throws UsageError (no offset and no such times), InputError (no common time, a channel in both
+/// logs, no channel).
 [[nodiscard]] Diagnostics join_log(Log& log, const Log& slow, const JoinRules& rules);
 
 }  // namespace clsurf::io

@@ -1,5 +1,5 @@
 #pragma once
-// The log formats that clsurf reads, each in its own file: those of log_formats.def.
+// The log formats that clsurf reads, one file each, listed in log_formats.def.
 
 #include "io/formats/log_format.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Block events beside the samples: from some moment on, a line of a program is active.
+// Block events that are recorded separately from the samples: from some time on, a line of a program is active.
 // Used inside io only.
 
 #include <algorithm>
@@ -18,10 +18,10 @@ struct LineEvent {
 };
 
 /// Calls `visit(point, event)` for each point in order with the last event at or before it, nullptr
-/// before the first. Sorts `events`; of several at one moment the last one counts.
-/// Where `at(point)` falls (a clock that starts again, or jitters), the events are searched anew. A NaN has the event of the
-/// point before. O(points + events), and O(log events) for every fall.
-/// Returns how many events lie after the last point or before the first but for one.
+/// before the first event. Sorts `events`; of several events at the same time the last one counts.
+/// If `at(point)` decreases (a clock that restarts or jitters), the event is searched again. A NaN gets the event of the
+/// previous point. O(points + events), and O(log events) for every decrease.
+/// Returns how many events are after the last point or, except for the last of them, before the first point.
 template <typename At, typename Visit>
 std::size_t for_each_event(std::vector<LineEvent>& events, PointIndex points, const At& at, const Visit& visit) {
     std::stable_sort(events.begin(), events.end(), [](const LineEvent& a, const LineEvent& b) { return a.at < b.at; });

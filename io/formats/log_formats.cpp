@@ -12,7 +12,7 @@
 namespace clsurf::io {
 namespace {
 
-/// A lathe has no Y; a typing error in a mapping looks the same.
+/// Warns of position axes without a channel. A lathe has no Y, but a typing error in a mapping looks the same.
 void note_still_axes(Log& log) {
     for (const Role role : {Role::commanded, Role::feedback, Role::actual}) {
         if (!log.has(role)) continue;

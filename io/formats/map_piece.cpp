@@ -28,7 +28,7 @@ std::string bytes_of(const MapPiece& piece, const SurveyOrigin& origin, const st
     json["shard"] = {piece.shard.number, piece.shard.count};
     json.update(json_of(origin));
     json["settings"] = settings;
-    // As their bits: the merged map must not depend on how numbers are written.
+    // Stored as bits, so that the merged map does not depend on the printing of numbers.
     json["range"] = {std::bit_cast<std::uint64_t>(piece.lowest), std::bit_cast<std::uint64_t>(piece.highest)};
     json["drawn_crc32c"] = crc_of(piece.drawn);
     return sealed_json(json).append(piece.drawn);

@@ -15,7 +15,8 @@
 
 namespace clsurf::io {
 
-/// More than any log has. Each name is looked for among those before it, and each column of a text asks for hundreds of bytes.
+/// More than any log has. The limit bounds time and memory: each name is compared with all earlier ones, and each
+/// text column takes hundreds of bytes.
 inline constexpr std::size_t most_channels = 4096;
 
 /// Throws InputError: there are more.
@@ -25,7 +26,7 @@ inline void refuse_too_many_channels(std::size_t count, const Place& place) {
 
 class OwnedColumns {
 public:
-    /// Joins what keeps the channels of `log` alive; they are added one by one, each of
+    /// Shares ownership of the existing channels of `log`. New channels are added one by one, each of
     /// `log.records` values.
     explicit OwnedColumns(Log& log) : log_(log) {
         store_->before = log.keep_alive;
@@ -43,7 +44,7 @@ private:
     struct Store {
         std::deque<std::vector<double>> numbers;
         std::deque<std::vector<std::uint32_t>> counts;
-        std::shared_ptr<const void> before;  ///< what kept the log alive until now
+        std::shared_ptr<const void> before;  ///< the previous owner of the log's data
     };
     void add(const std::string& name, const std::string& unit, ScalarType type, const void* data, std::size_t stride) {
         log_.channels.push_back(

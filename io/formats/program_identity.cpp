@@ -78,7 +78,7 @@ ProgramIdentity check_identity(const Source& program, const Log& log, Diagnostic
             return same_hash(known->sha256, hash) || same_hash(known->sha256_lf, hash);
         });
     };
-    // Logs of other writers have one hash: of the file as it was.
+    // Logs of other writers have one hash, that of the unchanged file.
     if (ran_with(given.sha256) || ran_with(given.sha256_lf.empty() ? given.sha256 : given.sha256_lf) ||
         ran_with(hash_of(with_line_ends(text_of_program(program), "\r\n"))))
         return ProgramIdentity::same;

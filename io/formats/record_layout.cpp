@@ -38,16 +38,16 @@ Channel read_channel(const TomlFile& file, const toml::table& entry, std::int64_
         file.fail(entry, fmt::format("channel '{}' at byte {} does not fit a record of {} bytes", channel.name, *offset,
                                      record_bytes));
     }
-    channel.values.stride = static_cast<std::size_t>(*offset);  // its place in the record, until the data is known
+    channel.values.stride = static_cast<std::size_t>(*offset);  // the offset in the record, until the data are known
     channel.values.scale = file.number(entry, "scale").value_or(1.0);
     channel.values.bias = file.number(entry, "bias").value_or(0.0);
     return channel;
 }
 
-/// Certain if the user names a layout: bare records do not say what they are.
+/// Certain if the user names a layout: plain records cannot be recognised.
 int probe_layout(std::span<const std::byte>, const LogOptions& options) { return options.layout.empty() ? 0 : 99; }
 
-/// Views on the records as the layout says. Throws InputError; adds `log.unclosed` for left-over bytes.
+/// Channels are views on the records, as the layout describes. Throws InputError; adds `log.unclosed` for left-over bytes.
 Log open_layout(const Source& source, const LogOptions& options) {
     const TomlFile file(options.layout);
     file.allow(file.root(), {"log", "channel"});

@@ -1,5 +1,5 @@
 #pragma once
-// Sealed JSON: one line whose last key is the CRC-32C of all that stands before it. For files that only clsurf reads.
+// Sealed JSON: one line whose last key is the CRC-32C of everything before it. For files that only clsurf reads.
 
 #include <string>
 #include <string_view>
@@ -9,12 +9,12 @@
 
 namespace clsurf::io {
 
-/// An object that is not empty, with its seal and the end of the line.
+/// A non-empty object with its seal and a line end.
 [[nodiscard]] std::string sealed_json(const Json& object);
-/// Whether a text is what sealed_json() made, byte for byte.
+/// Whether a text is an unchanged result of sealed_json().
 [[nodiscard]] bool is_sealed_json(std::string_view text);
 
-/// The keys of an origin, and back. Throws Json::exception where one is missing.
+/// An origin as JSON, and back. Throws Json::exception if a key is missing.
 [[nodiscard]] Json json_of(const SurveyOrigin& origin);
 template <typename AnyJson>
 [[nodiscard]] SurveyOrigin origin_of(const AnyJson& json) {

@@ -24,7 +24,7 @@ Json json_of(const Distribution& sizes) {
     return {{"bins", numbers}, {"counts", counts}, {"squares", sizes.squares().digits()}};
 }
 
-/// Throws Json::exception, std::out_of_range where it is none.
+/// Throws Json::exception, std::out_of_range if it is not a distribution.
 Distribution distribution_of(const nlohmann::json& json) {
     const auto& numbers = json.at("bins");
     std::vector<Distribution::Bin> bins;
@@ -47,7 +47,7 @@ std::string shard_json(const ShardFindings& findings, const ShardNumber& shard, 
     json["points"] = {findings.points.first, findings.points.last};
     json["compared"] = {findings.compared.compared, findings.compared.away_from_ends};
     json["candidates"] = findings.starts;
-    // As their bits: the merged report must not depend on how numbers are written.
+    // Stored as bits, so that the merged report does not depend on the printing of numbers.
     Json scallops = Json::array();
     for (const double height : findings.scallops) scallops.push_back(std::bit_cast<std::uint64_t>(height));
     json["scallop_bits"] = scallops;
@@ -64,7 +64,7 @@ ShardFindings read_shard(const std::string& path, const SurveyOrigin& origin, co
     const auto fail = [&](const std::string& what) -> void {
         throw InputError(Place::of_file(path), what, shard_hint);
     };
-    // It is ours, and may be large: its keys are few.
+    // The file was written by clsurf and may be large: its objects have few keys, so they need no limit.
     const nlohmann::json json = nlohmann::json::parse(source.text(), nullptr, false);
     if (!json.is_object() || json.value("kind", "") != "shard") fail("is not what clsurf check --shard writes");
     if (!is_sealed_json(source.text())) fail("is cut or damaged: its checksum differs");

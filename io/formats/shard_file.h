@@ -1,5 +1,5 @@
 #pragma once
-// Findings of shards as JSON: what `clsurf check --shard` writes and `--merge` reads (pipeline/shards.h).
+// Findings of shards as JSON, written by `clsurf check --shard` and read by `--merge` (pipeline/shards.h).
 
 #include <string>
 #include <vector>
@@ -13,7 +13,7 @@ namespace clsurf::io {
 [[nodiscard]] std::string shard_json(const ShardFindings& findings, const ShardNumber& shard,
                                      const SurveyOrigin& origin, const std::string& settings);
 
-/// Throws InputError: no findings of a shard, or of another log, program or settings.
+/// Throws InputError: not findings of a shard, or made for another log, program or other settings.
 [[nodiscard]] ShardFindings read_shard(const std::string& path, const SurveyOrigin& origin,
                                        const std::string& settings);
 

@@ -5,7 +5,7 @@
 //     <frameHeader startTime="…" stopInc="…" dropOuts="0"/>
 //     <dataSignal id="f1" name="/Nck/!SD/nckServoDataActPos1stEnc64 [u1, 1]" interval="0.002" …/>
 //     <rec time="0.002" f1="12.5"/>        a signal that has not changed is left out
-// What is not measured stands as a whole number above that of an infinite double.
+// A missing value is an integer that exceeds the bit pattern of an infinite double.
 #include "io/formats/known_formats.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@
 namespace clsurf::io {
 namespace {
 
-/// Operate traces have some 20 signals. The limit bounds memory: a record of 15 bytes holds them all.
+/// Operate traces have some 20 signals. The limit bounds memory: a record of 15 bytes takes the memory of all signals.
 constexpr std::size_t most_signals = 64;
 constexpr std::size_t deepest = 64;  ///< nested elements; sessions have five
 constexpr double not_measured = 9.2e18;
@@ -35,7 +35,7 @@ constexpr std::size_t piece_bytes = std::size_t{1} << 20;
 /// NC variables, by the last part of their name without "64" or "32" at its end.
 struct Variable {
     std::string_view name;
-    std::string_view channel;  ///< with a dot at its end: the axis letter follows
+    std::string_view channel;  ///< with a final dot: the axis letter is appended
     std::string_view unit;
 };
 constexpr auto variables = std::to_array<Variable>({
@@ -84,14 +84,14 @@ public:
         XML_SetUserData(parser_.get(), this);
         XML_SetElementHandler(
             parser_.get(),
-            // Exceptions must not pass through the C library: they are kept and thrown after it.
+            // Exceptions must not pass through the C library: they are stored and rethrown after it returns.
             [](void* self, const XML_Char* name, const XML_Char** attributes) {
                 static_cast<Reader*>(self)->guard([&](Reader& r) { r.open(name, attributes); });
             },
             [](void* self, const XML_Char* name) {
                 static_cast<Reader*>(self)->guard([&](Reader& r) { r.close(name); });
             });
-        // A trace declares no entities; one that does wants to blow up.
+        // A trace declares no entities; one that does is an expansion attack.
         XML_SetEntityDeclHandler(parser_.get(), [](void* self, const XML_Char*, int, const XML_Char*, int,
                                                    const XML_Char*, const XML_Char*, const XML_Char*, const XML_Char*) {
             static_cast<Reader*>(self)->guard(
@@ -107,7 +107,7 @@ public:
             const XML_Status status = XML_Parse(parser_.get(), text.data() + at, static_cast<int>(size), last ? 1 : 0);
             if (thrown_) std::rethrow_exception(thrown_);
             if (status == XML_STATUS_ERROR) {
-                // Cut off: some token is open at the very end, or elements are.
+                // Truncated: a token or an element is still open at the end.
                 const XML_Error error = XML_GetErrorCode(parser_.get());
                 const bool cut = last && (error == XML_ERROR_NO_ELEMENTS || error == XML_ERROR_UNCLOSED_TOKEN ||
                                           error == XML_ERROR_PARTIAL_CHAR);
@@ -128,7 +128,7 @@ public:
 
     std::vector<Signal> signals;
     std::vector<double> time;
-    double interval = 0;  ///< [s] the shortest of the signals
+    double interval = 0;  ///< [s] the shortest sampling interval of the signals
     std::size_t frames = 0;
     bool closed = true;
     Diagnostics diagnostics;
@@ -198,7 +198,7 @@ private:
         if (name.empty()) name = id;
         const auto [found, is_new] = by_id_.try_emplace(id, signals.size());
         if (!is_new) {
-            // A further frame repeats its signals.
+            // Further frames repeat the signals of the first.
             if (frames < 2 || signals[found->second].column.name != name)
                 fail(fmt::format("signal '{}' appears twice", id));
             return;
@@ -227,7 +227,7 @@ private:
         for (Signal& signal : signals) signal.values.push_back(signal.now);
     }
 
-    /// NaN, with a diagnostic, where it is none.
+    /// NaN, with a diagnostic, if it is not a number.
     double number(std::string_view key, const char* text) {
         bool bad = false;
         const double value = parse_number(text, false, bad);
@@ -249,7 +249,7 @@ private:
     std::size_t depth_ = 0;
 };
 
-/// Frames count their time from their own start: each follows the one before by a period.
+/// Frames count time from their own start. Each is appended one period after the previous one.
 void join_frames(std::vector<double>& time, double period) {
     double offset = 0;
     for (std::size_t i = 1; i < time.size(); ++i) {
@@ -265,7 +265,7 @@ int probe_sinumerik_xml(std::span<const std::byte> head, const LogOptions&) {
     return text.find("<traceSession") != std::string_view::npos ? 95 : 0;
 }
 
-/// One record per `rec`; a value that is not repeated holds. A trace that ends in the middle is read
+/// One record per `rec`; a missing value keeps the previous one. A truncated trace is read
 /// as far as it goes (`log.unclosed`). Throws InputError with line and column.
 Log open_sinumerik_xml(const Source& source, const LogOptions& options) {
     const std::optional<Mapping> mapping = mapping_of(options);

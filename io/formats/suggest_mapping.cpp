@@ -44,7 +44,7 @@ bool is_axis(std::string_view word) {
     return word.size() == 1 && std::string_view("xyzabcuvw").find(word[0]) != std::string_view::npos;
 }
 
-/// "PosX_soll1" → pos, x, soll, 1: cut at capitals, digits and anything that is neither.
+/// "PosX_soll1" → pos, x, soll, 1: split at capitals, digits and separators.
 Words words_of_title(std::string_view title) {
     Words words;
     char before = ' ';
@@ -104,7 +104,7 @@ char axis_of(const Words& words) {
     return '\0';
 }
 
-/// Seconds or milliseconds: by the step of two records.
+/// Seconds or milliseconds, judged by the difference between two records.
 std::string time_unit(const ForeignTable& table, std::size_t column) {
     bool bad = false;
     if (table.second.empty()) return "s";

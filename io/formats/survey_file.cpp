@@ -1,9 +1,9 @@
-// A survey, little-endian: magic "CLSURVEY" · u32 layout · u32 count of survey_sections · u32 CRC-32C of all up to the first
-// section, with itself zero · u32 0 · per section u64 offset, u64 bytes, u32 CRC-32C, u32 0 · the text of the origin and
-// the numbers, as JSON · sections, one after the other, each from a multiple of 4096 on.
+// A survey, little-endian: magic "CLSURVEY" · u32 layout · u32 count of survey_sections · u32 CRC-32C of all bytes up to the
+// first section, with the CRC itself zero · u32 0 · per section u64 offset, u64 bytes, u32 CRC-32C, u32 0 · the origin and
+// the numbers as JSON text · sections in sequence, each at a multiple of 4096.
 //
-// The CRC of a section is that of all its bytes up to the next section. Sections with a value per point are not read as a
-// whole: they have a CRC of 0 here, and one for each block of 16,384 points in the section block_crcs, which is compared
+// The CRC of a section covers its bytes up to the next section. Sections with a value per point are not read
+// completely: their CRC here is 0, and the section block_crcs has one for each block of 16,384 points, which is checked
 // when one of the points is first read.
 #include "io/formats/survey_file.h"
 
@@ -57,7 +57,7 @@ enum class SurveySection : std::size_t {
     count,
 };
 constexpr auto survey_sections = static_cast<std::size_t>(SurveySection::count);
-constexpr std::size_t survey_entry = 24;  ///< bytes of a section in the head
+constexpr std::size_t survey_entry = 24;  ///< bytes of a section's entry in the head
 
 /// Sections with a value per point, in the order of their blocks in block_crcs.
 constexpr std::array<SurveySection, 5> survey_point_sections{SurveySection::left, SurveySection::right,
@@ -72,7 +72,7 @@ std::size_t whole_survey_pages(std::size_t bytes) { return (bytes + survey_page 
 using Corners = std::array<float, 6>;  ///< of a box: the lowest coordinates, then the highest
 using SurveyBytes = std::span<const std::byte>;
 
-/// The bytes of block `block` of a section with `width` bytes a point; of the last one up to the end of its page.
+/// The bytes of block `block` of a section with `width` bytes per point; the last block extends to the end of its page.
 SurveyBytes block_of_section(SurveyBytes padded, std::size_t width, std::size_t block) {
     const std::size_t size = width * static_cast<std::size_t>(block_points), at = block * size;
     return at >= padded.size() ? SurveyBytes() : padded.subspan(at, std::min(size, padded.size() - at));
@@ -84,7 +84,7 @@ SurveyBytes survey_bytes(const T* values, std::size_t count) {
     return std::as_bytes(std::span(values, count));
 }
 
-/// Numbers of a JSON text as their bits, so that they come back as they were.
+/// Numbers as bits in a JSON text, so that they are read back unchanged.
 template <typename Matrix>
 Json numbers_by_bits(const Matrix& m) {
     Json list = Json::array();
@@ -147,7 +147,7 @@ SurveyBytes survey_padding(std::size_t bytes) {
     return std::span(survey_zeros).first(whole_survey_pages(bytes) - bytes);
 }
 
-/// CRC of bytes with the zeros behind them up to the end of a page.
+/// CRC of bytes and the zeros that pad them to the end of a page.
 std::uint32_t padded_crc(SurveyBytes bytes) { return crc32c({bytes, survey_padding(bytes.size())}); }
 
 class SurveyReader {
@@ -178,7 +178,7 @@ public:
 
     [[nodiscard]] const Json& json() const { return json_; }
 
-    /// Compares the CRC of a block of points of a section; nothing where the section is empty. `width`: bytes a point.
+    /// Checks the CRC of a block of points of a section; does nothing if the section is empty. `width`: bytes per point.
     void check_block(SurveySection section, std::size_t width, std::size_t block) const {
         const SurveyBytes padded = padded_[static_cast<std::size_t>(section)];
         if (padded.empty()) return;
@@ -198,7 +198,7 @@ public:
         if (values.size() != count) fail(cut);
         return values;
     }
-    /// The same of any length.
+    /// A column of any length.
     template <typename T>
     [[nodiscard]] std::span<const T> column(SurveySection section) const {
         const SurveyBytes bytes = sections_[static_cast<std::size_t>(section)];
@@ -210,7 +210,7 @@ public:
     static constexpr std::string_view other_version = "is a survey of another version of clsurf";
 
 private:
-    /// Sections follow each other up to the end of the file; those that are read as a whole are compared with their CRC.
+    /// Checks that sections follow each other up to the end of the file, and the CRC of those that are read completely.
     void find_sections(std::size_t end) {
         std::uint64_t next = end;
         std::size_t blocks = 0;
@@ -244,13 +244,13 @@ private:
 
     Source source_;
     std::array<SurveyBytes, survey_sections> sections_;
-    std::array<SurveyBytes, survey_sections> padded_;          ///< the same up to the next one
-    std::array<std::size_t, survey_sections> block_crc_at_{};  ///< of the first block of a section in block_crcs
+    std::array<SurveyBytes, survey_sections> padded_;          ///< with the padding up to the next section
+    std::array<std::size_t, survey_sections> block_crc_at_{};  ///< index in block_crcs of a section's first block
     std::size_t text_at_ = 0;
     Json json_;
 };
 
-/// Throws where ranges do not rise, or lie outside the log.
+/// Throws if ranges do not increase, or are outside the log.
 template <typename Range>
 void check_survey_ranges(const SurveyReader& reader, std::span<const Range> ranges, PointIndex points, bool whole) {
     PointIndex next = 0;
@@ -306,7 +306,7 @@ void read_survey_columns(const SurveyReader& reader, Survey& s) {
     }
 }
 
-/// Blocks of points are checked when they are read. Neighbours must be points of the log.
+/// Blocks of points are checked when they are first read. Neighbours must be points of the log.
 void check_columns_when_read(const std::shared_ptr<const SurveyReader>& reader, Survey& s) {
     s.check_neighbours = [reader, left = std::span<const std::int32_t>(s.neighbours.left),
                           right = std::span<const std::int32_t>(s.neighbours.right),
@@ -331,7 +331,7 @@ void check_columns_when_read(const std::shared_ptr<const SurveyReader>& reader, 
     };
 }
 
-/// A head of zeros for the sections, with what does not depend on them.
+/// The head with zeros in place of the section entries and the CRC.
 std::string survey_head_text(const Survey& s, const SurveyOrigin& origin) {
     std::string head(survey_head + survey_sections * survey_entry, '\0');
     head += survey_text(s, origin);
@@ -359,7 +359,7 @@ std::vector<std::uint32_t> block_crcs_of(const std::array<SurveyBytes, survey_se
     return crcs;
 }
 
-/// Passes as they are read in place, with zeros between their members.
+/// Passes in their in-memory layout, with zeros as padding between members.
 std::vector<std::byte> bytes_of_passes(const Passes& passes) {
     std::vector<std::byte> bytes(passes.size() * sizeof(Pass));
     std::byte* out = bytes.data();

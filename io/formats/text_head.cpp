@@ -11,7 +11,7 @@ bool has_word(const std::vector<std::string>& fields) {
     return std::any_of(fields.begin(), fields.end(), [](const std::string& f) { return !f.empty() && !is_value(f); });
 }
 
-/// What a comment says.
+/// The text of a comment without its mark.
 std::string_view said_by(std::string_view comment) {
     const std::size_t at = comment.find_first_not_of("#%/ \t");
     return at == std::string_view::npos ? std::string_view() : comment.substr(at);
@@ -24,7 +24,7 @@ void name_columns(const std::vector<std::string>& titles, TextHead& head) {
     for (const std::string& title : titles) head.columns.push_back(plan_from_header(title));
 }
 
-/// A line of units below the names, "s;mm;mm" or "[s],[mm],[mm]": one whose fields all are no numbers.
+/// Takes a line of units below the names, "s;mm;mm" or "[s],[mm],[mm]": none of its fields is a number.
 bool take_units(const std::vector<std::string>& units, std::vector<ColumnPlan>& columns) {
     if (has_value(units) || !has_word(units) || units.size() != columns.size()) return false;
     for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -40,16 +40,16 @@ struct Comment {
     std::uint64_t line = 0;
 };
 
-/// Where a reader of lines stands.
+/// The position of a reader of lines.
 struct LineReader {
     std::string_view rest;
-    std::uint64_t number = 1;  ///< of the line in front
+    std::uint64_t number = 1;  ///< of the next line
 
     std::string_view take() {
         ++number;
         return first_line(rest);
     }
-    /// Takes the comments in front; the last that says something.
+    /// Reads the comments before the next line; returns the last that is not empty.
     Comment take_comments() {
         Comment last;
         while (!rest.empty()) {

@@ -14,16 +14,16 @@ namespace clsurf::io {
 struct TextHead {
     char separator = ',';
     bool named = false;               ///< a line names the columns
-    std::vector<std::string> titles;  ///< of the columns, as the text has them; empty strings where it has none
-    std::vector<ColumnPlan> columns;  ///< names and units that the titles and a line of units tell
+    std::vector<std::string> titles;  ///< of the columns, as in the text; empty strings if it has none
+    std::vector<ColumnPlan> columns;  ///< names and units from the titles and the line of units
     std::vector<std::string> first;   ///< fields of the first record; empty: there is none
     std::size_t data_begin = 0;       ///< byte of the first record
     std::uint64_t first_data_line = 1;
-    std::uint64_t line = 1;  ///< that names the columns, else the first one that is no comment
+    std::uint64_t line = 1;  ///< that names the columns, otherwise the first line that is not a comment
 };
 
-/// `separator` '\0': detected. Names stand in the first line that is no comment, or, where records begin
-/// there, in the comment above it (`# time x y z`, as NumPy writes it).
+/// `separator` '\0': detected. The names are in the first line that is not a comment. If that line is a record,
+/// they are in the comment above it (`# time x y z`, as NumPy writes it).
 [[nodiscard]] TextHead read_head(std::string_view text, char separator = '\0');
 
 }  // namespace clsurf::io

@@ -22,7 +22,7 @@
 namespace clsurf::io {
 namespace {
 
-/// The separator that a table gives; '\0': none.
+/// The separator in a table; '\0': none.
 char separator_of(const TomlFile& file, const toml::table& table) {
     const std::string separator = file.text(table, "separator").value_or("");
     if (separator.size() > 1) file.fail(*table.get("separator"), "'separator' must be one character");
@@ -139,7 +139,7 @@ std::vector<ColumnPlan> plan_columns(std::span<const SourceColumn> columns, cons
 
 namespace {
 
-/// Columns that hold times of day, by the first record.
+/// Finds columns of times of day, by the first record.
 void find_clocks(const TextHead& head, TextPlan& plan, const Place& place) {
     for (std::size_t i = 0; i < std::min(head.first.size(), plan.columns.size()); ++i) {
         ColumnPlan& column = plan.columns[i];
@@ -154,7 +154,7 @@ void find_clocks(const TextHead& head, TextPlan& plan, const Place& place) {
     }
 }
 
-/// A column beside the known ones that begins with a word: a program's name, a mode, a date.
+/// Skips columns that are not known and whose first value is a word: a program's name, a mode, a date.
 void pass_over_words(const TextHead& head, TextPlan& plan) {
     for (std::size_t i = 0; i < std::min(head.first.size(), plan.columns.size()); ++i) {
         ColumnPlan& column = plan.columns[i];
@@ -165,7 +165,7 @@ void pass_over_words(const TextHead& head, TextPlan& plan) {
     }
 }
 
-/// Its lines would be read as one.
+/// Without line feeds all lines would be read as one.
 void refuse_lines_that_end_with_cr(const Source& source) {
     const std::string_view text = source.text();
     if (text.find('\n') == std::string_view::npos && text.find('\r') != std::string_view::npos)
@@ -181,12 +181,12 @@ TextPlan plan_text(const Source& source, const Mapping* mapping) {
     const Place place = Place::of_line(source.name, head.line);
     TextPlan plan;
     plan.separator = head.separator;
-    plan.decimal_comma = true;  // beside comma separators a comma can only stand in quotes
+    plan.decimal_comma = true;  // a comma that does not separate is inside quotes
     plan.data_begin = head.data_begin;
     plan.first_data_line = head.first_data_line;
     if (mapping == nullptr) {
         if (!head.named) throw InputError(place, "no header of channel names", "name the columns with --mapping FILE");
-        // Two columns of one name are an error here, not a guess: read_table() says so.
+        // Duplicate column names are an error here, without a guess: read_table() reports it.
         plan.columns = head.columns;
         pass_over_words(head, plan);
     } else {
@@ -225,7 +225,7 @@ void add_event_lines(Log& log, const Mapping* mapping, std::optional<std::int64_
     columns.separator = file.separator;
     columns.entries = {{file.at, {.name = "at", .unit = {}, .scale = file.scale, .bias = file.bias}},
                        {file.line, {.name = "line", .unit = {}}}};
-    // A mapping may come from elsewhere: it must not make us read a device or a pipe without end.
+    // A mapping may come from elsewhere: it must not cause endless reading of a device or a pipe.
     std::error_code error;
     if (std::filesystem::exists(file.path, error) && !std::filesystem::is_regular_file(file.path, error)) {
         throw InputError(Place::of_file(file.path), "is not a regular file, expected block events");

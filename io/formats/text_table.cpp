@@ -19,11 +19,11 @@ namespace clsurf::io {
 namespace {
 
 constexpr std::size_t chunk_bytes = std::size_t{4} << 20;
-/// Fields that may be missing per byte of text: a header of a million columns above empty rows would
-/// otherwise ask for any amount of memory.
+/// Missing fields per byte of text. The limit bounds memory: a header of a million columns above empty rows would
+/// otherwise ask for any amount.
 constexpr std::size_t most_missing_of_byte = 8;
 
-/// The next field of a line, without blanks and quotes; false: no more.
+/// The next field of a line, without blanks and quotes; false: no more fields.
 bool next_field(std::string_view line, std::size_t& at, char separator, std::string_view& field) {
     if (separator == ' ') {
         while (at < line.size() && (line[at] == ' ' || line[at] == '\t')) ++at;
@@ -54,7 +54,7 @@ double parse_time(std::string_view field, std::int64_t day, bool& bad) {
     return time ? time->since(day) : missing<double>;
 }
 
-/// A clock without a date begins anew at midnight.
+/// A clock without a date restarts at midnight.
 void go_on_after_midnight(std::vector<double>& seconds) {
     constexpr double day = 86400;
     double days = 0;
@@ -69,21 +69,21 @@ void go_on_after_midnight(std::vector<double>& seconds) {
     }
 }
 
-/// What one section of the text holds.
+/// The content of one section of the text.
 struct Chunk {
     std::size_t begin = 0, end = 0;
     std::uint64_t lines = 0;
     std::vector<std::vector<double>> columns;
     std::size_t rows = 0;
-    std::size_t missing = 0;         ///< fields that rows lack
+    std::size_t missing = 0;         ///< fields that are missing in rows
     std::size_t wide = 0;            ///< rows that have more fields than columns …
     std::uint64_t first_wide = 0;    ///< … the line of the first one in this section …
     std::size_t fields_of_wide = 0;  ///< … and its fields
     Diagnostics diagnostics;
 };
 
-/// Whether a line is the last one of a text, without an end and with fewer fields than the others: whoever wrote it was
-/// interrupted. `rest`: what comes after it.
+/// Whether a line is the last one of a text, without a line end and with fewer fields than the others: its writer was
+/// interrupted. `rest`: the text after the line.
 bool is_cut(std::string_view text, std::string_view rest, std::string_view line, const TextPlan& plan) {
     if (!rest.empty() || line.data() + line.size() != text.data() + text.size()) return false;
     std::size_t at = 0;
@@ -93,7 +93,7 @@ bool is_cut(std::string_view text, std::string_view rest, std::string_view line,
     return fields < plan.columns.size();
 }
 
-/// Throws where most rows have more fields than the header.
+/// Throws if most rows have more fields than the header.
 void refuse_wide_rows(const Source& source, const TextPlan& plan, const std::vector<Chunk>& chunks) {
     std::size_t wide = 0, rows = 0;
     for (const Chunk& chunk : chunks) {
@@ -112,7 +112,7 @@ void refuse_wide_rows(const Source& source, const TextPlan& plan, const std::vec
     }
 }
 
-/// Takes the fields of a row into the columns. Returns how many it has; `wide`: there are values beyond the last column.
+/// Reads the fields of a row into the columns. Returns their number; `wide`: there are values beyond the last column.
 std::size_t read_row(const Source& source, const TextPlan& plan, std::string_view line, std::uint64_t number,
                      Chunk& chunk, bool& wide) {
     std::size_t at = 0;
@@ -237,7 +237,7 @@ std::vector<std::string> split(std::string_view line, char separator) {
     return fields;
 }
 
-/// A number as text logs write it; NaN where it is none (and `bad` set, unless the field says so).
+/// A number as text logs write it; NaN if it is not one (then `bad` is set, unless the field says NaN).
 double parse_number(std::string_view field, bool decimal_comma, bool& bad) {
     bad = false;
     if (!field.empty() && field.front() == '+') field.remove_prefix(1);

@@ -1,14 +1,14 @@
 // TwinCAT Scope: text exports (docs/formats/scopes.md).
 //
-// TwinCAT Scope's text export: some lines about the file, an empty line, then a header of the
-// channels with one property a line, an empty line, records. In the header's lines a cell that
-// repeats the property's name stands over a column of times; the cells after it are the channels that
-// have these times:
+// The text export of TwinCAT Scope has some lines about the file, an empty line, a header of the
+// channels with one property per line, an empty line, and the records. In the lines of the header, a cell that
+// repeats the name of the property is above a column of times; the cells after it are the channels with
+// these times:
 //   Name<tab>cmd.x<tab>cmd.y<tab>Name<tab>load
 //   SampleTime[ms]<tab>1<tab>1<tab>SampleTime[ms]<tab>10
 //   <empty>
 //   0<tab>1,5<tab>2<tab>0<tab>17
-// Times are milliseconds from the start, or 100 ns since 1601 ("full timestamp"). A line EOF may close.
+// Times are milliseconds from the start, or 100 ns since 1601 ("full timestamp"). The last line may be EOF.
 #include "io/formats/known_formats.h"
 
 #include <algorithm>
@@ -26,30 +26,30 @@ namespace clsurf::io {
 namespace {
 
 constexpr std::uint64_t most_header_lines = 200;
-constexpr double least_file_time = 1e15;  ///< more milliseconds than a recording has: 100 ns since 1601
+constexpr double least_file_time = 1e15;  ///< longer than any recording [ms]: units of 100 ns since 1601
 constexpr double file_time_per_millisecond = 1e4;
 constexpr double seconds_per_millisecond = 1e-3;
 
 struct ScopeHeader {
     TextPlan plan;
-    std::vector<std::size_t> time_column;  ///< of each column; its own number: a column of times
+    std::vector<std::size_t> time_column;  ///< of each column; its own index: a column of times
     double sample_time = 0;                ///< [ms] the shortest; 0: not given
 };
 
 /// "mm (Length)" → "mm"; "(None)" → nothing.
 std::string unit_text(const std::string& cell) { return cell.substr(0, std::min(cell.find('('), cell.find(" ("))); }
 
-/// The cells of the header's lines, from the names of the channels on.
+/// The cells of the header lines, beginning with the channel names.
 struct HeaderRows {
     std::vector<std::vector<std::string>> rows;
     std::uint64_t name_line = 0;
 };
 
-/// Reads them, and into `plan` the separator and where the records begin.
+/// Reads the header; sets the separator and the start of the records in `plan`.
 HeaderRows read_rows(const Source& source, TextPlan& plan) {
     const std::string_view text = source.text();
     std::string_view rest = text_of(source.bytes);
-    plan.separator = rest.size() > 4 ? rest[4] : '\t';  // behind "Name"
+    plan.separator = rest.size() > 4 ? rest[4] : '\t';  // the character after "Name"
     plan.decimal_comma = plan.separator != ',';
     HeaderRows header;
     std::uint64_t number = 0;
@@ -62,7 +62,7 @@ HeaderRows read_rows(const Source& source, TextPlan& plan) {
         const std::size_t end = std::min(line.find(plan.separator), line.size());
         data = looks_like_number(line.substr(0, end));
         if (data) break;
-        // The first "Name" is that of the file; the second begins the channels.
+        // The first "Name" is that of the file; the channels begin at the second.
         if (number > 1 && line.substr(0, end) == "Name") {
             header.rows.clear();
             header.name_line = number;
@@ -78,7 +78,7 @@ HeaderRows read_rows(const Source& source, TextPlan& plan) {
     return header;
 }
 
-/// What the rows say of column i. `sample_time` [ms]: lowered to that of the column.
+/// The properties of column i. `sample_time` [ms]: reduced to that of the column if that is shorter.
 SourceColumn read_column(const std::vector<std::vector<std::string>>& rows, std::size_t i, double& sample_time) {
     const std::string& name = rows[0][i];
     SourceColumn column{name, {}, {.name = name, .unit = {}}};
@@ -123,7 +123,7 @@ ScopeHeader read_header(const Source& source, const Mapping* mapping) {
     return header;
 }
 
-/// The end of the records: where a closing line EOF, or what a cut file has of it, begins.
+/// The end of the records: the position of the last line EOF, or of its beginning in a truncated file.
 std::size_t end_of_records(std::string_view text) {
     std::size_t end = text.size();
     while (end > 0 && (text[end - 1] == '\n' || text[end - 1] == '\r')) --end;
@@ -131,7 +131,7 @@ std::size_t end_of_records(std::string_view text) {
     return std::string_view("EOF").starts_with(text.substr(line, end - line)) ? line : text.size();
 }
 
-/// The times of a column as they are written. NaN: an empty or damaged cell.
+/// The times of a column as written. NaN: an empty or damaged cell.
 std::vector<double> written_times(const Channel& channel) {
     std::vector<double> t(static_cast<std::size_t>(channel.values.count));
     copy_block(channel.values, 0, t);
@@ -140,7 +140,7 @@ std::vector<double> written_times(const Channel& channel) {
 
 bool is_known(double time) { return std::isfinite(time); }
 
-/// Milliseconds are as they are. Columns of file times become milliseconds since the first time of all of these columns.
+/// Milliseconds are not changed. File times become milliseconds since the first time of all file time columns.
 void count_from_first(std::vector<std::vector<double>>& columns) {
     const auto first_of = [](const std::vector<double>& times) {
         const auto first = std::ranges::find_if(times, is_known);
@@ -156,7 +156,7 @@ void count_from_first(std::vector<std::vector<double>>& columns) {
     }
 }
 
-/// The step of one record between the first two that have times; infinity: there are none.
+/// The time per record between the first two records with times; infinity: there are not two.
 double first_step(const std::vector<double>& times) {
     const auto first = std::find_if(times.begin(), times.end(), is_known);
     if (first == times.end()) return std::numeric_limits<double>::infinity();
@@ -165,7 +165,7 @@ double first_step(const std::vector<double>& times) {
     return (*second - *first) / static_cast<double>(second - first);
 }
 
-/// The times with each that is missing set to the one before it: of a damaged one it is only known that it is not earlier.
+/// Replaces each missing time by the previous one: a damaged time is only known not to be earlier.
 std::vector<double> filled(std::vector<double> times) {
     for (std::size_t i = 1; i < times.size(); ++i) {
         if (!std::isfinite(times[i])) times[i] = times[i - 1];
@@ -173,7 +173,7 @@ std::vector<double> filled(std::vector<double> times) {
     return times;
 }
 
-/// A log of these times alone [ms].
+/// A log that has only these times [ms].
 Log clock_of(std::vector<double> times) {
     Log log;
     log.records = static_cast<PointIndex>(times.size());
@@ -184,7 +184,7 @@ Log clock_of(std::vector<double> times) {
 /// Times of the records [ms], for each column of times; the others are empty.
 struct TimeColumns {
     std::vector<std::vector<double>> of;
-    std::size_t fastest = 0;  ///< gives the records: the one with the smallest first step
+    std::size_t fastest = 0;  ///< the column with the smallest first step, whose records are used
 };
 
 TimeColumns read_times(const Source& source, const ScopeHeader& header, const Log& read) {
@@ -219,7 +219,7 @@ int probe_twincat(std::span<const std::byte> head, const LogOptions&) {
 }
 
 /// One record per sample of the channels with the shortest sampling time; slower channels keep their
-/// last value in between (note `log.held`). Throws InputError with the line.
+/// last value until the next one (note `log.held`). Throws InputError with the line.
 Log open_twincat(const Source& source, const LogOptions& options) {
     const std::optional<Mapping> mapping = mapping_of(options);
     const Mapping* map = mapping ? &*mapping : nullptr;

@@ -22,7 +22,7 @@ constexpr std::string_view run_columns =
     "not_judged_reasons, within_budget, coverage_percent, speed_p50_percent, speed_p99_percent, acceleration_p50_mm_s2, "
     "acceleration_p99_mm_s2, lag_p50_um, lag_p99_um, defects, worst_severity, worst_score, deepest_um, area_mm2, ra_um, rz_um, settings, failure";
 
-/// The columns of a row, in the order of run_columns.
+/// Reads the columns of a row in the order of run_columns.
 class RowReader {
 public:
     explicit RowReader(const SqliteStatement& row) : row_(row) {}
@@ -111,7 +111,7 @@ void write_rules(const SqliteConnection& connection, const ParameterRules& rules
     }
 }
 
-/// The condition of a filter, and what its parameters are.
+/// The condition of a filter, and the values of its parameters.
 struct Condition {
     std::string sql = "1";
     std::vector<std::string> values;
@@ -191,7 +191,7 @@ std::vector<RunRecord> HistoryDatabase::runs(const RunFilter& filter) const {
 
 void HistoryDatabase::read_defects(std::vector<RunRecord>& runs, const DefectFilter& filter) const {
     const std::map<std::int64_t, RunRecord*> wanted = by_id(runs);
-    // The index of passes leads to those of one pass; what else a filter asks for is looked at here.
+    // The index finds the defects of one pass; the other conditions of a filter are checked here.
     const std::string of_pass =
         filter.pass
             ? fmt::format(" WHERE (run, rank) IN (SELECT run, rank FROM sections WHERE pass = {})", *filter.pass)
@@ -294,7 +294,7 @@ AddedRun HistoryWriter::put(const RunRecord& run, std::vector<RunRecord>& failed
     std::erase_if(failed, [&](const RunRecord& f) { return std::ranges::find(old, f.id) != old.end(); });
     SqliteStatement remove(connection(), "DELETE FROM runs WHERE id = ?");
     for (const std::int64_t id : old) remove.bind(id).run();
-    std::string marks = "?, ?";  // the first column's, and that of the identity
+    std::string marks = "?, ?";  // for the first column and the identity
     for (std::ptrdiff_t k = std::ranges::count(run_columns, ','); k > 0; --k) marks += ", ?";
     SqliteStatement row(connection(), fmt::format("INSERT INTO runs ({}, identity) VALUES ({})", run_columns, marks));
     bind_run(row, run, identity, added.id);

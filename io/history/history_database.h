@@ -1,6 +1,6 @@
 #pragma once
-// HistoryDatabase: the runs of a shop in one SQLite file. Several programs may read and write it at the same time; each
-// run is added whole or not at all, whatever ends the program.
+// HistoryDatabase: the runs of a shop in one SQLite file. Several programs may read and write it at the same time. Each
+// run is added completely or not at all, even if the program is killed.
 
 #include <memory>
 #include <optional>
@@ -16,23 +16,23 @@ namespace clsurf::io {
 
 class SqliteConnection;
 
-/// Which runs are read. Empty: all.
+/// Selects the runs to read. Empty: all.
 struct RunFilter {
     std::optional<std::int64_t> id = {};
-    std::string program = {};  ///< its name, with folders or without
+    std::string program = {};  ///< its name, with or without folders
     std::string log_sha256 = {};
-    std::vector<RunParameter> parameters = {};  ///< each of them
-    std::string since = {};                     ///< UTC; not before that
-    bool failed = false;                        ///< only those that could not be judged
-    std::size_t last = 0;                       ///< that many at most, the latest ones; 0: all
+    std::vector<RunParameter> parameters = {};  ///< all of them must match
+    std::string since = {};                     ///< UTC; runs from this time on
+    bool failed = false;                        ///< only runs that could not be judged
+    std::size_t last = 0;                       ///< at most this many, the latest ones; 0: all
 };
 
 struct AddedRun {
     std::int64_t id = 0;
-    bool replaced = false;  ///< the same run was there already
+    bool replaced = false;  ///< the same run existed already
 };
 
-/// How many defects of one cause a run has.
+/// The number of defects of one cause in a run.
 struct CauseCount {
     std::int64_t run = 0;
     std::string cause;
@@ -40,7 +40,7 @@ struct CauseCount {
     double area_mm2 = 0;
 };
 
-/// Reads. Throws InputError: missing, no history, of a newer version; SystemError.
+/// Reads a history. Throws InputError: missing, not a history, written by a newer version; SystemError.
 class HistoryDatabase {
 public:
     explicit HistoryDatabase(const std::string& path);
@@ -48,17 +48,17 @@ public:
     ~HistoryDatabase();
 
     [[nodiscard]] const std::string& path() const;
-    /// In the order of their times, without defects. O(runs).
+    /// The runs in order of time, without defects. O(runs).
     [[nodiscard]] std::vector<RunRecord> runs(const RunFilter& filter = {}) const;
-    /// The run of the same identity, without defects and parameters; nothing: there is none.
+    /// The run with the same identity, without defects and parameters; nothing: there is none.
     [[nodiscard]] std::optional<RunRecord> find_same(const RunRecord& run) const;
-    /// A run that was judged has what a failed one could not judge (supersedes()); false for one that did not fail.
+    /// Whether a judged run exists that replaces the failed one (supersedes()); false for a run that did not fail.
     [[nodiscard]] bool has_verdict(const RunRecord& failed) const;
-    /// A run of a log with this content is there.
+    /// Whether there is a run of a log with this content.
     [[nodiscard]] bool has_log(const std::string& log_sha256) const;
-    /// Adds the defects that match to each of the runs. O(defects).
+    /// Adds the matching defects to each of the runs. O(defects).
     void read_defects(std::vector<RunRecord>& runs, const DefectFilter& filter = {}) const;
-    /// Of all runs, in the order of their ids.
+    /// The counts of all runs, in the order of their ids.
     [[nodiscard]] std::vector<CauseCount> causes() const;
     [[nodiscard]] ParameterRules parameter_rules() const;
 
@@ -70,27 +70,28 @@ private:
     std::unique_ptr<SqliteConnection> connection_;
 };
 
-/// Reads and writes. The file is made where it is missing, older tables are brought up to date.
+/// Reads and writes. A missing file is created, older tables are upgraded.
 class HistoryWriter : public HistoryDatabase {
 public:
     explicit HistoryWriter(const std::string& path);
 
-    /// Adds a run with its defects in one transaction; a run of the same identity is replaced and keeps its id, and so are
-    /// failed ones that it supersedes(). Sets `recorded`. O(defects + runs).
+    /// Adds a run with its defects in one transaction. A run with the same identity is replaced and keeps its id; failed
+    /// runs that the new one supersedes() are replaced, too. Sets `recorded`. O(defects + runs).
     AddedRun add(const RunRecord& run);
-    /// Adds the runs of other histories that are not here yet, in the order of their times, as they were recorded; where both
-    /// have a run, the one that was judged counts, and of two the later one. Rules of parameters are taken where there are
-    /// none. All in one transaction. Returns how many were added or replaced. Throws InputError: rules that differ. O(defects).
+    /// Adds the runs of other histories that are missing here, in order of time, as recorded. If both have a run,
+    /// the judged one is kept, and of two judged ones the later. Parameter rules are copied if there are
+    /// none. One transaction. Returns how many were added or replaced. Throws InputError: rules that differ. O(defects).
     std::size_t merge(std::span<const HistoryDatabase> others);
-    /// Replaces the rules; rows that are there already stay as they are.
+    /// Replaces the rules; existing rows are not changed.
     void set_parameter_rules(const ParameterRules& rules);
 
 private:
-    /// Adds or replaces a run as it is, in the transaction of the caller. `failed`: the runs here that failed, kept up to date.
+    /// Adds or replaces a run unchanged, in the transaction of the caller. `failed`: the failed runs in this history,
+    /// updated.
     AddedRun put(const RunRecord& run, std::vector<RunRecord>& failed);
 };
 
-/// The rules of all these histories that have any, and of the one that they are merged into (nullptr: a new one). Throws
+/// The rules shared by all these histories that have any and by the target of the merge (nullptr: a new one). Throws
 /// InputError: two of them differ.
 [[nodiscard]] ParameterRules common_rules(const HistoryDatabase* into, std::span<const HistoryDatabase> histories);
 

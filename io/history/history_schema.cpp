@@ -9,7 +9,7 @@
 namespace clsurf::io {
 namespace {
 
-// NULL: not known. Times are UTC as ISO 8601, so that their order is that of their text.
+// NULL: not known. Times are UTC as ISO 8601, whose text order is the order of time.
 constexpr const char* version_1 = R"(
 CREATE TABLE runs (
   id INTEGER PRIMARY KEY AUTOINCREMENT,
@@ -51,12 +51,12 @@ ALTER TABLE runs ADD COLUMN settings TEXT NOT NULL DEFAULT '';
 ALTER TABLE runs ADD COLUMN failure TEXT NOT NULL DEFAULT '';
 )";
 
-/// Step k makes version k + 1 of version k; version 0 has no tables.
+/// Step k upgrades version k to k + 1; version 0 has no tables.
 constexpr std::array history_steps{version_1, version_2};
 
 /// The version of the tables; 0: there are none yet.
 int version_of(const SqliteConnection& connection) {
-    // One statement reads one state: between two of them another writer may make the tables.
+    // One statement, for a consistent state: between two statements another writer may create the tables.
     SqliteStatement state(connection,
                           "SELECT user_version, application_id, (SELECT count(*) FROM sqlite_master) "
                           "FROM pragma_user_version, pragma_application_id");
@@ -78,7 +78,7 @@ int version_of(const SqliteConnection& connection) {
 
 void take_steps(const SqliteConnection& connection) {
     SqliteTransaction transaction(connection);
-    // Asked again: another writer may have been faster.
+    // The version is read again: another writer may have upgraded the tables.
     for (int version = version_of(connection); version < history_version(); ++version)
         connection.execute(history_steps[static_cast<std::size_t>(version)]);
     connection.execute(

@@ -1,5 +1,5 @@
 #pragma once
-// The parameters of a history as a TOML file: a table each, as docs/history.md says.
+// The parameters of a history as a TOML file with one table each, as in docs/history.md.
 //
 //     [wear]
 //     kind = "number"
@@ -12,7 +12,7 @@
 
 namespace clsurf::io {
 
-/// Throws InputError with file and line: unreadable, an unknown key or kind, a range that is none.
+/// Throws InputError with file and line: unreadable, an unknown key or kind, an invalid range.
 [[nodiscard]] ParameterRules read_parameter_rules(const std::string& path);
 
 }  // namespace clsurf::io

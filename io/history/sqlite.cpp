@@ -18,9 +18,9 @@
 namespace clsurf::io {
 namespace {
 
-constexpr int patience_ms = 60'000;  // for another writer to finish: a row takes milliseconds
+constexpr int patience_ms = 60'000;  // wait for another writer: a row takes milliseconds
 
-/// Opens what SQLite names by a URI, so that a database on a medium that cannot be written to can be read.
+/// A URI that lets SQLite read a database on a read-only medium.
 std::string immutable_uri(const std::string& path) {
     std::string uri = "file:";
     for (const char c : path)
@@ -29,8 +29,8 @@ std::string immutable_uri(const std::string& path) {
     return uri + "?immutable=1";
 }
 
-/// SQLite does not always wait by itself: not to make the write-ahead log, and not while that is recovered after the death
-/// of another writer.
+/// Retries a call while the database is busy. SQLite does not wait when it creates the write-ahead log, nor while the log is
+/// recovered after another writer was killed.
 template <typename Call>
 int patiently(const Call& call) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(patience_ms);
@@ -63,13 +63,13 @@ SqliteConnection::SqliteConnection(const std::string& path, DatabaseAccess acces
         handle_.reset(handle);
         sqlite3_extended_result_codes(handle, 1);
         sqlite3_busy_timeout(handle, patience_ms);
-        // Nothing is read before this: only now the file is looked at.
+        // SQLite reads the file only now.
         return code != SQLITE_OK ? code : patiently([&] {
             return sqlite3_exec(handle, "SELECT count(*) FROM sqlite_master", nullptr, nullptr, nullptr);
         });
     };
     int code = open(path, writes ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READWRITE);
-    // Readers of a database with a write-ahead log make files beside it, where they may.
+    // Readers of a database with a write-ahead log create files next to it if they may.
     if (!writes && (code & 0xff) != SQLITE_OK && (code & 0xff) != SQLITE_NOTADB && (code & 0xff) != SQLITE_BUSY)
         code = open(immutable_uri(path), SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
     if (code != SQLITE_OK) fail(code);
@@ -112,7 +112,7 @@ std::int64_t SqliteConnection::last_row() const { return sqlite3_last_insert_row
 
 SqliteStatement::SqliteStatement(const SqliteConnection& connection, std::string_view sql) : connection_(connection) {
     sqlite3_stmt* statement = nullptr;
-    // The schema is read here, so this has to wait as well.
+    // Preparing reads the schema, so it has to wait, too.
     const int code = patiently([&] {
         return sqlite3_prepare_v2(connection.get(), sql.data(), static_cast<int>(sql.size()), &statement, nullptr);
     });
@@ -175,7 +175,7 @@ SqliteTransaction::SqliteTransaction(const SqliteConnection& connection) : conne
 }
 
 SqliteTransaction::~SqliteTransaction() {
-    // Where this fails, too, the database undoes it when it is opened again.
+    // If this fails, too, the database rolls back when it is opened next.
     if (open_) sqlite3_exec(connection_.get(), "ROLLBACK", nullptr, nullptr, nullptr);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// SQLite as values: a connection, and statements whose errors are ours. Used inside io/history only.
+// RAII wrappers of SQLite: a connection, and statements that throw the project's errors. Used inside io/history only.
 
 #include <cstdint>
 #include <memory>
@@ -16,22 +16,22 @@ enum class DatabaseAccess : std::uint8_t { read, write };
 
 class SqliteConnection {
 public:
-    /// Opens a file. `write`: it is made where it is missing. Throws InputError (missing, no database), SystemError.
+    /// Opens a file. `write`: a missing file is created. Throws InputError (missing, not a database), SystemError.
     SqliteConnection(const std::string& path, DatabaseAccess access);
     SqliteConnection(const SqliteConnection&) = delete;
     SqliteConnection& operator=(const SqliteConnection&) = delete;
     SqliteConnection(SqliteConnection&& other) noexcept = default;
     SqliteConnection& operator=(SqliteConnection&& other) noexcept = default;
 
-    /// A copy in memory: what is changed in it changes no file.
+    /// A copy in memory; changes to it do not change the file.
     [[nodiscard]] SqliteConnection copy_in_memory() const;
     [[nodiscard]] const std::string& path() const { return path_; }
     [[nodiscard]] sqlite3* get() const { return handle_.get(); }
-    /// One or more statements without values.
+    /// Runs one or more statements without parameters.
     void execute(const std::string& sql) const;
     [[nodiscard]] std::int64_t last_row() const;
 
-    /// Throws what an error code of SQLite means: InputError where the file is no database, SystemError otherwise.
+    /// Throws the error for an SQLite code: InputError if the file is not a database, otherwise SystemError.
     [[noreturn]] void fail(int code) const;
 
 private:
@@ -48,17 +48,17 @@ class SqliteStatement {
 public:
     SqliteStatement(const SqliteConnection& connection, std::string_view sql);
 
-    /// Gives the next parameter its value; NaN is NULL.
+    /// Binds the next parameter; NaN becomes NULL.
     SqliteStatement& bind(double value);
     SqliteStatement& bind(std::int64_t value);
     SqliteStatement& bind(const std::string& value);
-    /// The next row is there.
+    /// Advances to the next row; false: there is none.
     [[nodiscard]] bool step();
-    /// Runs it to its end, and makes it ready for other values.
+    /// Runs the statement to its end and resets it for new values.
     void run();
     void reset();
 
-    // Of the row, from the left.
+    // Values of the row, columns from 0.
     [[nodiscard]] std::int64_t integer(int column) const;
     [[nodiscard]] double number(int column) const;  ///< NULL: NaN
     [[nodiscard]] std::string text(int column) const;
@@ -72,7 +72,7 @@ private:
     int bound_ = 0;
 };
 
-/// From its beginning nobody else writes; undone unless commit() was reached.
+/// Locks out other writers from its beginning; rolled back if commit() was not reached.
 class SqliteTransaction {
 public:
     explicit SqliteTransaction(const SqliteConnection& connection);

@@ -10,7 +10,7 @@
 namespace clsurf::io {
 namespace {
 
-// What libmodbus sets: it would take 9600 for any other without a word.
+// The rates that libmodbus supports: it silently uses 9600 for any other.
 constexpr std::array bauds{300,   600,    1200,   2400,   4800,   9600,   19200,  38400,
                            57600, 115200, 230400, 460800, 500000, 576000, 921600, 1000000};
 
@@ -27,7 +27,7 @@ std::optional<int> whole_number(const std::string& text) {
 }
 
 void read_tcp(const std::string& rest, ModbusAddress& address) {
-    // An IPv6 address has colons of its own and stands in brackets.
+    // An IPv6 address contains colons and is therefore in brackets.
     const std::size_t bracket = rest.starts_with('[') ? rest.find(']') : std::string::npos;
     const std::size_t colon = rest.find(':', bracket == std::string::npos ? 0 : bracket);
     address.host = rest.substr(0, colon);

@@ -1,12 +1,12 @@
 #pragma once
-// Where a Modbus device is: "tcp:HOST:PORT" or "rtu:DEVICE,BAUD".
+// The address of a Modbus device: "tcp:HOST:PORT" or "rtu:DEVICE,BAUD".
 
 #include <string>
 
 namespace clsurf::io {
 
 struct ModbusAddress {
-    std::string text;     ///< as the user wrote it
+    std::string text;     ///< as given by the user
     bool serial = false;  ///< RTU
     std::string host;     ///< of TCP: a name, IPv4 or IPv6
     std::string port = "502";

@@ -48,8 +48,8 @@ constexpr std::size_t tcp_header = 7;  ///< bytes: number, protocol, length, uni
 
 int word_at(std::span<const std::uint8_t> bytes, std::size_t i) { return bytes[i] << 8 | bytes[i + 1]; }
 
-/// Why an answer over TCP is not that of a request, as libmodbus has it in errno; 0: it is. libmodbus itself takes the answer of
-/// any unit behind a gateway.
+/// Why an answer over TCP does not match a request, as an errno value of libmodbus; 0: it matches. libmodbus itself accepts
+/// the answer of any unit behind a gateway.
 int error_of(std::span<const std::uint8_t> answer, const RegisterBlock& block, int function, std::uint16_t number) {
     if (answer.size() < tcp_header + 2 || word_at(answer, 0) != number || word_at(answer, 2) != 0) return EMBBADDATA;
     if (answer[tcp_header - 1] != block.slave) return EMBBADSLAVE;
@@ -59,12 +59,12 @@ int error_of(std::span<const std::uint8_t> answer, const RegisterBlock& block, i
     return answer[tcp_header] == function && whole ? 0 : EMBBADDATA;
 }
 
-/// Registers over TCP; −1: not, and errno says why.
+/// Reads registers over TCP; −1: failed, with the reason in errno.
 int read_over_tcp(modbus_t* modbus, std::uint16_t number, const RegisterBlock& block, std::span<std::uint16_t> words) {
     const int function =
         block.function == RegisterFunction::input ? MODBUS_FC_READ_INPUT_REGISTERS : MODBUS_FC_READ_HOLDING_REGISTERS;
     const auto byte = [](int value) { return static_cast<std::uint8_t>(value & 0xff); };
-    // By itself: raw requests of libmodbus all have the number 0.
+    // The request is built here because raw requests of libmodbus all have the number 0.
     const std::array<std::uint8_t, 12> request{byte(number >> 8),
                                                byte(number),
                                                0,
@@ -93,7 +93,7 @@ int read_over_tcp(modbus_t* modbus, std::uint16_t number, const RegisterBlock& b
 
 struct ModbusLink::Context {
     modbus_t* modbus = nullptr;
-    std::uint16_t requests = 0;  ///< sent over TCP: each has the next number
+    std::uint16_t requests = 0;  ///< sent over TCP: numbers the requests
 
     Context() = default;
     Context(const Context&) = delete;
@@ -111,7 +111,7 @@ ModbusLink::ModbusLink(const ModbusAddress& address, double timeout)
     const double fraction = std::modf(timeout, &seconds);
     modbus_set_response_timeout(modbus, static_cast<std::uint32_t>(seconds),
                                 static_cast<std::uint32_t>(fraction * 1e6));
-    // The timeout is of the whole answer, not of each of its bytes.
+    // The timeout applies to the whole answer, not to each of its bytes.
     modbus_set_byte_timeout(modbus, 0, 0);
 }
 
@@ -151,7 +151,7 @@ void ModbusLink::recover(ModbusAnswer answer) {
         close();
         return;
     }
-    // Frames of a serial line have no number. What comes now was asked for before.
+    // Frames on a serial line have no number: what arrives now answers an earlier request.
     std::this_thread::sleep_for(std::chrono::duration<double>(timeout_));
     if (modbus_flush(context_->modbus) < 0) close();
 }

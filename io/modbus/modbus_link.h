@@ -1,5 +1,5 @@
 #pragma once
-// ModbusLink: the connection to a device. It reads registers with the functions 3 and 4, and has no way to write one.
+// ModbusLink: the connection to a device. It reads registers with the functions 3 and 4 and cannot write any.
 // Used inside io only.
 
 #include <memory>
@@ -11,12 +11,12 @@
 
 namespace clsurf::io {
 
-/// What became of a request.
+/// The result of a request.
 enum class ModbusAnswer : std::uint8_t {
     values,
-    late,          ///< not there, or not whole, within the timeout
-    exception,     ///< the device answers that it does not give these registers now
-    damaged,       ///< a wrong checksum or length, or the answer of another request
+    late,          ///< missing or incomplete within the timeout
+    exception,     ///< the device refuses these registers at present
+    damaged,       ///< a wrong checksum or length, or the answer to another request
     disconnected,  ///< the connection broke, or there is none
 };
 
@@ -28,19 +28,19 @@ struct ModbusReply {
 
 class ModbusLink {
 public:
-    /// `timeout` [s] of an answer and of a connection. Throws UsageError: an address that cannot be one.
+    /// `timeout` [s]: for an answer and for connecting. Throws UsageError: an invalid address.
     ModbusLink(const ModbusAddress& address, double timeout);
     ModbusLink(const ModbusLink&) = delete;
     ModbusLink& operator=(const ModbusLink&) = delete;
     ~ModbusLink();
 
     [[nodiscard]] bool connected() const { return connected_; }
-    /// Takes up to the timeout. Returns why there is no connection; empty: there is one.
+    /// Takes up to the timeout. Returns why there is no connection; empty: connected.
     [[nodiscard]] std::string connect();
 
-    /// Reads the registers of a block into the first of `words`. Takes up to the timeout, and on a serial line as long
-    /// again after a lost answer. An answer that comes after its timeout is never taken for a later one over TCP, and
-    /// over RTU where it comes within twice the timeout: TCP is connected anew, RTU waits and drops what it gets.
+    /// Reads the registers of a block into the beginning of `words`. Takes up to the timeout; on a serial line after a lost
+    /// answer up to twice the timeout. An answer after its timeout is never mistaken for a later one: TCP reconnects; RTU
+    /// waits and drops what arrives, which covers answers within twice the timeout.
     [[nodiscard]] ModbusReply read(const RegisterBlock& block, std::span<std::uint16_t> words);
 
 private:

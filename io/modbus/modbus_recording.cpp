@@ -21,8 +21,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double save_period = 1;      // [s] that are lost at most when the program is killed
-constexpr double stop_latency = 0.05;  // [s] after which a stop is seen
+constexpr double save_period = 1;      // [s] the most that is lost if the program is killed
+constexpr double stop_latency = 0.05;  // [s] within which a stop is noticed
 constexpr int illegal_function = 1, illegal_address = 2;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -41,14 +41,14 @@ public:
     Recording run(const std::string& output);
 
 private:
-    /// Asks for all blocks. False: stopped in between.
+    /// Requests all blocks. False: stopped.
     bool poll();
     void read_block(const RegisterBlock& block);
     void count(const ModbusReply& reply, const RegisterBlock& block);
-    /// What a first poll without values says of the address and of the map.
+    /// Throws the error of a first poll without values: wrong address or map.
     void check_first_poll() const;
     void append(BiipWriter& writer, double time);
-    /// Until `time` of the recording; false: stopped.
+    /// Waits until `time` of the recording; false: stopped.
     [[nodiscard]] bool wait_until(double time) const;
     [[nodiscard]] bool stopped() const { return rules_.stopped && rules_.stopped(); }
     [[nodiscard]] std::string metadata() const;
@@ -65,7 +65,7 @@ private:
     double last_answer_ = 0;      ///< [s]
     const RegisterBlock* refused_ = nullptr;
     ModbusReply refusal_;
-    bool cannot_connect_ = false;  ///< in this poll
+    bool cannot_connect_ = false;  ///< in the present poll
     Recording recording_;
 };
 
@@ -80,7 +80,7 @@ bool Recorder::poll() {
 }
 
 void Recorder::read_block(const RegisterBlock& block) {
-    // One try to connect a record: a device that is off would cost the timeout for every block.
+    // One attempt to connect per record: for a device that is off, each attempt costs the timeout.
     if (!link_.connected() && !cannot_connect_) {
         if (std::string why = link_.connect(); !why.empty()) {
             cannot_connect_ = true;
@@ -116,7 +116,7 @@ void Recorder::count(const ModbusReply& reply, const RegisterBlock& block) {
         case ModbusAnswer::disconnected: ++recording_.disconnected; break;
         case ModbusAnswer::exception:
             ++recording_.exceptions;
-            last_answer_ = seconds_since(start_);  // the device is there
+            last_answer_ = seconds_since(start_);  // the device has answered
             refused_ = &block;
             refusal_ = reply;
             break;

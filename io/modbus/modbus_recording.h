@@ -1,5 +1,5 @@
 #pragma once
-// A recording: the registers of a map, read at a steady rate into a BIIP log with a channel each, and `time`.
+// A recording: the registers of a map, read at a fixed rate into a BIIP log with one channel each, and `time`.
 
 #include <cstdint>
 #include <functional>
@@ -16,11 +16,11 @@ namespace clsurf::io {
 
 struct RecordingRules {
     double rate = 10;                         ///< [Hz]
-    std::optional<double> duration = {};      ///< [s]; none: until it is stopped
-    double timeout = 0.5;                     ///< [s] of an answer
-    double patience = 30;                     ///< [s] without any answer that end the recording
-    std::function<bool()> stopped = nullptr;  ///< asked many times a second; true ends the recording
-    Progress progress = nullptr;              ///< with a duration
+    std::optional<double> duration = {};      ///< [s]; none: until stopped
+    double timeout = 0.5;                     ///< [s] for an answer
+    double patience = 30;                     ///< [s] the recording ends after this time without any answer
+    std::function<bool()> stopped = nullptr;  ///< polled many times per second; true ends the recording
+    Progress progress = nullptr;              ///< only if a duration is given
 };
 
 enum class RecordingEnd : std::uint8_t { duration, stopped, disconnected };
@@ -28,23 +28,23 @@ enum class RecordingEnd : std::uint8_t { duration, stopped, disconnected };
 
 struct Recording {
     RecordingEnd end = RecordingEnd::duration;
-    std::string reason;   ///< of the last request without an answer
+    std::string reason;   ///< why the last failed request has no answer
     std::string started;  ///< time 0, UTC
     PointIndex records = 0;
     double duration = 0;              ///< [s] from the first record to the last
-    std::int64_t missed_records = 0;  ///< whose time passed while an answer was waited for
-    std::vector<PointIndex> gaps;     ///< of each channel: records without its value
+    std::int64_t missed_records = 0;  ///< records skipped while waiting for an answer
+    std::vector<PointIndex> gaps;     ///< per channel: records without a value
     std::int64_t requests = 0, late = 0, exceptions = 0, damaged = 0, disconnected = 0;
     double longest_answer = 0;  ///< [s]
 
     [[nodiscard]] std::int64_t answered() const { return requests - late - exceptions - damaged - disconnected; }
 };
 
-/// Records until the duration is over, rules.stopped() says so, or no answer came for rules.patience. In each case the
-/// log is then whole and named `output`; until then it is `output`.part, and has all but the last second whatever ends
-/// the program. A value that was not answered is NaN. Throws, without a file: SystemError (no connection or no answer at
-/// all at the beginning), InputError at the map's channel (registers that the device does not have), UsageError
-/// (`output`.part is there). SystemError later on: the disk is full; the part stays.
+/// Records until the duration is over, rules.stopped() returns true, or no answer came for rules.patience. The
+/// log is then complete and named `output`. Until then it is `output`.part; if the program is killed, that file lacks at
+/// most the last second. A missing answer is NaN. Throws, without leaving a file: SystemError (no connection or no answer
+/// at the beginning), InputError at the map's channel (registers that the device does not have), UsageError
+/// (`output`.part exists). Later SystemError: the disk is full; the .part file is kept.
 [[nodiscard]] Recording record_modbus(const ModbusAddress& address, const std::vector<RegisterChannel>& channels,
                                       const RecordingRules& rules, const std::string& output);
 

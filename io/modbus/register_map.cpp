@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, 2> functions{"holding", "input"};
 constexpr std::array<std::string_view, 5> types{"u16", "i16", "u32", "i32", "f32"};
 constexpr std::array<std::string_view, 4> orders{"abcd", "cdab", "badc", "dcba"};
 
-/// The index of the word of `key` in `words`, or `otherwise` where it is not there.
+/// The index of the word of `key` in `words`, or `otherwise` if the key is missing.
 std::size_t read_word(const TomlFile& file, const toml::table& entry, const std::string& key,
                       std::span<const std::string_view> words, std::size_t otherwise) {
     const std::optional<std::string> text = file.text(entry, key);
@@ -30,11 +30,11 @@ std::size_t read_word(const TomlFile& file, const toml::table& entry, const std:
     file.fail(*entry.get(key), "'" + key + "' is '" + *text + "', not one of " + all, did_you_mean(*text, words));
 }
 
-/// What a channel read some times a second must not be taken for.
+/// Names with a meaning that a channel sampled a few times per second must not have.
 bool is_reserved(const std::string& name) {
     const std::string known = normalised_name(name);
     return known == "time" || known == "line" || known == "program" || is_position(known) ||
-           (is_known_name(name) && name.size() == 1);  // a bare axis
+           (is_known_name(name) && name.size() == 1);  // an axis without role
 }
 
 std::string read_name(const TomlFile& file, const toml::table& entry) {
@@ -50,7 +50,7 @@ std::string read_name(const TomlFile& file, const toml::table& entry) {
 }
 
 int read_slave(const TomlFile& file, const toml::table& table, int otherwise) {
-    // 248 … 254 are reserved, 0 is for all slaves at once, 255 the device itself behind a TCP address.
+    // 248 … 254 are reserved, 0 is broadcast, 255 is the device itself behind a TCP address.
     const auto slave = file.integer(table, "slave", 1, 255);
     if (slave && *slave > 247 && *slave < 255)
         file.fail(*table.get("slave"), "slaves have the numbers 1 … 247, or 255");

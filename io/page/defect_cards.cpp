@@ -13,12 +13,12 @@
 namespace clsurf::io {
 namespace {
 
-// The page shows as many: viz/page/src/defect_print.ts.
+// The same number as on the page: viz/page/src/defect_print.ts.
 constexpr LineNumber most_lines = 14;
-constexpr LineNumber lines_at_the_end = 3;  ///< where not all are shown
+constexpr LineNumber lines_at_the_end = 3;  ///< if not all lines are shown
 constexpr std::size_t widest_line = 100;
 
-/// The file that a run is in, and its lines there.
+/// The file of a section, and its lines there.
 struct Excerpt {
     const SourceText* text = nullptr;
     LineNumber first = 0, last = 0;
@@ -38,7 +38,7 @@ std::string code_line(const SourceText& text, LineNumber number) {
                        line.size() > widest_line ? "…" : "");
 }
 
-/// The lines of a run, the first and the last of many.
+/// The lines of a section; of many the first and the last.
 std::string code_html(const Program& program, const DefectSection& section) {
     const Excerpt excerpt = excerpt_of(program, section);
     if (excerpt.text == nullptr || excerpt.first == 0) return {};

@@ -1,5 +1,5 @@
 #pragma once
-// The cards of a page's strongest defects: picture, what was found, and the program lines, to be printed. Used inside io only.
+// Printable cards of a page's strongest defects: picture, finding and program lines. Used inside io only.
 
 #include <string>
 

@@ -1,8 +1,8 @@
-# Writes OUTPUT, the C++ source of page_bundle.h's functions, from SCRIPT and STYLE. String literals end
-# at 16,000 bytes, which any compiler takes.
+# Writes OUTPUT, the C++ source of the functions in page_bundle.h, from SCRIPT and STYLE. String literals are split
+# at 16,000 bytes, which any compiler accepts.
 cmake_policy(VERSION 3.25)
 function(literal_of file variable)
-  file(READ ${file} hex HEX)  # as HEX: a script holds what CMake lists are parted by
+  file(READ ${file} hex HEX)  # as HEX: a script contains the separators of CMake lists
   string(LENGTH "${hex}" length)
   set(text "")
   set(at 0)

@@ -9,7 +9,7 @@
 namespace clsurf::io {
 namespace {
 
-/// Characters that are not seen but change how others are (Unicode's Bidi_Control, line separators).
+/// Invisible characters that change how others are displayed (Unicode's Bidi_Control, line separators).
 bool turns_text(std::uint32_t c) {
     return c == 0x061c || c == 0x200e || c == 0x200f || (c >= 0x2028 && c <= 0x202e) || (c >= 0x2066 && c <= 0x2069) ||
            c == 0xfeff;
@@ -37,7 +37,7 @@ std::string html(std::string_view text) {
         else if (c.value == '\'')
             out += "&#39;";
         else if (c.value < 0x20 && c.value != '\t' && c.value != '\n')
-            out += fmt::format("&#x{:x};", 0x2400 + c.value);  // the picture of it
+            out += fmt::format("&#x{:x};", 0x2400 + c.value);  // its control picture
         else if (c.value == 0x7f)
             out += "&#x2421;";
         else if (turns_text(c.value) || (c.value >= 0x80 && c.value < 0xa0))

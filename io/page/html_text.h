@@ -1,20 +1,20 @@
 #pragma once
-// Text as HTML: programs, comments and file names are displayed and have no other effect.
+// Escaping of text for HTML: programs, comments and file names are displayed and have no other effect.
 
 #include <string>
 #include <string_view>
 
 namespace clsurf::io {
 
-/// For element content and for attributes in double quotes. Control characters, marks that turn the direction of text,
-/// and what is no UTF-8 (U+FFFD) become visible signs.
+/// For element content and for attributes in double quotes. Control characters, marks that change the text direction,
+/// and invalid UTF-8 (U+FFFD) become visible signs.
 [[nodiscard]] std::string html(std::string_view text);
 
-/// A table that scrolls sideways where it is wider than the page. `label`: its name for screen readers; `head`: its <th> cells;
+/// A table that scrolls sideways if it is wider than the page. `label`: its name for screen readers; `head`: its <th> cells;
 /// `rows`: its <tr> elements.
 [[nodiscard]] std::string wide_table(std::string_view label, std::string_view head, std::string_view rows);
 
-/// JSON that may stand in a <script> of a type of its own: no `<` is left in it.
+/// JSON for a <script> of a data type: every `<` is escaped.
 [[nodiscard]] std::string json_for_html(const std::string& json);
 
 }  // namespace clsurf::io

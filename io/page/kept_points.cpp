@@ -10,14 +10,14 @@
 namespace clsurf {
 namespace {
 
-/// Longest chord between kept points of a cut, in step-overs: beyond it triangles between passes are
-/// too long to follow the surface. Where there is no room for so many it grows up to the last.
+/// The longest chord between kept points of a cut, in step-overs: with longer ones the triangles between passes are
+/// too long to follow the surface. If there is no room for so many points, the chord grows up to the last value.
 constexpr std::array<double, 4> longest_chords{3, 6, 12, 24};
-constexpr double most_for_chords = 0.75;    ///< of the points that may stay
-constexpr PointIndex share_of_defects = 4;  ///< one in so many points may belong to defects that are kept whole
+constexpr double most_for_chords = 0.75;    ///< share of the limit that chords may take
+constexpr PointIndex share_of_defects = 4;  ///< defects that are kept whole may take one in so many points
 constexpr PointIndex windows_at_once = 64;
 
-using Marks = Column<std::uint8_t>;  ///< per point: 1, it stays
+using Marks = Column<std::uint8_t>;  ///< per point: 1, it is kept
 
 void mark(Marks& marks, PointIndex i) { marks[static_cast<std::size_t>(i)] = 1; }
 
@@ -26,7 +26,7 @@ bool has_position(const Positions& p, PointIndex i) {
     return p.x[at] == p.x[at] && p.y[at] == p.y[at] && p.z[at] == p.z[at];
 }
 
-/// Where a column is lowest and highest in [first, last]; −1: it has no value there.
+/// Where a column is lowest and highest in [first, last]; −1: no value in the range.
 PointRange extremes(const Column<float>& values, PointIndex first, PointIndex last) {
     const std::span<const float> all(values.data() + first, static_cast<std::size_t>(last - first + 1));
     const auto [low, high] = extremes_of(all);
@@ -41,7 +41,7 @@ void mark_extremes(Marks& marks, const Column<float>& values, PointIndex first, 
     if (at.last >= 0) mark(marks, at.last);
 }
 
-/// take(range) for the points of a defect and of the adjacent passes.
+/// Calls take(range) for the points of a defect and of the adjacent passes.
 template <typename Take>
 void for_each_section(const Defect& defect, const Take& take) {
     for (const std::vector<DefectSection>* sections : {&defect.sections, &defect.neighbours}) {
@@ -49,7 +49,8 @@ void for_each_section(const Defect& defect, const Take& take) {
     }
 }
 
-/// Marks all points of the defects that fit into `room`; returns how many did. What a larger one leaves, smaller ones use.
+/// Marks all points of the defects that fit into `room`; returns how many do. A defect that is too large does not
+/// stop smaller ones.
 std::size_t mark_whole_defects(Marks& marks, std::span<const Defect> defects, PointIndex room) {
     std::size_t whole = 0;
     for (const Defect& defect : defects) {
@@ -68,7 +69,7 @@ std::size_t mark_whole_defects(Marks& marks, std::span<const Defect> defects, Po
     return whole;
 }
 
-/// What stays whatever the windows, but for whole defects and the starts of lines.
+/// The points that are kept for any window, except whole defects and starts of lines.
 Marks lasting_marks(const ClSurface& surface, std::span<const Field> fields, std::span<const Defect> defects) {
     const PointIndex count = surface.positions.size();
     Marks marks(static_cast<std::size_t>(count), 0);
@@ -103,7 +104,7 @@ void mark_line_starts(Marks& marks, const LineMap& lines) {
     });
 }
 
-/// Marks of windows of one pass.
+/// Marks points by windows of one pass.
 class Windows {
 public:
     /// `longest_chord` [mm].
@@ -154,8 +155,8 @@ PointIndex longest_pass(const Passes& passes) {
     return longest;
 }
 
-/// Marks with the shortest windows that leave at most `most` points, or with windows of whole passes,
-/// where nothing more can be left out. Returns the window.
+/// Marks with the shortest windows that keep at most `most` points. If none are long enough, a window is a
+/// whole pass. Returns the window.
 PointIndex mark_windows(Marks& marks, const Marks& lasting, const Windows& windows, const Passes& passes,
                         PointIndex most) {
     const PointIndex longest = longest_pass(passes);
@@ -164,7 +165,7 @@ PointIndex mark_windows(Marks& marks, const Marks& lasting, const Windows& windo
         windows.add(marks, window);
         return count_of(marks) <= most;
     };
-    // Windows keep a point for their start and about half of the extremes of the fields.
+    // A window keeps its first point and about half of the extremes of the fields.
     const auto guess = static_cast<PointIndex>(windows.fields() + 1) * static_cast<PointIndex>(marks.size()) /
                        std::max<PointIndex>(most, 1);
     PointIndex high = 2;

@@ -1,10 +1,10 @@
 #pragma once
-// Kept points: the points of a log that a page gets. If they do not all fit, the path is divided into windows
-// of equal point count. Each window keeps its first point and the points where a field is lowest and highest,
-// so that a curve shows every extreme of the window. Also kept, whatever the windows: the ends of passes, the
-// first point of each line, every point of a defect and of the adjacent passes, and the points where a field
-// or position is lowest or highest overall. Defects that would need more than a quarter of the room, and
-// starts of lines that would need half of it, only get their windows, which keep their extremes.
+// Kept points: the points of a log that a page contains. If they do not all fit, the path is divided into windows
+// of equal point count. Each window keeps its first point and the points with the lowest and highest value of each field,
+// so that a curve shows every extreme of the window. Independent of the windows, these are kept: the ends of passes, the
+// first point of each line, every point of a defect and of the adjacent passes, and the points with the lowest and highest
+// value of each field and position overall. Defects that would need more than a quarter of the limit, and
+// line starts that would need half of it, are only kept by windows.
 
 #include <span>
 
@@ -16,18 +16,18 @@
 namespace clsurf {
 
 struct KeptPoints {
-    Column<PointIndex> points;                   ///< rising; points without a position are never among them
-    PointIndex all = 0;                          ///< with a position
+    Column<PointIndex> points;                   ///< increasing; only points with a position
+    PointIndex all = 0;                          ///< points with a position
     PointIndex window = 1;                       ///< points; 1: all are kept
-    bool line_starts = true;                     ///< the first point of each line is among them
-    std::size_t defects = 0, whole_defects = 0;  ///< and those of which all points are among them
+    bool line_starts = true;                     ///< the first point of each line is kept
+    std::size_t defects = 0, whole_defects = 0;  ///< and those of which all points are kept
 
     [[nodiscard]] bool reduced() const { return window > 1; }
 };
 
-/// At most about `most` points, as long as the ends of passes and of defects allow it. `defects`: the first ones are kept whole
-/// first. `fields`: one value per point each.
-/// O(points · fields · log windows), parallel; the same for any number of threads.
+/// At most about `most` points, as long as the ends of passes and of defects allow it. `defects`: earlier ones are kept
+/// completely first. `fields`: one value per point each. O(points · fields · log windows), parallel; the same for any number
+/// of threads.
 [[nodiscard]] KeptPoints keep_points(const ClSurface& surface, const LineMap& lines, std::span<const Field> fields,
                                      std::span<const Defect> defects, PointIndex most);
 

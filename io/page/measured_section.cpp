@@ -14,7 +14,7 @@
 namespace clsurf::io {
 namespace {
 
-/// Ra, Rq and Rz of both, and how alike the profiles are.
+/// Ra, Rq and Rz of measurement and prediction, and the similarity of the profiles.
 std::string roughness_html(const MeasuredComparison& c) {
     if (!c.reason.empty()) return fmt::format("<p>Not compared: {}.</p>\n", html(c.reason));
     std::string rows;
@@ -46,7 +46,7 @@ std::string state_text(const ComparedMark& mark) {
     return {};
 }
 
-/// Which of the predicted marks that the measurement crosses are there.
+/// Which of the predicted marks that the measurement crosses were found in it.
 std::string marks_html(const std::vector<ComparedMark>& marks) {
     if (marks.empty()) return "<p>The measurement crosses none of the predicted marks.</p>\n";
     std::string rows;

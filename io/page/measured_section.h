@@ -1,5 +1,5 @@
 #pragma once
-// The section of a page that sets a measurement of the part beside the prediction. Used inside io only.
+// The section of a page that compares a measurement of the part with the prediction. Used inside io only.
 
 #include <string>
 

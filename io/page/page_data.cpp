@@ -16,16 +16,16 @@ namespace {
 
 constexpr double position_quantum = 1e-4;  ///< [mm]
 constexpr double time_quantum = 1e-6;      ///< [s]
-constexpr double before_steps = 16;        ///< of a step between two points
-constexpr double field_steps = 32768;      ///< in the range that is shown
+constexpr double before_steps = 16;        ///< of the distance between two points
+constexpr double field_steps = 32768;      ///< in the shown range
 constexpr double class_quantum = 1e-3;     ///< of classes that have a unit
 
-/// Columns are packed side by side once all are known.
+/// Collects columns and packs them in parallel once all are known.
 class Blocks {
 public:
     using Make = std::function<PackedColumn()>;
 
-    /// Where in the manifest the column will be told, and what makes it.
+    /// `where`: the position in the manifest; `make`: packs the column.
     void add(Json::json_pointer where, Make make) { columns_.push_back({std::move(where), std::move(make), {}}); }
 
     void pack(PageData& data) {
@@ -55,14 +55,14 @@ private:
     std::vector<Planned> columns_;
 };
 
-/// A value per kept point, in steps of `quantum`.
+/// One value per kept point, in steps of `quantum`.
 template <typename Value>
 PackedColumn pack_kept(const KeptPoints& kept, double quantum, Value&& value) {
     std::vector<std::int64_t> steps(kept.points.size());
     std::int64_t before = 0;
     for (std::size_t k = 0; k < steps.size(); ++k) {
         const double v = value(kept.points[k]) / quantum;
-        if (std::abs(v) < 4e15) before = std::llround(v);  // a missing one repeats the one before
+        if (std::abs(v) < 4e15) before = std::llround(v);  // a missing value repeats the previous one
         steps[k] = before;
     }
     return pack_integers(steps);
@@ -73,7 +73,7 @@ PackedColumn pack_numbers(std::span<const T> numbers, int stride) {
     return pack_integers(std::vector<std::int64_t>(numbers.begin(), numbers.end()), stride);
 }
 
-/// First and last point of each.
+/// First and last point of each range.
 PackedColumn pack_ranges(std::span<const PointRange> ranges) {
     std::vector<std::int64_t> ends;
     for (const PointRange& range : ranges) ends.insert(ends.end(), {range.first, range.last});
@@ -82,9 +82,9 @@ PackedColumn pack_ranges(std::span<const PointRange> ranges) {
 
 Json::json_pointer at(const std::string& base, const std::string& name) { return Json::json_pointer(base) / name; }
 
-/// The steps that the values of a field are rounded to.
+/// The step to which the values of a field are rounded.
 double quantum_of(const FieldInfo& info, const ShownRange& range) {
-    // A class is known by its value.
+    // A class is identified by its value.
     if (has_classes(info)) return info.unit.name.empty() ? 1 : class_quantum;
     const double quantum = (range.high - range.low) / field_steps;
     if (quantum > 0) return quantum;
@@ -132,7 +132,7 @@ void add_positions(Blocks& blocks, const std::string& base, const PageSurface& s
     }
 }
 
-/// Positions of the other roles, as differences from those that the surface is of.
+/// Positions of the other roles, as differences from the positions of the surface.
 void add_roles(Blocks& blocks, Json& surface_json, const std::string& base, const PageSurface& s) {
     Json roles = Json::array();
     const char* names[] = {"x", "y", "z"};
@@ -149,7 +149,7 @@ void add_roles(Blocks& blocks, Json& surface_json, const std::string& base, cons
     surface_json["roles"] = std::move(roles);
 }
 
-/// Where each run of points with one line begins, whether that point is kept or not, and the line.
+/// The first point of each run of points with the same line, kept or not, and the line.
 struct LineRuns {
     std::vector<std::int64_t> points, lines;
 };
@@ -168,7 +168,7 @@ LineRuns line_runs(const LineMap& map) {
     return runs;
 }
 
-/// Per kept point: how it belongs to the way.
+/// Per kept point: the kind of its pass, plus 4 if it is joined to the previous point.
 std::string kinds_of(const PageSurface& s) {
     std::string kinds(s.kept->points.size(), '\0');
     std::size_t at = 0;
@@ -179,7 +179,7 @@ std::string kinds_of(const PageSurface& s) {
     return kinds;
 }
 
-/// Why the tool is slow: pieces of text, one a line, and for each kept point which of them are joined. Without slow points nothing.
+/// Why the tool is slow: phrases, one per line, and for each kept point which of them apply. Nothing without slow points.
 void add_slow_words(Blocks& blocks, Json& json, const std::string& base, const PageSurface& s) {
     if (s.slow == nullptr || s.slow->columns.empty()) return;
     json["slow"]["columns"] = Json::array();
@@ -235,7 +235,7 @@ Json surface_json(Blocks& blocks, const std::string& base, const ReportPage& pag
     add_roles(blocks, json, base, s);
     json["fields"] = Json::array();
     if (!s.places_before.empty()) {
-        // In sixteenths of a step from point to point, from 1; 0: the log before was not there.
+        // In sixteenths of the distance between points, from 1; 0: not on the earlier path.
         blocks.add(at(base + "/columns", "before"), [&s] {
             return pack_kept(*s.kept, 1.0 / before_steps, [&](PointIndex i) {
                 const PathLocation& place = s.places_before[static_cast<std::size_t>(i)];
@@ -299,7 +299,7 @@ Json defects_json(const ReportPage& page) {
     const std::vector<std::string> fingerprints = fingerprints_of(page.quality.report->defects);
     for (std::size_t i = 0; i < page.defects.size(); ++i) {
         const Defect& d = page.quality.report->defects[i];
-        // With all digits: the page rounds once, as the sentences do.
+        // All digits: the page rounds once, as the sentences do.
         all.push_back({{"id", i + 1},
                        {"fingerprint", fingerprints[i]},
                        {"severity", d.severity},
@@ -337,12 +337,12 @@ Json defects_json(const ReportPage& page) {
     return all;
 }
 
-/// `upright`: its axis is Z all the way.
+/// `upright`: the tool axis is Z along the whole path.
 Json tool_json(const CuttingTool& tool, bool upright) {
     return {{"text", to_text(tool)}, {"radius_mm", tool.radius}, {"corner_mm", tool.corner}, {"upright", upright}};
 }
 
-/// Defects of the log before that are gone: what is said of them and where they were.
+/// Defects of the earlier log that are gone: their description and position.
 Json gone_json(const ReportPage& page) {
     Json all = Json::array();
     if (!page.change) return all;

@@ -1,5 +1,5 @@
 #pragma once
-// The data of a page: a manifest in JSON that names packed columns, and these. Used inside io only;
+// The data of a page: a manifest in JSON that names packed columns, and the columns. Used inside io only;
 // viz/page/src/manifest.ts has the same names.
 
 #include <string>
@@ -13,7 +13,7 @@ namespace clsurf::io {
 
 struct PageData {
     Json manifest;
-    std::vector<std::string> blocks;  ///< base64, by number; columns name theirs
+    std::vector<std::string> blocks;  ///< base64, by number; the columns refer to them
 };
 
 [[nodiscard]] PageData page_data(const ReportPage& page);

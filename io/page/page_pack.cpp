@@ -13,14 +13,14 @@ namespace clsurf::io {
 namespace {
 
 constexpr int level = 6;
-constexpr std::size_t sampled = 20'000;  ///< values by which the order is chosen
+constexpr std::size_t sampled = 20'000;  ///< number of values by which the order is chosen
 
 /// 0, −1, 1, −2 → 0, 1, 2, 3.
 std::uint64_t fold(std::int64_t value) {
     return (static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63);
 }
 
-/// The difference of an order at a value; what lies before the first is zero.
+/// The difference of an order at a value; values before the first count as zero.
 std::int64_t difference(std::span<const std::int64_t> values, std::size_t i, int order, std::size_t stride) {
     const auto before = [&](std::size_t steps) { return i >= steps * stride ? values[i - steps * stride] : 0; };
     if (order == 0) return values[i];
@@ -28,7 +28,7 @@ std::int64_t difference(std::span<const std::int64_t> values, std::size_t i, int
     return values[i] - 2 * before(1) + before(2);
 }
 
-/// About how many bits an order would need, from values spread over the column.
+/// The approximate bits that an order needs, estimated from values spread over the column.
 double cost(std::span<const std::int64_t> values, int order, std::size_t stride) {
     const std::size_t step = std::max<std::size_t>(1, values.size() / sampled) | 1;
     double bits = 0;

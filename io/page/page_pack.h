@@ -1,10 +1,10 @@
 #pragma once
-// What a page carries besides its text: columns of whole numbers and text, packed so that the browser
-// unpacks them with what it has itself: base64 of a zlib stream (RFC 1950, the "deflate" of its
+// The data of a page besides its text: columns of integers and text, packed so that the browser
+// unpacks them without a library: base64 of a zlib stream (RFC 1950, the "deflate" of
 // DecompressionStream).
 //
-// Integers are differences of an order of 0, 1 or 2, taken between values `stride` apart, folded so
-// that small ones of either sign are small (0, −1, 1, −2, … → 0, 1, 2, 3, …), their bytes apart: all
+// Integers are stored as differences of order 0, 1 or 2 between values `stride` apart. Zigzag coding maps
+// small values of either sign to small ones (0, −1, 1, −2, … → 0, 1, 2, 3, …). Their bytes are stored in planes: all
 // lowest bytes, then all next ones.
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct PackedColumn {
     std::string base64;
 };
 
-/// |values| < 2^53, so that they are exact in a browser.
+/// |values| < 2^53: a browser represents them exactly.
 [[nodiscard]] PackedColumn pack_integers(std::span<const std::int64_t> values, int stride = 1);
 /// One plane, no differences: flags, text.
 [[nodiscard]] PackedColumn pack_bytes(std::string_view bytes);

@@ -38,7 +38,7 @@ std::string duration_text(double seconds) {
     return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
 }
 
-/// Four digits, without an exponent where it can be avoided.
+/// Four digits, without an exponent if possible.
 std::string number_text(double value) {
     return std::abs(value) >= 1e3 && std::abs(value) < 1e7 ? fmt::format("{:.0f}", value)
                                                            : fmt::format("{:.4g}", value);
@@ -46,7 +46,7 @@ std::string number_text(double value) {
 
 std::string um_text(double mm) { return std::isfinite(mm) ? fmt::format("{:.1f}", mm * um_per_mm) : "–"; }
 
-/// One fact of the summary: what it is, and its value.
+/// One fact of the summary: name and value.
 std::string fact(std::string_view name, const std::string& value, std::string_view note = {},
                  std::string_view kind = {}) {
     return fmt::format("<div{}><dt>{}</dt><dd>{}{}</dd></div>\n",
@@ -54,7 +54,7 @@ std::string fact(std::string_view name, const std::string& value, std::string_vi
                        note.empty() ? "" : fmt::format(" <small>{}</small>", html(note)));
 }
 
-/// What the log's metadata say of a name; empty: nothing, or no text.
+/// The text of a key of the log's metadata; empty: missing, or not a text.
 std::string metadata_text(const Log& log, const char* name) {
     const Json json = Json::parse(log.metadata, nullptr, false);
     if (!json.is_object() || !json.contains(name) || !json[name].is_string()) return {};
@@ -99,7 +99,7 @@ std::string alarm_bars(const ReportPage& page) {
     return text;
 }
 
-/// What the logs say of their runs: tool, wear, coolant …; empty: nothing.
+/// The parameters of the runs from the logs: tool, wear, coolant …; empty: none.
 std::string parameter_fact(const ReportPage& page) {
     const auto listed = [](const PageSurface& of) { return list_of(parameters_of_metadata(of.log->metadata)); };
     const std::string own = listed(page.surfaces.front());
@@ -174,7 +174,7 @@ std::string defects_section(const ReportPage& page) {
     return text + "</section>\n";
 }
 
-/// What the user said of a defect.
+/// The user's comment on a defect.
 std::string accepted_note(const ReportPage& page, std::size_t defect) {
     if (page.quality.acceptance == nullptr) return {};
     const Acceptance::Entry& entry = page.quality.acceptance->of_defect[defect];
@@ -183,7 +183,7 @@ std::string accepted_note(const ReportPage& page, std::size_t defect) {
                        entry.accepted && !entry.comment.empty() ? ": " : "", html(entry.comment));
 }
 
-/// The roughness that both logs leave, as a table.
+/// The roughness of both logs, as a table.
 std::string roughness_change_html(const PageChange& change) {
     if (!change.roughness) return {};
     std::string rows;
@@ -198,7 +198,7 @@ std::string roughness_change_html(const PageChange& change) {
                       "<th>Formed surface</th><th>before</th><th>after</th><th>change</th>", rows);
 }
 
-/// What became of the defects of the log before, and of the surface.
+/// The changes in defects and surface since the earlier log.
 std::string change_section(const ReportPage& page) {
     if (!page.change) return {};
     const DefectMatch& match = page.change->match;
@@ -226,7 +226,7 @@ std::string change_section(const ReportPage& page) {
     return text + roughness_change_html(*page.change) + "</section>\n";
 }
 
-/// At the end, because it can fill many sheets.
+/// The last section, because it can fill many sheets.
 std::string defect_list_section(const ReportPage& page) {
     const QualityReport& report = *page.quality.report;
     if (report.defects.empty()) return "";

@@ -1,5 +1,5 @@
 #pragma once
-// The parts of a page that need no JavaScript. Used inside io only.
+// The sections of a page that need no JavaScript. Used inside io only.
 
 #include <string>
 
@@ -9,9 +9,9 @@ namespace clsurf::io {
 
 /// "part.nc · run.biip".
 [[nodiscard]] std::string page_title(const ReportPage& page);
-/// What a reader wants to know first.
+/// The summary at the top of the page.
 [[nodiscard]] std::string page_summary(const ReportPage& page);
-/// Pictures, defects, mismatch, roughness, log health, and what the page leaves out.
+/// Pictures, defects, mismatch, roughness, log health, and what the page omits.
 [[nodiscard]] std::string page_sections(const ReportPage& page);
 
 }  // namespace clsurf::io

@@ -11,7 +11,7 @@
 namespace clsurf::io {
 namespace {
 
-/// Nothing is loaded from anywhere; only the page's own script and style work.
+/// Nothing is loaded; only the page's own script and style are allowed.
 std::string policy() {
     return fmt::format(
         "default-src 'none'; script-src {}; style-src {}; img-src data: blob:; base-uri 'none'; form-action 'none'",

@@ -1,7 +1,7 @@
 #pragma once
 // The page that `clsurf report` writes: one HTML file that requests nothing from a server. Summary, pictures,
-// tables and log health are plain HTML. The part follows as packed columns (page_pack.h), which the script of
-// the page (viz/page) turns into the view.
+// tables and log health are plain HTML. The part follows as packed columns (page_pack.h), from which the script of
+// the page (viz/page) draws the view.
 
 #include <string>
 

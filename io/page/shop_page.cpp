@@ -34,7 +34,7 @@ std::string parameters_of(const RunRecord& run) {
     return text;
 }
 
-/// Programs by how often they ran; their place is their colour.
+/// Programs by number of runs; the index determines the colour.
 std::vector<std::string> programs_of(std::span<const RunRecord> runs) {
     std::map<std::string, std::size_t> count;
     for (const RunRecord& run : runs) ++count[file_name(run.program)];
@@ -134,7 +134,7 @@ std::string causes_section(const ShopPage& page) {
     return text + "</tbody></table></section>\n";
 }
 
-/// What is said of a program. Runs without a verdict count as runs only.
+/// The row of a program. Runs without a verdict count as runs only.
 struct ProgramRow {
     std::string name;
     std::size_t runs = 0, judged = 0, over_budget = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// The page of `history … report`: trends, causes and the worst programs of a shop, in one HTML file that loads nothing.
+// The page of `history … report`: trends, causes and the worst programs of a shop, in one self-contained HTML file.
 
 #include <span>
 #include <string>
@@ -13,7 +13,7 @@ namespace clsurf::io {
 
 struct ShopPage {
     std::string database;                ///< its name
-    std::span<const RunRecord> runs;     ///< in the order of their times
+    std::span<const RunRecord> runs;     ///< in order of time
     std::span<const CauseCount> causes;  ///< of these runs and others
     std::span<const RunOutlier> outliers;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// The style of the page of a history: light and dark, a screen and paper. Used inside io only.
+// The style of the page of a history: light and dark, for screen and paper. Used inside io only.
 
 namespace clsurf::io {
 

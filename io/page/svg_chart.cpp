@@ -10,7 +10,7 @@
 namespace clsurf::io {
 namespace {
 
-constexpr double chart_width = 860;  // of a chart's own coordinates; the page scales it
+constexpr double chart_width = 860;  // in the chart's coordinates; the page scales it
 constexpr double chart_height = 240;
 constexpr double margin_left = 58;
 constexpr double margin_right = 14;
@@ -130,7 +130,7 @@ std::string svg_pareto(const std::string& title, const std::vector<SvgBar>& bars
     }
     const SvgScale scale(bars.empty() ? 0 : bars.front().value, true);
     const double room =
-        chart_width - margin_left - margin_right - 44;  // the cumulative share has its numbers at the right
+        chart_width - margin_left - margin_right - 44;  // the axis of the cumulative share is at the right
     const double per_bar = room / static_cast<double>(std::max<std::size_t>(1, bars.size()));
     const auto y_of_share = [](double share) {
         return chart_height - margin_bottom - share * (chart_height - margin_top - margin_bottom);

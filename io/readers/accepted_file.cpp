@@ -18,7 +18,7 @@ constexpr int format_version = 1;
     throw InputError(Place::of_file(path), text, "save it from the page of `clsurf report`, or see docs/accepted.md");
 }
 
-/// A key that may be missing. `is`: whether its value is of the right kind.
+/// An optional key. `is`: whether its value has the right type.
 template <typename Value>
 Value take(const Json& json, const char* key, bool (Json::*is)() const noexcept, const char* kind, Value usual,
            const std::string& path, const std::string& where) {

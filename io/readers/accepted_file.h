@@ -1,5 +1,5 @@
 #pragma once
-// A file of accepted defects (JSON): what the page of `report` saves and `check --accepted` reads. docs/accepted.md.
+// A file of accepted defects (JSON), saved by the page of `report` and read by `check --accepted`. docs/accepted.md.
 
 #include <string>
 #include <vector>
@@ -8,19 +8,19 @@ namespace clsurf::io {
 
 struct AcceptedDefect {
     std::string fingerprint;  ///< of io/reports/defect_fingerprint.h
-    bool accepted = true;     ///< false: there is a comment only
-    int severity = 0;         ///< when it was accepted; 0: not told, any severity is accepted
+    bool accepted = true;     ///< false: the entry is only a comment
+    int severity = 0;         ///< at the time of acceptance; 0: not known, any severity is accepted
     std::string comment;
-    std::string finding;  ///< what it was, for people
+    std::string finding;  ///< description for readers
 };
 
 struct AcceptedFile {
     std::string name;     ///< of the file
-    std::string program;  ///< that it was made for; empty: not told
+    std::string program;  ///< program of the file; empty: not given
     std::vector<AcceptedDefect> defects;
 };
 
-/// Throws InputError: no such file, not of this format, the same fingerprint twice.
+/// Throws InputError: missing file, wrong format, duplicate fingerprint.
 [[nodiscard]] AcceptedFile read_accepted(const std::string& path);
 
 }  // namespace clsurf::io

@@ -7,14 +7,14 @@
 namespace clsurf::io {
 namespace {
 
-/// Reads what a report may lack or have in another form as nothing.
+/// Values that a report lacks or has in another form are read as missing.
 class BaselineReader {
 public:
     explicit BaselineReader(std::string path) : path_(std::move(path)) {}
 
     std::vector<RecordedDefect> read() {
         const Source source = map_file(path_);
-        // Reports are ours, but they may be large: their keys are not looked at one by one.
+        // Reports are written by clsurf and may be large: the keys are not bounded.
         const nlohmann::json json = nlohmann::json::parse(source.text(), nullptr, false);
         if (!json.is_object()) fail();
         if (json.contains("runs") && json["runs"].is_array()) {
@@ -92,7 +92,7 @@ private:
             fail();
         for (const Value& result : run["results"]) {
             const auto properties = result.find("properties");
-            // Results without a severity are of limits of the machine, or that nothing was judged.
+            // Results without a severity are about limits of the machine, or say that nothing was judged.
             if (properties == result.end() || !properties->is_object() || !properties->contains("severity")) continue;
             defects_.push_back(recorded(*properties));
         }

@@ -8,7 +8,7 @@
 
 namespace clsurf::io {
 
-/// The defects of a report of `check`, JSON or SARIF, of all its logs. Throws InputError: unreadable, neither of them, a
+/// The defects in a report of `check`, JSON or SARIF, of all its logs. Throws InputError: unreadable, neither format, a
 /// report of another subcommand.
 [[nodiscard]] std::vector<RecordedDefect> read_baseline(const std::string& path);
 

@@ -7,7 +7,7 @@
 namespace clsurf::io {
 namespace {
 
-/// `others`: keys of the same file that somebody else reads.
+/// `others`: keys of the same file that are read elsewhere.
 template <typename Limits, typename Rows, typename Others>
 Limits read_limits(const std::string& path, const Rows& rows, const Others& others) {
     const TomlFile file(path);

@@ -1,6 +1,6 @@
 #pragma once
-// A budget as a TOML file: `max_depth_um = 5` and the other names of docs/predictor.md; of the
-// differences between runs, those of docs/diff.md.
+// A budget as a TOML file: `max_depth_um = 5` and the other names of docs/predictor.md; for differences
+// between runs, the names of docs/diff.md.
 
 #include <string>
 
@@ -12,7 +12,7 @@ namespace clsurf::io {
 
 /// Throws InputError: unreadable, an unknown key, a value that is not a number ≥ 0.
 [[nodiscard]] QualityBudget read_budget(const std::string& path);
-/// What the same file says of the limits of the machine.
+/// The limits of the machine in the same file.
 [[nodiscard]] LimitBudget read_limit_budget(const std::string& path);
 [[nodiscard]] RunBudget read_run_budget(const std::string& path);
 

@@ -9,8 +9,8 @@
 
 namespace clsurf::io {
 
-/// In the order of the file, but the keys in `except`. Throws InputError: a value that is no text, number, truth value or
-/// array of those.
+/// The keys in the order of the file, without those in `except`. Throws InputError: a value that is not a text, number,
+/// truth value or array of these.
 [[nodiscard]] std::vector<ConfigEntry> config_entries(const TomlFile& file, const std::string& path,
                                                       const toml::table& table,
                                                       const std::vector<std::string_view>& except = {});

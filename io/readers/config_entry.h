@@ -10,7 +10,7 @@ namespace clsurf::io {
 
 struct ConfigEntry {
     std::string key;
-    std::vector<std::string> values;  ///< as one would type them; an array has several
+    std::vector<std::string> values;  ///< as typed on a command line; several for an array
     bool is_flag = false;             ///< true or false: `on`, no values
     bool on = false;
     Place where;

@@ -1,5 +1,5 @@
 #pragma once
-// .clsurf.toml: default options. Its keys are names of options; the caller judges their values.
+// .clsurf.toml: default options. Its keys are names of options; the caller checks their values.
 
 #include <string>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace clsurf::io {
 
-/// The entries in the order of the file. Throws InputError: missing, malformed, a value that is no text, number, truth
-/// value or array of those.
+/// The entries in the order of the file. Throws InputError: missing, malformed, a value that is not a text, number, truth
+/// value or array of these.
 [[nodiscard]] std::vector<ConfigEntry> read_config(const std::string& path);
 
 }  // namespace clsurf::io

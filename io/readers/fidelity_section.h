@@ -11,7 +11,7 @@ namespace clsurf::io {
 /// Throws InputError: unknown key, wrong type, an impossible value.
 [[nodiscard]] Fidelity read_fidelity(const TomlFile& file, const toml::table& table);
 
-/// The table with every value that is known.
+/// The table with all known values.
 [[nodiscard]] std::string fidelity_text(const Fidelity& fidelity);
 
 }  // namespace clsurf::io

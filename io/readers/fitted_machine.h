@@ -1,5 +1,5 @@
 #pragma once
-// The machine that logs of a program show, for what simulates it again.
+// A machine fitted to logs of a program, for its simulation.
 
 #include <string>
 #include <vector>
@@ -13,7 +13,7 @@
 
 namespace clsurf::io {
 
-/// How the text of a program is read: as that of `source`, with the same name, dialect, options and subprograms.
+/// Reads the text of a program like `source`: same name, dialect, options and subprograms.
 struct TextReader {
     Source source;
     ProgramOptions options;
@@ -26,8 +26,8 @@ struct TextReader {
     [[nodiscard]] Program level(const std::string& text) const;
 };
 
-/// Fits `known` to the logs (identify/identify.h). Where they do not allow it, returns `known`, with the warning
-/// `optimize.machine` that says why.
+/// Fits `known` to the logs (identify/identify.h). If they are not sufficient, returns `known` with the warning
+/// `optimize.machine`, which says why.
 [[nodiscard]] Machine fitted_machine(const TextReader& reader, const std::vector<ControllerLog>& logs,
                                      const Machine& known, Diagnostics& diagnostics);
 

@@ -47,7 +47,7 @@ std::string without_compression(const std::string& name) {
     return name;
 }
 
-/// By its name: a folder holds pictures, reports and notes, too, which no log format may be asked about.
+/// Judged by name: a folder also has pictures, reports and notes, which no log format should try to read.
 bool is_named_like_a_log(const std::string& name) {
     const std::string plain = without_compression(name);
     return std::ranges::any_of(
@@ -72,7 +72,7 @@ FolderContent read_folder(const std::string& folder) {
     fs::recursive_directory_iterator at(folder, fs::directory_options::follow_directory_symlink, error);
     if (error) throw InputError(Place::of_file(folder), "cannot be read: " + error.message());
     std::set<fs::path> folders{
-        fs::canonical(folder)};  // by their own names: links lead to some of them twice, or round
+        fs::canonical(folder)};  // by canonical names: links lead to some files twice, or in a circle
     for (; at != fs::recursive_directory_iterator(); at.increment(error)) {
         std::error_code unknown;
         if (at->is_directory(unknown) && !folders.insert(fs::canonical(at->path(), unknown)).second)
@@ -84,14 +84,14 @@ FolderContent read_folder(const std::string& folder) {
         else if (is_named_like_a_program(name) && looks_like_program(map_file(at->path().string())))
             content.programs.push_back(at->path());
     }
-    // A folder that cannot be read ends the walk.
+    // A folder that cannot be read ends the traversal.
     if (error) throw InputError(Place::of_file(folder), "cannot be read in full: " + error.message());
     std::ranges::sort(content.programs);
     std::ranges::sort(content.logs);
     return content;
 }
 
-/// How much speaks for a program: the length of the common name, then its being in the log's folder. 0: nothing.
+/// How well a program fits: the length of the common name, then being in the log's folder. 0: not at all.
 std::size_t fit_of(const fs::path& program, const fs::path& log) {
     const std::string stem = program.stem().string();
     if (!log.filename().string().starts_with(stem)) return 0;

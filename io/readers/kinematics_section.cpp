@@ -13,10 +13,10 @@ namespace clsurf::io {
 namespace {
 
 constexpr std::array<std::string_view, 3> rotary_letters{"a", "b", "c"};
-/// Axes nearer to each other than this are no pair: sine of the angle between them.
+/// Axes with a smaller angle between them are not a pair; sine of the angle.
 constexpr double least_between = 0.01;
 
-/// A vector of [kinematics.offsets]: its key, its symbol in the equations and which types have it.
+/// A vector of [kinematics.offsets]: its key, its symbol in the equations and the types that have it.
 struct OffsetKey {
     std::string_view key, symbol;
     Vec3 Kinematics::*vector;
@@ -42,7 +42,7 @@ Vec3 vector_of(const TomlFile& file, const toml::node& node, std::string_view ke
     return value;
 }
 
-/// The axis of a letter; an error at `node` where it is none of the pair.
+/// The axis of a letter; an error at `node` if it is not one of the pair.
 RotaryAxis& axis_of(const TomlFile& file, const toml::node& node, std::string_view letter, Kinematics& kinematics) {
     for (RotaryAxis* axis : {&kinematics.tilt, &kinematics.rotation}) {
         if (letter.size() == 1 && axis->letter == letter.front()) return *axis;

@@ -8,11 +8,11 @@
 
 namespace clsurf::io {
 
-/// Reads and judges the section. Throws InputError with the line: unknown type or key, axes that are
-/// no pair, offsets that the type does not have.
+/// Reads and checks the section. Throws InputError with the line: unknown type or key, axes that are
+/// not a pair, offsets that the type does not have.
 [[nodiscard]] Kinematics read_kinematics(const TomlFile& file, const toml::table& table);
 
-/// The section as a file has it.
+/// The section as text of a machine file.
 [[nodiscard]] std::string kinematics_text(const Kinematics& kinematics);
 
 }  // namespace clsurf::io

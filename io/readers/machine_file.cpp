@@ -1,5 +1,5 @@
-// Machine files: speeds mm/min, accelerations mm/s², jerks mm/s³, lengths mm, times s; rotary axes in
-// deg in place of mm.
+// Machine files: speeds mm/min, accelerations mm/s², jerks mm/s³, lengths mm, times s; rotary axes have
+// deg instead of mm.
 #include "io/readers/machine_file.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ constexpr double no_bound = std::numeric_limits<double>::infinity();
 
 enum class Low : unsigned char { above_zero, zero };
 
-/// Takes the value of a key, if it is given and possible: value = given · factor.
+/// Reads the value of a key if it is given and valid: value = given · factor.
 void take(const TomlFile& file, const toml::table& table, std::string_view key, double& value, Low low,
           double factor = 1.0, double high = no_bound) {
     const std::optional<double> given = file.number(table, key);
@@ -65,7 +65,7 @@ void take_mode(const TomlFile& file, const toml::table& table, std::string_view 
     if (!name.empty()) value = static_cast<Mode>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-/// What the trapezoidal planner asks for instead of roundings.
+/// The settings of the trapezoidal planner in place of corner rounding.
 void read_trapezoid(const TomlFile& file, const toml::table& table, TrapezoidSettings& t) {
     if (const auto arcs = file.boolean(table, "arc_blends")) t.arc_blends = *arcs;
     if (const auto cubic = file.boolean(table, "cubic_interpolation")) t.cubic_interpolation = *cubic;
@@ -78,7 +78,7 @@ void read_trapezoid(const TomlFile& file, const toml::table& table, TrapezoidSet
     take(file, table, "max_feed_override", t.max_feed_override, Low::above_zero, percent, 1000);
 }
 
-/// When arcs take the place of corners where axes have jerk limits; the period is known.
+/// When arcs replace corners if axes have jerk limits. Domain: the period is known.
 void read_arc_steps(const TomlFile& file, const toml::table& table, ControllerSettings& c) {
     take(file, table, "arc_step_time", c.arc_step_time, Low::zero, 1.0, 1.0);
     if (c.arc_step_time > 0 && c.arc_step_time < c.period)
@@ -87,7 +87,7 @@ void read_arc_steps(const TomlFile& file, const toml::table& table, ControllerSe
             fmt::format("'arc_step_time' is {}, expected 0 or at least the period, {}", c.arc_step_time, c.period));
 }
 
-/// A number, or "program" where the planner does as the program says.
+/// A number, or "program" if the planner follows the program.
 void read_merging(const TomlFile& file, const toml::table& table, ControllerSettings& c) {
     const toml::node* node = table.get("merging_tolerance");
     if (node == nullptr) return;
@@ -110,7 +110,7 @@ void read_junction(const TomlFile& file, const toml::table& table, JunctionSetti
                   "corners have no rule: give junction_deviation or junction_speed_step");
 }
 
-/// Keys that are known, but not beside another setting: `with`.
+/// Refuses known keys that conflict with another setting, `with`.
 void refuse(const TomlFile& file, const toml::table& table, std::initializer_list<std::string_view> keys,
             std::string_view with) {
     for (const std::string_view key : keys) {
@@ -121,7 +121,7 @@ void refuse(const TomlFile& file, const toml::table& table, std::initializer_lis
 
 constexpr std::string_view with_trapezoidal = "planner = \"trapezoidal\"";
 
-/// Keys of another planner, or of other corners, which would be without effect.
+/// Refuses keys of another planner, or of other corners, which would have no effect.
 void refuse_without_effect(const TomlFile& file, const toml::table& table, const ControllerSettings& c) {
     if (c.planner == PlannerKind::trapezoidal) {
         refuse(file, table,
@@ -219,7 +219,7 @@ void read_servo(const TomlFile& file, const toml::table& table, double period, d
     take(file, table, "noise", servo.noise, Low::zero, factor);
     take(file, table, "backlash", servo.backlash, Low::zero, factor);
     take(file, table, "friction", servo.friction, Low::zero, factor / seconds_per_minute);
-    // Kv·T_v of 1 and more: the loop s(1 + s T_v) + Kv rings with hardly any damping.
+    // Kv·T_v ≥ 1: the loop s(1 + s T_v) + Kv is poorly damped.
     if (servo.position_gain * servo.velocity_time_constant >= 1) {
         file.fail(
             table,
@@ -279,7 +279,7 @@ std::string axis_text(std::string_view name, const MachineAxis& a, double factor
                               whole(a.servo.friction * seconds_per_minute), factor == 1 ? "mm" : "deg");
 }
 
-/// The keys that belong to the planner.
+/// The keys of the planner.
 std::string controller_text(const ControllerSettings& c) {
     std::string text;
     if (c.planner == PlannerKind::trapezoidal) text += fmt::format("planner = \"{}\"\n", name_of(c.planner));
@@ -341,7 +341,7 @@ std::string controller_text(const ControllerSettings& c) {
                c.replan_blocks);
 }
 
-/// A text as TOML writes it: in quotes, with what may not stand there escaped.
+/// A text as a TOML string: in quotes, with escapes.
 std::string quoted(const std::string& text) {
     std::ostringstream out;
     const toml::value<std::string> value(text);
@@ -349,7 +349,7 @@ std::string quoted(const std::string& text) {
     return out.str();
 }
 
-/// A discrete loop whose gain is more than 1/period swings up. The gain may be one that the file does not give.
+/// A discrete loop with a gain above 1/period is unstable. The gain may be a default that the file does not give.
 void refuse_unstable_servos(const TomlFile& file, const Machine& machine) {
     const double period = machine.controller.period;
     const auto refuse = [&](std::string_view name, const MachineAxis& axis) {
@@ -375,7 +375,7 @@ Machine read_machine(const TomlFile& file) {
     const bool trapezoidal = machine.controller.planner == PlannerKind::trapezoidal;
     if (trapezoidal)
         for (MachineAxis& axis : machine.axes) axis.max_jerk = 0;
-    // Which rotary axes there can be, the kinematics say.
+    // The kinematics determine which rotary axes are possible.
     if (const toml::table* table = file.section(root, "kinematics")) {
         machine.kinematics = read_kinematics(file, *table);
         if (trapezoidal && machine.kinematics.has_rotary())

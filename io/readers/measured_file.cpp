@@ -36,7 +36,7 @@ std::string lower(std::string_view text) {
     return result;
 }
 
-/// A column that is read.
+/// A column to read.
 struct ReadColumn {
     std::size_t index = 0;
     double mm = 1;  ///< per its unit
@@ -48,7 +48,7 @@ class ColumnFinder {
 public:
     ColumnFinder(const Source& source, const TextHead& head) : source_(source), head_(head) {}
 
-    /// x and z, or x, y and z. The other one of two columns is x, whatever its name is.
+    /// x and z, or x, y and z. Of two columns, the one that is not z is x, whatever its name.
     [[nodiscard]] std::vector<ReadColumn> find(const MeasuredColumns& wanted) const {
         std::vector<ReadColumn> found;
         if (!wanted.empty()) {
@@ -61,7 +61,7 @@ public:
         const std::optional<std::size_t> z = named("z") ? named("z") : named("height");
         if (!x || !z) {
             if (said_by_comment()) return by_count();
-            // A second column of another name may be depths.
+            // A second column with another name may be depths.
             if (head_.columns.size() != 2 || !z) fail("no columns are named x and z");
             return {column(1 - *z), column(*z)};
         }
@@ -72,7 +72,7 @@ public:
     }
 
 private:
-    /// Two columns are x and z, three x, y and z.
+    /// By number of columns: two are x and z, three are x, y and z.
     [[nodiscard]] std::vector<ReadColumn> by_count() const {
         const std::size_t count = head_.columns.size();
         if (count != 2 && count != 3)
@@ -83,7 +83,7 @@ private:
         }
         return found;
     }
-    /// Whether a comment with as many words as there are columns was taken for their names.
+    /// Whether a comment with as many words as columns was taken for their names.
     [[nodiscard]] bool said_by_comment() const {
         std::string_view rest = source_.text();
         std::string_view line;
@@ -129,7 +129,7 @@ private:
     const TextHead& head_;
 };
 
-/// Reads places line by line.
+/// Reads points line by line.
 class PlaceReader {
 public:
     PlaceReader(const Source& source, const TextHead& head, std::vector<ReadColumn> columns)
@@ -177,7 +177,7 @@ private:
     std::vector<ReadColumn> columns_;
 };
 
-/// A text whose lines end with CR alone, as some instruments write it, with line feeds.
+/// Replaces the line ends of a text with CR alone, as some instruments write it, by line feeds.
 Source with_line_feeds(const Source& source) {
     const std::string_view text = source.text();
     if (text.find('\n') != std::string_view::npos || text.find('\r') == std::string_view::npos) return source;

@@ -62,7 +62,7 @@ namespace {
 
 ProgramOptions as_programmed(const PartFiles& files) {
     ProgramOptions options = files.program_options;
-    options.coordinates.reset();  // the log may say where the program's zero lies
+    options.coordinates.reset();  // the log may give the position of the program's zero
     return options;
 }
 

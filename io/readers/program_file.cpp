@@ -18,11 +18,11 @@ namespace {
 
 SourceText source_text(const Source& source) { return {source.name, source.text(), source.keep_alive}; }
 
-/// Subprograms stand beside the program under their name, as the controls write it.
+/// Subprograms are in the folder of the program, with the name that the control gives them.
 std::optional<SourceText> load_beside(const std::filesystem::path& folder, const std::string& name) {
     static constexpr std::array<std::string_view, 14> endings{"",     ".ngc", ".nc", ".NC", ".spf", ".SPF", ".mpf",
                                                               ".MPF", ".tap", ".i",  ".I",  ".txt", ".h",   ".H"};
-    // A name with a path would leave the folder.
+    // A name with a path could leave the folder.
     if (name.find('/') != std::string::npos) return std::nullopt;
     for (const std::string& stem :
          {name, "O" + name, "o" + name, "O" + std::string(name.size() < 4 ? 4 - name.size() : 0, '0') + name}) {
@@ -60,7 +60,7 @@ InterpreterOptions interpreter_options(const Source& source, const ProgramOption
 
 namespace {
 
-/// A block begins with a word (N10, G1, X-3, #1=, o100), after '/' perhaps; a comment with '(' or ';', a tape with '%'.
+/// A block begins with a word (N10, G1, X-3, #1=, o100), possibly after '/'; a comment with '(' or ';', a tape with '%'.
 bool looks_like_block(std::string_view line) {
     const std::size_t first = line.find_first_not_of(" \t/:");
     if (first == std::string_view::npos) return true;

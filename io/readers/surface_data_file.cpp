@@ -23,12 +23,12 @@ namespace {
 constexpr double mm_per_m = 1000;
 constexpr std::size_t magic_bytes = 8;
 constexpr std::string_view versions[] = {"ISO-1.0", "ISO-2.0", "BCR-1.0"};
-constexpr std::string_view text_versions[] = {"NIST-1.0", "NPL-V1.0"};  ///< of which there are no binary files
+constexpr std::string_view text_versions[] = {"NIST-1.0", "NPL-V1.0"};  ///< these have no binary files
 
-/// What a header says.
+/// The values of a header.
 struct Header {
     std::int64_t columns = 0, rows = 0;
-    double x = 0, y = 0, z = 0;  ///< [m] spacings, and a height's unit
+    double x = 0, y = 0, z = 0;  ///< [m] spacings, and the unit of height
     int compression = 0, type = 7;
     bool decimal_comma = false;
 };
@@ -37,7 +37,7 @@ struct Header {
     throw InputError(std::move(place), what, hint);
 }
 
-/// An empty map of the header's size. `most`: of values that the file can hold.
+/// An empty map with the size in the header. `most`: the number of values that the file can contain.
 MeasuredData map_of(const Source& source, const Header& header, std::size_t most) {
     const Place place = Place::of_file(source.name);
     if (header.compression != 0) refuse(place, "is compressed: only data without compression are read");
@@ -59,7 +59,7 @@ MeasuredData map_of(const Source& source, const Header& header, std::size_t most
     return map;
 }
 
-/// The next height of a map [in units of the header], NaN: not measured.
+/// Adds the next height of a map [in units of the header], NaN: not measured.
 void put(MeasuredData& map, const Header& header, double value) {
     const auto k = static_cast<std::int64_t>(map.points.size());
     const std::int64_t column = k % map.columns, row = k / map.columns;
@@ -68,7 +68,7 @@ void put(MeasuredData& map, const Header& header, double value) {
                             value * header.z * mm_per_m);
 }
 
-/// The value of each type that stands where nothing was measured, by its number. NaN stands there, too.
+/// The value of each type that means not measured, by type number. NaN means it, too.
 template <typename Value>
 constexpr double lowest_of = static_cast<double>(std::numeric_limits<Value>::lowest());
 template <typename Value>
@@ -114,7 +114,7 @@ std::string_view trimmed(std::string_view text) {
                                            : text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-/// A header's number, with a decimal point or comma.
+/// A number in the header, with a decimal point or comma.
 double number_in(const TextLines& lines, std::string_view field, std::string_view what) {
     bool bad = false;
     const double value = parse_number(field, true, bad);
@@ -122,7 +122,7 @@ double number_in(const TextLines& lines, std::string_view field, std::string_vie
     return value;
 }
 
-/// What stands before a comment.
+/// The text before a comment.
 std::string_view without_comment(std::string_view line) { return trimmed(line.substr(0, line.find(';'))); }
 
 Header text_header(TextLines& lines) {
@@ -177,7 +177,7 @@ std::string_view next_field(std::string_view& rest, bool decimal_comma) {
     return field;
 }
 
-/// A height as it is written; NaN: nothing was measured.
+/// A height as text; NaN: not measured.
 double height_in(const TextLines& lines, std::string_view field, const Header& header) {
     if (lower_case(field) == "bad") return missing<double>;
     bool bad = false;
@@ -210,7 +210,7 @@ MeasuredData read_text(const Source& source) {
 
 // ---- binary ----
 
-/// A value whose bytes stand in the file in the other order.
+/// A value with the opposite byte order.
 template <typename Value>
 Value reversed(Value value) {
     auto bytes = std::bit_cast<std::array<std::byte, sizeof(Value)>>(value);
@@ -240,7 +240,7 @@ private:
     std::size_t at_ = 0;
 };
 
-/// Values of one type from a byte on.
+/// Values of one type, from a byte offset on.
 template <typename Value>
 void take_values(const Source& source, std::size_t first, bool big_endian, const Header& header, MeasuredData& map) {
     const auto count = static_cast<std::size_t>(header.columns * header.rows);
@@ -257,7 +257,7 @@ void take_values(const Source& source, std::size_t first, bool big_endian, const
 
 using ValueReader = void (*)(const Source&, std::size_t, bool, const Header&, MeasuredData&);
 
-/// How values of a type are read, by its number.
+/// The reader of a type of values, by type number.
 struct ValueType {
     std::size_t bytes;
     ValueReader read;
@@ -282,14 +282,14 @@ Header binary_header(const Source& source, Fields& fields) {
     (void)fields.take<double>();  // the resolution of the instrument
     header.compression = fields.take<std::uint8_t>();
     header.type = fields.take<std::uint8_t>();
-    (void)fields.take<std::uint8_t>();  // of a checksum; the standard has none
+    (void)fields.take<std::uint8_t>();  // a checksum type; the standard defines none
     return header;
 }
 
-/// Whether a spacing is one that an instrument can have [m]; bytes in the wrong order hardly give one.
+/// Whether an instrument can have such a spacing [m]; the wrong byte order rarely gives one.
 bool is_likely_spacing(double metres) { return metres >= 1e-12 && metres <= 1; }
 
-/// Some programs of microscopes add two numbers, 5 and 1, to the header of version 1.0.
+/// Some microscope programs add two numbers, 5 and 1, to the header of version 1.0.
 std::size_t added_bytes(const Source& source, std::size_t at, std::size_t expected, bool big_endian) {
     constexpr std::uint32_t added[] = {5, 1};
     if (source.text().substr(1, 7) != "ISO-1.0" || source.bytes.size() != at + expected + sizeof added) return 0;
@@ -321,7 +321,7 @@ MeasuredData read_binary(const Source& source) {
     return map;
 }
 
-/// A profile has only what was measured.
+/// Removes points that were not measured from a profile.
 void drop_missing(MeasuredData& profile) {
     std::erase_if(profile.points, [](const Vec3& p) { return !std::isfinite(p.z()); });
 }

@@ -13,13 +13,13 @@ namespace {
 constexpr double highest_number = 1e6;  ///< of tools and pockets
 constexpr int most_orientation = 9;
 
-/// One line of the table, and how it is complained of.
+/// One line of the table, and its error messages.
 class ToolLine {
 public:
     ToolLine(const Source& source, std::string_view text, std::uint32_t number)
         : source_(source), text_(text), number_(number) {}
 
-    /// False: the line holds no tool.
+    /// False: the line has no tool.
     bool read(Tool& tool) {
         std::size_t at = 0;
         std::uint32_t seen = 0;
@@ -54,7 +54,7 @@ private:
     void put(Tool& tool, char letter, double value, std::size_t at) const {
         switch (letter) {
             case 'T': tool.number = whole(letter, value, highest_number, at); return;
-            case 'P': (void)whole(letter, value, highest_number, at); return;  // its place in the changer cuts nothing
+            case 'P': (void)whole(letter, value, highest_number, at); return;  // the pocket does not matter for cutting
             case 'D': tool.diameter = value; return;
             case 'X':
             case 'Y':

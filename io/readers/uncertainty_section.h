@@ -9,10 +9,10 @@
 
 namespace clsurf::io {
 
-/// Throws InputError: unknown key, wrong type, a value that has no uncertainty, none or several kinds of it.
+/// Throws InputError: unknown key, wrong type, a value that cannot have an uncertainty, no or several kinds of uncertainty.
 [[nodiscard]] std::vector<ParameterUncertainty> read_uncertainty(const TomlFile& file, const toml::array& rows);
 
-/// A table for each; empty: there are none.
+/// One table each; empty: there are none.
 [[nodiscard]] std::string uncertainty_text(const std::vector<ParameterUncertainty>& rows);
 
 }  // namespace clsurf::io

@@ -11,7 +11,7 @@
 namespace clsurf::io {
 namespace {
 
-/// Of the heights where pieces meet.
+/// Jumps between the heights of adjacent windows.
 struct Jumps {
     std::size_t count = 0;
     double rms = 0, most = 0, most_x = 0, most_slope = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// A name of a defect that stays the same from run to run of a program: what SARIF compares results by, and what a file
-// of accepted defects names them by.
+// An identifier of a defect that stays the same from run to run of a program. SARIF compares results by it, and files
+// of accepted defects refer to it.
 
 #include <string>
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace clsurf::io {
 
-/// One for each defect, all different: what, on which pass, and about where, in cells of 5 mm; of those that have the
-/// same, the second one ends in "/2".
+/// One for each defect, all different: its kind, its pass, and its position in cells of 5 mm. If several are
+/// equal, the second one ends in "/2".
 [[nodiscard]] std::vector<std::string> fingerprints_of(const std::vector<Defect>& defects);
 
 }  // namespace clsurf::io

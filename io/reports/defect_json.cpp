@@ -8,7 +8,7 @@
 namespace clsurf::io {
 namespace {
 
-/// "passes", "lines" and "points" of sections, side by side, and "subprograms" where one runs in a file of its own.
+/// "passes", "lines" and "points" of sections as parallel arrays, and "subprograms" if a section is in another file.
 void add_sections(Json& json, const std::vector<DefectSection>& sections) {
     Json passes = Json::array();
     Json lines = Json::array();
@@ -31,7 +31,7 @@ void add_sections(Json& json, const std::vector<DefectSection>& sections) {
     if (in_subprogram) json["subprograms"] = std::move(subprograms);
 }
 
-/// What a systematic lag has besides.
+/// The additional keys of a systematic lag.
 void add_systematic(Json& json, const Defect& d) {
     constexpr double ms_per_s = 1e3;
     json["share_percent"] = number(100 * d.share, 1);

@@ -1,5 +1,5 @@
 #pragma once
-// Defects in JSON: the same keys in every report that lists some.
+// Defects in JSON: the same keys in every report.
 
 #include <vector>
 
@@ -8,7 +8,7 @@
 
 namespace clsurf::io {
 
-/// A list; keys: docs/predictor.md. `scallop` [mm] of the tool, 0: none is known.
+/// A list; keys: docs/predictor.md. `scallop` [mm] of the tool, 0: not known.
 [[nodiscard]] Json list_defects(const std::vector<Defect>& defects, double scallop);
 
 }  // namespace clsurf::io

@@ -15,7 +15,7 @@
 namespace clsurf::io {
 namespace {
 
-constexpr double as_strong = 0.5;  ///< share of the strongest score that the title still speaks of
+constexpr double as_strong = 0.5;  ///< share of the strongest score from which defects are in the title
 
 std::string number_word(std::size_t n) {
     static constexpr std::array<std::string_view, 12> words{"One",   "Two",   "Three", "Four", "Five",   "Six",
@@ -23,7 +23,7 @@ std::string number_word(std::size_t n) {
     return n >= 1 && n <= words.size() ? std::string(words[n - 1]) : fmt::format("{}", n);
 }
 
-/// What the title counts together.
+/// Defects that the title counts together.
 struct Group {
     std::set<std::int64_t> passes;
     std::size_t defects = 0;

@@ -12,7 +12,7 @@
 namespace clsurf::io {
 namespace {
 
-constexpr PointIndex rows_at_once = 1 << 16;  ///< of one thread
+constexpr PointIndex rows_at_once = 1 << 16;  ///< per thread
 constexpr PointIndex rows_in_memory = 1 << 20;
 
 void put_value(fmt::memory_buffer& out, const ExportColumn& column, std::size_t row) {

@@ -9,7 +9,7 @@
 
 namespace clsurf::io {
 
-/// A column to be written: 32-bit numbers, or 64-bit ones where they need it.
+/// A column to be written: 32-bit numbers, or 64-bit ones if necessary.
 struct ExportColumn {
     std::string name;
     std::string unit;
@@ -20,7 +20,7 @@ struct ExportColumn {
     [[nodiscard]] PointIndex size() const;
 };
 
-/// "name [unit]" headers, shortest numbers that read back the same; empty where there is no value.
+/// Headers "name [unit]"; the shortest numbers that read back the same; empty fields for missing values.
 /// O(points), parallel. Throws SystemError.
 void write_csv(const std::string& path, const std::vector<ExportColumn>& columns);
 

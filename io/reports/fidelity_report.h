@@ -1,5 +1,5 @@
 #pragma once
-// How far a simulation can be trusted: what a machine file says of runs that were compared with it.
+// How far a simulation can be trusted: the fidelity of its machine file, from comparisons with recorded runs.
 
 #include <optional>
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace clsurf::io {
 
-/// The object `fidelity`; null where it was never measured.
+/// The object `fidelity`; null if it was never measured.
 [[nodiscard]] Json fidelity_json(const std::optional<Fidelity>& fidelity);
 
-/// The same read back; nullopt: null, or not such an object.
+/// Reads the object back; nullopt: null, or not such an object.
 [[nodiscard]] std::optional<Fidelity> read_fidelity(const Json& json);
 
-/// One line for people, with its end.
+/// One line of text, with its line end.
 [[nodiscard]] std::string fidelity_line(const std::optional<Fidelity>& fidelity);
 
 }  // namespace clsurf::io

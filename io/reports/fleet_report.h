@@ -1,5 +1,5 @@
 #pragma once
-// What became of the runs of a fleet.
+// The results of the runs of a fleet.
 
 #include <string>
 #include <vector>

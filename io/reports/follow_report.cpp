@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_ranges = 3;
 
-/// An object of one line, with our version.
+/// An object in one line, with the schema version.
 std::string line_of(const Json& event) {
     Json versioned{{"schema_version", schema_version}};
     versioned.update(event);
@@ -54,7 +54,7 @@ std::string finding_text(const ProvisionalDefect& found, double period) {
 
 std::string finding_json(const ProvisionalDefect& found, double period) {
     Json defect = list_defects({found.defect}, 0).front();
-    for (const char* key : {"id", "rank", "depth_scallops"}) defect.erase(key);  // of a whole list, and of a report
+    for (const char* key : {"id", "rank", "depth_scallops"}) defect.erase(key);  // of a list or report
     return line_of({{"event", "finding"},
                     {"number", found.number},
                     {"provisional", true},

@@ -26,7 +26,7 @@ Json defect_list(const std::vector<RecordedDefect>& defects) {
     return all;
 }
 
-/// A count or a worst value; null of a run that failed, where it would say that there are no defects.
+/// A count or a worst value; null for a failed run, whose zero would mean no defects.
 Json measured(const RunRecord& run, Json value) { return run.failed() ? Json(nullptr) : std::move(value); }
 
 }  // namespace

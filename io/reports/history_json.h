@@ -6,7 +6,7 @@
 
 namespace clsurf::io {
 
-/// Of a run, without its defects.
+/// A run without its defects.
 [[nodiscard]] Json run_object(const RunRecord& run);
 [[nodiscard]] Json defect_object(const RecordedDefect& defect);
 

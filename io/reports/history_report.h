@@ -1,5 +1,5 @@
 #pragma once
-// What a history answers, as JSON and as text for people. Keys: docs/history.md.
+// The answers of a history, as JSON and as text. Keys: docs/history.md.
 
 #include <span>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace clsurf::io {
 
-/// A trend with what it is of.
+/// A trend with its subject.
 struct ReportedTrend {
     const Trend* trend = nullptr;
     const HistoryQuantity* quantity = nullptr;
@@ -21,20 +21,20 @@ struct ReportedTrend {
     std::optional<double> limit;  ///< nothing: none was given
 };
 
-/// "pass 7", "lines 500-670", "feed_drop"; empty: all of the run.
+/// "pass 7", "lines 500-670", "feed_drop"; empty: the whole run.
 [[nodiscard]] std::string text_of(const DefectFilter& filter);
-/// Since when, by what, and how often over the limit: sentences with their ends.
+/// Since when and by how much the value changed, and how often it exceeded the limit: sentences with line ends.
 [[nodiscard]] std::string trend_text(const ReportedTrend& reported);
 [[nodiscard]] std::string trend_json(const ReportedTrend& reported);
 
-/// "failed", "not judged", "over budget", "no defects", or its worst severity: "visible".
+/// "failed", "not judged", "over budget", "no defects", or the worst severity: "visible".
 [[nodiscard]] std::string verdict_of(const RunRecord& run);
 
-/// One row a run. Runs are in the order of their times.
+/// One row per run. Runs are in order of time.
 [[nodiscard]] std::string history_text(std::span<const RunRecord> runs);
 [[nodiscard]] std::string history_json(std::span<const RunRecord> runs);
 
-/// All that is kept of a run, which has its defects.
+/// All that is stored of a run, with its defects.
 [[nodiscard]] std::string run_text(const RunRecord& run);
 [[nodiscard]] std::string run_json(const RunRecord& run);
 

@@ -113,10 +113,10 @@ std::string runs_text(const char* title, std::span<const RunFidelity> runs) {
     return text;
 }
 
-/// Follows the sections of a machine file's text.
+/// Keeps track of the section while reading the text of a machine file line by line.
 class SectionReader {
 public:
-    /// The section's name as parameters have it, after this line.
+    /// The section after this line, named as in parameters.
     const std::string& after(const std::string& line) {
         if (line == "[controller]") section_ = "controller";
         if (line == "[path]") section_ = "path";
@@ -130,7 +130,7 @@ private:
     std::string section_;
 };
 
-/// A line of a machine file with what was found behind its value.
+/// A line of a machine file with the result as a comment after its value.
 std::string annotated(const std::string& line, const std::string& section, const Identification& result) {
     const std::size_t equals = line.find(" = ");
     if (section.empty() || equals == std::string::npos) return line;
@@ -166,7 +166,7 @@ std::string identification_text(const Identification& result) {
     text += runs_text("test runs, not used for the fit", result.tests);
     if (result.unidentified.empty()) return text;
     text += "\nnot identified\n";
-    // One line a reason and axis.
+    // One line per reason and axis.
     std::vector<std::pair<std::string, std::string>> lines;
     for (const UnidentifiedParameter& u : result.unidentified) {
         const std::string reason = fmt::format("{}: {}", u.axis, u.reason);

@@ -106,7 +106,7 @@ std::string list_json(const std::string& list, const std::vector<std::string>& r
     Json all = Json::array();
     for (const std::string& text : reports) {
         all.push_back(Json::parse(text));
-        all.back().erase("schema_version");  // said once, of the whole
+        all.back().erase("schema_version");  // given once, for the whole
     }
     Json json = all.size() == 1 ? all.front() : Json::object();
     json[list] = std::move(all);

@@ -30,8 +30,8 @@ struct ComparisonReport {
 /// A table that is not recognised as a log.
 [[nodiscard]] std::string table_json(const std::string& file, const ForeignTable& table);
 
-/// One shape for one report and for many: {"<list>": […]}, and besides the keys of the report where it is the only
-/// one.
+/// The same shape for one report and for several: {"<list>": […]}; a single report also has its keys at the top
+/// level.
 [[nodiscard]] std::string list_json(const std::string& list, const std::vector<std::string>& reports);
 
 }  // namespace clsurf::io

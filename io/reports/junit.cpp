@@ -11,7 +11,7 @@
 namespace clsurf::io {
 namespace {
 
-/// For attributes and elements. XML has no control characters: they become visible signs.
+/// For attributes and elements. XML does not allow control characters: they become visible signs.
 std::string xml(const std::string& text, bool lines) {
     std::string out;
     std::string line;

@@ -1,5 +1,5 @@
 #pragma once
-// Results as JUnit's XML, which build servers show as tests: the elements that Jenkins (junit-10.xsd) and GitLab read.
+// Results as JUnit XML, which build servers show as tests: the elements that Jenkins (junit-10.xsd) and GitLab read.
 
 #include <string>
 #include <string_view>
@@ -11,17 +11,17 @@ struct JunitCase {
     std::string name;
     std::string failure;  ///< one line; empty: it passed
     std::string details;  ///< of a failure
-    std::string error;    ///< why it could not be tested, one line; empty: it could
+    std::string error;    ///< why it could not be tested, one line; empty: it was tested
 };
 
 struct JunitSuite {
     std::string name;
-    std::string class_name;  ///< of its cases: what they are of
+    std::string class_name;  ///< of its cases
     std::vector<JunitCase> cases;
     std::string output;  ///< text for people
 };
 
-/// The case of `check` that has an error where there is no verdict.
+/// The case of `check` that has an error if there is no verdict.
 inline constexpr std::string_view verdict_case = "the data allow a verdict";
 /// The suite of `check` on a log, without cases.
 [[nodiscard]] JunitSuite check_suite(const std::string& program, const std::string& log);

@@ -11,9 +11,9 @@
 namespace clsurf::io {
 namespace {
 
-constexpr std::size_t most_rows = 20;     ///< of the text; JSON and CSV have all
-constexpr std::size_t widest_block = 40;  ///< of a block's text
-constexpr double grave = 1.5;             ///< a factor that is an error in SARIF
+constexpr std::size_t most_rows = 20;     ///< in the text; JSON and CSV have all
+constexpr std::size_t widest_block = 40;  ///< characters of a block in the text
+constexpr double grave = 1.5;             ///< from this factor on an error in SARIF
 
 double shown(const StatedLimit& limit, double value) { return value * unit_of(limit).per_inside; }
 
@@ -69,7 +69,7 @@ Json judged_limits_json(const LimitReport& report) {
     return all;
 }
 
-/// The largest share of each limit, beyond its uncertainty: a row for each quantity.
+/// The largest share of each limit that is used, with its uncertainty: one row per quantity.
 std::string shares_text(const LimitReport& report) {
     std::vector<std::string_view> names;
     for (const JudgedLimit& judged : report.judged) {
@@ -89,7 +89,7 @@ std::string shares_text(const LimitReport& report) {
 }
 
 std::string limits_text(const LimitReport& report, const Program& program) {
-    // A machine file with kinematics alone asks for no verdict.
+    // A machine file with kinematics alone has no limits to judge.
     if (report.judged.empty()) return report.diagnostics.empty() ? "" : "limits: none could be judged\n\n";
     std::string text;
     if (report.findings.empty()) {

@@ -1,5 +1,5 @@
 #pragma once
-// Exceeded limits as they stand in the reports of `check`. Used inside io only.
+// Exceeded limits in the reports of `check`. Used inside io only.
 
 #include <string>
 
@@ -16,12 +16,12 @@ namespace clsurf::io {
 /// A verdict, and a table of the worst findings.
 [[nodiscard]] std::string limits_text(const LimitReport& report, const Program& program);
 
-/// Columns of a finding after those that it shares with defects, with their title.
+/// The titles of the columns after those shared with defects.
 [[nodiscard]] std::string_view limit_column_titles();
-/// Rows, counted from `id`: as quality_csv() has them.
+/// Rows as in quality_csv(), numbered from `id`.
 [[nodiscard]] std::string limits_csv(const LimitReport& report, std::size_t id);
 
-/// Results of the rules that are appended to `rules`.
+/// Adds results, and their rules to `rules`.
 void add_limits_sarif(const LimitReport& report, const Program& program, const std::string& log, Json& rules,
                       Json& results);
 

@@ -11,7 +11,7 @@
 namespace clsurf::io {
 namespace {
 
-/// A loop that begins again ends on an earlier line than it began.
+/// The last line of a section can be before its first one, in a repeated loop.
 LineRange rising(LineNumber first, LineNumber last) { return std::minmax({first, std::max(last, 1U)}); }
 
 std::vector<LineRange> merged(std::vector<LineRange> ranges) {
@@ -26,7 +26,7 @@ std::vector<LineRange> merged(std::vector<LineRange> ranges) {
     return merged;
 }
 
-/// The range with a line comes first.
+/// Moves the range with a line to the front.
 void put_first(std::vector<LineRange>& ranges, LineNumber line) {
     const auto found = std::find_if(ranges.begin(), ranges.end(),
                                     [&](const LineRange& r) { return r.first <= line && line <= r.second; });
@@ -82,7 +82,7 @@ std::string line_ranges(const Defect& defect, std::size_t shown) { return text_o
 std::string named_line_ranges(const Defect& defect, std::size_t shown) {
     const std::string text = text_of(defect, shown, true);
     if (text == "-") return "no known line";
-    // Lines of a subprogram follow in brackets, ranges that are not shown behind "and"; the word is of what stands before them.
+    // Lines of a subprogram follow in brackets, further ranges after "and"; the noun counts only the ranges before them.
     const bool one = text.substr(0, std::min(text.find(" (in "), text.find(" and "))).find_first_not_of("0123456789") ==
                      std::string::npos;
     return (one ? "line " : "lines ") + text;

@@ -87,7 +87,7 @@ std::string summary_text(const ReportedLint& l) {
     return text;
 }
 
-/// A line a program, those with most warnings first.
+/// One line per program, those with most warnings first.
 std::string table_text(std::span<const ReportedLint> programs) {
     std::vector<const ReportedLint*> order;
     for (const ReportedLint& l : programs) order.push_back(&l);
@@ -128,7 +128,7 @@ Json program_json(const ReportedLint& l) {
                 {"diagnostics", list(l.diagnostics)}};
 }
 
-/// Numbers of the rules that are broken anywhere, and what SARIF says of them.
+/// Indices of the rules with findings, and their SARIF entries.
 struct BrokenRules {
     std::vector<const LintRule*> rules;
     Json json = Json::array();

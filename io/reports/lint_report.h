@@ -1,5 +1,5 @@
 #pragma once
-// What lint finds, as text, JSON and SARIF 2.1.0.
+// The findings of lint as text, JSON and SARIF 2.1.0.
 
 #include <span>
 #include <string>
@@ -9,20 +9,21 @@
 
 namespace clsurf::io {
 
-/// What lint found in one program.
+/// The findings of lint in one program.
 struct ReportedLint {
     std::string program;  ///< its name
     LintReport report;
     Diagnostics diagnostics;
 };
 
-/// Summaries first (a line a program, worst first, where there are several), then one line a finding, "part.nc:120:
+/// Summaries first (for several programs one line each, worst first), then one line per finding, "part.nc:120:
 /// warning: … [point-spacing]".
 [[nodiscard]] std::string lint_text(std::span<const ReportedLint> programs);
 /// Keys: programs[]{program, findings[]{rule, severity, lines, beside_lines, pass, position_mm, tip_mm, contact_mm
-/// (where the tool is known), found, expected, unit, text}, summary, diagnostics[]}; of one program its keys besides.
+/// (if the tool is known), found, expected, unit, text}, summary, diagnostics[]}; for one program also its keys at the top
+/// level.
 [[nodiscard]] std::string lint_json(std::span<const ReportedLint> programs);
-/// One run for all programs, one result a finding on its lines.
+/// One run for all programs, one result per finding at its lines.
 [[nodiscard]] std::string lint_sarif(std::span<const ReportedLint> programs);
 
 }  // namespace clsurf::io

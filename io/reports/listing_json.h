@@ -1,5 +1,5 @@
 #pragma once
-// Lists of words that the program knows (fields, formats, dialects, colour maps) as JSON.
+// Lists of names in the program (fields, formats, dialects, colour maps) as JSON.
 
 #include <span>
 #include <string>
@@ -13,7 +13,7 @@ struct ListingRow {
     std::string summary;
 };
 
-/// {"KEY": [{"name": …, "unit": …, "summary": …}, …]} and a line end; no "unit" where no row has
+/// {"KEY": [{"name": …, "unit": …, "summary": …}, …]} and a line end; without "unit" if no row has
 /// one.
 [[nodiscard]] std::string listing_json(std::string_view key, std::span<const ListingRow> rows);
 

@@ -6,7 +6,7 @@
 
 namespace clsurf::io {
 
-/// Keys: as of alignment_json(), without tool and diagnostics.
+/// Keys as in alignment_json(), without tool and diagnostics.
 [[nodiscard]] Json alignment_keys(const MeasuredData& data, const Alignment& alignment);
 /// The key `measured` of a report; its keys: docs/howto/measured.md.
 [[nodiscard]] Json measured_json(const ReportedMeasurement& measured);

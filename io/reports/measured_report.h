@@ -1,5 +1,5 @@
 #pragma once
-// The comparison with a measurement as text: a section of what `check` says.
+// The comparison with a measurement as text: a section of the output of `check`.
 
 #include <string>
 

@@ -11,7 +11,7 @@
 namespace clsurf::io {
 namespace {
 
-constexpr double chord_error = 1e-4;  ///< [mm] of the chords of a curve
+constexpr double chord_error = 1e-4;  ///< [mm] for the chords of a curve
 constexpr std::size_t piece_bytes = std::size_t{1} << 20;
 
 std::string_view name_of(MotionKind kind) {
@@ -26,7 +26,7 @@ std::string_view name_of(MotionKind kind) {
     return "";
 }
 
-/// A number to the nanometre without trailing zeros; nothing for NaN.
+/// A number rounded to a nanometre without trailing zeros; empty for NaN.
 void put(fmt::memory_buffer& out, double value) {
     out.push_back(',');
     if (std::isnan(value)) return;
@@ -87,7 +87,7 @@ void write_moves_csv(const Motions& motions, const Kinematics* kinematics,
     for (std::size_t i = 0; i < motions.kind.size(); ++i) {
         if (motions.kind[i] == MotionKind::spline) {
             if (const Curve* curve = motions.curve_of(static_cast<std::int64_t>(i))) {
-                // Rows are points, so a curve becomes those of its chords.
+                // Rows are points, so a curve becomes its chords.
                 std::vector<double> ends = curve->span->with_unknown_at(Vec3::Zero()).chord_ends(chord_error);
                 ends.pop_back();
                 for (const double t : ends) put_row(i, Xyz(curve->span->at(t)));

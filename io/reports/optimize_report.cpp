@@ -20,7 +20,7 @@
 namespace clsurf::io {
 namespace {
 
-/// How many of the defects show in each quantity best.
+/// The number of defects by the quantity that shows them best.
 std::array<std::size_t, quantities> by_quantity(const JudgedRun& run) {
     std::array<std::size_t, quantities> counts{};
     for (const Defect& defect : run.report.defects) ++counts[index_of(defect.quantity)];
@@ -32,7 +32,7 @@ std::string program_of(const ControllerRun& run) {
     return run.candidate == 0 ? "the program" : fmt::format("candidate {}", run.candidate);
 }
 
-/// The measures of a run beside those that were promised.
+/// The results of runs on controllers, next to the predicted ones.
 std::string controller_text(const std::vector<ControllerRun>& runs) {
     std::string text;
     const auto words = [](const RunMeasures& m) {

@@ -1,5 +1,5 @@
 #pragma once
-// A cut across the formed surface, in numbers.
+// A profile across the as-machined surface, in numbers.
 
 #include <string>
 
@@ -11,7 +11,7 @@ namespace clsurf::io {
 
 struct ProfileReport {
     Vec2 from = Vec2::Zero(), to = Vec2::Zero();  ///< [mm]
-    double measured = 0;                          ///< [mm] of it on which something was cut
+    double measured = 0;                          ///< [mm] its length with a surface
     Roughness roughness;
 };
 

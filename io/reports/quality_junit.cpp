@@ -1,5 +1,5 @@
-// The report of `check` as JUnit: a case for each limit, one for the baseline, and one that says whether there is a verdict.
-// Its failures are those that the exit code tells: defects without a limit fail nothing.
+// The report of `check` as JUnit: one case per limit, one for the baseline, and one for whether there is a verdict.
+// The failures are those of the exit code: defects without a limit are not failures.
 
 #include <algorithm>
 

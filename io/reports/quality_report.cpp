@@ -22,12 +22,12 @@
 namespace clsurf::io {
 namespace {
 
-constexpr double worth_saying = 0.005;  ///< share without a form that the text names
+constexpr double worth_saying = 0.005;  ///< share without a form from which the text mentions it
 
 double um(double mm) { return mm * um_per_mm; }
 double per_minute(double per_second) { return per_second * seconds_per_minute; }
 
-/// The defects, with what the formed surface and the colours say of each.
+/// The defects, with the results of the as-machined surface and of colour differences.
 Json looked_at_defects(const ReportedQuality& q) {
     Json all = list_defects(q.report->defects, q.scallop);
     const std::vector<std::string> fingerprints = fingerprints_of(q.report->defects);
@@ -47,7 +47,7 @@ Json looked_at_defects(const ReportedQuality& q) {
     return all;
 }
 
-/// What the file of accepted defects names, and what became of it.
+/// The entries of the file of accepted defects, and their state.
 Json accepted_json(const ReportedQuality& q) {
     Json all = Json::array();
     if (q.acceptance == nullptr) return all;
@@ -110,7 +110,7 @@ Json patches_json(const PartRoughness& f) {
     return all;
 }
 
-/// Limits are judged whatever the passes are like.
+/// Limits of the machine are judged even if the passes are not.
 bool is_limit(const BudgetLine& line) {
     const auto limits = limit_budget_limits();
     return std::any_of(limits.begin(), limits.end(), [&](const auto& row) { return row.name == line.name; });
@@ -134,7 +134,7 @@ std::string roughness_text(const PartRoughness& f) {
     return text;
 }
 
-/// The verdict, and what stands out most.
+/// The verdict, with the most conspicuous finding.
 std::string verdict_text(const QualityReport& r) {
     std::string text;
     if (r.judgement.judged()) {
@@ -149,7 +149,7 @@ std::string verdict_text(const QualityReport& r) {
            fmt::format("Stands out most: {}, {}.\n\n", sentence_of(worst), named_line_ranges(worst, most_ranges));
 }
 
-/// As many ranges of lines as fit beside the numbers, three at most.
+/// As many ranges of lines as fit next to the numbers, at most three.
 std::size_t ranges_in_column(const Defect& d) {
     constexpr std::size_t widest = 21;
     std::size_t shown = 3;
@@ -157,7 +157,7 @@ std::size_t ranges_in_column(const Defect& d) {
     return shown;
 }
 
-/// Why depths in the as-machined surface are missing, or other than those of the passes alone: a line a reason.
+/// Why depths in the as-machined surface are missing, or differ from those of the passes alone: one line per reason.
 std::string as_machined_notes(const ReportedQuality& q) {
     std::string text;
     for (const MarkNote note :
@@ -183,7 +183,7 @@ std::string formed_column(const ReportedQuality& q, std::size_t i) {
     return q.report->defects[i].systematic || std::isnan(depth) ? "       -" : fmt::format(" {:>7.1f}", depth);
 }
 
-/// A row for each defect; places and lines are on a second one where the text is narrow.
+/// One row per defect; in a narrow text places and lines are in a second one.
 std::string defects_table(const ReportedQuality& q) {
     constexpr std::size_t least_for_one_row = 120;
     const QualityReport& r = *q.report;
@@ -212,7 +212,7 @@ std::string defects_table(const ReportedQuality& q) {
     return text + "\n";
 }
 
-/// What is new, by rank.
+/// The new defects, by rank.
 std::string against_baseline(const RecordedMatch& match) {
     std::string text = "against the baseline: " + baseline_text(match) + "\n";
     for (const DefectState state : {DefectState::fresh, DefectState::worse}) {

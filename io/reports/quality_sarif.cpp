@@ -1,6 +1,6 @@
 // SARIF 2.1.0 (OASIS, Static Analysis Results Interchange Format): a defect is a result at the lines of
-// its first run; its other runs and the adjacent passes are related locations. A run inside a subprogram is at the
-// subprogram's lines, and the line that calls it is a related location.
+// its first section; its other sections and the adjacent passes are related locations. A section inside a subprogram is at
+// the subprogram's lines, and the line that calls it is a related location.
 
 #include <algorithm>
 #include <map>
@@ -27,7 +27,7 @@ constexpr std::size_t most_related = 20;  ///< locations: a systematic lag has h
 
 std::string_view level_of(int severity) { return severity >= 4 ? "error" : severity >= 2 ? "warning" : "note"; }
 
-/// The path of a subprogram's file, which runs know without its folder.
+/// The path of a subprogram's file, whose name in a section has no folder.
 std::string path_of(const Program& program, const std::string& file) {
     for (const SourceText& text : program.files) {
         if (file_name(text.name()) == file) return text.name();
@@ -57,7 +57,7 @@ std::string markdown_of(const Defect& d) {
         axes_text(d.place.position()));
 }
 
-/// Accepted by the user: SARIF counts such results as suppressed.
+/// The user has accepted the defect: SARIF counts such results as suppressed.
 Json suppressions_of(const Acceptance& acceptance, std::size_t i) {
     Json suppression{{"kind", "external"}, {"status", "accepted"}};
     if (!acceptance.of_defect[i].comment.empty()) suppression["justification"] = acceptance.of_defect[i].comment;

@@ -13,8 +13,8 @@
 namespace clsurf::io {
 namespace {
 
-constexpr double least_shown_depth = 5e-5;  ///< [mm] 0.0 µm is neither a pit nor a bulge
-constexpr double least_depth = 1e-4;        ///< [mm] that is worth a word beside a change of speed
+constexpr double least_shown_depth = 5e-5;  ///< [mm] a depth that is shown as 0.0 µm is neither pit nor bulge
+constexpr double least_depth = 1e-4;        ///< [mm] from which a depth is mentioned next to a change of speed
 
 std::string with_um(double mm) { return fmt::format("{:.1f} µm", mm * um_per_mm); }
 
@@ -104,7 +104,7 @@ constexpr RuleText systematic_rule{
 struct Kind {
     std::string_view one, many;  ///< "slower section", "slower sections"
     std::size_t count = 0;
-    const Defect* most = nullptr;  ///< of the kind
+    const Defect* most = nullptr;  ///< the largest of the kind
 };
 
 std::array<std::string_view, 2> kind_of(const Defect& d) {
@@ -123,7 +123,7 @@ std::array<std::string_view, 2> kind_of(const Defect& d) {
     return {"defect", "defects"};
 }
 
-/// How much it is: of the kind's own quantity.
+/// The size of a defect in the quantity of its kind.
 double size_of(const Defect& d) { return d.quantity == Quantity::speed ? std::abs(d.speed_mismatch) : d.depth; }
 
 std::string kind_text(const Kind& kind) {
@@ -138,7 +138,7 @@ std::string kind_text(const Kind& kind) {
     return fmt::format("{} ({}{})", count, kind.count > 1 ? "up to " : "", with_um(d.depth));
 }
 
-/// The kinds of a report's defects, in the order of their first ones.
+/// The kinds of a report's defects, in order of their first occurrence.
 std::vector<Kind> kinds_of(const QualityReport& report) {
     std::vector<Kind> kinds;
     for (const Defect& d : report.defects) {

@@ -1,8 +1,9 @@
 #pragma once
-// The words in which reports speak of defects: the same in the text, in SARIF and on the page. Used inside io only.
+// The wording of reports about defects: the same in the text, in SARIF and on the page. Used inside io only.
 //
-// One convention for all of them: a speed below that of the neighbours is negative, in mm/min and in percent of the neighbours'
-// speed. Depths have no sign; the shape says whether the pass lies below its neighbours (pit) or above them (bulge).
+// One convention for all of them: a speed below that of the neighbours is negative, in mm/min and in percent of the
+// neighbours' speed. Depths have no sign; the shape says whether the pass is below its neighbours (pit) or above them
+// (bulge).
 
 #include <string>
 #include <string_view>
@@ -12,7 +13,7 @@
 
 namespace clsurf::io {
 
-/// What the coordinates of a place are of: "contact", "tool tip".
+/// The point whose coordinates are given: "contact", "tool tip".
 [[nodiscard]] std::string_view place_word(const CutterPlace& place);
 /// "X 1.00 Y 2.00 Z 3.00".
 [[nodiscard]] std::string axes_text(const Vec3& at, int decimals = 2);
@@ -21,26 +22,27 @@ namespace clsurf::io {
 /// "tool tip X 1.00 Y 2.00 Z 3.00 mm".
 [[nodiscard]] std::string place_text(const CutterPlace& place);
 
-/// "pit", "bulge", "alternating", or "none" where the depth is below 0.05 µm.
+/// "pit", "bulge", "alternating", or "none" if the depth is below 0.05 µm.
 [[nodiscard]] std::string_view shape_of(const Defect& defect);
-/// The same of its values. `depth` [mm].
+/// The same from values. `depth` [mm].
 [[nodiscard]] std::string_view shape_of(bool systematic, double depth, bool pit);
-/// "8.0 µm bulge", or "0.0 µm". `unit`: what follows the number.
+/// "8.0 µm bulge", or "0.0 µm". `unit`: the text after the number.
 [[nodiscard]] std::string depth_text(const Defect& defect, std::string_view unit = " µm");
 
-/// What is wrong, as a sentence without its full stop: "Pass 14 runs 82 % slower than its neighbours over 3.4 mm".
+/// A sentence without its full stop: "Pass 14 runs 82 % slower than its neighbours over 3.4 mm".
 [[nodiscard]] std::string sentence_of(const Defect& defect);
 
-/// Why a defect has no depth in the as-machined surface, or another one than its pass alone, without full stop; none: "".
+/// Why the depth of a defect in the as-machined surface is missing or differs from that of its pass alone, without full
+/// stop; none: "".
 [[nodiscard]] std::string_view sentence_of(MarkNote note);
 
-/// What was found in one sentence, what stands out most first, and "No defects …" or "Not judged …" where that is so.
+/// The result in one sentence, the most conspicuous kind first; "No defects …" or "Not judged …" if that is the result.
 [[nodiscard]] std::string verdict_of(const QualityReport& report);
 
-/// "speed 3.0 %, acceleration 120 mm/s², …" of the thresholds that are known; empty: none is.
+/// "speed 3.0 %, acceleration 120 mm/s², …" of the known thresholds; empty: none is known.
 [[nodiscard]] std::string thresholds_text(const QualityReport& report);
 
-/// What a kind of defect is and what helps, for the help of a rule.
+/// A kind of defect and its remedy, for the help of a rule.
 struct RuleText {
     std::string_view id;    ///< "feed_drop"
     std::string_view what;  ///< a sentence

@@ -1,5 +1,5 @@
 #pragma once
-// What `record` says of a recording.
+// The output of `record`.
 
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@ namespace clsurf::io {
 [[nodiscard]] std::string recording_text(const Recording& recording, const std::vector<RegisterChannel>& channels,
                                          const RecordingRules& rules, const std::string& output);
 
-/// The keys: output, end, records, missed_records, duration_s, period_s, recorded, channels[{name, unit, gaps}],
+/// Keys: output, end, records, missed_records, duration_s, period_s, recorded, channels[{name, unit, gaps}],
 /// requests{sent, answered, late, exceptions, damaged, disconnected}, longest_answer_s.
 [[nodiscard]] std::string recording_json(const Recording& recording, const std::vector<RegisterChannel>& channels,
                                          const RecordingRules& rules, const std::string& output);

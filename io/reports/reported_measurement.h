@@ -1,5 +1,5 @@
 #pragma once
-// ReportedMeasurement: a measurement with what it comes to.
+// ReportedMeasurement: a measurement with its results.
 
 #include "measured/measured_data.h"
 #include "measured/measured_result.h"

@@ -15,11 +15,11 @@
 namespace clsurf::io {
 namespace {
 
-constexpr int shown_of_quantity = 3;  ///< sections of a run, in the text
+constexpr int shown_of_quantity = 3;  ///< sections of a run in the text
 
 const RunQuantityInfo& info_of(RunQuantity q) { return run_quantity_table()[index_of(q)]; }
 
-/// Digits behind the point that mean something, of a quantity as it is shown.
+/// Significant decimals of a quantity in shown units.
 int decimals_of(RunQuantity q) { return q == RunQuantity::lag || q == RunQuantity::height ? 3 : 1; }
 
 double percent(double part, double whole) { return whole > 0 ? 100 * part / whole : 0; }
@@ -134,7 +134,7 @@ std::string run_text(const ReportedRun& run, const std::string& reference) {
     if (!r.sections.empty())
         text += fmt::format("\n{:>3} {:<13} {:>16} {:>10} {:>8} {:>8} {:<28} {}\n", "no", "quantity", "peak", "mean",
                             "mm", "s", fmt::format("{} X Y Z [mm]", place_word(r.sections.front().place)), "lines");
-    // The worst are often all of one quantity; those of the others must be seen, too.
+    // The worst sections are often all of one quantity; those of the others must be shown, too.
     std::array<int, run_quantities> shown{};
     std::size_t left_out = 0;
     for (std::size_t i = 0; i < r.sections.size(); ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// The comparison of runs with a reference run, as JSON and as a table for people.
+// The comparison of runs with a reference run, as JSON and as a text table.
 
 #include <optional>
 #include <string>
@@ -16,18 +16,18 @@ struct ReportedRun {
     std::string name;
     RunReport report;
     std::vector<BudgetLine> budget;
-    std::optional<RoughnessChange> roughness;  ///< from the reference to the run; nothing: no tool is known
+    std::optional<RoughnessChange> roughness;  ///< from the reference to the run; nothing: the tool is not known
 };
 
 struct ReportedRuns {
-    std::string reference;  ///< the run that all are compared with
+    std::string reference;  ///< all runs are compared with it
     std::vector<ReportedRun> runs;
-    std::vector<RunDeparture> departures;  ///< of the reference, then of the runs; empty: too few
+    std::vector<RunDeparture> departures;  ///< of the reference, then of the runs; empty: too few runs
     std::optional<std::size_t> drifted;    ///< among `departures`
     const Diagnostics* diagnostics = nullptr;
 
     [[nodiscard]] bool within_budget() const;
-    /// Name of a run among `departures`.
+    /// The name of a run in `departures`.
     [[nodiscard]] const std::string& name_of(std::size_t departure) const {
         return departure == 0 ? reference : runs[departure - 1].name;
     }

@@ -1,5 +1,5 @@
 #pragma once
-// What all SARIF 2.1.0 reports share: locations in a program and the frame round the results.
+// The common part of all SARIF 2.1.0 reports: locations in a program and the frame around the results.
 // Used inside io only.
 
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace clsurf::io {
 
-/// A path as a URI reference: what RFC 3986 does not allow in one is escaped.
+/// A path as a URI reference: characters that RFC 3986 does not allow are escaped.
 [[nodiscard]] std::string sarif_uri(const std::string& path);
 
-/// Lines of a program, with a message where there is one; first 0: the whole file.
+/// Lines of a program, optionally with a message; first 0: the whole file.
 [[nodiscard]] Json sarif_location(const std::string& uri, LineNumber first, LineNumber last,
                                   const std::string& message);
 
 /// A log of one run with its rules and results.
-/// `notifications`: what the tool says of the run itself, a level and a text each; `successful`: it could be done.
+/// `notifications`: messages about the run itself, with level and text; `successful`: the run was completed.
 [[nodiscard]] std::string sarif_text(Json rules, Json results, Json notifications = Json::array(),
                                      bool successful = true);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Machine files of settings: what `simulate --tradeoff` and clsurf.tradeoff() write and plan with.
+// Machine files of settings, for `simulate --tradeoff` and clsurf.tradeoff().
 
 #include <string>
 
@@ -9,10 +9,10 @@
 
 namespace clsurf::io {
 
-/// The machine file of the settings that a weight (0 … 1) chose, with a comment that says so.
+/// The machine file of the settings chosen by a weight (0 … 1), with a comment about the choice.
 [[nodiscard]] std::string chosen_settings_text(const Machine& machine, const PlanSettings& settings, double weight);
 
-/// The machines that reading the files of settings gives: numbers have twelve digits there. `machine` must outlive it.
+/// The machines as read back from the files of settings, whose numbers have twelve digits. `machine` must outlive it.
 [[nodiscard]] MachineOfSettings machines_as_read(const Machine& machine);
 
 }  // namespace clsurf::io

@@ -1,5 +1,5 @@
 #pragma once
-// What the simulator makes, as a BIIP log and as a JSON report.
+// The result of the simulation as a BIIP log and as a JSON report.
 
 #include <optional>
 #include <span>
@@ -12,14 +12,14 @@
 
 namespace clsurf::io {
 
-/// A simulated run written as it is made, in the memory of a block. The file appears with close().
+/// Writes a simulated run block by block, in the memory of one block. The file appears with close().
 class SimulatedLogWriter {
 public:
-    /// `metadata` is a JSON object's text. Throws SystemError.
+    /// `metadata`: the text of a JSON object. Throws SystemError.
     SimulatedLogWriter(const std::string& path, const Machine& machine, const std::string& metadata);
     /// Throws SystemError (disk full).
     void append(std::span<const SimulatedPoint> points);
-    /// Of a machine with rotary axes.
+    /// For a machine with rotary axes.
     void append(std::span<const FiveAxisPoint> points);
     void close() { writer_.close(); }
 
@@ -29,11 +29,11 @@ private:
     std::string records_;
 };
 
-/// With rotary axes: theirs beside x, y, z in deg, and orientation_error_deg, rounds.
+/// With rotary axes: their values in deg next to x, y, z, and orientation_error_deg, rounds.
 [[nodiscard]] std::string simulation_json(const FiveAxisSummary& summary, const Kinematics& kinematics,
                                           const Diagnostics& diagnostics, const std::optional<Fidelity>& fidelity = {});
 
-/// The keys: duration_s, points, max, path_deviation_mm, limits_ok, points_ruled_by, limit_share [%], fidelity, diagnostics.
+/// Keys: duration_s, points, max, path_deviation_mm, limits_ok, points_ruled_by, limit_share [%], fidelity, diagnostics.
 [[nodiscard]] std::string simulation_json(const SimulationSummary& summary, const Diagnostics& diagnostics,
                                           const std::optional<Fidelity>& fidelity = {});
 

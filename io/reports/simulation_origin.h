@@ -1,5 +1,5 @@
 #pragma once
-// What a log says of the simulation that made it.
+// The simulation that a log comes from, as stated in its metadata.
 
 #include <optional>
 #include <string>
@@ -15,13 +15,13 @@ struct SimulationOrigin {
     std::optional<Fidelity> fidelity;
 };
 
-/// `metadata`, the text of a JSON object, with the key `simulation`.
+/// Adds the key `simulation` to `metadata`, the text of a JSON object.
 [[nodiscard]] std::string with_simulation(const std::string& metadata, const Machine& machine);
 
-/// nullopt: the log is not of a simulation, or does not say so in a form that is understood.
+/// nullopt: not a simulated log, or the key is not understood.
 [[nodiscard]] std::optional<SimulationOrigin> simulation_origin(const Log& log);
 
-/// Two lines for people, with their ends; empty: not of a simulation.
+/// Two lines of text, with line ends; empty: not a simulated log.
 [[nodiscard]] std::string origin_text(const std::optional<SimulationOrigin>& origin);
 
 }  // namespace clsurf::io

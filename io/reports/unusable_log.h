@@ -1,5 +1,5 @@
 #pragma once
-// The result of a log that cannot be used, where `check` judges several: its error, in each form of a report.
+// The result for a log that cannot be used, if `check` judges several: its error, in each report format.
 
 #include <string>
 
@@ -13,11 +13,11 @@ struct UnusableLog {
 };
 
 [[nodiscard]] std::string unusable_text(const UnusableLog& log);
-/// "error" in the place of "defects", so that no script takes it for a log without any.
+/// "error" in place of "defects", so that no script mistakes it for a log without defects.
 [[nodiscard]] std::string unusable_json(const UnusableLog& log);
 /// A row with the cause "error".
 [[nodiscard]] std::string unusable_csv(const UnusableLog& log);
-/// A run that was not successful, with a result on the program.
+/// An unsuccessful run, with a result at the program.
 [[nodiscard]] std::string unusable_sarif(const UnusableLog& log);
 /// The case of the verdict, with an error.
 [[nodiscard]] std::string unusable_junit(const UnusableLog& log);

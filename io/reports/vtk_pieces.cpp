@@ -14,14 +14,14 @@
 namespace clsurf::io {
 namespace {
 
-/// The columns of a piece, as the elements that a .pvtp file has for them.
+/// The columns of a piece, as elements of a .pvtp file.
 class PieceHead {
 public:
     explicit PieceHead(const Source& source) : parser_(XML_ParserCreate(nullptr), XML_ParserFree) {
         if (!parser_) throw std::bad_alloc();
         XML_SetUserData(parser_.get(), this);
         XML_SetElementHandler(parser_.get(), begin, end);
-        // The head is at the beginning, megabytes of data follow.
+        // The head is at the beginning; megabytes of data follow.
         constexpr std::size_t part = 4096;
         const std::string_view text = source.text();
         for (std::size_t at = 0; at < text.size() && !done_; at += part) {
@@ -70,7 +70,7 @@ private:
     bool is_poly_ = false, done_ = false;
 };
 
-/// The path of a piece, from the folder of the file that names it.
+/// The path of a piece, relative to the folder of the file that names it.
 std::string named_from(const std::string& piece, const std::string& folder) {
     namespace fs = std::filesystem;
     const fs::path from = fs::absolute(folder.empty() ? "." : folder).lexically_normal();

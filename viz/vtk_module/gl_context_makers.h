@@ -1,5 +1,5 @@
 #pragma once
-// The makers of gl_context.cpp, one file each.
+// The context makers for gl_context.cpp, one file each.
 
 #include <memory>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace clsurf::viz::vtk_module {
 
-/// As VtkLibrary has it (viz/vtk_library.h).
+/// See VtkLibrary (viz/vtk_library.h).
 [[nodiscard]] std::unique_ptr<GlContext> make_gl_context(const std::string& kind, int width, int height);
 
 [[nodiscard]] std::unique_ptr<GlContext> make_osmesa_context(int width, int height);
@@ -17,11 +17,11 @@ namespace clsurf::viz::vtk_module {
 using GlFunction = void (*)();
 using GlResolver = GlFunction (*)(const char* name);
 
-/// Who answers glXGetProcAddress from now on (gl_symbols.cpp).
+/// Sets the function that answers glXGetProcAddress (gl_symbols.cpp).
 void set_gl_resolver(GlResolver resolver);
-/// What the current resolver says.
+/// Asks the current resolver.
 [[nodiscard]] GlFunction resolve_gl(const char* name);
-/// Whether libraries that look for glXGetProcAddress find ours: false where the program has loaded VTK before.
+/// Whether libraries find this library's glXGetProcAddress: false if the program has loaded VTK before.
 [[nodiscard]] bool gl_symbols_are_ours();
 
 }  // namespace clsurf::viz::vtk_module

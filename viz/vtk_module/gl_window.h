@@ -1,5 +1,5 @@
 #pragma once
-// GlWindow: a VTK window on a GL context of ours, without display.
+// GlWindow: a VTK window on the project's own GL context, without a display.
 
 #include <memory>
 #include <string>
@@ -26,14 +26,14 @@ public:
 
     [[nodiscard]] vtkRenderWindow* window() { return window_; }
     [[nodiscard]] std::string renderer() const { return context_->renderer(); }
-    /// Renders and reads the pixels, the mean of each `factor` × `factor`. Throws SystemError with what
-    /// VTK complained about.
+    /// Renders and reads the pixels, the mean of each `factor` × `factor`. Throws SystemError with
+    /// VTK's error message.
     [[nodiscard]] Image render(int factor);
     /// Renders and reads the colours of a rectangle, in rows from the bottom. Throws SystemError as render() does.
     [[nodiscard]] Column<std::uint8_t> render(const SampleRect& rect);
-    /// The depths of what was rendered.
+    /// The depths of the last rendering.
     [[nodiscard]] Column<float> depths(const SampleRect& rect);
-    /// Puts pixels of the whole window, in rows from the bottom, in place of what was rendered.
+    /// Replaces the rendered pixels of the whole window, in rows from the bottom.
     void put(const Column<std::uint8_t>& rgb);
 
 private:

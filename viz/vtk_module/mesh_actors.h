@@ -1,5 +1,5 @@
 #pragma once
-// Mesh actors: the mesh of a panel in VTK.
+// Mesh actors: VTK actors for the mesh of a panel.
 
 #include <optional>
 
@@ -10,10 +10,10 @@
 
 namespace clsurf::viz::vtk_module {
 
-/// Adds the cells of a panel, of one kind or of all. The panel must outlive them. Returns whether there are any.
+/// Adds the cells of a panel, of one kind or all. The panel must outlive them. Returns whether there are any.
 bool add_mesh(vtkRenderer* renderer, const MeshPanel& panel, int supersample, std::optional<CellKind> only = {});
 
-/// Shows a panel on its rectangle of a picture of that size [px].
+/// Shows a panel in its rectangle of a picture of that size [px].
 void place(vtkRenderer* renderer, const MeshPanel& panel, double width, double height);
 
 }  // namespace clsurf::viz::vtk_module

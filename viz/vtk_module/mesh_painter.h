@@ -1,5 +1,5 @@
 #pragma once
-// A MeshPainter that draws through VTK.
+// A MeshPainter that draws with VTK.
 
 #include "viz/mesh_painter.h"
 

@@ -1,6 +1,6 @@
 #pragma once
-// Meshes and flat drawing → pixels, through VTK on a GL context of our own. The only VTK in the drawing of maps; what is drawn
-// where is decided in scene.cpp.
+// Meshes and flat drawing → pixels, with VTK on the project's own GL context. Only this file draws maps with VTK; scene.cpp
+// decides what is drawn where.
 
 #include <string>
 
@@ -9,7 +9,7 @@
 
 namespace clsurf::viz::vtk_module {
 
-/// As VtkLibrary has them (viz/vtk_library.h).
+/// See VtkLibrary (viz/vtk_library.h).
 [[nodiscard]] double text_width(const FlatText& text);
 [[nodiscard]] Image draw(const Sheet& sheet, const MeshSamples* meshes, const std::string& gl, int supersample,
                          Drawing::Ground* ground);

@@ -1,5 +1,5 @@
 #pragma once
-// The functions of this folder as the table that the room calls.
+// The functions of this folder as the table VtkLibrary.
 
 #include "viz/vtk_library.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// The surface as files of VTK, as VtkLibrary has them (viz/vtk_library.h).
+// The surface as VTK files; see VtkLibrary (viz/vtk_library.h).
 
 #include <string>
 #include <vector>
