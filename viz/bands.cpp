@@ -17,18 +17,18 @@ using Vec3f = Eigen::Vector3f;
 
 constexpr std::int64_t longest_gap = 512;  ///< vertices of a pass between two that have a neighbour, and of a seam
 constexpr float longest_seam =
-    10.0F;  ///< arc length of both passes along a seam, in widths of the band; of a gap, in step-overs
-constexpr float widest_seam = 2.2F;          ///< of an edge of a seam, in widths of the band that it goes on from
-constexpr double tangent_step_overs = 0.08;  ///< arc length on either side that gives the direction at a vertex
-constexpr float most_askew = 0.3F;           ///< cosine between the way and what lies across it
-constexpr float least_width = 0.6F;          ///< of a band, in step-overs; a narrower one already runs into a corner
+    10.0F;  ///< arc length of both passes along a seam, in band widths; of a gap, in step-overs
+constexpr float widest_seam = 2.2F;          ///< of an edge of a seam, in widths of the adjoining band
+constexpr double tangent_step_overs = 0.08;  ///< arc length on either side for the tangent at a vertex
+constexpr float most_askew = 0.3F;           ///< cosine of the angle between path and direction to the neighbour
+constexpr float least_width = 0.6F;          ///< of a band, in step-overs; a narrower band is already close to a corner
 constexpr float widest_end = 1.5F;           ///< of a seam between two ends, in widths
-constexpr float leading_away = 0.85F;        ///< growth of the edge with the way, above which the way leads away
+constexpr float leading_away = 0.85F;        ///< growth of the edge per arc length from which the paths diverge
 constexpr float corner_tolerance = 1.03F;    ///< growth of an edge that is still at the ends of its passes
-constexpr float closed_seam = 0.5F;          ///< width at which a seam ends, likewise
+constexpr float closed_seam = 0.5F;          ///< edge length at which a seam is closed, in widths
 constexpr float longest_fan_arc_length =
-    8.0F;  ///< arc length of a neighbour that one step may span beyond its own, in step-overs
-constexpr std::int64_t longest_fan = 256;  ///< vertices of a neighbour that one step may span
+    8.0F;  ///< arc length of a neighbour spanned by one step, minus that of the step, in step-overs
+constexpr std::int64_t longest_fan = 256;  ///< vertices of a neighbour spanned by one step
 
 class Bander {
 public:
@@ -64,7 +64,7 @@ public:
     }
 
 private:
-    /// Whether a vertex goes on from the one before.
+    /// Whether a vertex is connected to the previous one.
     [[nodiscard]] bool joined(std::int64_t vertex) const { return v_.joined[static_cast<std::size_t>(vertex)] != 0; }
     [[nodiscard]] bool link(std::int64_t vertex) const { return v_.links[static_cast<std::size_t>(vertex)] != 0; }
     [[nodiscard]] bool goes_on(std::int64_t vertex, int direction) const {
@@ -75,9 +75,9 @@ private:
         return (s_.positions[point(a)] - s_.positions[point(b)]).norm();
     }
 
-    static constexpr std::int32_t none = -1;   ///< across a vertex there is nothing
-    static constexpr std::int32_t later = -2;  ///< … a later part of the path, which makes the band itself
-    static constexpr std::int32_t apart = -3;  ///< … a pass that is not the next one: one is missing between
+    static constexpr std::int32_t none = -1;   ///< no neighbour at the vertex
+    static constexpr std::int32_t later = -2;  ///< … a later part of the path, which makes the band
+    static constexpr std::int32_t apart = -3;  ///< … not the adjacent pass: one is missing in between
 
     [[nodiscard]] Column<std::int32_t>& across(Side side) { return side == Side::left ? left_ : right_; }
     [[nodiscard]] std::int32_t earlier(std::int64_t vertex, Side side) const {
@@ -86,9 +86,8 @@ private:
     /// Each gap is filled once, from its later pass.
     [[nodiscard]] bool has_earlier(std::int64_t vertex, Side side) const { return earlier(vertex, side) >= 0; }
 
-    /// The vertex on the earlier pass that lies across the way at a vertex. Round a corner the chords by
-    /// which neighbours are found look along the bend: a neighbour that lies askew is none here, a seam
-    /// closes what that leaves open.
+    /// The vertex of the earlier pass opposite to a vertex. At a corner the search for neighbours may look along the
+    /// bend: a neighbour that is not across the path does not count here, and a seam closes the gap.
     [[nodiscard]] std::int32_t seen_across(std::int64_t b, Side side) const {
         const PointIndex i = point(b);
         if (!s_.neighbours.has(side, i) || link(b)) return none;
@@ -100,14 +99,14 @@ private:
             s_.positions[point(moved(b, +1, arc_length))] - s_.positions[point(moved(b, -1, arc_length))];
         const Vec3f d = s_.positions[m < i ? point(a) : m] - s_.positions[i];
         const float along = std::abs(d.dot(tangent));
-        // Vertices are not everywhere: the one across may be half a step off.
+        // Vertices are sparse: the opposite one may be half a step off.
         const float step = m < i ? distance(goes_on(a, -1) ? a - 1 : a, goes_on(a, +1) ? a + 1 : a) : 0.0F;
         if (along > (most_askew * d.norm() + 0.5F * step) * tangent.norm()) return none;
         if (m > i) return later;
         return misses_pass(s_, i, side) ? apart : static_cast<std::int32_t>(a);
     }
 
-    /// Whether the same pass lies across a vertex as across the one before.
+    /// Whether the neighbour at a vertex is on the same pass as that at the previous vertex.
     [[nodiscard]] bool same_across(std::int64_t vertex, Side side) const {
         if (!joined(vertex)) return false;
         const std::int32_t now = earlier(vertex, side);
@@ -116,13 +115,12 @@ private:
         const float tolerance = 0.3F * static_cast<float>(s_.step_over);
         const float step = distance(vertex - 1, vertex);
         if (std::abs(distance(vertex, now) - distance(vertex - 1, before)) <= tolerance + 0.5F * step) return true;
-        // Where vertices lie far apart, those across stand before or behind: their distance tells little then.
+        // If vertices are far apart, the opposite ones may be ahead or behind, and their distance says little.
         return arc_length_but_one_chord(before, now) <= tolerance + step;
     }
 
-    /// A bend sees another bend across itself for a moment, and what follows a turn the pass beyond its
-    /// neighbour. What lies across for less than a step-over is no neighbour pass, unless the way comes
-    /// from outside the picture.
+    /// In a bend, another bend can briefly be the neighbour; after a turn, the pass beyond the adjacent one can. A
+    /// neighbour over less than a step-over is therefore dropped, unless its section begins at the edge of the picture.
     void drop_short(Side side) {
         const auto count = static_cast<std::int64_t>(v_.points.size());
         constexpr std::int64_t grain = 16384;
@@ -144,7 +142,7 @@ private:
         }
     }
 
-    /// A vertex some way [mm] on, or as far as the way goes on.
+    /// The vertex at a distance [mm] from another one, or the last connected vertex.
     [[nodiscard]] std::int64_t moved(std::int64_t vertex, int direction, float arc_length) const {
         const std::int64_t from = vertex;
         constexpr std::int64_t farthest = 32;
@@ -155,7 +153,7 @@ private:
         return vertex;
     }
 
-    /// The first vertex with any neighbour on a side, in a direction; −1: none that is joined and near.
+    /// The first vertex in a direction with a neighbour on a side; −1: none that is connected and close, or a later one.
     [[nodiscard]] std::int64_t beyond_gap(std::int64_t vertex, int direction, Side side) const {
         float arc_length = 0;
         const float longest = longest_seam * static_cast<float>(s_.step_over);
@@ -168,12 +166,12 @@ private:
         return -1;
     }
 
-    /// Where the bands of a vertex end, a seam closes what is left open between the passes: at a turn up
-    /// to the turn, at the ends of two passes up to the line between the ends, at corners up to where
-    /// the bands begin again, and where a loop returns to itself up to its own beginning.
+    /// Closes the gap between passes where the bands of a vertex end with a seam: at a turn up
+    /// to the turn, at the ends of two passes up to the line between the ends, at corners up to
+    /// the next band, and where a loop returns to its beginning up to that beginning.
     void close_ends(std::int64_t b, Side side, Column<std::uint32_t>& triangles) const {
         if (!has_earlier(b, side)) return;
-        // A gap between two bands is closed from its end, from its beginning if that does.
+        // A gap between two bands is closed from its end if it ends there, otherwise from its beginning.
         if (!goes_on(b, +1) || (earlier(b + 1, side) == none && beyond_gap(b, +1, side) < 0)) {
             (void)seam(b, +1, side, triangles);
         }
@@ -183,8 +181,8 @@ private:
         (void)seam(b, -1, side, triangles);
     }
 
-    /// Whether a seam may move on at a vertex. Both passes lead into the link of a turn. Of passes that run alike only
-    /// the end of the earlier leads to the beginning of the later; their other links go to other passes.
+    /// Whether a seam may advance at a vertex. Both passes lead into the link of a turn. For passes in the same direction
+    /// only the end of the earlier leads to the beginning of the later; their other links go to other passes.
     [[nodiscard]] bool may_move(std::int64_t vertex, int step, bool leads_across, bool through_links,
                                 bool alike) const {
         if (!goes_on(vertex, step)) return false;
@@ -193,9 +191,9 @@ private:
         return !alike || (leads_across && (linked || link(vertex)));
     }
 
-    /// Goes on from the band's edge at own vertex b in a direction: the edge moves on either pass, so that
-    /// it stays short, until the passes meet. Where they do not, it stays between their ends.
-    /// Returns whether it came to the next band.
+    /// Extends the band from its edge at the own vertex b in a direction: the edge advances on either pass, so that
+    /// it stays short, until the passes meet. If they do not meet, the seam ends between their ends.
+    /// Returns whether it reached the next band.
     bool seam(std::int64_t b, int b_step, Side side, Column<std::uint32_t>& triangles) const {
         std::int64_t a = earlier(b, side);
         const int a_step = step_across(a, b, b_step);
@@ -203,13 +201,13 @@ private:
         const float width = std::max(first, least_width * static_cast<float>(s_.step_over));
         const std::size_t begin = triangles.size();
         std::size_t at_ends = begin;    // triangles up to the ends of the passes
-        std::size_t narrowest = begin;  // up to where the edge was shortest
+        std::size_t narrowest = begin;  // triangles up to the shortest edge
         float narrow = first;
         bool through_links = false;
-        float most_at_ends = 0;  // width of the edge up to which it stays between the ends
+        float most_at_ends = 0;  // longest edge that is still between the ends
         float now = first;
         float arc_length = 0;  // of both passes
-        bool turned = false;   // both ways lead away from each other
+        bool turned = false;   // the two paths diverge
         for (std::int64_t moved = 0; moved < longest_gap; ++moved) {
             if (a_step > 0 && b_step < 0 && b - a <= 1) return false;  // met in the turn
             const bool a_may = may_move(a, a_step, b_step > 0, through_links, a_step == b_step);
@@ -226,7 +224,7 @@ private:
             const float length = std::min(if_a, if_b);
             arc_length += if_a <= if_b ? distance(a, a + a_step) : distance(b, b + b_step);
             if (length > widest_seam * width || arc_length > longest_seam * width) break;
-            // Where a turn is not told from its passes its corners are their ends.
+            // If a turn is not a separate link, its corners are the ends of the passes.
             if (!turned && !through_links && now < widest_end * width &&
                 (!a_may || if_a - now > leading_away * distance(a, a + a_step)) &&
                 (!b_may || if_b - now > leading_away * distance(b, b + b_step))) {
@@ -243,7 +241,7 @@ private:
                 if (fan(b, a, earlier(b, side), 0, triangles)) return true;
                 break;
             }
-            // A pass ends somewhat before its corner: on to there.
+            // A pass ends slightly before its corner: continue up to the corner.
             if (length <= most_at_ends)
                 at_ends = triangles.size();
             else if (through_links)
@@ -257,8 +255,8 @@ private:
         return false;
     }
 
-    /// In which direction the other pass goes on where the own one goes in b_step: not the one that leads back
-    /// along the band.
+    /// The direction on the other pass that corresponds to b_step on the own one: away from
+    /// the band.
     [[nodiscard]] int step_across(std::int64_t a, std::int64_t b, int b_step) const {
         const auto arc_length = static_cast<float>(s_.step_over);
         const auto chord = [&](std::int64_t from, int direction) -> Vec3f {
@@ -272,7 +270,7 @@ private:
 
     [[nodiscard]] Vec3f placed(PointIndex i) const { return frame_.linear * s_.positions[i] + frame_.shift; }
 
-    /// The vertex that stands for a point, or −1 where the point is not drawn.
+    /// The vertex that represents a point; −1: the point is not drawn.
     [[nodiscard]] std::int64_t vertex_of(PointIndex n) const {
         const auto* found = std::lower_bound(v_.points.begin(), v_.points.end(), n);
         std::int64_t best = -1;
@@ -290,10 +288,10 @@ private:
         return best;
     }
 
-    /// Triangles between the own vertices b − 1, b and the neighbour's from one vertex to another.
+    /// Triangles between the own vertices b − 1, b and the neighbour's vertices from one to another.
     void band(std::int64_t b, std::int64_t from, std::int64_t to, Column<std::uint32_t>& triangles) const {
         if (!fan(b - 1, from, to, distance(b - 1, b), triangles)) {
-            // A loop that returns to where it began: near, but not along the way.
+            // A loop that returns to its beginning: close in space, but not along the path.
             if (distance(from, to) > 0.75F * static_cast<float>(s_.step_over) + distance(b - 1, b)) return;
             add(triangles, static_cast<std::uint32_t>(b - 1), static_cast<std::uint32_t>(from),
                 static_cast<std::uint32_t>(to));
@@ -302,8 +300,8 @@ private:
             static_cast<std::uint32_t>(b));
     }
 
-    /// The way [mm] from a vertex to another but for its longest chord: where vertices lie far apart, one chord can be longer
-    /// than what is far for many. Infinite where they are not on one piece of the path, or many vertices lie between.
+    /// The arc length [mm] between two vertices without its longest chord: if vertices are far apart, one chord can exceed
+    /// a limit that suits many. Infinite if the vertices are not on one piece of the path, or too many are between them.
     [[nodiscard]] float arc_length_but_one_chord(std::int64_t from, std::int64_t to) const {
         if (std::abs(to - from) > longest_fan) return std::numeric_limits<float>::infinity();
         const int direction = to >= from ? 1 : -1;
@@ -318,8 +316,9 @@ private:
         return arc_length - longest;
     }
 
-    /// Triangles from a vertex to the neighbour's from one vertex to another, beside a step [mm] of the own way. False where
-    /// they are not on one piece of the path, or far apart: a jump to another piece is no neighbour.
+    /// Triangles from a vertex to the neighbour's vertices from one to another; own_step [mm] is the own path length. False
+    /// if
+    /// these are not on one piece of the path, or far apart: after a jump to another piece there is no neighbour.
     bool fan(std::int64_t own, std::int64_t from, std::int64_t to, float own_step,
              Column<std::uint32_t>& triangles) const {
         if (arc_length_but_one_chord(from, to) > longest_fan_arc_length * static_cast<float>(s_.step_over) + own_step)
@@ -342,7 +341,7 @@ private:
     const SectionVertices& v_;
     NearnessFrame frame_;
     float reach_;
-    Column<std::int32_t> left_, right_;  ///< per vertex: the vertex across, or none, or later
+    Column<std::int32_t> left_, right_;  ///< per vertex: the opposite vertex, none, later or apart
 };
 
 }  // namespace
@@ -366,7 +365,7 @@ SectionVertices section_vertices(const ClSurface& surface, std::span<const Point
     for (std::size_t k = 0; k < pieces.size(); ++k) {
         const Pass& piece = pieces[k];
         const bool rapid = !is_of_surface(piece.kind);
-        // Neighbouring pieces of one run (pass, link, the next turn of a spiral) hang together.
+        // Consecutive pieces of one run (pass, link, the next turn of a spiral) are connected.
         bool joins = k > 0 && is_of_surface(pieces[k - 1].kind);
         for (; at < points.size() && points[at] <= piece.last; ++at) {
             vertices.points.push_back(points[at]);

@@ -26,7 +26,7 @@ FlatText fitted(FlatText text, double width) {
     for (std::size_t keep = whole.size(); keep > 4; --keep) {
         std::size_t head = keep / 2;
         std::size_t tail = whole.size() - (keep - head);
-        // Not inside a UTF-8 sequence, nor inside a number, which would then be another one.
+        // Not inside a UTF-8 sequence, and not inside a number, which would become a different number.
         const auto inside = [&whole](std::size_t at) {
             const auto in_number = [&whole](std::size_t k) {
                 return (whole[k] >= '0' && whole[k] <= '9') || whole[k] == '.';
@@ -45,7 +45,7 @@ FlatText fitted(FlatText text, double width) {
 
 namespace {
 
-/// Where a text stands in the picture, with some room for its smoothed edges.
+/// The area of a text in the picture, with a margin for its smoothed edges.
 PixelBox box_of(const FlatText& text, int height) {
     const Rect rect = text_rect(text);
     constexpr double room = 2;  // [px]
@@ -55,7 +55,7 @@ PixelBox box_of(const FlatText& text, int height) {
             static_cast<int>(std::ceil(1.5 * text.size + 2 * room)) + 1};
 }
 
-/// The flat things of a sheet, and nothing yet below them.
+/// The flat items of a sheet, without the image below them.
 Drawing drawing_of(const Sheet& sheet) {
     Drawing drawing;
     drawing.width = sheet.width;

@@ -12,10 +12,10 @@ namespace {
 
 constexpr Rgb cursor_colour{200, 30, 30};
 constexpr Rgb reference_colour{150, 150, 156};
-// Readable by the colour-blind (Okabe, Ito 2008).
+// Safe for colour-blind readers (Okabe, Ito 2008).
 constexpr Rgb curve_colours[] = {{0, 90, 178}, {213, 94, 0}, {0, 130, 95}, {160, 70, 130}, {110, 85, 0}};
 
-/// A footnote broken at blanks into lines of at most `ems` times the height of its letters, four at most.
+/// A footnote split at blanks into lines of at most `ems` times the height of its letters, four at most.
 std::vector<std::string> lines_of(const std::string& note, double ems) {
     constexpr double em_of_letter = 0.52;  // most letters are narrower
     constexpr std::size_t most_lines = 4;
@@ -41,7 +41,7 @@ const CurveClass* class_of(const Curve& curve, double value) {
     return found == curve.classes.end() ? nullptr : &*found;
 }
 
-/// Sections of one class as rectangles in its colour, each at least a pixel wide.
+/// Sections of one class as rectangles in its colour, at least one pixel wide.
 void add_bands(Sheet& sheet, const ChartFrame& f, std::span<const double> x, const Curve& curve) {
     const double right = f.rect.x + f.rect.width;
     double drawn = f.rect.x;
@@ -50,7 +50,7 @@ void add_bands(Sheet& sheet, const ChartFrame& f, std::span<const double> x, con
         while (end < x.size() && curve.values[end] == curve.values[i]) ++end;
         const double to = end < x.size() ? std::max(f.at(x[end], 0).x(), drawn) : right;
         const CurveClass* known = class_of(curve, curve.values[i]);
-        // Of several sections in one pixel the first one is seen.
+        // Of several sections in one pixel only the first one is drawn.
         if (known != nullptr && to > drawn) {
             const double from = std::max(drawn, f.at(x[i], 0).x());
             const double width = std::min(right, std::max(to, from + 1)) - from;
@@ -66,7 +66,7 @@ void add_bands(Sheet& sheet, const ChartFrame& f, std::span<const double> x, con
                            Level::edge});
 }
 
-/// Names of classes with their colours, from the right, above the frame; those that have no room are left out.
+/// Names of classes with their colours, right-aligned above the frame; those without room are left out.
 void add_class_names(Sheet& sheet, const ChartFrame& f, const Curve& curve, const FlatText& name) {
     const double text = name.size;
     double x = f.rect.x + text_width(name) + 2 * text;
@@ -80,7 +80,7 @@ void add_class_names(Sheet& sheet, const ChartFrame& f, const Curve& curve, cons
     }
 }
 
-/// A cursor in the frame, with its value above it, where no curve runs, beside the curve's name.
+/// A cursor in the frame, with its value above the frame, next to the curve's name, where no curve is drawn.
 void add_cursor(Sheet& sheet, const ChartFrame& f, const ChartCursor& cursor, const Curve& curve, const FlatText& name,
                 std::size_t k) {
     const double text = name.size;
@@ -99,15 +99,15 @@ void add_cursor(Sheet& sheet, const ChartFrame& f, const ChartCursor& cursor, co
     FlatText note{p.x(),        f.rect.y + f.rect.height + 0.9 * text, std::move(words), text, Align::left, true,
                   cursor_colour};
     const double least = f.rect.x + text_width({0, 0, name.text, text, Align::left, true, name.rgb}) + text;
-    if (known != nullptr) note.y = f.rect.y + f.rect.height - 0.9 * text;  // names of classes stand above
+    if (known != nullptr) note.y = f.rect.y + f.rect.height - 0.9 * text;  // the names of classes are above
     note.x =
         std::max(known != nullptr ? f.rect.x : least, std::min(note.x, f.rect.x + f.rect.width - text_width(note)));
-    // The bands of classes have any colour.
+    // The text is over bands of any colour.
     if (known != nullptr) sheet.lines.push_back(halo_of(note, sheet.background));
     sheet.texts.push_back(std::move(note));
 }
 
-/// The curve over its reference, which is named beside it.
+/// The curve over its reference, with the name of the reference.
 void add_curve(Sheet& sheet, const ChartFrame& f, std::span<const double> x, const Curve& curve, const Rgb& colour,
                const FlatText& name) {
     if (!curve.reference.empty()) {

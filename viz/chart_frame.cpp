@@ -10,7 +10,7 @@
 namespace clsurf::viz {
 namespace {
 
-/// Round values, some `wanted` of them, and two at least: one alone, such as 0, gives no scale.
+/// About `wanted` round values, but at least two: a single one, such as 0, gives no scale.
 std::vector<double> scale_ticks(double low, double high, int wanted) {
     constexpr int most_tries = 8;
     wanted = std::max(2, wanted);
@@ -48,7 +48,7 @@ std::vector<Vec2> thin_curve(std::span<const double> x, std::span<const double> 
         std::size_t high = i;
         std::size_t end = i;
         for (; end < x.size() && std::floor((x[end] - x_low) * per_x) == column; ++end) {
-            // A gap is no extreme, and the first value after it is both.
+            // A gap is not an extreme; the first value after it is both the lowest and the highest.
             if (y[end] < y[low] || std::isnan(y[low])) low = end;
             if (y[end] > y[high] || std::isnan(y[high])) high = end;
         }
@@ -82,7 +82,7 @@ void add_y_axis(Sheet& sheet, const ChartFrame& f, double text) {
     for (const double y : ys) {
         const Vec2 p = f.at(f.x_low, y);
         sheet.lines.push_back({{p, {f.rect.x + f.rect.width, p.y()}}, 1, chart_grid, Level::area});
-        if (p.y() - labelled < 1.05 * text) continue;  // numbers one over the other cannot be read
+        if (p.y() - labelled < 1.05 * text) continue;  // the numbers would overlap
         labelled = p.y();
         sheet.texts.push_back(
             {f.rect.x - 0.5 * text, p.y(), tick_text(y, y_step), text, Align::right, false, chart_ink});

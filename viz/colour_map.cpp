@@ -53,7 +53,8 @@ ColourMap from_table(std::string name, std::span<const std::uint32_t> colours, b
     return {std::move(name), std::move(stops), centred};
 }
 
-/// Colours of values outside the range: none of them is near a colour of the map. The map of the paper keeps its ends.
+/// Colours of values outside the range: none is close to a colour of the map. The map of the paper keeps the colours of its
+/// ends.
 struct NamedColours {
     std::string_view name;
     std::span<const std::uint32_t> colours;
@@ -78,7 +79,7 @@ constexpr auto tables = std::to_array<NamedColours>({
     {"coolwarm", coolwarm, cyan, yellow, false, true},
 });
 
-constexpr int ramp_colours = 1024;  ///< finer than 8 bits of any map
+constexpr int ramp_colours = 1024;  ///< finer than 8 bits for any map
 
 }  // namespace
 
@@ -186,7 +187,7 @@ std::vector<Rgb> ColourScale::ramp() const {
     const int count = bins > 0 ? bins : ramp_colours;
     std::vector<Rgb> colours{map.below()};
     for (int k = 0; k < count; ++k) {
-        // Steps have their own place in the middle, running colours begin and end at the ends.
+        // The colour of a step is that of its middle; a continuous scale includes both ends.
         const double x = bins > 0 ? (k + 0.5) / count : static_cast<double>(k) / (count - 1);
         colours.push_back(colour(low + x * (high - low)));
     }
@@ -196,7 +197,7 @@ std::vector<Rgb> ColourScale::ramp() const {
 
 double ColourScale::along(double value) const {
     if (!(high > low)) return 0.5;
-    // Not cut at the ends: between a vertex inside and one outside the range the value runs on evenly.
+    // Not clamped at the ends, for linear interpolation between a vertex inside and one outside the range.
     constexpr double far = 1e6;
     double x = std::clamp((value - low) / (high - low), -far, far);
     if (!is_below(value) && !is_above(value)) x = std::clamp(x, 0.0, 1.0);

@@ -22,11 +22,11 @@ constexpr double title_share = 0.15;  ///< of the height
 constexpr double map_share = 0.36;    ///< of the width
 constexpr double foot_share = 0.02;
 constexpr double axes_room = 3.2;       ///< from the middle of the axes to the right end of the strip, in text sizes
-constexpr double bearings_lines = 3.4;  ///< height of what stands below the map, in text sizes
+constexpr double bearings_lines = 3.4;  ///< height of the strip below the map, in text sizes
 
 double text_size(int width, int height) { return std::clamp(std::min(width * 0.4, height * 1.0) / 34.0, 8.0, 40.0); }
 
-/// Fits the values of all curves and of the band, with a little room.
+/// Fits the frame to all curves and the band, with a small margin.
 void fit(ChartFrame& frame, const CardChart& chart) {
     ValueRange range;
     for (const CardCurve& curve : chart.curves) range.widen(curve.values);
@@ -34,14 +34,14 @@ void fit(ChartFrame& frame, const CardChart& chart) {
     range.widen(chart.band_high);
     frame.x_low = chart.x.empty() ? 0 : chart.x.front();
     frame.x_high = chart.x.empty() ? 1 : chart.x.back();
-    // Dots at the ends stay clear of the numbers beside the frame.
+    // Dots at the ends keep clear of the numbers next to the frame.
     const double beside = chart.dots ? 0.04 * (frame.x_high - frame.x_low) : 0;
     frame.x_low -= beside;
     frame.x_high += beside;
     fit_y(frame, range, 0.07);
 }
 
-/// The longest of 1, 2 and 5 times a power of ten that is not above `most`, which is above 0.
+/// The largest of 1, 2 and 5 times a power of ten that is at most `most` > 0.
 double round_length(double most) {
     const double power = std::pow(10.0, std::floor(std::log10(most)));
     return power * (most >= 5 * power ? 5 : most >= 2 * power ? 2 : 1);
@@ -94,7 +94,7 @@ public:
         sheet_.texts.push_back(name);
     }
 
-    /// A bar of a round length, an arrow along the feed, and the axes of the part, in a strip of a width and a middle height.
+    /// Scale bar, direction of feed and axes of the part, in a strip with a given width and middle height.
     void bearings(const CardBearings& b, double width, double y) {
         if (!(b.mm_per_pixel > 0)) return;
         const double length = round_length(0.26 * width * b.mm_per_pixel);
@@ -124,12 +124,12 @@ public:
     }
 
 private:
-    /// The axes of the part with their letters, all of it with its middle at a place, whichever way the axes point.
+    /// The axes of the part with their letters; the middle of the whole symbol is at `middle`.
     void axes(const std::array<Vec2, 3>& directions, const Vec2& middle) {
         constexpr double length = 1.3, to_letter = 1.85, least_seen = 0.35;
         Vec2 low = Vec2::Zero(), high = Vec2::Zero();
         for (const Vec2& direction : directions) {
-            if (direction.norm() < least_seen) continue;  // towards the eye
+            if (direction.norm() < least_seen) continue;  // towards the viewer
             low = low.cwiseMin(to_letter * text_ * direction);
             high = high.cwiseMax(to_letter * text_ * direction);
         }
@@ -184,7 +184,7 @@ private:
     double text_;
 };
 
-/// Puts a picture on another, `y` from the top.
+/// Copies a picture onto another, `y` from the top.
 void paste(Image& onto, const Image& picture, int x, int y) {
     for (int row = 0; row < picture.height; ++row) {
         const std::uint8_t* from = picture.pixel(0, row);
@@ -214,7 +214,7 @@ Image draw_card(const DefectCard& card, int width, int height, const std::string
     const double margin = text;
     sheet.texts.push_back(fitted({margin, height - 1.5 * text, card.title, 1.35 * text, Align::left, true, chart_ink},
                                  width - 2 * margin));
-    constexpr std::size_t subtitle_lines = 2;  // there is room for them above the key
+    constexpr std::size_t subtitle_lines = 2;  // these fit above the key
     (void)add_wrapped(sheet, card.subtitle,
                       {margin, height - 3.2 * text, "", 0.9 * text, Align::left, false, chart_faint},
                       width - 2 * margin, subtitle_lines);

@@ -21,8 +21,8 @@ constexpr double least_mark_width = 0.22;  ///< of a mark, in text sizes
 constexpr double region_width = 0.08;      ///< of the lines of a region
 constexpr double region_share = 0.5;       ///< of the colour in a region
 constexpr double hidden_width = 0.14;      ///< of the dots of hidden parts
-constexpr double dot_every = 0.4;          ///< from one dot to the next, in text sizes
-constexpr double axes_height = 6.2;        ///< of the picture's axes beside the key, in text sizes
+constexpr double dot_every = 0.4;          ///< distance between dots, in text sizes
+constexpr double axes_height = 6.2;        ///< of the picture's axes next to the key, in text sizes
 constexpr double name_width = 15;          ///< of a name in a column, in text sizes
 constexpr double with_lines = 2.5, with_place = 3.45, with_cause = 4.4;  ///< heights of names in columns, in text sizes
 constexpr double leader_clearance = 0.5;  ///< from a leader to the anchor of another one, in text sizes
@@ -51,17 +51,17 @@ public:
           corner_(panel.rect.x, panel.rect.y),
           depth_(panel.geometry, panel.camera) {}
 
-    /// How many numbers have no room.
+    /// Returns how many numbers have no room.
     int draw() {
         std::vector<std::optional<Vec2>> anchors(marks_.size());
         const std::size_t before = sheet_.lines.size();
-        // The strongest last, on top of the others; regions below all.
+        // In increasing order of strength, so that the strongest is on top; regions below all others.
         for (const bool region : {true, false}) {
             for (std::size_t k = marks_.size(); k-- > 0;) {
                 if (marks_[k].region == region) anchors[k] = draw_mark(k);
             }
         }
-        // A mark is as wide as its strip of the part; where it runs along an edge of the picture, some of it is outside.
+        // A mark is as wide as its strip of the part, and may extend beyond the edge of the picture.
         for (std::size_t k = before; k < sheet_.lines.size(); ++k) sheet_.lines[k].clip = panel_.rect;
         if (!look_.legend) return 0;
         if (layout_.arrangement == Arrangement::tall)
@@ -72,7 +72,7 @@ public:
     }
 
 private:
-    /// The colour of a kind as it can be read on the background: lighter on a dark one.
+    /// The colour of a kind, readable on the background: lighter on a dark one.
     [[nodiscard]] Rgb ink_of(const DefectMark& mark) const {
         constexpr double share_on_dark = 0.55;
         const Rgb& rgb = kind_of(mark).rgb;
@@ -91,7 +91,7 @@ private:
             add_band(part_of(band, at, std::min(at + on, length)), rgb, Level::mark);
     }
 
-    /// Dots of one width, whatever the band's is.
+    /// Dots of constant width, independent of the band's width.
     void add_dots(const Band& band, const Rgb& rgb) {
         const double width = hidden_width * layout_.text;
         const double length = length_of(band);
@@ -114,8 +114,8 @@ private:
         }
     }
 
-    /// Where its name's line begins: on the section that its words are of, where that is in the picture. Nothing: no section
-    /// is.
+    /// Returns the start of the leader: on the section that the text describes, if it is in the picture. Nothing: no section
+    /// is visible.
     std::optional<Vec2> draw_mark(std::size_t index) {
         DefectMark& mark = marks_[index];
         const Rgb rgb =
@@ -128,11 +128,11 @@ private:
             const double least = least_mark_width * layout_.text;
             for (const Stroke& stroke :
                  strokes_of(*map_.surface, section, panel_.camera, corner_, look_, depth_, least)) {
-                // Of the other sections of a region only what is seen: dots of its many lines would tangle.
+                // Of the other sections of a region only visible parts are drawn: dots of its many lines would tangle.
                 if (stroke.hidden && mark.region && !told) continue;
                 draw_stroke(mark, stroke, rgb);
                 if (!mark.region) drawn_[index].push_back({stroke, told});
-                // The longest part; what is seen before what is hidden.
+                // The anchor is on the longest part, preferably a visible one.
                 const double length = length_of(stroke.band);
                 const double rank = (told ? 2 : 0) + (stroke.hidden ? 0 : 1) + length / (1 + length);
                 if (rank <= highest) continue;
@@ -153,7 +153,7 @@ private:
         return anchor;
     }
 
-    /// Whether a stronger mark is drawn over a place of one.
+    /// Whether a stronger mark covers a place of a mark.
     [[nodiscard]] bool is_covered(std::size_t index, const Vec2& at) const {
         const auto covers_it = [&](const DrawnStroke& drawn) {
             return !drawn.stroke.hidden && covers(drawn.stroke.band, at);
@@ -162,8 +162,8 @@ private:
                            [&](const auto& strokes) { return std::any_of(strokes.begin(), strokes.end(), covers_it); });
     }
 
-    /// Moves the anchors of named marks that lie below stronger ones to a place of their own, on the section that the words
-    /// are of where it has one.
+    /// Moves the anchors of named marks that stronger ones cover to a free place, if possible on the section that the text
+    /// describes.
     void uncover(const std::vector<std::size_t>& named, std::vector<std::optional<Vec2>>& anchors) const {
         for (const std::size_t k : named) {
             if (marks_[k].region || !is_covered(k, *anchors[k])) continue;
@@ -219,7 +219,7 @@ private:
         tell_rest(anchors, named.size(), x, column.top - slot * static_cast<double>(named.size()) - 0.5 * t);
     }
 
-    /// Which marks in the picture get a name: all regions, which are most of what is drawn, and the strongest of the others.
+    /// Which marks in the picture get a name: all regions, which are most of the drawn area, and the strongest of the others.
     [[nodiscard]] std::vector<std::size_t> most_wanted(const std::vector<std::optional<Vec2>>& anchors,
                                                        std::size_t most) const {
         std::vector<std::size_t> named;
@@ -241,8 +241,8 @@ private:
         if (!words.empty()) text(x, y, words, layout_.small_text, false, faint(ink_, look_.background));
     }
 
-    /// Height of a name in a column, in text sizes as `room` is: with its place and its cause, or with fewer of them where
-    /// so many rows have no room otherwise.
+    /// Height of a name in a column (`room` and result in text sizes): with its place and its cause, or less if
+    /// the rows do not fit otherwise.
     static double row_height(double room, double rows) {
         for (const double height : {with_cause, with_place}) {
             if (rows * height <= room) return height;
@@ -250,7 +250,7 @@ private:
         return with_lines;
     }
 
-    /// Names in columns below the part, the strongest first, row by row.
+    /// Names in columns below the part, in decreasing order of strength, row by row.
     void tabulate(std::vector<std::optional<Vec2>>& anchors) {
         constexpr std::size_t most_numbers = 24;  // on the part; more would cover it
         constexpr double rest = 1.6;              // height below the names, in text sizes
@@ -284,7 +284,7 @@ private:
         number_marks(named, anchors);
     }
 
-    /// The numbers of marks beside their anchors, as far as there is room; those of a narrow part above it, where they hide
+    /// The numbers of marks next to their anchors, if there is room; those of a narrow part are above it, so that they hide
     /// nothing.
     void number_marks(const std::vector<std::size_t>& named, const std::vector<std::optional<Vec2>>& anchors) {
         constexpr double narrow = 10, rows_above = 2.6, axis_name = 7;  // in text sizes
@@ -293,7 +293,7 @@ private:
         const bool above = panel_.rect.height < narrow * t;
         LabelPlacer placer(panel_.rect);
         LabelPlacer placer_above({panel_.rect.x, top, panel_.rect.width, rows_above * t});
-        // The name of the upright scale.
+        // Space for the name of the vertical axis.
         placer_above.take({panel_.rect.x, top, std::max(0.0, axis_name * t - panel_.rect.x), 1.8 * t});
         for (const std::size_t k : named)
             placer.take({anchors[k]->x() - 0.3 * t, anchors[k]->y() - 0.3 * t, 0.6 * t, 0.6 * t});
@@ -330,7 +330,7 @@ private:
     void add_name(const DefectMark& mark, const Vec2& from, const Vec2& at, double line_end) {
         const double t = layout_.text;
         const std::vector<Vec2> leader{from, Vec2(line_end, at.y()), Vec2(at.x() - 0.3 * t, at.y())};
-        // It parts the leader from the lines of the scales, and lies below the marks: a leader may run along one.
+        // The casing separates the leader from lines of the scales. It is below the marks: a leader may run along one.
         sheet_.lines.push_back({leader, 0.2 * t, look_.background, Level::casing});
         sheet_.lines.push_back({leader, 0.06 * t, faint(ink_, look_.background)});
         add_anchor(from);
@@ -348,7 +348,7 @@ private:
     void add_anchor(const Vec2& at) {
         const double radius = 0.16 * layout_.text;
         const auto add = [&](double r, const Rgb& rgb, Level level) {
-            // A short wide line is a square; a dot is made of strips.
+            // A short wide line is a square, so a dot is composed of strips.
             constexpr int strips = 12;
             for (int k = 0; k < strips; ++k) {
                 const double y = r * (2 * (k + 0.5) / strips - 1);
@@ -360,7 +360,7 @@ private:
         add(radius, look_.background, Level::dot_fill);
     }
 
-    /// What colours and strokes mean, from `bottom` up. Returns where it ends [px].
+    /// The key of colours and strokes, upwards from `bottom`. Returns its upper end [px].
     double add_key(double x, double bottom) {
         const double t = layout_.text;
         const double row = 1.3 * layout_.small_text;
@@ -395,18 +395,18 @@ private:
     Rect room_;
     const Look& look_;
     const MapLayout& layout_;
-    std::vector<DefectMark> marks_;  ///< as they are told: one whose strongest section is outside the picture says so
+    std::vector<DefectMark> marks_;  ///< the text says if the strongest section is outside the picture
     struct DrawnStroke {
         Stroke stroke;
-        bool told = false;  ///< the words are of its section
+        bool told = false;  ///< the text describes its section
     };
-    std::vector<std::vector<DrawnStroke>> drawn_;  ///< of each mark that is no region
+    std::vector<std::vector<DrawnStroke>> drawn_;  ///< of each mark that is not a region
     Rgb ink_;
     Vec2 corner_;
     DepthBuffer depth_;
     bool any_hidden_ = false;        ///< a part of a mark is dotted
-    std::set<std::size_t> regions_;  ///< kinds that thin lines are drawn of
-    int without_room_ = 0;           ///< numbers that are not on the part
+    std::set<std::size_t> regions_;  ///< kinds that are drawn with thin lines
+    int without_room_ = 0;           ///< numbers without room on the part
 };
 
 }  // namespace

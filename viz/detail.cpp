@@ -17,8 +17,8 @@ using Vec2f = Eigen::Vector2f;
 using Vec3f = Eigen::Vector3f;
 
 constexpr PointIndex part_points = 65536;
-constexpr float reach_steps = 6;  ///< from a point to the vertex that stands for it
-constexpr float margin = 4.0F;    ///< [px] round the picture that is kept
+constexpr float reach_steps = 6;  ///< largest distance from a point to the vertex that represents it, in steps
+constexpr float margin = 4.0F;    ///< [px] kept around the picture
 
 /// Vertices of a part of a pass, and the mean over the points of each.
 struct Vertices : SectionVertices {
@@ -41,7 +41,7 @@ public:
         }
     }
     [[nodiscard]] Vec2f pixel(PointIndex i) const { return linear_ * p_[i] + shift_; }
-    /// Pixels in its first two rows.
+    /// The first two rows are pixels.
     [[nodiscard]] NearnessFrame frame() const {
         NearnessFrame frame;
         frame.linear << linear_, Eigen::RowVector3f::Zero();
@@ -77,7 +77,7 @@ std::vector<Part> parts_of(const Passes& passes) {
     for (std::size_t k = 0; k < passes.size(); ++k) {
         const Pass& pass = passes[k];
         if (!is_of_surface(pass.kind)) continue;
-        // Neighbouring pieces of one run (pass, link, the next turn of a spiral) are drawn on.
+        // Consecutive pieces of one run (pass, link, the next turn of a spiral) are connected.
         const bool continues = k > 0 && is_of_surface(passes[k - 1].kind);
         for (PointIndex first = pass.first; first <= pass.last; first += part_points) {
             parts.push_back({first, std::min(pass.last, first + part_points - 1), first == pass.first && !continues,
@@ -87,7 +87,7 @@ std::vector<Part> parts_of(const Passes& passes) {
     return parts;
 }
 
-/// Points of a part gathered to vertices.
+/// Merges the points of a part into vertices.
 void gather_vertices(const Projector& projector, const Part& part, std::span<const float> values, float step,
                      Vertices& out) {
     const float step_squared = step * step;
@@ -111,7 +111,7 @@ void gather_vertices(const Projector& projector, const Part& part, std::span<con
                 ++known;
             }
         }
-        // The ends of a part are its vertices, so that parts meet.
+        // The ends of a part are vertices, so that consecutive parts meet.
         const PointIndex middle = begin == part.first ? begin : end > part.last ? part.last : begin + (end - begin) / 2;
         out.points.push_back(middle);
         out.values.push_back(known > 0 ? static_cast<float>(sum / static_cast<double>(known))
@@ -132,8 +132,8 @@ void put_positions(const Positions& positions, const Column<PointIndex>& points,
     }
 }
 
-/// Vertex normals: the sum of the triangles' (longer for larger ones), turned to z > 0 or, on a
-/// vertical wall, left as they come. The tool comes from above on a three-axis machine.
+/// Vertex normals: the sum of the triangles' normals, weighted by area, turned to z > 0. On a
+/// vertical wall the sign is not changed. On a three-axis machine the tool comes from above.
 void put_normals(Geometry& geometry, std::initializer_list<std::span<const std::uint32_t>> triangles) {
     geometry.normals = Column<float>(geometry.xyz.size(), 0.0F);
     const auto at = [](Column<float>& column, std::uint32_t v) {

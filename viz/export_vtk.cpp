@@ -36,7 +36,7 @@ VtkPiece whole_of(const ClSurface& surface) {
 VtkPiece piece_of(const SurfacePart& part) {
     VtkPiece piece;
     const auto is_own = [&](PointIndex k) { return k >= part.own.first && k <= part.own.last; };
-    Column<std::int64_t> place(part.points.size(), std::int64_t{-1});  // of a point of the part in the piece
+    Column<std::int64_t> place(part.points.size(), std::int64_t{-1});  // index in the piece of each point of the part
     const auto add = [&](std::int64_t k) {
         std::int64_t& at = place[static_cast<std::size_t>(k)];
         if (at >= 0) return;

@@ -12,7 +12,7 @@
 namespace clsurf::viz {
 namespace {
 
-/// The "muted" scheme of Paul Tol (Colour Schemes, SRON/EPS/TN/09-002, 2021): told apart by the colour-blind, too.
+/// The "muted" scheme of Paul Tol (Colour Schemes, SRON/EPS/TN/09-002, 2021), safe for colour-blind readers.
 constexpr std::array<Rgb, FieldClasses::most_named> palette{{{204, 102, 119},
                                                              {51, 34, 136},
                                                              {221, 204, 119},
@@ -47,7 +47,7 @@ ValueCounts count_values(const Column<float>& values, const Passes& passes) {
 FieldClasses::FieldClasses(const FieldInfo& info, const ValueCounts& counts) {
     double all = 0;
     for (const auto& [value, count] : counts) all += static_cast<double>(count);
-    // Known classes keep their colours in all pictures; others are coloured in the order of their shares.
+    // Known classes have the same colours in all pictures; others are coloured in order of their shares.
     std::vector<std::pair<PointIndex, float>> by_share;
     for (const auto& [value, count] : counts) by_share.emplace_back(-count, value);
     std::sort(by_share.begin(), by_share.end());
@@ -113,7 +113,7 @@ ColourScale FieldClasses::scale() const {
 
 namespace {
 
-/// Adds vertices to what is drawn.
+/// Adds vertices to a Detail.
 class Divider {
 public:
     explicit Divider(Detail& detail) : detail_(detail) {}
@@ -158,7 +158,7 @@ public:
     }
 
 private:
-    /// Cells without a value stay whole: they are hatched.
+    /// Cells without a value are not divided: they are hatched.
     [[nodiscard]] bool same(std::uint32_t a, std::uint32_t b) const {
         const float x = detail_.values[a];
         const float y = detail_.values[b];
@@ -169,7 +169,7 @@ private:
         for (const std::uint32_t v : {a, b, c}) detail_.geometry.triangles.push_back(v);
     }
 
-    /// A vertex in the middle of some, of the class of `corner`.
+    /// A vertex in the middle of others, with the class of `corner`.
     std::uint32_t mean_of(std::span<const std::uint32_t> vertices, std::uint32_t corner) {
         Geometry& g = detail_.geometry;
         const auto made = static_cast<std::uint32_t>(g.xyz.size() / 3);

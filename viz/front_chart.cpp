@@ -14,7 +14,7 @@
 namespace clsurf::viz {
 namespace {
 
-// Readable by the colour-blind (Okabe, Ito 2008); the shapes tell them apart in print, too.
+// Safe for colour-blind readers (Okabe, Ito 2008); the shapes are distinct in print, too.
 constexpr Rgb front_colour{0, 90, 178};
 constexpr Rgb chosen_colour{213, 94, 0};
 constexpr Rgb dominated_colour{170, 170, 176};
@@ -51,7 +51,7 @@ private:
         add_legend(0.9 * text_);
     }
 
-    /// On a line of its own, from the left.
+    /// In a separate line, left-aligned.
     void add_legend(double y) {
         double x = 1.5 * text_;
         const auto entry = [&](SymbolShape shape, const Rgb& rgb, const std::string& words) {
@@ -105,7 +105,7 @@ private:
             add_symbol(sheet_, place(k), shape, (is_chosen ? 1.4 : 1.0) * radius, rgb,
                        picture_.rows[k].on_front || k == 0 || is_chosen ? Level::dot_fill : Level::dot);
         }
-        // The most important ones get the nearest places.
+        // The most important numbers get the closest places.
         std::vector<std::size_t> order = drawing_order();
         std::ranges::reverse(order);
         for (const std::size_t k : order) {
@@ -113,7 +113,7 @@ private:
         }
     }
 
-    /// Others below, then the front, the reference and the chosen one on top.
+    /// From bottom to top: other rows, the front, the reference, the chosen row.
     [[nodiscard]] std::vector<std::size_t> drawing_order() const {
         std::vector<std::size_t> order(picture_.rows.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
@@ -139,7 +139,7 @@ private:
         const Vec2 room(text_width(number) + 0.3 * text_, 1.05 * size);
         const Vec2 wanted = at + Vec2(0, radius + 0.6 * room.y());
         const std::optional<Rect> free = labels.place(wanted, room);
-        if (!free) return;  // the table has it
+        if (!free) return;  // the number is in the table
         number.x = free->x + 0.5 * free->width;
         number.y = free->y + 0.5 * free->height;
         const Vec2 middle(number.x, number.y);
@@ -165,7 +165,7 @@ private:
         return false;
     }
 
-    /// The lowest value of all rows that take at most so much time.
+    /// The lowest value of all rows up to each time.
     void add_steps(const ChartFrame& frame, double FrontSymbol::*value, LabelPlacer& labels) {
         std::vector<std::size_t> order(picture_.rows.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
@@ -193,7 +193,7 @@ private:
     const ChartLook& look_;
     double text_;
     Sheet sheet_;
-    std::vector<Rect> numbers_;  ///< of the panel that is drawn
+    std::vector<Rect> numbers_;  ///< of the present panel
 };
 
 }  // namespace

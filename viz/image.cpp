@@ -31,7 +31,7 @@ std::string boxes_text(const std::vector<PixelBox>& boxes) {
     return text;
 }
 
-/// What is no such list gives no boxes.
+/// Returns no boxes if the text is not such a list.
 std::vector<PixelBox> parse_boxes(std::string_view text) {
     std::vector<PixelBox> boxes;
     const char* at = text.data();
@@ -85,8 +85,8 @@ std::string encode_image(const Image& image, const std::string& description, std
 
 namespace {}  // namespace
 
-// The mean is taken of the stored values, not of light: dark text and lines on white stay as heavy as
-// they are without supersampling, where a mean of light would thin them.
+// Averages the stored values, not linear light: dark text and lines on white stay as heavy as
+// without supersampling, while averaging light would thin them.
 Image shrink_from_below(const std::uint8_t* rgb, int width, int height, int factor) {
     Image small;
     small.width = width / factor;

@@ -1,4 +1,4 @@
-// PDF through Cairo: a part of the shared library behind image_library.h, the only code that knows Cairo.
+// PDF with Cairo: a part of the shared library behind image_library.h, and the only code that uses Cairo.
 
 #include <cairo/cairo-pdf.h>
 #include <cairo/cairo.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double points_a_pixel = 0.75;
 constexpr double baseline = 0.35;  ///< of a text below the middle of its line, in text sizes
-constexpr double narrowest = 0.7;  ///< that letters are made, of another font than the one that was measured
+constexpr double narrowest = 0.7;  ///< horizontal scale of letters, if the font differs from the measured one
 
 struct Sink {
     void* context;
@@ -50,7 +50,7 @@ void draw_ground(cairo_t* page, const Drawing::Ground& ground, double height) {
     cairo_set_source_surface(page, image, 0, 0);
     cairo_paint(page);
     cairo_restore(page);
-    cairo_surface_finish(image);  // the page has its copy; the rows end here
+    cairo_surface_finish(image);  // the page has a copy; `rows` is not used after this
     cairo_surface_destroy(image);
 }
 
@@ -71,7 +71,7 @@ void draw_line(cairo_t* page, const FlatLine& line, double height) {
     cairo_restore(page);
 }
 
-/// As wide as it was measured, in whatever font is installed.
+/// Fits the text to its measured width, whatever font is installed.
 void draw_text(cairo_t* page, const FlatText& text, double width, double height) {
     cairo_select_font_face(page, "Arial", CAIRO_FONT_SLANT_NORMAL,
                            text.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
@@ -99,7 +99,7 @@ bool write_pdf(const Drawing& drawing, const char* title, void* context,
         cairo_pdf_surface_create_for_stream(write, &to, points_a_pixel * drawing.width, points_a_pixel * height);
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, title);
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATOR, "clsurf");
-    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "");  // the same bytes every time
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "");  // makes the bytes reproducible
     cairo_t* page = cairo_create(surface);
     cairo_scale(page, points_a_pixel, points_a_pixel);
     set_colour(page, drawing.background);

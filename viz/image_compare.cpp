@@ -34,7 +34,7 @@ Lab mean_lab(const Image& image, int x, int y) {
 /// `worst`: the largest difference of its values, 1 … 255.
 Rgb colour_of_difference(int worst) { return {255, static_cast<std::uint8_t>(220 - std::min(220, worst * 4)), 0}; }
 
-/// A strip that says what the colours of a difference picture mean.
+/// A strip that explains the colours of a difference picture.
 Image difference_legend(int width) {
     const double text = std::clamp(width / 60.0, 9.0, 20.0);
     Sheet sheet;

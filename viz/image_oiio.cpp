@@ -1,4 +1,4 @@
-// The shared library behind image_library.h: the only code that knows OpenImageIO.
+// The shared library behind image_library.h: the only code that uses OpenImageIO.
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>
@@ -18,7 +18,7 @@
 namespace clsurf::viz {
 namespace {
 
-/// A file in memory, for TIFF: what OpenImageIO 2.4 writes into a buffer cannot be read back.
+/// A file in memory, for TIFF: OpenImageIO 2.4 cannot read back what it writes to a buffer.
 class MemoryFile {
 public:
     MemoryFile() : descriptor_(::memfd_create("clsurf", MFD_CLOEXEC)) {}
@@ -57,7 +57,7 @@ OIIO::ImageSpec spec_of(int width, int height, const char* description) {
     return spec;
 }
 
-/// What thin lines and text need: as little loss as the format can do.
+/// As little loss as the format allows, for thin lines and text.
 void set_compression(const std::string& format, OIIO::ImageSpec& spec) {
     if (format == "jpeg") {
         spec.attribute("Compression", "jpeg:95");

@@ -30,7 +30,7 @@ public:
 
     [[nodiscard]] const std::vector<std::size_t>& slot_of() const { return slot_of_; }
 
-    /// Pairs of leaders that cross, which weigh most, and anchors that a leader of another one runs past too closely.
+    /// Pairs of crossing leaders, with the highest weight, and anchors to which the leader of another one is too close.
     [[nodiscard]] std::size_t faults() const {
         const std::size_t n = anchors_.size();
         std::size_t sum = 0;
@@ -45,14 +45,14 @@ public:
 private:
     [[nodiscard]] Vec2 end_of(std::size_t k) const { return {slot_x_, slots_[slot_of_[k]]}; }
 
-    /// Whether a leader meets another anchor. Anchors that lie on each other do not count: no slot parts them.
+    /// Whether a leader is too close to another anchor. Coincident anchors do not count: no slot can separate them.
     [[nodiscard]] bool meets(std::size_t leader, std::size_t other) const {
         return (anchors_[other] - anchors_[leader]).norm() >= clearance_ &&
                distance(anchors_[other], anchors_[leader], end_of(leader)) < clearance_;
     }
 
-    /// From top to bottom; then two lines that cross exchange their slots, which makes their total length shorter, so that
-    /// this ends.
+    /// Assigns slots from top to bottom; then two crossing leaders exchange their slots. Each exchange shortens the total
+    /// length, so the loop terminates.
     void uncross() {
         const auto falling = [](std::size_t count, auto&& height) {
             std::vector<std::size_t> order(count);
@@ -76,7 +76,7 @@ private:
         }
     }
 
-    /// Two leaders exchange their slots as long as that leaves fewer faults.
+    /// Two leaders exchange their slots while that reduces the number of faults.
     void keep_clear() {
         std::size_t least = faults();
         for (bool changed = true; changed && least > 0;) {
@@ -110,14 +110,14 @@ std::vector<std::size_t> assign_slots(const std::vector<Vec2>& anchors, const st
 
 NameColumn place_names(const std::vector<Vec2>& anchors, double slot, double lowest, double highest, double slot_x,
                        double clearance) {
-    constexpr double step = 0.25;  // of a slot, between two tries
+    constexpr double step = 0.25;  // of a slot, between two positions
     constexpr int most_steps = 12;
     const double height = slot * static_cast<double>(anchors.size());
     const double beside = top_of_names(anchors, height, lowest, highest);
     NameColumn best;
     std::size_t least = 0;
     for (int k = 0; k <= 2 * most_steps; ++k) {
-        // By turns above and below.
+        // Alternately above and below.
         const double aside = step * slot * (k % 2 == 1 ? (k + 1) / 2 : -k / 2);
         NameColumn column;
         column.top = std::clamp(beside + aside, std::min(lowest + height, highest), highest);

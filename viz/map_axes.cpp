@@ -13,13 +13,13 @@
 namespace clsurf::viz {
 namespace {
 
-constexpr double tick_length = 0.4;      ///< in small texts, like all below
+constexpr double tick_length = 0.4;      ///< in small text sizes, like all values below
 constexpr double label_distance = 1.05;  ///< from an edge to the middle of a number
 constexpr double between_ticks = 5.5;
 constexpr double shortest_scale = 3.0;
 constexpr double frame_gap = 0.6;  ///< between the part and its frame
 
-/// Which axis of the workpiece a direction in the picture is; −1: none.
+/// The axis of the workpiece along a direction; −1: none.
 int axis_along(const Vec3& direction) {
     for (int axis = 0; axis < 3; ++axis) {
         if (std::abs(direction[axis]) > 1 - 1e-9) return axis;
@@ -58,7 +58,7 @@ public:
         scale(place_of(corners[0]), place_of(corners[3]), axis_along(camera.up), Vec2(-1, 0), of);
     }
 
-    /// With `room` [mm] about the part in X and Y.
+    /// `room` [mm]: distance around the part in X and Y.
     void box(double room, const std::string& of, const DepthBuffer& depth) {
         const Vec3 aside(room, room, 0);
         const Box3 part(part_.min() - aside, part_.max() + aside);
@@ -75,12 +75,12 @@ public:
                 to[axis] = part.max()[axis];
                 const bool near_b = ((k & 1) != 0) == (camera.towards[b] > 0);
                 const bool near_c = ((k & 2) != 0) == (camera.towards[c] > 0);
-                if (near_b && near_c) continue;  // it would lie in front of the part
+                if (near_b && near_c) continue;  // the edge is in front of the part
                 edge(from, to, depth);
                 if (near_b || near_c) outer.emplace_back(from, to);
             }
             if (outer.size() < 2) continue;
-            // X and Y below the part, Z at its left.
+            // X and Y below the part, Z to its left.
             const auto rank = [&](const std::pair<Vec3, Vec3>& e) {
                 const Vec2 middle = camera.pixel(0.5 * (e.first + e.second));
                 return axis == 2 ? middle.x() : middle.y();
@@ -103,7 +103,7 @@ private:
 
     void line(std::vector<Vec2> points) { sheet_.lines.push_back({std::move(points), 1.0, ink_, Level::area}); }
 
-    /// What the part does not hide of an edge.
+    /// Draws the visible parts of an edge.
     void edge(const Vec3& from, const Vec3& to, const DepthBuffer& depth) {
         constexpr double step = 2;  // [px]
         const double length = (panel_.camera.pixel(to) - panel_.camera.pixel(from)).norm();
@@ -121,7 +121,7 @@ private:
         if (seen.size() > 1) line(std::move(seen));
     }
 
-    /// Ticks and numbers of one axis between two places, on the side `outwards` of the line between them.
+    /// Ticks and numbers of one axis between two points, on the side `outwards` of the line.
     void scale(const Vec3& from, const Vec3& to, int axis, const Vec2& outwards, const std::string& of) {
         if (axis < 0) return;
         const Vec2 a = panel_.camera.pixel(from);
@@ -140,7 +140,7 @@ private:
             return;
         }
         const double step = ticks[1] - ticks[0];
-        // Where a scale is steep, numbers stand beside it; else below.
+        // The numbers of a steep scale are next to it, otherwise below it.
         const bool beside = std::abs(outwards.x()) > 0.8;
         double widest = 0;
         for (const double tick : ticks) {
@@ -153,14 +153,14 @@ private:
             if (beside) text.x = at.x() + (tick_length + 0.25) * size_ * (outwards.x() < 0 ? -1 : 1);
             const Rect rect = text_rect(text);
             widest = std::max(widest, rect.width);
-            // At a corner two scales meet: "20" and "−10" would be read as one number.
+            // At a corner two scales meet: "20" and "−10" would read as one number.
             if (!take(rect)) continue;
             add_words(std::move(text));
         }
         name_axis(corner_ + a, corner_ + b, axis, outwards, of, beside, widest);
     }
 
-    /// Whether a number is there, or nearer at the left or right than a digit is wide.
+    /// Whether another number overlaps, or is closer at the left or right than the width of a digit.
     [[nodiscard]] bool meets_number(const Rect& rect) const {
         const double gap = 0.6 * size_;
         return std::any_of(numbers_.begin(), numbers_.end(), [&](const Rect& number) {
@@ -169,15 +169,15 @@ private:
         });
     }
 
-    /// Whether no number is there yet.
+    /// Reserves the rectangle of a number; false: it overlaps another one.
     bool take(const Rect& number) {
         if (meets_number(number)) return false;
         numbers_.push_back(number);
         return true;
     }
 
-    /// "Z −0.4 to 0.1 mm", at a scale that is too short for numbers, or "Z 0.000 mm" of a flat part: what is shown of the part,
-    /// without the room about it. Where an edge of the box runs through it, in the lower left corner of the map.
+    /// "Z −0.4 to 0.1 mm" for a scale that is too short for numbers, or "Z 0.000 mm" for a flat part: the shown range of the
+    /// part, without the room around it. If an edge of the box crosses the text, it is in the lower left corner of the map.
     void tell_range(const Vec2& middle, int axis, double scale_low, double scale_high) {
         const double low = std::max(scale_low, part_.min()[axis]);
         const double high = std::max(low, std::min(scale_high, part_.max()[axis]));
@@ -192,7 +192,7 @@ private:
             text.x = left;
             text.y = corner_.y() + size_;
         }
-        // Two of them may meet in a small picture.
+        // Two such texts may overlap in a small picture.
         constexpr int most_lines = 4;
         for (int k = 0; k < most_lines && !take(text_rect(text)); ++k) text.y += 1.3 * size_;
         add_words(std::move(text));
@@ -207,14 +207,14 @@ private:
         });
     }
 
-    /// "X [mm, G54]", where no number is: beyond the numbers, in the middle between two ticks.
+    /// "X [mm, G54]", clear of numbers: beyond them, in the middle between two ticks.
     void name_axis(const Vec2& a, const Vec2& b, int axis, const Vec2& outwards, const std::string& of, bool beside,
                    double widest) {
         const std::string words =
             fmt::format("{} [mm{}{}]", "XYZ"[axis], of.empty() ? "" : ", ", axis == 0 ? of : std::string());
         FlatText text{0, 0, axis == 0 ? words : fmt::format("{} [mm]", "XYZ"[axis]), size_, Align::centre, true, ink_};
         if (beside) {
-            // Above the upper end, where there is room for its width.
+            // Above the upper end, if its width fits there.
             const Vec2 top = a.y() > b.y() ? a : b;
             text.x = top.x() + outwards.x() * 0.5 * widest;
             text.y = top.y() + 1.1 * size_;
@@ -232,7 +232,7 @@ private:
         add_words(std::move(text));
     }
 
-    /// Edges of the box, and lines to the names of defects, are interrupted where they pass behind a text.
+    /// Edges of the box, and leaders to the names of defects, are interrupted behind a text.
     void add_words(FlatText text) {
         sheet_.lines.push_back(halo_of(text, background_));
         sheet_.texts.push_back(std::move(text));

@@ -5,10 +5,10 @@
 namespace clsurf::viz {
 namespace {
 
-/// Names are the answer of a defect map: they are to be read where the picture is one column of a page.
+/// The names are the result of a defect map: they must be readable if the picture is one column of a page.
 double text_size(const Look& look, Arrangement arrangement) {
     const double usual = std::min(look.width * 0.75, look.height * 1.0) / (look.names ? 36.0 : 46.0);
-    // There a part leaves room beside or below it.
+    // Such a picture has room next to or below the part.
     const double roomy = std::min(look.width, look.height) / 40.0;
     return std::clamp(arrangement == Arrangement::usual ? usual : std::max(usual, roomy), 9.0, 60.0);
 }

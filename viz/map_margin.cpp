@@ -17,11 +17,11 @@ void add_text(Sheet& sheet, double x, double y, std::string text, double size, A
     sheet.texts.push_back({x, y, std::move(text), size, align, bold, rgb});
 }
 
-/// A bar of colours: where it begins, how long it is, and which way it goes.
+/// A bar of colours: its start, length and direction.
 struct ColourBar {
     Vec2 start;
     double length, width;
-    bool across;  ///< from left to right; else from below to above
+    bool across;  ///< from left to right; otherwise from bottom to top
 
     [[nodiscard]] Vec2 at(double along, double aside) const {
         return across ? Vec2(start + Vec2(along, aside)) : Vec2(start + Vec2(aside, along));
@@ -33,7 +33,7 @@ struct ColourBar {
     }
 };
 
-/// Beyond an end of the bar there are values: a point of the colour that they have.
+/// If there are values beyond an end of the bar: a triangle in their colour.
 void add_beyond(Sheet& sheet, const ColourScale& scale, bool above, const ColourBar& bar, double height, Rgb frame) {
     const Rgb rgb = above ? scale.map.above() : scale.map.below();
     const double end = above ? bar.length : 0;
@@ -48,7 +48,7 @@ void add_beyond(Sheet& sheet, const ColourScale& scale, bool above, const Colour
         {{bar.at(end, 0), bar.at(end + sign * height, 0.5 * bar.width), bar.at(end, bar.width)}, 1.0, frame});
 }
 
-/// The colours of a scale, in a frame.
+/// The colours of a scale, with a frame.
 void add_bar(Sheet& sheet, const ColourScale& scale, const ColourBar& bar, Rgb frame) {
     const int cells = scale.bins > 0 ? scale.bins : static_cast<int>(std::clamp(bar.length, 16.0, 512.0));
     for (int k = 0; k < cells; ++k) {
@@ -61,14 +61,14 @@ void add_bar(Sheet& sheet, const ColourScale& scale, const ColourBar& bar, Rgb f
          frame});
 }
 
-/// A small field with the hatching of places without a value.
+/// A small rectangle with the hatching of places without a value.
 void add_hatched(Sheet& sheet, const Rect& rect, Rgb frame) {
     const Vec2 corner(rect.x, rect.y);
     const Vec2 across(rect.width, 0);
     const Vec2 up(0, rect.height);
     const double step = 0.5 * rect.height;
     for (double at = step; at < rect.width + rect.height; at += step) {
-        // From the lower edge, or the right one, up to the left edge, or the upper one.
+        // From the lower or right edge up to the left or upper edge.
         const Vec2 from = at < rect.width ? Vec2(at, 0) : Vec2(rect.width, at - rect.width);
         const Vec2 to = at < rect.height ? Vec2(0, at) : Vec2(at - rect.height, rect.height);
         sheet.lines.push_back({{corner + from, corner + to}, 1.0, missing_colour});
@@ -83,7 +83,7 @@ std::string share_text(double share) {
     return percent < 10 ? fmt::format("{:.1f} %", percent) : fmt::format("{:.0f} %", percent);
 }
 
-/// Round values; where the colours are steps, their edges, as many as have room.
+/// Round values; for a stepped scale its edges, as many as fit.
 std::vector<double> legend_ticks(const ColourScale& scale, int wanted) {
     if (!(scale.high > scale.low)) return {scale.low};
     if (scale.bins == 0) return nice_ticks(scale.low, scale.high, std::max(2, wanted));
@@ -94,8 +94,8 @@ std::vector<double> legend_ticks(const ColourScale& scale, int wanted) {
     return edges;
 }
 
-/// Notes from the top: a line takes as many as fit, and a long one goes on at a word. There is room for `most_lines`; what
-/// does not fit into them is written smaller.
+/// Notes from the top: each line takes as many as fit, and a long note is split between words. Beyond `most_lines`
+/// the text is made smaller.
 std::vector<FlatText> note_lines(const std::vector<std::string>& notes, FlatText note, double width,
                                  std::size_t most_lines) {
     constexpr double smaller = 0.95, smallest = 0.7;
@@ -136,7 +136,7 @@ void add_notes(Sheet& sheet, const std::vector<std::string>& notes, const FlatTe
     }
 }
 
-/// The column of a wide picture: the title, a line for each part of the subtitle, and the notes at its foot.
+/// The column of a wide picture: the title, one line for each part of the subtitle, and the notes at the bottom.
 void add_title_column(Sheet& sheet, const MapTexts& texts, FlatText title, FlatText subtitle, const FlatText& note,
                       double width) {
     constexpr std::size_t most_notes = 8;
@@ -178,7 +178,7 @@ double add_wrapped(Sheet& sheet, const std::string& words, FlatText line, double
 
 void add_title(Sheet& sheet, const MapTexts& texts, double beside, const Look& look, const MapLayout& layout, Rgb ink) {
     constexpr std::size_t most_notes = 2;
-    constexpr double most_smaller = 1.3;  // a title that is longer is shortened
+    constexpr double most_smaller = 1.3;  // a longer title is shortened
     const Rgb grey = faint(ink, look.background);
     const double top = look.height - layout.margin;
     FlatText title{layout.margin, top - 0.5 * layout.text, "", 1.25 * layout.text, Align::left, true, ink};
@@ -205,12 +205,12 @@ void add_title(Sheet& sheet, const MapTexts& texts, double beside, const Look& l
 
 namespace {
 
-/// What a scale shows: "Path speed [mm/min]".
+/// The quantity of a scale: "Path speed [mm/min]".
 std::string name_of_scale(const FieldInfo& field) {
     return field.unit.name.empty() ? field.label : fmt::format("{} [{}]", field.label, field.unit.name);
 }
 
-/// Numbers and ticks beside a bar. The ends of the range stand there exactly; ticks too near to them give way.
+/// Numbers and ticks next to a bar. The ends of the range are always given exactly; ticks too close to them are dropped.
 void add_numbers(Sheet& sheet, const ColourScale& scale, const ColourBar& bar, const MapLayout& layout, Rgb ink,
                  Rgb frame) {
     constexpr double most_ticks = 10;
@@ -334,7 +334,7 @@ void add_scale_bar(Sheet& sheet, const MeshPanel& panel, const MapLayout& layout
 }
 
 void add_axes(Sheet& sheet, const MeshPanel& panel, const Look& look, const MapLayout& layout, Rgb ink) {
-    // Below the legend, where no map can be under it; right of the key where there are names.
+    // Below the legend, clear of the map; with names, to the right of the key.
     const double across = look.names ? layout.legend_width - 3.0 * layout.text : 0.42 * layout.legend_width;
     const bool tall = layout.arrangement == Arrangement::tall;
     const Vec2 origin(tall ? look.width - 4.0 * layout.text : panel.rect.x + panel.rect.width + across,
@@ -343,7 +343,7 @@ void add_axes(Sheet& sheet, const MeshPanel& panel, const Look& look, const MapL
     for (int axis = 0; axis < 3; ++axis) {
         const Vec3 direction = Vec3::Unit(axis);
         const Vec2 flat(direction.dot(panel.camera.right), direction.dot(panel.camera.up));
-        if (flat.norm() < 0.15) continue;  // it points at the eye
+        if (flat.norm() < 0.15) continue;  // it points at the viewer
         static constexpr Rgb colours[3] = {{200, 40, 40}, {30, 140, 50}, {40, 80, 200}};
         sheet.lines.push_back({{origin, origin + length * flat}, 2.0, colours[axis]});
         const Vec2 at = origin + (length + 0.55 * layout.text) * flat.normalized() * std::max(0.5, flat.norm());

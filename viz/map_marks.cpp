@@ -14,7 +14,7 @@
 namespace clsurf::viz {
 namespace {
 
-constexpr double least_step = 0.5;  ///< [px] of a line: shorter ones nobody sees
+constexpr double least_step = 0.5;  ///< [px] of a line: shorter steps are invisible
 
 void add_ring(Sheet& sheet, const Vec2& at, double radius, double width, Rgb rgb, Level level) {
     FlatLine ring{{}, width, rgb, level};
@@ -26,7 +26,7 @@ void add_ring(Sheet& sheet, const Vec2& at, double radius, double width, Rgb rgb
     sheet.lines.push_back(std::move(ring));
 }
 
-/// The parts of a line of `count` positions that are in the picture, in steps of half a pixel or more.
+/// The parts of a line of `count` positions that are in the picture, in steps of at least half a pixel.
 template <typename At>
 std::vector<std::vector<Vec2>> strokes(PointIndex count, const At& position, const Camera& camera, const Look& look,
                                        const Vec2& corner) {
@@ -46,7 +46,7 @@ std::vector<std::vector<Vec2>> strokes(PointIndex count, const At& position, con
     return all;
 }
 
-/// The marks of one map, drawn onto a sheet.
+/// Draws the marks of one map onto a sheet.
 class MarkDrawer {
 public:
     MarkDrawer(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const Look& look, const MapLayout& layout)
@@ -72,7 +72,7 @@ public:
     }
 
 private:
-    static constexpr double hiding_step_overs = 2;  ///< so far above a line must be what hides it
+    static constexpr double hiding_step_overs = 2;  ///< only what is this far above a line hides it
     static constexpr double label_lines = 1.24;     ///< height of a label, in text sizes
     static constexpr Rgb white{255, 255, 255};
     static constexpr Rgb black{0, 0, 0};
@@ -83,7 +83,7 @@ private:
 
     [[nodiscard]] double ring_radius() const { return 0.75 * layout_.text; }
 
-    /// Labels keep off the ring of a point.
+    /// Keeps labels off the ring of a point.
     void take_ring(const Vec3& place) {
         if (!shows(panel_.camera, look_, place)) return;
         const Vec2 at = corner_ + panel_.camera.pixel(place);
@@ -91,7 +91,7 @@ private:
         placer_.take({at.x() - r, at.y() - r, 2 * r, 2 * r});
     }
 
-    /// A label near its anchor, with its middle at `centre` where there is room; a line leads to one farther away.
+    /// A label near its anchor, with its middle at `middle` if there is room; a line connects one that is farther away.
     void add_label(const Vec2& anchor, const Vec2& middle, const std::string& text) {
         FlatText flat{0, 0, text, layout_.small_text, Align::centre, true, black};
         const Vec2 size(text_width(flat) + 6, label_lines * layout_.small_text);
@@ -108,13 +108,13 @@ private:
             sheet_.lines.push_back({{anchor, nearest}, 0.06 * layout_.text, black, Level::line});
             placer_.take_line(anchor, nearest);
         }
-        // Over the outlines of other marks, which would run through the words.
+        // The halo covers the outlines of other marks, which would cross the text.
         sheet_.lines.push_back(
             {{{rect->x, flat.y}, {rect->x + rect->width, flat.y}}, rect->height, white, Level::halo});
         sheet_.texts.push_back(std::move(flat));
     }
 
-    /// Beside a ring, to the right of it.
+    /// To the right of a ring, or to the left if it does not fit.
     void add_label_beside(const Vec2& at, const std::string& text) {
         if (text.empty()) return;
         const FlatText flat{0, 0, text, layout_.small_text, Align::left, true, black};
@@ -134,7 +134,7 @@ private:
                 sheet_.lines.push_back({stroke, 0.35 * layout_.text, white, Level::edge});
                 sheet_.lines.push_back({std::move(stroke), 0.17 * layout_.text, black, Level::line});
             }
-            // The first point of a marked line is ringed: there the line begins.
+            // A ring marks the first point of a marked line.
             if (const Vec3 p = place_of(range.first); shows(panel_.camera, look_, p))
                 add_ring(sheet_, corner_ + panel_.camera.pixel(p), 0.45 * layout_.text, 0.15 * layout_.text, black,
                          Level::line);
@@ -150,7 +150,7 @@ private:
         add_label_beside(at, mark.label);
     }
 
-    /// Thin lines, where the part does not hide them.
+    /// Thin lines, except where the part hides them.
     void add_programmed(const std::vector<std::vector<Vec3>>& lines) {
         constexpr Rgb grey{70, 70, 70};
         const DepthBuffer depth(panel_.geometry, panel_.camera);
@@ -181,7 +181,7 @@ private:
         close();
     }
 
-    /// Draws an outline and keeps labels off it. Its highest place; nothing: it is not in the picture.
+    /// Draws an outline and keeps labels off it. Returns its highest point; nothing: it is not in the picture.
     std::optional<Vec2> add_outline(const OutlineMark& mark) {
         std::optional<Vec2> top;
         for (const std::vector<Vec3>& corners : mark.lines) {

@@ -16,7 +16,7 @@ void append(Band& band, const Band& from, std::size_t k) {
     band.right.push_back(from.right[k]);
 }
 
-/// Between two points of a band.
+/// Appends an interpolated point between two points of a band.
 void append_between(Band& band, const Band& from, std::size_t k, double share) {
     band.left.emplace_back(from.left[k] + share * (from.left[k + 1] - from.left[k]));
     band.right.emplace_back(from.right[k] + share * (from.right[k + 1] - from.right[k]));
@@ -24,7 +24,7 @@ void append_between(Band& band, const Band& from, std::size_t k, double share) {
 
 Vec2 turned_left(const Vec2& direction) { return {-direction.y(), direction.x()}; }
 
-/// The way of a band at a point, of length 1. `lonely`: that of a band of one place.
+/// The unit direction of a band at a point. `lonely`: used for a band of one point.
 Vec2 direction_at(const Band& band, std::size_t k, const Vec2& lonely) {
     const std::size_t before = k > 0 ? k - 1 : k;
     const std::size_t behind = std::min(k + 1, band.size() - 1);
@@ -32,7 +32,7 @@ Vec2 direction_at(const Band& band, std::size_t k, const Vec2& lonely) {
     return direction.norm() > 0 ? Vec2(direction.normalized()) : lonely;
 }
 
-/// The way [px] that brings both ends of an edge of a band onto the part; zero where they lie there, or none of them does.
+/// The shift [px] that brings both ends of a band's edge onto the part; zero if both ends or none of them are on it.
 template <typename IsOnPart>
 Vec2 to_part(const Vec2& first, const Vec2& last, const IsOnPart& is_on_part) {
     const bool first_on = is_on_part(first);
@@ -45,7 +45,7 @@ Vec2 to_part(const Vec2& first, const Vec2& last, const IsOnPart& is_on_part) {
     return Vec2::Zero();
 }
 
-/// Where the strip is seen from the side it is a line, and could not be seen.
+/// Widens a band to a least width: a strip in side view is only a line.
 void widen(Band& band, double least, const Vec2& lonely) {
     Band wide = band;
     for (std::size_t k = 0; k < band.size(); ++k) {
@@ -59,7 +59,7 @@ void widen(Band& band, double least, const Vec2& lonely) {
     band = std::move(wide);
 }
 
-/// A section that comes towards the eye is short. A longer one must not reach beyond the outline of the part.
+/// Lengthens a band, which is short if the section points to the viewer. It must not extend beyond the outline of the part.
 template <typename IsOnPart>
 void lengthen(Band& band, double least, const Vec2& lonely, const IsOnPart& is_on_part) {
     const double more = 0.5 * (least - length_of(band));
@@ -106,7 +106,7 @@ public:
         return strokes;
     }
 
-    /// The direction of the pass at a point, of length 1.
+    /// The unit direction of the pass at a point.
     [[nodiscard]] Vec2 direction(PointIndex i) const {
         const PointIndex last = surface_.positions.size() - 1;
         const Vec2 step = at(surface_.positions.absolute(std::min(i + 1, last))) -

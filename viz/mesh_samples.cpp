@@ -7,10 +7,10 @@
 namespace clsurf::viz {
 namespace {
 
-constexpr float nothing = 1;  ///< the depth where no mesh is
+constexpr float nothing = 1;  ///< the depth of empty samples
 constexpr std::uint32_t most_side = 1U << 16U;
 
-/// Two numbers: width and height, or the first sample of a run and how many it has.
+/// Two numbers: width and height, or the first sample of a run and the number of samples.
 using Pair = std::array<std::uint32_t, 2>;
 
 void append_pair(std::string& bytes, std::size_t a, std::size_t b) {
@@ -98,7 +98,7 @@ std::optional<MeshSamples> MeshSamples::read(std::string_view& bytes) {
         std::array<char, 1> there{};
         if (!take_bytes(bytes, std::span(there))) return std::nullopt;
         if (there[0] == 0) continue;
-        if (bytes.size() / sizeof(Pair) < rows) return std::nullopt;  // before memory is taken for them
+        if (bytes.size() / sizeof(Pair) < rows) return std::nullopt;  // checked before memory is allocated
         Layer& layer = samples.layer_of(kind);
         for (std::size_t row = 0; row < rows; ++row) {
             Pair run{};

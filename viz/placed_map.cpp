@@ -11,7 +11,7 @@
 namespace clsurf::viz {
 namespace {
 
-/// Panels side by side; a caption has its own line above, ticks have room at the left and below.
+/// Panels next to each other; a caption has a line above its panel, ticks have room at the left and below.
 Rect widest_rect(const std::vector<MapPanel>& panels, std::size_t k, const Look& look, const MapLayout& layout) {
     const Rect area = layout.map_area(look);
     const auto count = static_cast<double>(panels.size());
@@ -22,9 +22,9 @@ Rect widest_rect(const std::vector<MapPanel>& panels, std::size_t k, const Look&
             std::max(1.0, std::floor(area.height - room.bottom - room.top) - std::ceil(caption))};
 }
 
-/// What is shown of a part.
+/// The shown extent of a part.
 struct Framing {
-    bool boxed = false;  ///< `box` is drawn, and lies along the axes of the workpiece; else along those of the view
+    bool boxed = false;  ///< a box is drawn: `box` is along the workpiece axes; otherwise along those of the view
     Box3 box;            ///< [mm]
 };
 
@@ -36,18 +36,18 @@ Framing framing_of(const std::vector<MapPanel>& panels, const Look& look) {
     };
     const bool boxed = has_box(look);
     if (look.box.isEmpty()) return {boxed, extent(boxed ? ViewAxes(ViewAxes::Identity()) : axes_of(look.view))};
-    // Where the box is larger than the part, as one may give it along Z, the part is what counts.
+    // If the given box is larger than the part, for example along Z, the part counts.
     const Box3 filled = look.box.intersection(extent(ViewAxes::Identity()));
     const Box3& shown = filled.isEmpty() ? look.box : filled;
     return {boxed, boxed ? shown : extent_along(axes_of(look.view), shown)};
 }
 
-/// `most`, or what a part of `needed` pixels takes with air round it [px].
+/// `most`, or the size of a part of `needed` pixels with a margin [px].
 int shrunk(int most, double needed, double air) {
     return std::isfinite(needed) ? std::min(most, static_cast<int>(std::ceil(air * std::max(needed, 1.0)))) : most;
 }
 
-/// A panel as large as its arrangement allows. It gets smaller where names or a legend would be far from the part.
+/// The largest panel of an arrangement. It is made smaller if names or a legend would be far from the part.
 PlacedMap placed_map(Arrangement arrangement, const std::vector<MapPanel>& panels, const Framing& framing,
                      const Look& look) {
     constexpr double air_of_leaders = 1.4, air_beside = 1.08;
@@ -55,7 +55,7 @@ PlacedMap placed_map(Arrangement arrangement, const std::vector<MapPanel>& panel
     const Rect rect = widest_rect(panels, 0, look, layout);
     const auto width = static_cast<int>(rect.width);
     const auto height = static_cast<int>(rect.height);
-    // The scales of a box stand inside the panel.
+    // The scales of a box are inside the panel.
     const AxesRoom room = framing.boxed ? axes_room(look, layout) : AxesRoom{};
     const int across = std::max(1, static_cast<int>(width - room.left - room.right));
     const int up = std::max(1, static_cast<int>(height - room.bottom - room.top));
@@ -98,7 +98,7 @@ PlacedMap placed_map(const std::vector<MapPanel>& panels, const Look& look) {
 }
 
 Rect panel_rect(const std::vector<MapPanel>& panels, std::size_t k, const Look& look, const PlacedMap& placed) {
-    constexpr double share_above = 0.4;  // of what a tall picture leaves
+    constexpr double share_above = 0.4;  // of the unused height of a tall picture
     Rect rect = widest_rect(panels, k, look, placed.layout);
     const double beside = rect.width - placed.camera.width;
     const double above = rect.height - placed.camera.height;

@@ -18,14 +18,14 @@
 namespace clsurf::viz {
 namespace {
 
-constexpr double shade_dark = 0.80;   ///< of a surface that the light only grazes
-constexpr double relief_dark = 0.62;  ///< of a grey relief, whose shade is all that it shows
-constexpr double path_width = 3;      ///< [px] of passes with none beside them
+constexpr double shade_dark = 0.80;   ///< of a surface in grazing light
+constexpr double relief_dark = 0.62;  ///< of a grey relief, which shows only its shade
+constexpr double path_width = 3;      ///< [px] of passes without adjacent ones
 constexpr double path_room = 8;       ///< [px] between such a path and its box
 constexpr double relief_grey = 232;   ///< of a grey relief that faces the light
 const Vec3 light(-0.45, 0.55, 0.70);  ///< from the upper left, in the camera's frame
 
-/// Vertices get their places on the ramp, and the shade of light that grazes.
+/// Sets the position of vertices on the ramp, and their shade in grazing light.
 Beyond paint(Detail& detail, const ColourScale& scale, double per_inside, const Rgb& background, MeshPanel& panel) {
     Geometry& g = detail.geometry;
     const Camera& camera = panel.camera;
@@ -67,14 +67,14 @@ Beyond paint(Detail& detail, const ColourScale& scale, double per_inside, const 
     return {below, above, missing};
 }
 
-/// 1 at vertices in one of the ranges, which rise.
+/// 1 at vertices in one of the ranges, which increase.
 Column<float> paleness_of(const Column<PointIndex>& points, const std::vector<PointRange>& ranges) {
     Column<float> pale(points.size());
     for (std::size_t v = 0; v < points.size(); ++v) pale[v] = any_has(ranges, points[v]) ? 1.0F : 0.0F;
     return pale;
 }
 
-/// Takes the cells of `size` corners out of which one has no value.
+/// Removes and returns the cells of `size` corners with a corner without a value.
 Column<std::uint32_t> take_bare(Column<std::uint32_t>& cells, std::size_t size, const Column<float>& values) {
     Column<std::uint32_t> bare;
     std::size_t kept = 0;
@@ -96,7 +96,7 @@ Column<std::uint32_t> take_bare(Column<std::uint32_t>& cells, std::size_t size, 
 
 namespace {
 
-/// A grey relief: its shade, and no values.
+/// A grey relief: only its shade, without values.
 void paint_relief(Detail& detail, MeshPanel& panel) {
     Geometry& g = detail.geometry;
     const Camera& camera = panel.camera;
@@ -115,10 +115,10 @@ void paint_relief(Detail& detail, MeshPanel& panel) {
     g.normals = {};
 }
 
-/// No pass has another one beside it: only lines are seen.
+/// No pass has an adjacent one: only lines are drawn.
 bool is_path(const MapPanel& map) { return map.relief == nullptr && map.surface->step_over <= 0; }
 
-/// What is shown of a part.
+/// The shown extent of a part.
 Box3 shown_box(const MapPanel& map, const Look& look) {
     const Box3 all = extent_of_panel(map, ViewAxes::Identity());
     return look.box.isEmpty() ? all : all.intersection(look.box);
@@ -134,7 +134,7 @@ Beyond paint_panel(Detail& detail, const MapPanel& map, const ColourScale& scale
     return paint(detail, scale, 1, look.background, panel);
 }
 
-/// What pixels can show of a panel, and somewhat more: a triangle over its edge has corners outside.
+/// The visible detail of a panel with a margin: a triangle across its edge has corners outside.
 Detail detail_of(const MapPanel& map, const Camera& camera, const Look& look, const PointRange& own) {
     const double room =
         std::min(2.0 * map.surface->step_over / camera.mm_per_pixel + 8.0, static_cast<double>(camera.width));
@@ -150,8 +150,8 @@ Detail detail_of(const MapPanel& map, const Camera& camera, const Look& look, co
                                  : visible_detail(*map.surface, map.field->values, request);
 }
 
-/// Whether shown cutting points of a map have values beyond the range. A vertex is the mean of the points in a pixel, which hides
-/// those of a few.
+/// Whether shown cutting points of a map have values beyond the range. Vertices cannot show this: the mean of the points in a
+/// pixel hides a few such values.
 Beyond beyond_of_points(const MapPanel& map, const ColourScale& scale, const Look& look, const Camera& camera,
                         const PointRange& own) {
     Beyond beyond;
@@ -169,7 +169,7 @@ Beyond beyond_of_points(const MapPanel& map, const ColourScale& scale, const Loo
     return beyond;
 }
 
-/// What pixels show of a panel, painted, on a panel that has its rectangle and its camera. `own`: of a map in parts.
+/// Paints the visible detail of a map on a panel with rectangle and camera. `own`: the range of a map in parts.
 Beyond fill_panel(const MapPanel& map, const ColourScale& scale, const Look& look, MeshPanel& panel,
                   const PointRange& own = DetailRequest().own) {
     Detail detail = detail_of(map, panel.camera, look, own);
@@ -187,8 +187,8 @@ Beyond fill_panel(const MapPanel& map, const ColourScale& scale, const Look& loo
     return here;
 }
 
-/// Thin lines behind the points or lines of a log, in one colour, as cells of the mesh: so the log lies over them. Where the log
-/// is a surface they are lines over it (map_marks.h).
+/// Thin lines behind the points or lines of a log, in one colour, as cells of the mesh, so that the log covers them. If the
+/// log is shown as a surface, they are lines over it (map_marks.h).
 void add_programmed_below(const MapPanel& map, const Look& look, MeshPanel& panel) {
     if (map.programmed == nullptr || map.relief != nullptr || look.style == Style::surface) return;
     Geometry& g = panel.geometry;
@@ -222,12 +222,12 @@ Sheet empty_sheet(const Look& look) {
     return sheet;
 }
 
-/// Scales in millimetres of a panel, and beside the last one the axes.
+/// Scales in millimetres for a panel, and the axes next to the last one.
 void add_scales_of(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const std::string& frame, bool last,
                    const Look& look, const MapLayout& layout, const DepthBuffer* depth = nullptr) {
     if (!look.legend) return;
     const Rgb ink = ink_for(look.background);
-    // Lines of the box would cover those of a path that lie along its edges.
+    // Without room, lines of the box would cover those of a path along its edges.
     const double room = is_path(map) && look.box.isEmpty() ? path_room * panel.camera.mm_per_pixel : 0;
     add_scales(sheet, panel, shown_box(map, look), frame, look, layout, depth, room);
     if (!last || has_frame(look)) return;
@@ -235,12 +235,12 @@ void add_scales_of(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, co
     if (!has_box(look)) add_scale_bar(sheet, panel, layout, ink);
 }
 
-/// Title, notes and what the colours mean. `legend`: where that has room.
+/// Title, notes and the legend of colours. `legend`: its area.
 void add_words(Sheet& sheet, const MapPanel& map, const ColourScale& scale, const MapTexts& texts, const Beyond& beyond,
                const Rect& legend, const Look& look, const MapLayout& layout) {
     if (!look.legend) return;
     const Rgb ink = ink_for(look.background);
-    // The key of a defect map reaches down to the notes, the axes do at the right edge.
+    // The key of a defect map extends down to the notes; the axes are at the right edge.
     const bool key = map.defects != nullptr && layout.arrangement != Arrangement::tall;
     add_title(sheet, texts, key ? look.width - legend.x : layout.margin + 3.5 * layout.text, look, layout, ink);
     if (map.classes != nullptr)
@@ -275,7 +275,7 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const PlacedMap& placed, co
         if (map.defects != nullptr) without_room += add_defects(sheet, map, panel, legend, look, layout);
         without_room += add_marks(sheet, map, panel, look, layout);
         if (!map.caption.empty()) {
-            // The name of the upright scale stands above the frame.
+            // The name of the vertical axis is above the frame.
             const double above = has_frame(look) ? axes_room(look, layout).top : 0;
             const double y = panel.rect.y + panel.rect.height + above + 0.5 * caption_lines * layout.text;
             sheet.texts.push_back(

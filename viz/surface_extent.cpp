@@ -11,7 +11,7 @@ namespace clsurf::viz {
 
 namespace {
 
-/// Points of a pass, at most as many as a block has.
+/// Points of a pass, at most one block.
 struct Piece {
     PointIndex first, last;
 };
@@ -27,7 +27,7 @@ std::vector<Piece> pieces_of(const Passes& passes) {
 }
 
 Eigen::AlignedBox3f box_of(const Positions& positions, const Piece& piece, const Eigen::Matrix3f& turned) {
-    // A point that is not finite neither widens nor empties the box.
+    // A point that is not finite does not change the box.
     Eigen::Array3f low = Eigen::Array3f::Constant(std::numeric_limits<float>::infinity());
     Eigen::Array3f high = -low;
     for (PointIndex i = piece.first; i <= piece.last; ++i) {
@@ -51,14 +51,14 @@ void extend(Eigen::AlignedBox3f& box, const Positions& positions, std::span<cons
     for (const Eigen::AlignedBox3f& b : boxes) box.extend(b);
 }
 
-/// What a piece cannot leave, along other axes: that of the boxes of its blocks, and somewhat more than its floats can be off.
+/// A bound of a piece along other axes: that of the boxes of its blocks, plus the rounding error of floats.
 Eigen::AlignedBox3f bound_of(const std::vector<Eigen::AlignedBox3f>& boxes, const Piece& piece,
                              const Eigen::Matrix3f& turned) {
     Eigen::AlignedBox3f box;
     for (PointIndex block = piece.first / block_points; block <= piece.last / block_points; ++block)
         box.extend(boxes[static_cast<std::size_t>(block)]);
     if (box.isEmpty()) return box;
-    // Along the axes of the workpiece floats are only swapped and negated.
+    // Along the axes of the workpiece coordinates are only swapped and negated.
     if ((turned.array() != 0).count() == 3)
         return Eigen::AlignedBox3f(Eigen::Vector3f(turned * box.min())).extend(Eigen::Vector3f(turned * box.max()));
     constexpr float rounding = 8 * std::numeric_limits<float>::epsilon();

@@ -12,11 +12,11 @@ namespace {
 
 constexpr Rgb limit_colour{200, 30, 30};
 constexpr Rgb level_colour{120, 120, 126};
-// Readable by the colour-blind (Okabe, Ito 2008); the shapes tell them apart in print, too.
+// Safe for colour-blind readers (Okabe, Ito 2008); the shapes are distinct in print, too.
 constexpr Rgb group_colours[] = {{0, 90, 178}, {213, 94, 0}, {0, 130, 95}, {160, 70, 130}, {110, 85, 0}, {70, 70, 75}};
 constexpr std::size_t trend_shapes = 4;
 constexpr double below_symbols =
-    1.25;  ///< text sizes from the axis to the numbers of runs: a symbol at 0 reaches below it
+    1.25;  ///< text sizes from the axis to the run numbers: a symbol at 0 extends below the axis
 
 class TrendDrawer {
 public:
@@ -38,7 +38,7 @@ public:
         if (picture_.limit) add_across(*picture_.limit, frame_.x_low, frame_.x_high, limit_colour, 0.12 * text_);
         const double per_run = frame_.rect.width / std::max<std::size_t>(1, picture_.symbols.size());
         const double radius =
-            text_ * std::clamp(0.5 * per_run / text_, 0.2, 0.42);  // many of them must not hide each other
+            text_ * std::clamp(0.5 * per_run / text_, 0.2, 0.42);  // many symbols must not hide each other
         for (std::size_t i = 0; i < picture_.symbols.size(); ++i) {
             const TrendSymbol& s = picture_.symbols[i];
             if (std::isfinite(s.value)) add_symbol(frame_.at(static_cast<double>(i), s.value), s.group, radius);
@@ -85,7 +85,7 @@ private:
             fitted({text_, 0.9 * text_, look_.footnote, 0.85 * text_, Align::left, false, chart_faint}, room));
     }
 
-    /// Numbers of runs as close as they can be read, and the day where it is another one.
+    /// Run numbers as dense as readable, and the day if it changes.
     void add_runs() {
         const double per_run = frame_.rect.width / std::max<std::size_t>(1, picture_.symbols.size());
         double number_end = -std::numeric_limits<double>::infinity();

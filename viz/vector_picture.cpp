@@ -80,7 +80,7 @@ std::string svg_text(const Drawing& drawing, const std::string& title) {
             r.x, down(r.y + r.height), r.width, r.height, base64(png_of(ground)));
     }
     for (const FlatQuad& quad : drawing.quads) {
-        // A band may be told from its other end.
+        // The width of a quad may be negative.
         const double x = std::min(quad.rect.x, quad.rect.x + quad.rect.width);
         const double top = std::max(quad.rect.y, quad.rect.y + quad.rect.height);
         svg += fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n", x,
@@ -116,7 +116,7 @@ std::string svg_text(const Drawing& drawing, const std::string& title) {
     svg += "</g>\n";
     for (std::size_t i = 0; i < drawing.texts.size(); ++i) {
         const FlatText& text = drawing.texts[i];
-        // Texts may have several spaces in a row, and are told their width with them. Chromium does not take that from <svg>.
+        // Texts may have consecutive spaces, which count for their width. Chromium ignores the attribute on <svg>.
         svg += fmt::format(
             "<text xml:space=\"preserve\" x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{:.2f}\"{} text-anchor=\"{}\" fill=\"{}\" textLength=\"{:.2f}\" "
             "lengthAdjust=\"spacingAndGlyphs\">{}</text>\n",

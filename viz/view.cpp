@@ -74,8 +74,8 @@ Camera camera_for(const ViewAxes& axes, const Box3& extent, int width, int heigh
     const Vec3 size = extent.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(extent.sizes());
     const Vec3 middle = extent.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(axes.transpose() * extent.center());
     double scale = margin * std::max(size.x() / width, size.y() / height);
-    if (!(scale > 0)) scale = 1.0 / std::max(1, std::min(width, height));  // one point: a millimetre wide
-    // The part of the picture that is asked for, in pixels from the middle.
+    if (!(scale > 0)) scale = 1.0 / std::max(1, std::min(width, height));  // a single point: one millimetre wide
+    // The requested part of the picture, in pixels from the middle.
     const double part = std::max(zoom.x1 - zoom.x0, zoom.y1 - zoom.y0);
     const double shift_x = (0.5 * (zoom.x0 + zoom.x1) - 0.5) * width;
     const double shift_y = (0.5 - 0.5 * (zoom.y0 + zoom.y1)) * height;

@@ -31,7 +31,7 @@ POSITIONS = """<IntVectorProperty name="Positions" command="SetPositions" number
   </EnumerationDomain>
   <Documentation>The positions that the surface is made of: --surface of clsurf.</Documentation>
 </IntVectorProperty>"""
-# Read where the user has not chosen columns. The others cost their computation and 4 bytes a point.
+# The default columns. Each other one costs its computation and 4 bytes per point.
 USUAL_COLUMNS = ("point", "line", "pass", "time", "speed", "acceleration", "speed_mismatch")
 
 
@@ -87,7 +87,7 @@ def surface_of(poly, first, last):
         raise ClsurfError(f"Passes: {first} to {last}; the part has passes 1 to {count}")
     first = max(first, 1)
     last = count if last <= 0 else min(last, count)
-    # Passes follow one another in time: their points are one range.
+    # Passes follow one another in time, so their points are one range.
     low, high = (members[offsets[first - 1]], members[offsets[last] - 1] + 1)
     if first == 1 and last == count:
         low, high = 0, poly.GetNumberOfPoints()
@@ -131,7 +131,7 @@ class ClsurfSource(VTKPythonAlgorithmBase):
         self._role = 0
         self._columns = vtkDataArraySelection()
         self._columns.AddObserver("ModifiedEvent", lambda *_: self.Modified())
-        self._listed = self._loaded = None  # of which files and options
+        self._listed = self._loaded = None  # for which files and options
         self._poly = None
 
     def _set(self, name, value):

@@ -13,7 +13,7 @@ from paraview import simple
 from paraview.modules.vtkRemotingCore import vtkProcessModule
 
 ROOM_OF_PART = 0.82  # of the width
-VIEWS = {  # towards the eye, and up
+VIEWS = {  # direction to the viewer, and up
     "iso": ((1, -1, 1), (0, 0, 1)),
     "top": ((0, 0, 1), (0, 1, 0)),
     "front": ((0, -1, 0), (0, 0, 1)),

@@ -7,7 +7,7 @@
 namespace clsurf::viz::vtk_module {
 namespace {
 
-/// Surfaceless: VTK draws into a framebuffer object of its own.
+/// Surfaceless: VTK draws into its own framebuffer object.
 class EglContext final : public GlContext {
 public:
     EglContext()
@@ -36,7 +36,7 @@ public:
     ~EglContext() override {
         eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         eglDestroyContext(display_, context_);
-        // The display is not terminated: there is one in a process, which others may draw with.
+        // The display is not terminated: it is shared by the process, which may draw with it.
         if (context_before_ != EGL_NO_CONTEXT)
             eglMakeCurrent(display_before_, draw_before_, read_before_, context_before_);
     }
@@ -57,7 +57,7 @@ private:
         return answer == nullptr ? std::string() : reinterpret_cast<const char*>(answer);
     }
 
-    /// Of a program that draws with EGL itself.
+    /// The display and context of a program that draws with EGL itself.
     EGLDisplay display_before_;
     EGLSurface draw_before_, read_before_;
     EGLContext context_before_;

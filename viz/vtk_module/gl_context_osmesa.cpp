@@ -11,7 +11,7 @@ namespace {
 class OsMesaContext final : public GlContext {
 public:
     OsMesaContext(int width, int height) : width_(width), height_(height) {
-        // VTK asks for 3.2 core; its charts need the stencil.
+        // VTK requires 3.2 core; its charts need the stencil.
         const int attributes[] = {OSMESA_FORMAT,
                                   OSMESA_RGBA,
                                   OSMESA_DEPTH_BITS,

@@ -1,8 +1,8 @@
-// The OpenGL of a module that another program loads (the Python module), in place of gl_symbols.cpp, gl_context_osmesa.cpp and
-// viz/vtk_library.cpp (clsurf_link_vtk_of_host). libclsurf_vtk exports glX functions of its own, so that VTK draws with
-// OSMesa. A module must not: its host may have loaded VTK already, and may draw on a display with it. The module's
-// contexts come from EGL. libGL (GLVND) passes each call to the vendor of the current context, so that VTK needs no other
-// functions than those of its host.
+// The OpenGL of a module that another program loads (the Python module), in place of gl_symbols.cpp, gl_context_osmesa.cpp
+// and viz/vtk_library.cpp (clsurf_link_vtk_of_host). libclsurf_vtk exports its own glX functions, so that VTK draws with
+// OSMesa. A module must not do that: its host may have loaded VTK already, and may draw on a display with it. The module's
+// contexts come from EGL. libGL (GLVND) passes each call to the vendor of the current context, so that VTK needs only
+// the functions of its host.
 
 #include "core/error.h"
 #include "viz/vtk_module/gl_context_makers.h"

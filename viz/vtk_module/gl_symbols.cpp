@@ -1,9 +1,9 @@
-// VTK finds OpenGL through GLEW, which asks glXGetProcAddress of libGL (glvnd). libGL knows nothing of
-// a context that OSMesa or EGL made, and answers with functions that do nothing. So the library itself
-// defines and exports these two names, and forwards them to whoever made the context. It is linked to
-// libOSMesa before anything that brings libGL, so that the plain gl* names are Mesa's as well
-// (viz/CMakeLists.txt): the libraries that are loaded with it look there before they look in each
-// other. A test draws a pixel and looks at it.
+// VTK finds OpenGL through GLEW, which asks glXGetProcAddress of libGL (glvnd). libGL does not know
+// a context that OSMesa or EGL made, and returns functions that do nothing. This library therefore
+// defines and exports the two glX names, and forwards them to the maker of the context. It is linked to
+// libOSMesa before any library that depends on libGL, so that the plain gl* names are Mesa's as well
+// (viz/CMakeLists.txt): the libraries that are loaded with it search it before they search each
+// other. A test draws a pixel and checks it.
 
 #include <dlfcn.h>
 
@@ -35,8 +35,8 @@ __attribute__((visibility("default"))) void (*glXGetProcAddressARB(const unsigne
     const clsurf::viz::vtk_module::GlResolver resolve = clsurf::viz::vtk_module::current_resolver;
     const char* const text = reinterpret_cast<const char*>(name);
     if (resolve == nullptr) return nullptr;
-    // There is no GLX here. GLEW asks for the current display; the answer must be that there is none,
-    // or it goes on to call GLX without one.
+    // There is no GLX here. GLEW asks for the current display; the answer must be none,
+    // otherwise it calls GLX functions without a display.
     if (std::strncmp(text, "glX", 3) == 0) return reinterpret_cast<void (*)()>(&no_display);
     return resolve(text);
 }
@@ -45,7 +45,7 @@ __attribute__((visibility("default"))) void (*glXGetProcAddress(const unsigned c
     return glXGetProcAddressARB(name);
 }
 
-/// What viz/vtk_library.cpp asks for.
+/// The entry that viz/vtk_library.cpp loads.
 __attribute__((visibility("default"))) const void* clsurf_vtk_library() { return &clsurf::viz::vtk_module::table; }
 }
 

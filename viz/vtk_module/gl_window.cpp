@@ -10,10 +10,10 @@
 namespace clsurf::viz::vtk_module {
 namespace {
 
-// VTK draws into a framebuffer object of its own size; the context's own buffer is never seen.
+// VTK draws into a framebuffer object of its own size; the buffer of the context is never used.
 constexpr int context_size = 16;
 
-/// VTK 9.4 and later take the resolver from the window; before, GLEW asks the exported glX names.
+/// VTK 9.4 and later take the resolver from the window; in earlier versions GLEW asks the exported glX names.
 template <typename Window>
 void give_resolver(Window* window) {
     if constexpr (requires { window->SetOpenGLSymbolLoader(nullptr, nullptr); }) {
@@ -26,7 +26,7 @@ void give_resolver(Window* window) {
 
 }  // namespace
 
-/// Where VTK writes what it has to complain about, of whatever object.
+/// Collects the error messages of all VTK objects.
 class GlWindow::Complaints final : public vtkOutputWindow {
 public:
     static Complaints* New() {
@@ -38,8 +38,8 @@ public:
 
         void DisplayErrorText(const char* text) override {
         const std::string said = text;
-        // GLEW 2 in VTK 9.1 looks for a GLX display, finds none, and says "Unknown error", which is
-        // harmless here (nigels-com/glew issue 273). Every other complaint ends the drawing.
+        // GLEW 2 in VTK 9.1 looks for a GLX display, finds none, and reports "Unknown error", which is
+        // harmless here (nigels-com/glew issue 273). Every other message ends the drawing.
         if (said.find("GLEW could not be initialized: Unknown error") == std::string::npos) errors_ += said;
     }
     [[nodiscard]] const std::string& errors() const { return errors_; }
@@ -56,7 +56,7 @@ GlWindow::GlWindow(const std::string& gl, int width, int height)
     if (context_->renderer().empty()) throw SystemError("OpenGL does not answer");
     give_resolver(window_.GetPointer());
     vtkOutputWindow::SetInstance(complaints_);
-    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // else it says the same on stderr
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // it would print the same message
     window_->SetSize(width, height);
     window_->SetOwnContext(false);
     window_->SetReadyForRendering(true);
@@ -64,7 +64,7 @@ GlWindow::GlWindow(const std::string& gl, int width, int height)
     window_->SetIsDirect(true);
     window_->SetSupportsOpenGL(true);
     window_->SetFrameBlitModeToNoBlit();
-    // With multisampling llvmpipe drops lines shorter than a pixel; edges are smoothed by supersampling.
+    // With multisampling llvmpipe drops lines shorter than a pixel; supersampling smooths the edges.
     window_->SetMultiSamples(0);
     window_->InitializeFromCurrentContext();
 }
@@ -106,7 +106,7 @@ Column<float> GlWindow::depths(const SampleRect& rect) {
 }
 
 void GlWindow::put(const Column<std::uint8_t>& rgb) {
-    window_->Render();  // makes the buffers
+    window_->Render();  // creates the buffers
     const int* size = window_->GetSize();
     vtkNew<vtkUnsignedCharArray> pixels;
     pixels->SetNumberOfComponents(3);

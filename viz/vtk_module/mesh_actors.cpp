@@ -23,7 +23,7 @@
 namespace clsurf::viz::vtk_module {
 namespace {
 
-/// Our 32-bit vertex numbers as VTK cells of `size` vertices, without a copy. The column must outlive it.
+/// 32-bit vertex numbers as VTK cells of `size` vertices, without a copy. The column must outlive them.
 vtkNew<vtkCellArray> cells(const Column<std::uint32_t>& vertices, int size) {
     vtkNew<vtkCellArray> array;
     const auto count = static_cast<vtkIdType>(vertices.size()) / size;
@@ -37,10 +37,10 @@ vtkNew<vtkCellArray> cells(const Column<std::uint32_t>& vertices, int size) {
     return array;
 }
 
-/// How far a lighter tone is from the colour to the lightest one of the ramp.
+/// The share by which a lighter tone is moved from the colour to the lightest one of the ramp.
 constexpr double paleness = 0.6;
-constexpr double hatch_period = 8;  ///< [px] from one line of a hatching to the next, across and up
-constexpr int hatch_texels = 8;     ///< of which one is the line
+constexpr double hatch_period = 8;  ///< [px] between hatching lines, horizontally and vertically
+constexpr int hatch_texels = 8;     ///< one of them is the line
 
 /// Rows of colours as a texture. VTK multiplies it with the vertex colours.
 vtkSmartPointer<vtkTexture> texture_of(const std::vector<std::vector<Rgb>>& rows, bool stepped, bool repeated) {
@@ -60,7 +60,7 @@ vtkSmartPointer<vtkTexture> texture_of(const std::vector<std::vector<Rgb>>& rows
     return texture;
 }
 
-/// A ramp, and above it the same in a lighter tone.
+/// Two rows: the ramp, and the same in a lighter tone.
 vtkSmartPointer<vtkTexture> texture_of_ramp(const MeshPanel& panel) {
     const auto lightness = [](const Rgb& c) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; };
     const Rgb lightest = *std::max_element(panel.ramp.begin(), panel.ramp.end(),
@@ -86,18 +86,18 @@ vtkSmartPointer<vtkFloatArray> texture_places(vtkIdType vertices) {
     return places;
 }
 
-/// Along the ramp, and up from it to the lighter tone.
+/// Texture coordinates: along the ramp, and from the ramp to the lighter tone.
 vtkSmartPointer<vtkFloatArray> places_on_ramp(const MeshPanel& panel, vtkIdType vertices) {
     auto places = texture_places(vertices);
     float* out = places->GetPointer(0);
     for (std::size_t v = 0; v < static_cast<std::size_t>(vertices); ++v) {
         *out++ = panel.along[v];
-        *out++ = 0.25F + (panel.pale.empty() ? 0 : 0.5F * panel.pale[v]);  // texels' centres
+        *out++ = 0.25F + (panel.pale.empty() ? 0 : 0.5F * panel.pale[v]);  // centres of the texels
     }
     return places;
 }
 
-/// Across lines that rise to the left in the picture.
+/// Texture coordinates across lines that rise to the left in the picture.
 vtkSmartPointer<vtkFloatArray> places_on_hatch(const MeshPanel& panel, vtkIdType vertices) {
     auto places = texture_places(vertices);
     float* out = places->GetPointer(0);
@@ -126,14 +126,14 @@ void add_cells(vtkRenderer* renderer, const MeshPanel& panel, const Cells& of, v
     if (!of.segments.empty()) data->SetLines(cells(of.segments, 2));
     if (!of.points.empty()) data->SetVerts(cells(of.points, 1));
     vtkNew<vtkOpenGLPolyDataMapper> mapper;
-    // Else VTK moves and scales the vertices by what is drawn with them, and a part of a mesh is rounded differently.
+    // Otherwise VTK shifts and scales the vertices by the drawn data, and parts of a mesh are rounded differently.
     mapper->SetVBOShiftScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
     mapper->SetInputData(data);
     mapper->SetColorModeToDirectScalars();
     vtkNew<vtkActor> actor;
     actor->SetMapper(mapper);
     if (texture != nullptr) actor->SetTexture(texture);
-    // Shading is in the colours already, so that one rule makes legend and surface.
+    // The colours include the shading already, so that legend and surface follow one rule.
     actor->GetProperty()->LightingOff();
     actor->GetProperty()->SetLineWidth(static_cast<float>(panel.line_width * supersample));
     actor->GetProperty()->SetPointSize(static_cast<float>(panel.point_size * supersample));
@@ -184,7 +184,7 @@ void place(vtkRenderer* renderer, const MeshPanel& panel, double width, double h
                           (panel.rect.y + panel.rect.height) / height);
     const Camera& c = panel.camera;
     const Vec3 focus = c.centre - panel.geometry.origin;
-    // A panel's shift in its plane does not change depths, since the projection is parallel.
+    // A shift of the panel in its plane does not change depths, because the projection is parallel.
     const double room = 1.01 * c.depth + 1;
     const Vec3 eye = focus + 2 * room * c.towards;
     vtkNew<vtkCamera> camera;
@@ -195,7 +195,7 @@ void place(vtkRenderer* renderer, const MeshPanel& panel, double width, double h
     camera->SetParallelScale(0.5 * c.height * c.mm_per_pixel);
     camera->SetClippingRange(room, 3 * room);
     renderer->SetActiveCamera(camera);
-    // Everything is in view (detail.h): cullers would only measure it again.
+    // Everything is visible (detail.h): cullers would only test it again.
     renderer->GetCullers()->RemoveAllItems();
 }
 

@@ -38,7 +38,7 @@ private:
         renderer_->RemoveAllViewProps();
     }
 
-    /// What a part may cover: its vertices, with lines and points as wide as they are, on the panel.
+    /// The samples that a part may cover: the extent of its vertices, plus the widths of lines and points, on the panel.
     [[nodiscard]] SampleRect rect_of(const MeshPanel& part) {
         Eigen::AlignedBox2d box;
         const Geometry& g = part.geometry;

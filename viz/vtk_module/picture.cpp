@@ -27,9 +27,9 @@ namespace {
 constexpr std::array levels{Level::area, Level::casing, Level::mark, Level::inlay,   Level::edge,
                             Level::line, Level::halo,   Level::dot,  Level::dot_fill};
 constexpr int flat_layers = 2 + static_cast<int>(levels.size());  ///< quads, lines by level, texts
-constexpr int dpi = 72;                                           // one point of text is one pixel
+constexpr int dpi = 72;                                           // one text point is one pixel
 
-/// Polygons in pixels of the supersampled picture, a colour each.
+/// Polygons in pixels of the supersampled picture, one colour each.
 void add_flat(vtkRenderer* renderer, vtkPoints* points, vtkCellArray* polygons, vtkUnsignedCharArray* colours) {
     if (polygons->GetNumberOfCells() == 0) return;
     vtkNew<vtkPolyData> data;
@@ -63,7 +63,7 @@ void add_quads(vtkRenderer* renderer, const std::vector<FlatQuad>& quads, int su
     add_flat(renderer, points, polygons, colours);
 }
 
-/// What of a convex polygon lies in a rectangle [px, times `supersample`]: cut by one edge after the other (Sutherland and
+/// The part of a convex polygon in a rectangle [px, times `supersample`], clipped by one edge at a time (Sutherland and
 /// Hodgman 1974). Empty: nothing.
 std::vector<Vec2> clipped(std::vector<Vec2> corners, const Rect& rect, int supersample) {
     const Vec2 low = Vec2(rect.x, rect.y) * supersample;
@@ -84,7 +84,8 @@ std::vector<Vec2> clipped(std::vector<Vec2> corners, const Rect& rect, int super
     return corners;
 }
 
-/// A step of a line as a quad: llvmpipe's wide lines have no joints. Of a band two triangles, since its edges may cross.
+/// A step of a line as a quad, because llvmpipe's wide lines have no joints. A step of a band is two triangles, since its
+/// edges may cross.
 std::vector<std::vector<Vec2>> polygons_of_step(const FlatLine& line, std::size_t i, int supersample) {
     const Vec2 a = line.points[i - 1] * supersample;
     const Vec2 b = line.points[i] * supersample;
@@ -147,7 +148,7 @@ void add_texts(vtkRenderer* renderer, const std::vector<FlatText>& texts, int su
 
 double text_width(const FlatText& text) {
     vtkNew<vtkTextProperty> property;
-    // Texts are drawn larger and shrunk, and letters are not as wide as they would be at this size.
+    // Measured at the drawn size: texts are drawn larger and shrunk, and letter widths do not scale exactly.
     constexpr int larger = 2;
     set_up(property, text, larger);
     int box[4] = {0, 0, 0, 0};
@@ -159,7 +160,7 @@ namespace {
 
 using Renderers = std::array<vtkNew<vtkRenderer>, flat_layers>;
 
-/// The window of a picture with its paper.
+/// The window of a picture with its background.
 class Canvas {
 public:
     Canvas(const Sheet& sheet, const std::string& gl, int supersample)
@@ -171,7 +172,7 @@ public:
         window_.window()->AddRenderer(paper_);
     }
 
-    /// The mesh of a panel, which must outlive it, on a renderer of its own.
+    /// The mesh of a panel, which must outlive it, on a separate renderer.
     void add_panel(const Sheet& sheet, const MeshPanel& panel) {
         panels_.push_back(vtkSmartPointer<vtkRenderer>::New());
         vtkRenderer* const renderer = panels_.back();
@@ -181,13 +182,13 @@ public:
         place(renderer, panel, sheet.width, sheet.height);
     }
 
-    /// Pixels in full size, in rows from the bottom, in place of paper and meshes.
+    /// Pixels in full size, in rows from the bottom, in place of background and meshes.
     void put(const Column<std::uint8_t>& rgb) {
         window_.put(rgb);
         paper_->DrawOff();
     }
 
-    /// The picture with the flat things of a sheet. They have no depth among each other: each kind is a layer of its own.
+    /// The picture with the flat items of a sheet. They have no depth: each kind is a separate layer.
     [[nodiscard]] Image picture_with(const Sheet& sheet) {
         for (int k = 0; k < flat_layers; ++k) {
             vtkRenderer* const layer = flat_[static_cast<std::size_t>(k)];
@@ -201,7 +202,7 @@ public:
         return window_.render(supersample_);
     }
 
-    /// What was drawn besides flat things, in full size, below a drawing of them.
+    /// Everything but flat items, in full size, as the image below a drawing.
     [[nodiscard]] Drawing::Ground ground(const Sheet& sheet) {
         for (const auto& renderer : flat_) renderer->DrawOff();
         Image image = window_.render(1);

@@ -47,7 +47,7 @@ struct Stored<std::uint32_t> {
     using Array = vtkTypeUInt32Array;
 };
 
-/// `act(column)` with the column in its own type.
+/// Calls act(column) with the column in its own type.
 template <typename Act>
 void with_column(const PointData& data, Act&& act) {
     std::visit([&](const auto* column) { act(*column); }, data.values);
@@ -61,7 +61,7 @@ void add_array(vtkPointData& to, const std::string& name, const Column<T>& colum
     to.AddArray(values);
 }
 
-/// `lines` borrow from `piece`, which is not const therefore.
+/// `lines` borrow from `piece`, which is therefore not const.
 vtkNew<vtkPolyData> poly_data(VtkPiece& piece, const std::vector<PointData>& data) {
     vtkNew<vtkDoubleArray> coordinates;
     coordinates->SetNumberOfComponents(3);
@@ -76,9 +76,9 @@ vtkNew<vtkPolyData> poly_data(VtkPiece& piece, const std::vector<PointData>& dat
     return poly;
 }
 
-/// Blanks between the head of a file and its data. VTK 9.1 and ParaView 5.11 read blocks of 4096 bytes until the parser has
-/// told them of the element AppendedData. Expat 2.6, and 2.5.0-1+deb12u2 of Debian 12, tell of it when another block has
-/// come, which may have nothing but blanks then: the document has ended for the parser.
+/// Adds blanks between the head of a file and its data. VTK 9.1 and ParaView 5.11 read blocks of 4096 bytes until the parser
+/// reports the element AppendedData. Expat 2.6, and 2.5.0-1+deb12u2 of Debian 12, report it only after another block,
+/// which may then contain nothing but blanks: for the parser the document has ended.
 class RoomBeforeData final : public vtkXMLPolyDataWriter {
 public:
     static RoomBeforeData* New() {
@@ -105,9 +105,10 @@ void write_poly(const std::string& path, vtkPolyData& poly) {
     writer->SetFileName(path.c_str());
     writer->SetDataModeToAppended();
     // Not raw: VTK 9.1 and ParaView 5.11 cannot read that with expat 2.6, or 2.5.0-1+deb12u2 of Debian 12
-    // (gitlab.kitware.com/vtk/vtk/-/issues/19258; they read base64 behind some room). Not inline: that writer crashes on a full disk.
+    // (gitlab.kitware.com/vtk/vtk/-/issues/19258; they read base64 after some blanks). Not inline: that writer crashes on a
+    // full disk.
     writer->EncodeAppendedDataOn();
-    // VTK reports a full disk by its error code alone, and prints a page of text to standard error.
+    // VTK reports a full disk only by its error code, and prints a page of text to standard error.
     const int warnings = vtkObject::GetGlobalWarningDisplay();
     vtkObject::GlobalWarningDisplayOff();
     const bool written = writer->Write() != 0 && writer->GetErrorCode() == vtkErrorCode::NoError;

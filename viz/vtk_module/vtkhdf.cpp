@@ -14,7 +14,7 @@
 namespace clsurf::viz::vtk_module {
 namespace {
 
-/// Of a file that is a piece: the first and the last of its own points, and how many the surface has.
+/// An attribute of pieces: the first and the last of its own points, and the number of points of the surface.
 constexpr const char* own_points_attribute = "clsurf_points";
 constexpr const char* ghost_column = "vtkGhostType";
 
@@ -49,15 +49,15 @@ hid_t type_of(std::uint32_t) { return H5T_NATIVE_UINT32; }
 hid_t type_of(std::int64_t) { return H5T_NATIVE_INT64; }
 hid_t type_of(std::uint8_t) { return H5T_NATIVE_UINT8; }
 
-/// What fails is said once, by us.
+/// Turns off HDF5's error output: failures are reported once, by exceptions.
 void be_quiet() {
-    H5dont_atexit();  // what could not be closed on a full disk would be closed once more, and crash
+    H5dont_atexit();  // closing again after a full disk would crash
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
 H5 make_set(hid_t group, const std::string& name, hid_t type, const Sizes& size) {
     const H5 space = written(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose, name);
-    // Without the time of day: the same export is the same file.
+    // Without a time stamp, so that the same export gives the same file.
     const H5 how = written(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
     if (H5Pset_obj_track_times(how.id(), false) < 0) throw SystemError("HDF5 cannot write " + name);
     return written(H5Dcreate2(group, name.c_str(), type, space.id(), H5P_DEFAULT, how.id(), H5P_DEFAULT), H5Dclose,
@@ -96,7 +96,7 @@ void put_header(hid_t group) {
     if (H5Awrite(kind.id(), text.id(), type) < 0) throw SystemError("HDF5 cannot write attributes");
 }
 
-/// A file with its group VTKHDF and the group of point data.
+/// A file with the group VTKHDF and the group of point data.
 struct OutputFile {
     explicit OutputFile(const std::string& path)
         : access(stdio_access()),
@@ -105,7 +105,7 @@ struct OutputFile {
         put_header(root.id());
     }
     [[nodiscard]] H5 point_data() const { return group_in(root, "PointData"); }
-    /// Closing writes too, and nobody hears of what it could not.
+    /// Closing writes, too, but its failures are not reported.
     void flush() const {
         if (H5Fflush(file.id(), H5F_SCOPE_LOCAL) < 0) throw SystemError("HDF5 cannot write: the disk is full?");
     }
@@ -116,7 +116,7 @@ private:
     static H5 group_in(const H5& parent, const char* name) {
         return written(H5Gcreate2(parent.id(), name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name);
     }
-    /// The default driver asks for the real path of links, which the nameless file of an io::AtomicFile does not have.
+    /// The default driver resolves the real path of links, which the unnamed file of an io::AtomicFile does not have.
     static H5 stdio_access() {
         be_quiet();
         H5 made = written(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "access");
@@ -125,7 +125,7 @@ private:
     }
 };
 
-/// Takes the cells of the piece, which has none then.
+/// Moves the cells out of the piece.
 void put_piece(const OutputFile& out, VtkPiece& piece, const std::vector<PointData>& data, bool marks_ghosts) {
     Column<std::int64_t> connectivity = std::move(piece.line_points);
     Column<std::int64_t> offsets = std::move(piece.line_offsets);
@@ -164,7 +164,7 @@ struct SetInfo {
     Sizes size;
 };
 
-/// A file of write_vtkhdf(), as merge_vtkhdf() reads it.
+/// Reads a file of write_vtkhdf() for merge_vtkhdf().
 class PieceFile {
 public:
     explicit PieceFile(const std::string& path)
@@ -199,13 +199,13 @@ public:
     [[nodiscard]] hid_t root() const { return root_.id(); }
     [[nodiscard]] hid_t data() const { return data_.id(); }
 
-    /// The same columns, in the same types.
+    /// Whether both have the same columns with the same types.
     [[nodiscard]] bool has_columns_of(const PieceFile& other) const {
         return columns == other.columns && std::ranges::all_of(columns, [&](const std::string& name) {
                    return H5Tequal(type(name).id(), other.type(name).id()) > 0;
                });
     }
-    /// Of a column of point data.
+    /// The type of a column of point data.
     [[nodiscard]] H5 type(const std::string& name) const {
         const H5 set = open(data_, name);
         return read(H5Dget_type(set.id()), H5Tclose);
@@ -304,7 +304,7 @@ private:
     std::vector<std::byte> bytes_;
 };
 
-/// The pieces in the order of their points, with all columns alike and every point once.
+/// The pieces in the order of their points. Checks that all columns are equal and every point occurs once.
 std::vector<std::string> in_order(const std::vector<std::string>& pieces, Totals& all) {
     struct Known {
         std::string path;
@@ -364,8 +364,8 @@ void merge_vtkhdf(const std::string& path, const std::vector<std::string>& piece
     struct Target {
         const char* name;
         hid_t type;
-        hsize_t Totals::*before;  ///< rows of the pieces before
-        hsize_t more, wide;       ///< rows more of each piece
+        hsize_t Totals::*before;  ///< rows of the previous pieces
+        hsize_t more, wide;       ///< additional rows per piece
         H5 set;
     };
     std::vector<Target> targets;
