@@ -11,17 +11,17 @@ namespace clsurf::planted {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double lift = 2;          ///< [mm] of a retract over the surface
-constexpr double crease = 0.6;      ///< [mm] over which loops round two borders bend into each other
-constexpr double grid_cell = 0.05;  ///< [mm] of the grid on which level lines are traced
+constexpr double lift = 2;          ///< [mm] of a retract above the surface
+constexpr double crease = 0.6;      ///< [mm] over which the loops around two borders blend
+constexpr double grid_cell = 0.05;  ///< [mm] of the grid for tracing level lines
 
 using Line2 = std::vector<Vec2>;
 
-/// What joins a pass to the one before it.
+/// How a pass is joined to the previous one.
 enum class Joint : std::uint8_t { none, link, retract };
 
 struct PlanePass {
-    Line2 line;  ///< dense
+    Line2 line;  ///< closely spaced points
     Joint joint = Joint::link;
 };
 
@@ -41,7 +41,7 @@ Line2 resampled(const Line2& line, double spacing) {
     return out;
 }
 
-/// Signed distance to the border of a rectangle with round corners, positive inside.
+/// Signed distance to the border of a rectangle with rounded corners, positive inside.
 double inside_rectangle(const Vec2& p, double half, double radius) {
     const Vec2 q = p.cwiseAbs() - Vec2::Constant(half - radius);
     return radius - q.cwiseMax(0.0).norm() - std::min(q.maxCoeff(), 0.0);
@@ -52,7 +52,7 @@ struct Island {
     double radius;
 };
 
-/// Level lines of a field on a square, closed ones only, traced cell by cell.
+/// Closed level lines of a field on a square, traced cell by cell.
 class LevelLines {
 public:
     template <typename Field>
@@ -64,7 +64,7 @@ public:
     }
 
     [[nodiscard]] std::vector<Line2> trace(double level) const {
-        // Each crossed edge of the grid joins two cells: its line enters by one and leaves by the next.
+        // Each crossed edge of the grid is shared by two cells: the line leaves one through it and enters the other.
         std::unordered_map<std::int64_t, std::vector<std::int64_t>> joined;
         for (int j = 0; j + 1 < n_; ++j) {
             for (int i = 0; i + 1 < n_; ++i) {
@@ -225,7 +225,7 @@ std::vector<PlanePass> contours(const CourseRecipe& r) {
     const double corner = 0.4 * r.length;
     const LevelLines lines(half, [&](const Vec2& p) {
         if (r.layout == Layout::contours) return inside_rectangle(p, half - 0.5, corner);
-        // Creases are rounded: the smooth minimum of the distances to sides and islands.
+        // Creases are rounded: a smooth minimum of the distances to sides and islands.
         double sum = 0;
         for (const double side : {p.x(), -p.x(), p.y(), -p.y()}) sum += std::exp((side - half + 0.5) / crease);
         for (const Island& hole : holes) sum += std::exp((hole.radius - (p - hole.middle).norm()) / crease);
@@ -238,7 +238,7 @@ std::vector<PlanePass> contours(const CourseRecipe& r) {
         if (r.layout == Layout::contours && depth > corner - 1.5) break;  // corners would become sharp
         std::vector<Line2> level = lines.trace(depth);
         while (!level.empty()) {
-            // The loop that comes nearest to where the last one ended, from its nearest point on.
+            // The loop closest to the end of the previous one, beginning at its closest point.
             std::size_t best_loop = 0, best_point = 0;
             double nearest = 1e300;
             for (std::size_t l = 0; l < level.size(); ++l) {
@@ -254,7 +254,7 @@ std::vector<PlanePass> contours(const CourseRecipe& r) {
             level.erase(level.begin() + static_cast<std::ptrdiff_t>(best_loop));
             double around = 0;
             for (std::size_t i = 1; i < loop.size(); ++i) around += (loop[i] - loop[i - 1]).norm();
-            if (around < 6) continue;  // what remains in a corner
+            if (around < 6) continue;  // the rest in a corner
             loop.pop_back();
             std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(best_point), loop.end());
             loop.push_back(loop.front());
@@ -296,7 +296,7 @@ std::vector<PlanePass> round_a_tower(const CourseRecipe& r) {
         }
         if (r.layout == Layout::slanted) {
             constexpr double before = 1.6,
-                             farther = 1.8;  // [mm] of a link before and behind the place where the loop began
+                             farther = 1.8;  // [mm] of a link before and after the beginning of the loop
             const double start = k * farther, end = start + around;
             const double fall = r.step_over * (1 - r.spacing / (before + farther));
             passes.push_back({{{start, v}, {end - before, v}, {end + farther - r.spacing, v - fall}},
@@ -311,8 +311,8 @@ std::vector<PlanePass> round_a_tower(const CourseRecipe& r) {
 }
 
 std::vector<PlanePass> triangles(const CourseRecipe& r) {
-    constexpr double blend = 0.2;   // [mm] from a corner, where its parabola begins
-    constexpr double middle = 1.5;  // [mm] inside which there is no room
+    constexpr double blend = 0.2;   // [mm] from a corner to the beginning of its parabola
+    constexpr double middle = 1.5;  // [mm] radius below which there is no room
     constexpr int steps = 16;
     std::vector<PlanePass> passes;
     for (int k = 0; k < r.passes; ++k) {
@@ -355,7 +355,7 @@ std::vector<PlanePass> lay_on_plane(const CourseRecipe& r) {
     }
 }
 
-/// Appends a straight motion, its start excluded.
+/// Appends a straight motion without its start point.
 void move_to(std::vector<CoursePoint>& course, const Vec3& to, Motion motion, double spacing) {
     const Vec3 from = course.back().at;
     const int n = std::max(1, static_cast<int>(std::ceil((to - from).norm() / spacing)));

@@ -58,10 +58,10 @@ constexpr std::array kinds = std::to_array<LogKind>({
 
 constexpr double pi = std::numbers::pi;
 constexpr double rapid_speed = 300;     ///< [mm/s]
-constexpr double creep = 0.5;           ///< [mm/s] where the tool starts and stops
-constexpr double jerk_seconds = 0.012;  ///< over which the plan is rounded
-constexpr double bend_reach = 0.1;      ///< [mm] over which the curvature is taken
-constexpr double delay = 0.001;         ///< [s] measured behind commanded
+constexpr double creep = 0.5;           ///< [mm/s] at which the tool starts and stops
+constexpr double jerk_seconds = 0.012;  ///< time over which the plan is rounded
+constexpr double bend_reach = 0.1;      ///< [mm] over which the curvature is computed
+constexpr double delay = 0.001;         ///< [s] of measured after commanded positions
 constexpr double give = 1.5e-5;         ///< [mm per mm/s²] offset along the normal per normal acceleration
 constexpr int first_line = 10;
 
@@ -70,16 +70,16 @@ double uniform(Generator& g, double a, double b) { return std::uniform_real_dist
 int whole(Generator& g, int a, int b) { return std::uniform_int_distribution<int>(a, b)(g); }
 double normal(Generator& g) { return std::normal_distribution<double>()(g); }
 
-/// FNV-1a: the same everywhere.
+/// FNV-1a: the same on every platform.
 std::uint64_t hash_of(std::string_view text) {
     std::uint64_t hash = 0xcbf29ce484222325;
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
     return hash;
 }
 
-/// A fault on a course: 1 inside its section, raised-cosine edges.
+/// A fault on a course: 1 inside its section, with raised-cosine edges.
 struct Section {
-    std::size_t defect = 0;  ///< index into the recipe's
+    std::size_t defect = 0;  ///< index into the defects of the recipe
     std::size_t first = 0, last = 0;
     double middle = 0;  ///< arc length along the course [mm]
 };
@@ -145,7 +145,7 @@ private:
         return arc_length_[passes_[pass].second] - arc_length_[passes_[pass].first];
     }
 
-    /// The point of a pass that is nearest to a place.
+    /// The point of a pass closest to a place.
     [[nodiscard]] std::size_t nearest_on(std::size_t pass, const Vec3& place) const {
         std::size_t best = passes_[pass].first;
         for (std::size_t i = passes_[pass].first; i <= passes_[pass].second; ++i) {
@@ -154,7 +154,7 @@ private:
         return best;
     }
 
-    /// How many other passes come within three step-overs: there must be some on both sides.
+    /// The number of earlier or later passes within about three step-overs: there must be some on both sides.
     [[nodiscard]] int passes_beside(std::size_t pass, const Vec3& place, bool before) const {
         int count = 0;
         for (std::size_t k = 0; k < passes_.size(); ++k) {
@@ -178,7 +178,7 @@ private:
         return any[static_cast<std::size_t>(whole(generator_, 0, static_cast<int>(any.size()) - 1))];
     }
 
-    /// Length [mm], where it lies on its pass, and how strong it is.
+    /// Draws the length [mm], position and amplitude of a defect, and plants it if there is room.
     void try_to_plant(std::vector<Vec3>& taken) {
         Generator& g = generator_;
         const Fault fault = draw_fault();
@@ -189,7 +189,7 @@ private:
         if (fault == Fault::short_dip) length = std::max(0.8, speed * uniform(g, 0.045, 0.065));
         if (fault == Fault::long_dip) length = whole_arc_length / 3;
         const double edge = std::max(0.3, 0.01 * speed);
-        // Ramps of a pass are its own matter: the tool must have come up to speed.
+        // Outside the ramps of a pass, where the tool is at full speed.
         const double ramp = speed * speed / (2 * acceleration_) + speed * jerk_seconds;
         double room = 3 + ramp + 0.5 * length + edge;
         double middle = 0;
@@ -216,7 +216,7 @@ private:
         if (!lay(d, place)) return;
         taken.push_back(place);
         if (fault != Fault::pair) return;
-        // Two passes away on the same side, the other way round.
+        // Two passes away on the same side, with the opposite sign.
         Defect other = d;
         other.first_pass = other.last_pass = d.first_pass + 2;
         other.amplitude *= -uniform(g, 0.8, 1.1);
@@ -256,7 +256,7 @@ private:
         return d;
     }
 
-    /// The defect's sections on its passes; false where one of them lies elsewhere.
+    /// Adds the sections of a defect on its passes; false if one of them is too far away.
     bool lay(Defect d, const Vec3& place) {
         std::vector<Section> sections;
         Vec3 here = place;
@@ -268,7 +268,7 @@ private:
             const auto& range = passes_[static_cast<std::size_t>(pass)];
             sections.push_back({recipe_.defects.size(), range.first, range.second, arc_length_[at]});
         }
-        // Waves keep their length in time: what shows at 4 ms is longer.
+        // Waves have at least a fixed length in time: with a period of 4 ms a visible one is longer.
         d.wave = std::max({1.0, 0.02 * recipe_.feed, 6 * recipe_.period * recipe_.feed});
         if (d.kind == Kind::oscillation) {
             const double middle = 0.5 * (d.from + d.to);
@@ -281,7 +281,7 @@ private:
         return true;
     }
 
-    /// f(defect, window, arc length from the middle) for the faults that act at a place of the course.
+    /// Calls f(defect, window, arc length from the middle) for the faults at a point of the course.
     template <typename F>
     void for_each_fault(std::size_t i, double s, F&& f) const {
         for (const Section& section : sections_) {
@@ -294,7 +294,7 @@ private:
         }
     }
 
-    /// Programmed offsets move the course itself.
+    /// Applies programmed offsets to the course itself.
     void offset_points() {
         for (std::size_t i = 0; i < course_.size(); ++i) {
             double off = 0;
@@ -389,7 +389,7 @@ private:
         return v;
     }
 
-    /// The jerk is finite: speeds are means over some milliseconds, less than the way to the next corner.
+    /// Limits the jerk: speeds are averaged over some milliseconds, a shorter distance than that to the next corner.
     [[nodiscard]] std::vector<double> rounded(const std::vector<double>& v) const {
         std::vector<double> sum(v.size() + 1, 0);
         for (std::size_t i = 0; i < v.size(); ++i) sum[i + 1] = sum[i] + v[i];
@@ -405,9 +405,9 @@ private:
     void sample(const std::vector<double>& speed) {
         log_.truth.resize(recipe_.defects.size());
         std::size_t i = 1;
-        double time = 0;     // when point i − 1 is reached
-        double next = 0;     // of the record
-        double scatter = 0;  // of the record's time
+        double time = 0;     // of point i − 1
+        double next = 0;     // of the next record
+        double scatter = 0;  // of the time of the record
         const auto seconds = [&] { return (arc_length_[i] - arc_length_[i - 1]) / (0.5 * (speed[i] + speed[i - 1])); };
         while (i < course_.size()) {
             const double step = seconds();
@@ -454,7 +454,7 @@ private:
     Recipe recipe_;
     double acceleration_ = 1000;  ///< [mm/s²] along and across
     std::vector<CoursePoint> course_;
-    std::vector<double> arc_length_;  ///< [mm] by point of the course
+    std::vector<double> arc_length_;  ///< [mm] at each point of the course
     std::vector<std::pair<std::size_t, std::size_t>> passes_;
     std::vector<Section> sections_;
     std::vector<std::uint32_t> line_of_;

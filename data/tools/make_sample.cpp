@@ -1,10 +1,10 @@
 // clsurf_make_sample PATTERN POINTS PROGRAM.nc LOG.biip [options]: a finishing program on a wavy surface and the
 // log of an ideal run of it, for benchmarks. The size of the part follows from the number of points:
-// 0.05 mm from record to record and 0.1 mm between passes, as finishing has them; 10^8 points are a
-// square of 0.7 m. Both files are streamed a pass at a time: memory does not grow with the points.
+// 0.05 mm between records and 0.1 mm between passes, as usual in finishing; 10^8 points are a
+// square of 0.7 m. Both files are streamed pass by pass: memory does not depend on the number of points.
 //
-// The axes lag by 3, 4 and 5 ms unless --lag says otherwise: then the feedback of a zigzag differs from pass to pass on
-// every slope, as on a badly tuned machine. With one lag for all axes and a flat surface a log has no defects but those
+// The axes lag by 3, 4 and 5 ms unless --lag sets other values: the feedback of a zigzag then differs from pass to pass on
+// every slope, as on a badly tuned machine. With one lag for all axes and a flat surface, the only defects are those
 // of --slow, which are printed.
 #include <algorithm>
 #include <array>
@@ -36,20 +36,20 @@ constexpr double rapid_feed = 250;    // [mm/s]
 constexpr double corner_speed = 5;    // [mm/s] at the ends of passes
 constexpr double acceleration = 500;  // [mm/s²]
 constexpr double step_over = 0.1;     // [mm]
-constexpr double retract = 5;         // [mm] over the surface
+constexpr double retract = 5;         // [mm] above the surface
 constexpr double slow_feed = 0.5;     // of the feed, at a slow place
 constexpr double slow_length = 30;    // [mm]
 
 enum class Pattern { zigzag, one_way, loops };
 constexpr std::array<std::string_view, 3> pattern_names{"zigzag", "one-way", "loops"};
 
-/// What a command line asks for.
+/// The settings of the command line.
 struct Wishes {
     Pattern pattern = Pattern::zigzag;
     std::int64_t points = 0;
     double line = 0.5;  ///< [mm] of a programmed line
     double wave = 100;  ///< [mm] of the surface
-    double height = 3;  ///< [mm] of its waves over the middle, where the part is larger than a wave
+    double height = 3;  ///< [mm] amplitude of its waves, if the part is larger than a wave
     std::array<double, 3> lag{0.003, 0.004, 0.005};  ///< [s] of the feedback
     std::int64_t slow = 0;                           ///< passes with a slow place
 };
@@ -61,28 +61,28 @@ struct Waypoint {
 
 double to_micrometre(double v) { return std::round(v * 1000) / 1000; }
 
-/// The side of a raster, or the diameter of the outermost loop, whose passes use up the points [mm].
+/// The side of a raster, or the diameter of the outermost loop, for the given number of points [mm].
 double size_of(const Wishes& wishes) {
     const double area = static_cast<double>(wishes.points) * feed * period * step_over;
     return std::max(4.0, wishes.pattern == Pattern::loops ? std::sqrt(area * 4 / std::numbers::pi) : std::sqrt(area));
 }
 
-/// The passes of a part, one after the other.
+/// The passes of a part in order.
 class Part {
 public:
     explicit Part(const Wishes& wishes)
         : wishes_(wishes), size_(size_of(wishes)), wave_(std::min(size_, wishes.wave)) {}
 
-    /// [mm] of the outermost coordinates.
+    /// [mm] of the largest coordinates.
     [[nodiscard]] double size() const { return size_; }
-    /// The passes that have a slow place, which rise.
+    /// Sets the passes with a slow place, in increasing order.
     void set_slow(std::vector<std::int64_t> passes) { slow_ = std::move(passes); }
     [[nodiscard]] bool is_slow(std::int64_t k) const { return std::ranges::binary_search(slow_, k); }
 
-    /// Where the tool is before the first pass.
+    /// The position of the tool before the first pass.
     [[nodiscard]] Vec3 start() const { return {0, 0, to_micrometre(height_over_all())}; }
 
-    /// The waypoints of pass k after the last one of k − 1; empty: there are no more.
+    /// The waypoints of pass k after the last one of k − 1; empty: no more passes.
     [[nodiscard]] std::vector<Waypoint> pass(std::int64_t k) const {
         std::vector<Waypoint> route;
         if (wishes_.pattern == Pattern::loops) {
@@ -117,7 +117,7 @@ private:
         }
     }
     [[nodiscard]] double height_over_all() const { return std::max(0.03 * size_, wishes_.height) + retract; }
-    /// As the program's three decimals have it.
+    /// Rounded to the three decimals of the program.
     static Vec3 place(double x, double y, double z) { return {to_micrometre(x), to_micrometre(y), to_micrometre(z)}; }
     [[nodiscard]] Vec3 on_surface(double x, double y) const {
         const double turns = 2 * std::numbers::pi / wave_;
@@ -127,27 +127,27 @@ private:
 
     Wishes wishes_;
     double size_ = 0, wave_ = 0;      ///< [mm]
-    std::vector<std::int64_t> slow_;  ///< passes, which rise
+    std::vector<std::int64_t> slow_;  ///< passes, increasing
 };
 
-/// [mm] from a slow place in the middle of a section; 0: inside.
+/// Distance [mm] from a slow place in the middle of a section; 0: inside.
 double distance_from_slow_place(double gone, double length) {
     return std::max(0.0, std::abs(gone - 0.5 * length) - 0.5 * std::min(slow_length, length / 3));
 }
 
-/// The speed that a slow place allows at that distance [mm/s].
+/// The speed [mm/s] that a slow place allows at that distance.
 double speed_near_slow_place(double distance) {
     const double least = slow_feed * feed;
     return std::sqrt(least * least + 2 * acceleration * distance);
 }
 
-/// Runs along waypoints with bounded acceleration; record(position, waypoint index, whether it is slow there) once a period.
-/// `slow`: sections that cut have a slow place in their middle.
+/// Moves along waypoints with bounded acceleration; calls record(position, waypoint index, whether it is slow there) once per
+/// period. `slow`: cutting sections have a slow place in their middle.
 template <typename Record>
 void run(Vec3 from, const std::vector<Waypoint>& route, bool slow, Record&& record) {
     std::size_t i = 0;
     while (i < route.size()) {
-        // A section of one kind begins and ends slowly.
+        // A section of one kind begins and ends at low speed.
         std::size_t end = i;
         double length = 0;
         for (Vec3 last = from; end < route.size() && route[end].rapid == route[i].rapid; ++end) {
@@ -155,8 +155,8 @@ void run(Vec3 from, const std::vector<Waypoint>& route, bool slow, Record&& reco
             last = route[end].position;
         }
         const double most = route[i].rapid ? rapid_feed : feed;
-        double gone = 0;         // of the section
-        double before_line = 0;  // arc length gone when the line began
+        double gone = 0;         // arc length in the section
+        double before_line = 0;  // arc length at the beginning of the line
         while (gone < length) {
             const double speed_up = std::sqrt(corner_speed * corner_speed + 2 * acceleration * gone);
             const double slow_down = std::sqrt(corner_speed * corner_speed + 2 * acceleration * (length - gone));
@@ -179,13 +179,13 @@ void run(Vec3 from, const std::vector<Waypoint>& route, bool slow, Record&& reco
     }
 }
 
-/// Evenly spaced passes of those that there will be for the points.
+/// Evenly spaced passes among those that the points are enough for.
 std::vector<std::int64_t> choose_slow(const Part& part, const Wishes& wishes) {
     std::int64_t points_of_one = 0;
     const std::vector<Waypoint> before = part.pass(0), one = part.pass(1);
     if (one.empty()) return {};
     run(before.back().position, one, false, [&](const Vec3&, std::size_t, bool) { return ++points_of_one > 0; });
-    // Loops become shorter: of a disc there are as many as make its radius.
+    // Loops become shorter: their number is the radius of the disc over the step-over.
     const double there = wishes.pattern == Pattern::loops
                              ? 0.5 * part.size() / step_over
                              : static_cast<double>(wishes.points) / static_cast<double>(points_of_one);
@@ -195,7 +195,7 @@ std::vector<std::int64_t> choose_slow(const Part& part, const Wishes& wishes) {
     return passes;
 }
 
-/// The program's text up to the pass in which the points are used up.
+/// Writes the program up to the pass in which the points are used up.
 void write_program(const std::string& path, const Part& part, const Wishes& wishes) {
     io::AtomicFile file(path);
     file.write(fmt::format("(clsurf_make_sample {} {})\nG21 G17 G90 G94\nF{:.0f}\n",
@@ -224,9 +224,9 @@ void write_program(const std::string& path, const Part& part, const Wishes& wish
     file.commit();
 }
 
-/// [mm] of a position in the log, so that 32 bits last for the part: a nanometre, on large parts ten.
+/// [mm] of one unit in the log, so that 32 bits are enough for the part: a nanometre, on large parts ten.
 double raw_unit_of(const Part& part) {
-    constexpr double largest = 1500;  // of a part; a raster may grow beyond it
+    constexpr double largest = 1500;  // of a part; a raster may exceed it
     return part.size() <= largest ? 1e-6 : 1e-5;
 }
 
@@ -327,7 +327,7 @@ bool read_number(std::string_view text, Number least, Number& number) {
     return error == std::errc() && end == text.data() + text.size() && number >= least;
 }
 
-/// One of the options with its value; false: it is none.
+/// Reads one of the options with its value; false: not such an option.
 bool read_option(std::string_view name, std::string_view value, Wishes& wishes) {
     constexpr double shortest = 0.01;  // [mm]
     if (name == "--line") return read_number(value, shortest, wishes.line);

@@ -12,13 +12,13 @@
 namespace clsurf::planted {
 namespace {
 
-constexpr double grid_step = 0.01;           ///< [mm] at which passes are built before they are sampled
+constexpr double grid_step = 0.01;           ///< [mm] at which passes are built before sampling
 constexpr double normal_acceleration = 600;  ///< [mm/s²] that limits the speed in curves …
 constexpr double end_acceleration = 600;     ///< … and at the ends of passes
-constexpr double plan_smoothing = 0.4;       ///< [mm] over which the speed plan is rounded
+constexpr double plan_smoothing = 0.4;       ///< [mm] over which the speed plan is smoothed
 constexpr double creep = 1.0;                ///< [mm/s] at the ends
 constexpr int link_points = 11;
-constexpr double lift = 2;           ///< [mm] over the passes on the way back
+constexpr double lift = 2;           ///< [mm] above the passes on the way back
 constexpr double rapid_speed = 200;  ///< [mm/s]
 constexpr double scatter_knots = 6;  ///< intervals of the slow scatter along a pass
 constexpr int first_line = 10;
@@ -38,7 +38,7 @@ struct Facet {
 Facet facet_at(const Recipe& r, double x, double y) {
     const double middle = is_round(r.shape) ? 0 : 0.5 * r.length;
     const double u = (x - middle) / r.width;
-    constexpr double across = 120;  // [mm] radius of the gentle curve across the passes
+    constexpr double across = 120;  // [mm] radius of curvature across the passes
     switch (r.surface) {
         case Surface::transition: {
             const double y0 = 0.5 * r.passes * r.step_over;
@@ -62,12 +62,12 @@ Facet facet_at(const Recipe& r, double x, double y) {
     return {};
 }
 
-/// One pass as dense points with the way along it.
+/// One pass as closely spaced points with their arc length.
 struct Curve {
     std::vector<Vec3> at;
     std::vector<double> arc_length;  ///< [mm] from its beginning
-    std::vector<double> coordinate;  ///< [mm] along, the same for adjacent passes
-    std::vector<int> pass;           ///< by point: a spiral has many on one curve
+    std::vector<double> coordinate;  ///< [mm] along the pass, the same for adjacent passes
+    std::vector<int> pass;           ///< per point: a spiral has many passes on one curve
 };
 
 void close(Curve& c) {
@@ -91,7 +91,7 @@ Curve straight(const Recipe& r, int pass) {
     return c;
 }
 
-/// Radius of the loops' outline: not quite a circle, so that speed limits differ along it.
+/// Radius of the loops' outline, which is not quite a circle, so that speed limits differ along it.
 double outline(double radius, double angle) { return radius * (1 + 0.06 * std::cos(3 * angle)); }
 
 Curve round(const Recipe& r, int first_pass, int last_pass, bool winding) {
@@ -167,7 +167,7 @@ public:
     }
 
 private:
-    /// Samples one curve and the link to where the next begins.
+    /// Samples one curve and the link to the beginning of the next one.
     void run(Curve c, const Vec3* next) {
         close(c);
         const std::vector<double> speed = plan(c);
@@ -196,7 +196,7 @@ private:
         lines_.push_back("");
     }
 
-    /// Samples on a straight way, both ends excluded, in steps of `step` [mm], as the newest line.
+    /// Samples a straight move without its ends, in steps of `step` [mm], on the latest line.
     void move(const Vec3& from, const Vec3& to, double step) {
         const auto n = static_cast<int>(std::ceil((to - from).norm() / step));
         for (int i = 1; i < n; ++i) {
@@ -251,7 +251,7 @@ private:
         }
         const int half = static_cast<int>(0.25 * plan_smoothing / grid_step);
         v = smoothed(smoothed(v, half), half);
-        // A slow scatter of its own for every pass; on a spiral it goes on from turn to turn.
+        // Every pass has its own slow scatter; on a spiral it continues from turn to turn.
         const double per_pass = c.pass.back() > c.pass.front()
                                     ? c.arc_length.back() / (c.pass.back() - c.pass.front() + 1)
                                     : c.arc_length.back();

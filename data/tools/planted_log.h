@@ -1,10 +1,10 @@
 #pragma once
-// Logs with planted defects of known place, kind and depth, to measure a predictor against.
+// Logs with planted defects of known place, kind and depth, to evaluate a predictor.
 //
-// A surface is covered with passes (zigzag, one-way, closed loops, a spiral); every pass gets a speed
-// plan and, where a defect is planted on it, a slower section, a speed that swings, or an offset of
+// A surface is covered with passes (zigzag, one-way, closed loops, a spiral). Every pass gets a speed
+// plan and, if a defect is planted on it, a slower section, an oscillating speed, or an offset of
 // the measured positions along the surface normal. Commanded and measured positions are sampled at
-// the period, disturbed and rounded as a controller's recorder would.
+// the period, with noise and rounding like those of a controller's recorder.
 
 #include <cstdint>
 #include <string>
@@ -26,8 +26,8 @@ enum class Kind : std::uint8_t { speed, oscillation, lag, offset };
 struct Defect {
     Kind kind = Kind::speed;
     int first_pass = 0, last_pass = 0;
-    int every = 1;            ///< 2: on every second of these passes
-    double from = 0, to = 0;  ///< [mm] along the pass, counted where the passes begin: full amplitude
+    int every = 1;            ///< 2: on every second one of these passes
+    double from = 0, to = 0;  ///< [mm] along the pass, in the coordinate at its beginning: full amplitude
     double edge = 0.5;        ///< [mm] raised-cosine edges outside
     double amplitude =
         0;              ///< speed, oscillation: share of the speed, + slower; lag, offset of the points: [mm], + above
@@ -38,17 +38,17 @@ struct Recipe {
     std::uint64_t seed = 1;
     Shape shape = Shape::zigzag;
     Surface surface = Surface::transition;
-    double height = 4;   ///< [mm] of the surface's relief
+    double height = 4;   ///< [mm] amplitude of the surface
     double width = 3;    ///< [mm] over which a transition rises; wavelength / 2π of a wave
     double length = 24;  ///< [mm] of a straight pass; diameter of loops and spirals
     int passes = 30;
     double step_over = 0.3;  ///< [mm]
     double feed = 50;        ///< [mm/s]
     double period = 0.001;   ///< [s]
-    double quantum = 0.001;  ///< [mm] positions are rounded to
+    double quantum = 0.001;  ///< [mm] resolution of positions
     double noise = 0.0002;   ///< [mm] standard deviation of the measured positions
-    double scatter = 0.004;  ///< of the speed, from pass to pass
-    double delay = 0.001;    ///< [s] measured behind commanded
+    double scatter = 0.004;  ///< relative, of the speed from pass to pass
+    double delay = 0.001;    ///< [s] of measured after commanded positions
     double give = 2e-5;      ///< [mm per mm/s²] offset along the normal per normal acceleration
     double jitter = 0;       ///< of the period, standard deviation
     double block = 0.6;      ///< [mm] programmed step
@@ -67,11 +67,11 @@ struct PlantedLog {
 
 [[nodiscard]] PlantedLog make_planted_log(const Recipe& recipe);
 
-/// A recipe by chance, with up to four defects that lie apart; none where `clean`. `hard`: 5 to 10 %,
-/// 2 to 3 µm; else 10 to 40 %, 3 to 10 µm.
+/// A random recipe, with up to four defects far apart; none if `clean`. `hard`: 5 to 10 %,
+/// 2 to 3 µm; otherwise 10 to 40 %, 3 to 10 µm.
 [[nodiscard]] Recipe random_recipe(std::uint64_t seed, Shape shape, bool clean, bool hard);
 
-/// The log as the project reads it: cmd.*, fb.*, line. Views on `planted`, which must outlive it.
+/// The log as the project reads it: cmd.*, fb.*, line. Its columns are views of `planted`, which must outlive it.
 [[nodiscard]] Log as_log(const PlantedLog& planted);
 
 }  // namespace clsurf::planted

@@ -1,4 +1,4 @@
-// clsurf_planted: the predictor measured on logs with planted defects.
+// clsurf_planted: evaluates the predictor on logs with planted defects.
 //
 //   clsurf_planted score [CASES [SEED [hard]]]   a line per shape: recall, precision, places, lines, depths
 //   clsurf_planted curve [CASES [SEED]]          recall against amplitude
@@ -27,7 +27,7 @@ namespace {
 
 constexpr Shape shapes[] = {Shape::zigzag, Shape::one_way, Shape::loops, Shape::spiral};
 
-/// Of the lengths of the values.
+/// Of the absolute values.
 double percentile(std::vector<double> values, double share) {
     for (double& v : values) v = std::abs(v);
     return values.empty() ? 0 : quantile_below(values, share);
@@ -66,7 +66,7 @@ int score_shapes(int cases, std::uint64_t seed, bool hard) {
     return all.recall() >= 0.95 && all.precision() >= 0.95 ? 0 : 1;
 }
 
-/// One defect of a given kind and amplitude on each log.
+/// Plants one defect of a given kind and amplitude on each log.
 int print_curve(int cases, std::uint64_t seed) {
     struct Row {
         Kind kind;
@@ -97,7 +97,7 @@ int print_curve(int cases, std::uint64_t seed) {
     return 0;
 }
 
-/// Scores of one kind: of logs with faults, and of clean ones.
+/// Scores of one kind: for logs with faults, and for clean ones.
 struct KindScore {
     Score planted, clean;
     double coverage = 1;  ///< the least

@@ -17,7 +17,7 @@ constexpr double true_within = 0.8;   ///< [mm]
 constexpr double share_enough = 0.3;
 constexpr double planned_enough = 0.05;
 
-/// Points by cell, for a yes or no within a radius.
+/// Points by cell, to test whether one is within a radius.
 class Near {
 public:
     Near(const PlantedLog& log, const std::vector<PointIndex>& points, double radius)
@@ -68,7 +68,8 @@ Cause cause_of(Kind kind) {
     return Cause::feed_drop;
 }
 
-/// How much the plan differs at a place from the nearest point of another pass, relative to the faster one; 0 where it is not kept.
+/// The difference of the planned speeds at a point and at the nearest point of another pass, relative to the higher one; 0 if
+/// the plan is not stored.
 double planned_difference(const PlantedLog& log, const Near& points, PointIndex here) {
     if (log.speed.empty()) return 0;
     const auto k = static_cast<std::size_t>(here);
@@ -83,7 +84,7 @@ double planned_difference(const PlantedLog& log, const Near& points, PointIndex 
     return difference;
 }
 
-/// A quarter of the points or more differ so. Some twenty of them are looked at.
+/// Whether at least a quarter of the points differ by plan. About twenty of them are tested.
 bool differs_by_plan(const PlantedLog& log, const Near& near, const std::vector<PointIndex>& points) {
     const std::size_t every = std::max<std::size_t>(1, points.size() / 20);
     std::size_t looked = 0, differ = 0;
@@ -100,7 +101,7 @@ bool right_sign(const Defect& planted, const clsurf::Defect& found) {
     return (planted.amplitude > 0) != found.pit;
 }
 
-/// The lines at both ends of each planted section are those of a reported run on that pass, ±1.
+/// Whether the lines at both ends of each planted section are those of a reported section, ±1.
 bool lines_match(const PlantedLog& log, const std::vector<PointIndex>& truth, const clsurf::Defect& defect) {
     for (std::size_t k = 0; k < truth.size();) {
         std::size_t end = k;
@@ -130,7 +131,7 @@ QualityReport judge(const PlantedLog& planted, const QualityRules& rules) {
     const Log log = as_log(planted);
     const Program program = program_of(planted);
     PartRules part_rules;
-    part_rules.accept_foreign = true;  // the score says what is found of it
+    part_rules.accept_foreign = true;  // the score shows how much of it is found
     const Part part = assemble(program, log, part_rules);
     const ClSurface surface = stitch(part);
     const PartSignals read = signals_of(part, surface, Role::feedback);
@@ -159,7 +160,7 @@ Score score(const PlantedLog& planted, const QualityReport& report) {
         const std::vector<PointIndex>& truth = planted.truth[d];
         if (near_flagged.share(truth) < share_enough) continue;
         ++result.found;
-        // The report that covers most of it.
+        // The reported defect that covers most of it.
         const clsurf::Defect* best = nullptr;
         double most = 0;
         for (const clsurf::Defect& defect : report.defects) {

@@ -1,6 +1,6 @@
 #pragma once
-// What a predictor makes of planted logs: how many defects it finds, how many it invents, and how far
-// off its places, lines and depths are.
+// The score of a predictor on planted logs: how many defects it finds, how many it invents, and the errors
+// of places, lines and depths.
 
 #include "planted_log.h"
 #include "predictor/defects.h"
@@ -11,7 +11,7 @@ namespace clsurf::planted {
 /// Its program, read.
 [[nodiscard]] Program program_of(const PlantedLog& planted);
 
-/// The project's own way from a log to its report.
+/// The report of the project's own pipeline for a log.
 [[nodiscard]] QualityReport judge(const PlantedLog& planted, const QualityRules& rules = {});
 
 struct Score {
@@ -30,7 +30,7 @@ struct Score {
 
     Score& operator+=(const Score& other);
     [[nodiscard]] double recall() const { return planted > 0 ? static_cast<double>(found) / planted : 1.0; }
-    /// Of the regions that are no differences of the plan.
+    /// Of the regions that are not differences of the plan.
     [[nodiscard]] double precision() const {
         const int judged = reported - natural;
         return judged > 0 ? static_cast<double>(right) / judged : 1.0;

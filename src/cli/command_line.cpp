@@ -23,7 +23,7 @@ std::string without_dashes(std::string name) {
 
 std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
 
-// "--output --json" is a forgotten file name, not a file called --json. Numbers may be negative.
+// "--output --json" is a forgotten file name, not a file with the name --json. Numbers may be negative.
 void check_taken(const po::option& option) {
     if (option.original_tokens.size() != 2) return;
     const std::string& value = option.original_tokens.back();
@@ -68,14 +68,14 @@ private:
     std::set<std::string> seen_;
 };
 
-// Names that people try, and what they mean where the subcommand does not have an option of that name.
+// Names that users try, and the options that they mean, if the subcommand has no option of that name.
 constexpr std::pair<std::string_view, std::string_view> other_names[] = {
     {"field", "color"},   {"field", "fields"},       {"fields", "columns"},      {"colour", "color"},
     {"cmap", "colormap"}, {"color-map", "colormap"}, {"colour-map", "colormap"}, {"colourmap", "colormap"},
     {"out", "output"},    {"outfile", "output"},     {"resolution", "size"},     {"offset", "work-offset"},
 };
 
-// "cmap" of "--cmap=gray"; empty: the word is no long option.
+// "cmap" of "--cmap=gray"; empty: the word is not a long option.
 std::string name_of_long_option(const std::string& word) {
     if (!word.starts_with("--")) return {};
     return {word.begin() + 2, std::find(word.begin() + 2, word.end(), '=')};
@@ -125,7 +125,7 @@ bool is_subcommand(const std::string& word) {
                        [&](const Subcommand& subcommand) { return subcommand.name == word; });
 }
 
-// Gives the words that are not options the names of the subcommand's arguments.
+// Gives words that are not options the names of the subcommand's arguments.
 void name_arguments(const Subcommand& subcommand, std::vector<po::option>& words) {
     std::size_t next = 0;
     for (po::option& word : words) {
@@ -190,7 +190,7 @@ po::variables_map parse_words(const Subcommand& subcommand, const std::vector<st
     options.add(shown.own).add(shown.common);
     const std::vector<std::string> words = join_numbers(with_known_names(given_words, options), options);
 
-    // Guessing from prefixes is off: a later option must not change what a script means.
+    // Abbreviations are off: an option that is added later must not change the meaning of a script.
     const int style = po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
     po::parsed_options parsed = po::command_line_parser(words).options(options).style(style).allow_unregistered().run();
     Checker checker(options);

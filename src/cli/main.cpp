@@ -1,5 +1,5 @@
-// clsurf SUBCOMMAND …: runs one subcommand and turns what it threw into an exit code. The only
-// catch.
+// clsurf SUBCOMMAND …: runs one subcommand and converts exceptions to exit codes, in the only catch for all
+// errors.
 
 #include <cerrno>
 #include <csignal>
@@ -26,7 +26,7 @@ namespace clsurf::cli {
 
 namespace {
 
-/// Which configuration is used, and for what.
+/// Prints which configuration is used, and for which options.
 void say_config() {
     const UsedConfig& config = used_config();
     if (config.path.empty()) return;
@@ -68,7 +68,7 @@ ExitCode run(const std::vector<std::string>& words) {
 }
 
 ExitCode report(const UsageError& error) {
-    // A value of the configuration is not the command line's mistake: its line is named.
+    // A wrong value in the configuration is reported with its line.
     if (const Place* where = used_config().find(error.what())) {
         write_message(InputError(*where, error.what(), error.hint()).what());
         return ExitCode::bad_input;
@@ -87,7 +87,7 @@ int main(int argc, char** argv) {
     ExitCode code = ExitCode::done;
     clsurf::io::guard_mapped_files();
     clsurf::io::guard_inputs();
-    std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is a full disk: an error of write(), not an end
+    std::signal(SIGXFSZ, SIG_IGN);  // reaching a limit on file sizes becomes an error of write(), as for a full disk
     try {
         code = clsurf::cli::run(std::vector<std::string>(argv + 1, argv + argc));
         clsurf::io::check_mapped_files();

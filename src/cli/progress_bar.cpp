@@ -16,7 +16,7 @@ namespace {
 
 constexpr auto redraw_period = std::chrono::milliseconds(100);
 constexpr std::size_t bar_columns = 20;
-constexpr std::size_t usual_width = 80;  // of a terminal that does not tell
+constexpr std::size_t usual_width = 80;  // if the terminal does not report its width
 
 std::size_t terminal_width() {
     winsize size{};
@@ -32,7 +32,7 @@ std::string progress_line(std::string_view stage, double fraction, std::size_t w
     std::string line = fmt::format("[{}{}] {:3} % {}", std::string(filled, '#'), std::string(bar_columns - filled, ' '),
                                    static_cast<int>(done * 100.0), stage);
     while (columns_of(line) > width) {
-        // One code point less: its continuation bytes, then its first.
+        // Removes one code point: its continuation bytes, then its first byte.
         while ((static_cast<unsigned char>(line.back()) & 0xC0) == 0x80) line.pop_back();
         line.pop_back();
     }
@@ -70,7 +70,7 @@ void ProgressBar::report(std::string_view stage, double fraction) {
     const auto now = std::chrono::steady_clock::now();
     if (!new_stage && now < next_) return;
     next_ = now + redraw_period;
-    // The last column stays free: some terminals wrap when it is written.
+    // The last column stays empty: some terminals wrap when it is written.
     std::fprintf(stderr, "\r\033[K%s", progress_line(stage, fraction, terminal_width() - 1).c_str());
     drawn_ = true;
 }

@@ -1,7 +1,7 @@
 #pragma once
-// ProgressBar: draws how far a long stage is, on standard error. On a terminal one line is redrawn
-// a few times a second and gone at the end; elsewhere (--progress always) each stage writes a line
-// at every tenth of its way.
+// ProgressBar: shows the progress of long stages on standard error. On a terminal one line is redrawn
+// a few times per second and erased at the end; elsewhere (--progress always) each stage writes a line
+// at every tenth of its progress.
 
 #include <chrono>
 #include <mutex>
@@ -13,7 +13,7 @@
 
 namespace clsurf::cli {
 
-/// "[##########          ]  50 % mapping points to lines"; no wider than `width` columns.
+/// "[##########          ]  50 % mapping points to lines"; at most `width` columns.
 [[nodiscard]] std::string progress_line(std::string_view stage, double fraction, std::size_t width);
 
 class ProgressBar {
@@ -23,9 +23,9 @@ public:
     ProgressBar& operator=(const ProgressBar&) = delete;
     ~ProgressBar() { clear(); }
 
-    /// What the stages call; empty when nothing is to be drawn. Must not outlive the bar.
+    /// The callback for the stages; empty if nothing is to be drawn. Must not outlive the bar.
     [[nodiscard]] Progress callback();
-    /// Takes the line away before something else is written to standard error.
+    /// Erases the line before other output to standard error.
     void clear();
 
 private:

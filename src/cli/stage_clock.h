@@ -1,6 +1,6 @@
 #pragma once
-// StageClock: which stage a run is in. It moves the progress bar, and says with -v where the time
-// went.
+// StageClock: keeps track of the stages of a run. It moves the progress bar, and with -v prints the time of each
+// stage.
 
 #include <chrono>
 #include <cstdio>
@@ -16,14 +16,14 @@ namespace clsurf::cli {
 
 class StageClock {
 public:
-    /// `stages`: how many will begin.
+    /// `stages`: the number of stages.
     StageClock(const CommonOptions& options, int stages)
         : speaks_(options.verbose), stages_(stages), bar_(options), progress_(bar_.callback()) {}
     StageClock(const StageClock&) = delete;
     StageClock& operator=(const StageClock&) = delete;
     ~StageClock() { end(); }
 
-    /// Ends the stage before and begins one.
+    /// Ends the previous stage and begins a new one.
     void begin(std::string_view stage) {
         end();
         stage_ = std::string(stage);
@@ -37,7 +37,7 @@ public:
         return [this](std::string_view stage) { begin(stage); };
     }
 
-    /// Ends the stage and takes the bar away, before something else is printed.
+    /// Ends the stage and erases the bar, before other output.
     void end() {
         bar_.clear();
         if (speaks_ && !stage_.empty()) {

@@ -1,9 +1,9 @@
 #pragma once
-// Subcommand: one row of the table in subcommands.cpp. Help, man pages and completion are made from it.
+// Subcommand: one row of the table in subcommands.cpp. Help, man pages and completion are generated from it.
 //
-// What an option's value is called says what it may be: "auto|always|never" are all the words there
-// are (others are refused before run() is called), "iso|top|AZ,EL" some of them, "DIALECT" those of
-// a vocabulary (cli/options/vocabulary.h), "FILE" and "FOLDER" names that the shell can complete.
+// The name of an option's value defines the allowed values: "auto|always|never" lists all words
+// (others are refused before run() is called), "iso|top|AZ,EL" some of them, "DIALECT" means those of
+// a vocabulary (cli/options/vocabulary.h), "FILE" and "FOLDER" are names that the shell can complete.
 
 #include <span>
 #include <string>
@@ -24,23 +24,23 @@ struct Subcommand {
     std::string_view summary;      ///< one line, lower case, no full stop
     std::string_view description;  ///< paragraphs for --help and the man page; lines that begin
                                    ///< with a space are kept as they are, all others are filled
-    /// Declares what is shown in the help; common options (help, threads, …) are added by main().
+    /// Declares the options in the help; common options (help, threads, …) are added by main().
     void (*declare)(po::options_description& options);
     /// Names of the positional arguments in order; the last may repeat ("FILE…").
     std::vector<std::string> positional;
     ExitCode (*run)(const po::variables_map& values);
-    bool hidden = false;  ///< not in the overview: a tool of the build
+    bool hidden = false;  ///< not in the overview: a tool for the build
 };
 
 /// All subcommands, in the order of the help text.
 [[nodiscard]] std::span<const Subcommand> subcommands();
-/// Those that are no tools of the build.
+/// The subcommands that are not hidden.
 [[nodiscard]] std::vector<const Subcommand*> shown_subcommands();
 
-/// The subcommand of that name. Throws UsageError with the nearest one.
+/// The subcommand of that name. Throws UsageError with the most similar one.
 [[nodiscard]] const Subcommand& find_subcommand(std::string_view name);
 
-// One function a subcommand, each in the file of its name in subcommands/.
+// One function per subcommand, each in the file of its name in subcommands/.
 [[nodiscard]] Subcommand align_subcommand();
 [[nodiscard]] Subcommand check_subcommand();
 [[nodiscard]] Subcommand compare_subcommand();

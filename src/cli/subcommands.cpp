@@ -1,5 +1,5 @@
 // The table of subcommands. To add one: src/cli/subcommands/<name>.cpp, listed in src/cli/CMakeLists.txt, its
-// declaration in subcommand.h, and its row here.
+// declaration in subcommand.h, and a row here.
 
 #include "cli/subcommand.h"
 #include "core/spelling.h"

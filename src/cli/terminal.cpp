@@ -26,7 +26,7 @@ constexpr std::string_view plain = "\033[0m";
 
 constexpr std::size_t usual_columns = 80;
 
-/// Columns of the terminal that is standard output.
+/// Columns of the terminal of standard output.
 std::optional<std::size_t> terminal_columns() {
     constexpr std::size_t least = 40;
     winsize size{};
@@ -66,7 +66,7 @@ bool shows_colours(int descriptor) {
 
 std::string coloured_message(std::string_view text) {
     std::string out;
-    bool shown = false;  // the word of this line is painted
+    bool shown = false;  // the keyword of this line is coloured
     while (!text.empty()) {
         const auto* const word = shown ? std::end(painted)
                                        : std::find_if(std::begin(painted), std::end(painted),

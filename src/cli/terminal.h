@@ -1,5 +1,5 @@
 #pragma once
-// What a terminal can show: its width, and colours where the user has not turned them off.
+// Properties of the terminal: its width, and whether colours are allowed.
 
 #include <cstddef>
 #include <string>
@@ -7,23 +7,23 @@
 
 namespace clsurf::cli {
 
-/// Columns of a help text: 80, or those of a narrower terminal.
+/// Columns of a help text: at most 80, fewer on a narrower terminal.
 [[nodiscard]] std::size_t help_columns();
 
-/// Columns of a table: those of the terminal; 80 where standard output is none.
+/// Columns of a table: those of the terminal; 80 if standard output is not a terminal.
 [[nodiscard]] std::size_t table_columns();
 
-/// Breaks lines that are wider than the terminal at blanks. Returns the text as it is where standard output is no terminal.
+/// Breaks lines that are wider than the terminal at blanks. Text for other outputs is not changed.
 [[nodiscard]] std::string fit_terminal(std::string_view text);
 
-/// Colours may be written: a terminal that is not "dumb", and NO_COLOR is not set; CLICOLOR_FORCE asks for them
+/// Whether colours may be written: on a terminal that is not "dumb", unless NO_COLOR is set; CLICOLOR_FORCE allows them
 /// everywhere (no-color.org, bixense.com/clicolors).
 [[nodiscard]] bool shows_colours(int descriptor);
 
 /// Messages with "error:", "warning:", "note:" and "hint:" in colour.
 [[nodiscard]] std::string coloured_message(std::string_view text);
 
-/// Writes messages to standard error, in colour where it shows them.
+/// Writes messages to standard error, in colour if allowed.
 void write_message(std::string_view text);
 
 }  // namespace clsurf::cli

@@ -32,7 +32,7 @@ bool is_packed(const std::string& name) {
     return name.ends_with(".xz") || name.ends_with(".gz") || name.ends_with(".zst");
 }
 
-/// The first error that a unit printed, else its last line.
+/// The first error that a unit printed, otherwise its last line.
 std::string message_in(const std::filesystem::path& output) {
     std::ifstream file(output);
     std::string last;
@@ -49,7 +49,7 @@ std::string time_text(double seconds) {
     return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-/// A run of a fleet that is on its way.
+/// A running process of the fleet.
 struct Child {
     PlannedRun plan;
     std::filesystem::path output;
@@ -84,7 +84,7 @@ public:
     }
 
 private:
-    /// Plans a unit, unless the history has it or will have it from a unit before.
+    /// Plans a unit, unless the history has it or an earlier unit is the same.
     void consider(std::size_t i) {
         const FleetUnit& unit = units_[i];
         try {
@@ -94,19 +94,19 @@ private:
                 return;
             }
             if (unit.program.empty()) return fail(i, "no program was found for this log");
-            // Only a log that was recorded once is opened for its parameters.
+            // Only a log that is already recorded is opened for its parameters.
             if (history_.has_log(run.log_sha256)) add_log_parameters(run, unit);
             const std::optional<RunRecord> known = history_.find_same(run);
             if (known && known->settings == settings_of(values_of(unit)) && (!known->failed() || !rules_.retry_failed))
                 return skip(i, *known);
-        } catch (const UsageError& error) {  // options of this unit, which are its own failure
+        } catch (const UsageError& error) {  // the options of this unit are wrong
             return fail(i, error.what());
         }
         all_bytes_ += unit.bytes;
         plan_.add(i, expected_memory(unit.bytes, is_packed(unit.log)));
     }
 
-    /// Counts a run as what it was recorded as.
+    /// Counts a run as recorded.
     void skip(std::size_t i, const RunRecord& known) {
         ++result_.skipped;
         if (known.failed())
@@ -122,7 +122,7 @@ private:
         return parse_words(find_subcommand("history"), words_of_unit(unit, rules_.database));
     }
 
-    /// What is known of a unit without judging it and without opening its log.
+    /// The record of a unit without its verdict, without opening its log.
     RunRecord record_of_unit(const FleetUnit& unit) const {
         RunRecord run;
         run.program = unit.program;
@@ -140,26 +140,26 @@ private:
         return run;
     }
 
-    /// Adds the parameters of the log, as the run has them when it is recorded.
+    /// Adds the parameters of the log, as they are recorded with the run.
     void add_log_parameters(RunRecord& run, const FleetUnit& unit) const {
         if (run.log_sha256.empty()) return;
         const po::variables_map values = values_of(unit);
         const RunRecorder recorder(rules_.database, values);
         try {
             run.parameters = recorder.parameters_with(io::parameters_of_log(unit.log, read_log_options(values)));
-        } catch (const InputError&) {  // it cannot be read: the run fails by itself, with --param alone
-        } catch (const UsageError&) {  // it has some that are not allowed: the same
+        } catch (const InputError&) {  // unreadable: the run will fail itself, with --param only
+        } catch (const UsageError&) {  // parameters that are not allowed: the same
         }
     }
 
-    /// A failure is a row, too.
+    /// A failure is recorded as a row, too.
     void fail(std::size_t i, const std::string& cause) {
         const FleetUnit& unit = units_[i];
         RunRecord run;
         try {
             run = record_of_unit(unit);
             add_log_parameters(run, unit);
-        } catch (const UsageError&) {  // its parameters are what failed
+        } catch (const UsageError&) {  // its parameters are the cause
             run = RunRecord{};
             run.program = unit.program;
             run.log = unit.log;
@@ -235,9 +235,9 @@ private:
     RunFolder folder_;
     std::vector<std::string> common_words_;
     std::map<pid_t, Child> children_;
-    std::uint64_t all_bytes_ = 0, done_bytes_ = 0;  ///< of the logs that are judged now
+    std::uint64_t all_bytes_ = 0, done_bytes_ = 0;  ///< of the planned logs
     FleetClock::time_point began_ = FleetClock::now();
-    std::set<std::string> identities_;  ///< of the units that were considered
+    std::set<std::string> identities_;  ///< of the units considered so far
     FleetResult result_;
 };
 

@@ -30,7 +30,7 @@ void put(std::map<std::string, std::vector<std::string>>& options, const po::opt
 
 using OptionWords = std::map<std::string, std::vector<std::string>>;
 
-/// Options of a table; names of files become those that are relative to the working folder.
+/// Options of a table, with file names made relative to the working folder.
 void add_entries(const std::vector<io::ConfigEntry>& entries, const po::options_description& known,
                  const std::string& folder, OptionWords& options) {
     for (const io::ConfigEntry& entry : entries) {
@@ -46,7 +46,7 @@ void add_entries(const std::vector<io::ConfigEntry>& entries, const po::options_
         const po::option option = option_of(entry, *description, folder);
         try {
             check_option(option, *description);
-        } catch (const UsageError& wrong) {  // said with the line instead
+        } catch (const UsageError& wrong) {  // reported with the line instead
             throw InputError(entry.where, wrong.what(), wrong.hint());
         }
         if (entry.is_flag && !entry.on)
@@ -65,7 +65,7 @@ FleetUnit unit_of(const std::string& program, const std::string& log, const Opti
     return unit;
 }
 
-/// What the command line itself says: the configuration of each part is found by the unit.
+/// The options of the command line only: each unit finds the configuration of its part itself.
 OptionWords given_options(const po::options_description& known, const po::variables_map& values) {
     OptionWords options;
     for (const auto& option : known.options()) {

@@ -1,5 +1,5 @@
 #pragma once
-// The options of `history` that choose runs and what is shown of them.
+// The options of `history` that select runs and the quantity to show.
 
 #include <optional>
 #include <string>

@@ -1,4 +1,4 @@
-// clsurf history DB report: a page of a shop.
+// clsurf history DB report: the page of a shop.
 
 #include "cli/history/history_options.h"
 #include "cli/history/history_verbs.h"

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t most_groups = 12;
 
-/// The one program whose passes or lines are asked for. Throws UsageError where the runs are of several.
+/// For passes or lines, all runs must be of one program. Throws UsageError otherwise.
 void require_one_program(const std::vector<RunRecord>& runs) {
     std::vector<std::string_view> names;
     for (const RunRecord& run : runs) {
@@ -30,7 +30,7 @@ void require_one_program(const std::vector<RunRecord>& runs) {
                      "choose one with --program");
 }
 
-/// The names of the groups in the order of their legend: that of the answer, then runs without a value.
+/// The names of the groups in the order of the legend: that of the trend, then those without a value.
 std::vector<std::string> legend_of(const Trend& trend) {
     std::vector<std::string> names;
     for (const TrendGroup& group : trend.groups) names.push_back(group.name);
@@ -61,7 +61,7 @@ viz::TrendPicture picture_of(const io::ReportedTrend& r) {
     return picture;
 }
 
-/// One sentence of the answer, for below the title.
+/// The second sentence of the answer, for the subtitle.
 std::string second_sentence(const std::string& text) {
     const std::size_t begin = text.find('\n') + 1;
     return text.substr(begin, text.find('\n', begin) - begin);

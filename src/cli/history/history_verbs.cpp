@@ -50,7 +50,7 @@ void answer(const HistoryCall& call, const std::string& text, const std::string&
         write_answer(text, call.values);
 }
 
-/// Without a verdict there are no defects, and nothing to compare.
+/// Without a verdict there are no defects to compare.
 void refuse_unjudged(const RunRecord& run, const std::string& path) {
     if (run.judged) return;
     throw InputError(Place::of_file(path),
@@ -59,7 +59,7 @@ void refuse_unjudged(const RunRecord& run, const std::string& path) {
                      "choose runs with a verdict: `clsurf history DB against N --run M`");
 }
 
-/// The run that `against` names; `run` is what it is compared with.
+/// The run that `against` names; `run` is compared with it.
 std::int64_t reference_of(const std::string& word, const std::vector<RunRecord>& runs, const RunRecord& run,
                           const std::string& path) {
     if (word != "best" && word != "first") return parse_run(word);

@@ -1,5 +1,5 @@
 #pragma once
-// The verbs of `history`: each reads its arguments and options, asks the database, and words the answer.
+// The verbs of `history`: each reads its arguments and options, queries the database, and formats the answer.
 
 #include <span>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace clsurf::cli {
 
-/// What stands behind `clsurf history`.
+/// The words after `clsurf history`.
 struct HistoryCall {
     std::string database;
     std::vector<std::string> arguments;  ///< of the verb
@@ -21,13 +21,13 @@ struct HistoryVerb {
     std::string_view name;
     std::string_view arguments;                         ///< "PROGRAM LOG", for messages
     std::size_t least = 0, most = 0;                    ///< arguments
-    void (*declare)(po::options_description& options);  ///< its options, but --json and --output
-    bool json = true, output = false;                   ///< it has these
+    void (*declare)(po::options_description& options);  ///< declares its options, except --json and --output
+    bool json = true, output = false;                   ///< whether it has these options
     ExitCode (*run)(const HistoryCall& call);
 };
 [[nodiscard]] std::span<const HistoryVerb> history_verbs();
 
-// One function a verb.
+// One function per verb.
 [[nodiscard]] ExitCode add_to_history(const HistoryCall& call);
 [[nodiscard]] ExitCode list_history(const HistoryCall& call);
 [[nodiscard]] ExitCode show_run(const HistoryCall& call);

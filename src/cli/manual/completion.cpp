@@ -15,7 +15,7 @@ std::string joined(const std::vector<std::string>& words) {
     return text;
 }
 
-/// What may follow an option: words, file names, or nothing that the shell could know.
+/// The completions of an option: words, file names, or nothing.
 std::string bash_value_case(const std::string& subcommand, const OptionRow& row) {
     std::string patterns = fmt::format("{}:{}", subcommand, row.long_name);
     if (!row.short_name.empty()) patterns += fmt::format("|{}:{}", subcommand, row.short_name);
@@ -24,7 +24,7 @@ std::string bash_value_case(const std::string& subcommand, const OptionRow& row)
     return fmt::format("        {}) {} ;;\n", patterns, names_a_file(row.value_name) ? "files=1" : "return");
 }
 
-/// The words of `clsurf help`.
+/// The arguments of `clsurf help`.
 std::vector<std::string> help_topics() {
     std::vector<std::string> topics;
     for (const Subcommand* subcommand : shown_subcommands()) topics.emplace_back(subcommand->name);
@@ -32,7 +32,7 @@ std::vector<std::string> help_topics() {
     return topics;
 }
 
-/// Text in single quotes, without what the shell's own syntax would read in it.
+/// Text in single quotes, without characters that are special to the shell.
 std::string in_quotes(std::string_view text, std::string_view removed) {
     std::string quoted = "'";
     for (const char c : text) {
@@ -41,7 +41,7 @@ std::string in_quotes(std::string_view text, std::string_view removed) {
     return quoted + "'";
 }
 
-/// One option as `_arguments` has it.
+/// One option in the syntax of `_arguments`.
 std::string zsh_option(const OptionRow& row) {
     const std::string what = in_quotes(row.description, "[]:");
     const std::string description = "[" + what.substr(1, what.size() - 2) + "]";

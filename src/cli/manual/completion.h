@@ -1,5 +1,5 @@
 #pragma once
-// Completion for bash, zsh and fish, written from the tables that the program itself uses.
+// Completion for bash, zsh and fish, generated from the program's own tables.
 
 #include <string>
 

@@ -16,13 +16,13 @@ namespace clsurf::cli {
 namespace {
 
 constexpr std::size_t least_right = 24;   // columns of a description on a narrow terminal
-constexpr std::size_t widest_names = 30;  // wider ones have a line of their own
+constexpr std::size_t widest_names = 30;  // wider ones are in a line of their own
 
 struct Entry {
     std::string left, right;
 };
 
-/// Two columns, the right one filled.
+/// Two columns; the text of the right one is filled.
 std::string two_columns(const std::vector<Entry>& entries) {
     std::size_t left = 0;
     const std::size_t widest = std::min(widest_names, help_columns() / 3 + 4);

@@ -1,5 +1,5 @@
 #pragma once
-// The texts of --help and of `clsurf help`, and what the manual shares with them.
+// The texts of --help and of `clsurf help`, and the parts that the manual shares.
 
 #include <span>
 #include <string>
@@ -13,14 +13,14 @@ namespace clsurf::cli {
 /// "clsurf moves [options] PROGRAM"
 [[nodiscard]] std::string usage_of(const Subcommand& subcommand);
 
-/// What an exit code means, for help and manual.
+/// The meaning of an exit code, for help and manual.
 struct ExitCodeRow {
     ExitCode code;
     std::string_view meaning;
 };
 [[nodiscard]] std::span<const ExitCodeRow> exit_codes();
 
-/// Names beside what they mean, with units, a row each.
+/// Names with descriptions and units, one row each.
 [[nodiscard]] std::string listing_text(std::span<const io::ListingRow> rows);
 
 inline constexpr std::string_view motto =

@@ -12,7 +12,7 @@
 namespace clsurf::cli {
 namespace {
 
-/// Text as troff takes it literally: no escapes, no requests, hyphens that can be copied.
+/// Escapes text so that troff prints it literally: no escapes, no requests, hyphens that can be copied.
 std::string troff(std::string_view text) {
     std::string out;
     bool line_start = true;

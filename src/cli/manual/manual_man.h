@@ -7,7 +7,7 @@
 
 namespace clsurf::cli {
 
-/// clsurf.1, and one page a subcommand.
+/// clsurf.1, and one page per subcommand.
 [[nodiscard]] std::vector<ManualFile> man_pages();
 
 }  // namespace clsurf::cli

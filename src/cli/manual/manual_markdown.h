@@ -7,7 +7,7 @@
 
 namespace clsurf::cli {
 
-/// README.md, one page a subcommand and one a list of words that options take.
+/// README.md, one page per subcommand and one per vocabulary.
 [[nodiscard]] std::vector<ManualFile> reference_pages();
 
 }  // namespace clsurf::cli

@@ -49,7 +49,7 @@ po::option option_of(const io::ConfigEntry& entry, const po::option_description&
             if (value != "-") value = (fs::path(folder) / value).lexically_normal().string();
         }
     }
-    // [312.5, 48, -101] is one "X,Y,Z", whether the option may be repeated or not.
+    // [312.5, 48, -101] is one "X,Y,Z", even if the option may be repeated.
     const bool one_value = description.format_parameter().find(',') != std::string::npos &&
                            std::all_of(option.value.begin(), option.value.end(), is_a_number);
     if (option.value.size() > 1 && (one_value || typed == nullptr || !takes_a_list(*typed))) {
@@ -66,7 +66,7 @@ std::string find_config(const std::vector<std::string>& arguments, const po::var
     if (error) return {};
     const std::string database = values.count("DB") > 0 ? values["DB"].as<std::string>() : "";
     for (const std::string& argument : arguments) {
-        if (argument == database) continue;  // of many parts: none of its own
+        if (argument == database) continue;  // it belongs to many parts, not to one
         if (argument == "-" || !fs::is_regular_file(argument, error)) continue;
         folder = fs::absolute(argument, error).parent_path();
         break;
@@ -89,7 +89,7 @@ UsedConfig store_config(const std::string& path, const po::options_description& 
         const po::option option = option_of(entry, *description, folder.string());
         try {
             check_option(option, *description);
-        } catch (const UsageError& wrong) {  // said with the line instead
+        } catch (const UsageError& wrong) {  // reported with the line instead
             throw InputError(entry.where, wrong.what(), wrong.hint());
         }
         if (entry.is_flag && !entry.on) continue;

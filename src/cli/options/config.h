@@ -1,6 +1,6 @@
 #pragma once
-// .clsurf.toml: a second source of option values, after the command line. Nobody who reads options
-// needs to know it; what comes from it is "defaulted" in Boost's words (given() in cli/options/options.h).
+// .clsurf.toml: the second source of option values, after the command line. Code that reads options
+// does not depend on it; its values are "defaulted" in Boost's terms (given() in cli/options/options.h).
 
 #include <string>
 #include <vector>
@@ -11,18 +11,18 @@
 
 namespace clsurf::cli {
 
-/// The nearest .clsurf.toml at or above the folder of the first file among the arguments, else of the working folder;
+/// The closest .clsurf.toml in or above the folder of the first file among the arguments, or of the working folder;
 /// empty: none. O(depth of the folder).
 [[nodiscard]] std::string find_config(const std::vector<std::string>& arguments, const po::variables_map& values);
 
-/// Adds what the file says and the command line does not. File names in it are relative to its folder. Keys that only
-/// other subcommands know are passed over. Throws InputError with the line: a key that none knows, a value that the
-/// option does not take.
+/// Adds the options of the file that the command line does not set. File names in it are relative to its folder. Keys that
+/// only other subcommands have are skipped. Throws InputError with the line: an unknown key, a value that the
+/// option does not accept.
 [[nodiscard]] UsedConfig store_config(const std::string& path, const po::options_description& options,
                                       po::variables_map& values);
 
-/// An entry as the words of a command line; names of files are relative to `folder`. Throws InputError: a value for a flag,
-/// none for another option.
+/// An entry as words of a command line; file names are relative to `folder`. Throws InputError: a value for a flag,
+/// no value for another option.
 [[nodiscard]] po::option option_of(const io::ConfigEntry& entry, const po::option_description& description,
                                    const std::string& folder);
 

@@ -7,7 +7,7 @@
 
 namespace clsurf::cli {
 
-/// Those that do not depend on a log's channels.
+/// The fields that do not depend on a log's channels.
 [[nodiscard]] std::vector<FieldInfo> known_fields();
 
 }  // namespace clsurf::cli

@@ -11,26 +11,26 @@ namespace clsurf::cli {
 namespace {
 
 constexpr double seconds_between_reads = 0.02;
-constexpr PointIndex most_read = 50'000;  ///< records at once
+constexpr PointIndex most_read = 50'000;  ///< records per read
 
-/// Seconds since some time.
+/// Seconds since an arbitrary time.
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 void wait_for_file(const std::string& path, double timeout) {
     const double since = now();
     std::error_code error;
     while (path != "-" && !std::filesystem::exists(path, error) && !stop_asked()) {
-        if (timeout > 0 && now() - since >= timeout) return;  // opening it says what is wrong
+        if (timeout > 0 && now() - since >= timeout) return;  // opening it reports the error
         std::this_thread::sleep_for(std::chrono::duration<double>(seconds_between_reads));
     }
 }
 
-/// When to look at a log.
+/// Decides when to process new records of a log.
 class LookClock {
 public:
     explicit LookClock(const LookRules& rules) : rules_(rules) {}
 
-    /// Whether `log` has records to be looked at now.
+    /// Whether new records of `log` are due.
     [[nodiscard]] bool due(const io::GrowingLog& log) const {
         return has_new(log) && (now() >= next_ || log.end() - seen_ >= rules_.most_unseen);
     }

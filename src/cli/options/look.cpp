@@ -85,7 +85,7 @@ LookOptions read_look_options(const po::variables_map& values) {
     LookOptions options;
     options.range = parse_range(text_of(values, "range", "auto"));
     options.colour_map = text_of(values, "colormap", "");
-    if (!options.colour_map.empty()) (void)viz::make_colour_map(options.colour_map);  // wrong names fail early
+    if (!options.colour_map.empty()) (void)viz::make_colour_map(options.colour_map);  // report wrong names early
     if (values.count("bins") > 0) {
         options.bins = values["bins"].as<int>();
         if (options.bins < 2 || options.bins > 256) throw UsageError("--bins must be 2 … 256");

@@ -1,5 +1,5 @@
 #pragma once
-// Options that say how a measurement is read and where it lies on the part.
+// Options for reading a measurement and for its pose on the part.
 
 #include "cli/subcommand.h"
 #include "io/readers/measured_file.h"
@@ -18,16 +18,16 @@ struct MeasuredOptions {
 };
 /// Throws UsageError.
 [[nodiscard]] MeasuredOptions read_measured_options(const po::variables_map& values);
-/// What was measured on a part, and how it is aligned.
+/// A measurement of a part, and its alignment rules.
 struct Measurement {
     MeasuredData data;
     AlignRules rules;
 };
 /// Reads the file of --measured. Throws UsageError; InputError: the file cannot be read.
 [[nodiscard]] Measurement read_measurement(const po::variables_map& values);
-/// Warns of a pose that the scatter of the data does not explain.
+/// Warns if the residuals of the pose are larger than the scatter of the data.
 void warn_of_misfit(const MeasuredData& data, const Alignment& alignment, Diagnostics& diagnostics);
-/// The first of these options that is on the command line; nullptr: none.
+/// The first of these options on the command line; nullptr: none.
 [[nodiscard]] const char* given_measured_option(const po::variables_map& values);
 
 }  // namespace clsurf::cli

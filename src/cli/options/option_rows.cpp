@@ -31,7 +31,7 @@ std::vector<OptionRow> rows_of(const po::options_description& options) {
         row.long_name = "--" + option->long_name();
         const std::string name = option->canonical_display_name(po::command_line_style::allow_dash_for_short);
         if (name.size() == 2 && name[0] == '-') row.short_name = name;
-        // Boost writes the default behind the value's name: "N (=3)".
+        // Boost appends the default to the value's name: "N (=3)".
         row.value_name = option->format_parameter();
         if (const std::size_t at = row.value_name.find(" (="); at != std::string::npos) {
             row.default_value = row.value_name.substr(at + 3, row.value_name.size() - at - 4);

@@ -1,5 +1,5 @@
 #pragma once
-// The options of a subcommand as rows: --help, man pages, completion and docs/reference are written from them.
+// The options of a subcommand as rows, from which --help, man pages, completion and docs/reference are generated.
 
 #include <string>
 #include <string_view>
@@ -9,7 +9,7 @@
 
 namespace clsurf::cli {
 
-/// The options as the help shows them: those of the subcommand, and those that all have.
+/// The options in the help: those of the subcommand, and the common ones.
 struct ShownOptions {
     po::options_description own;
     po::options_description common;
@@ -20,7 +20,7 @@ struct OptionRow {
     std::string short_name;     ///< "-o"; empty: none
     std::string long_name;      ///< "--output"
     std::string value_name;     ///< "FILE"; empty: takes no value
-    std::string default_value;  ///< empty: none, or said in the description
+    std::string default_value;  ///< empty: none, or given in the description
     std::string description;
 
     [[nodiscard]] std::string names() const;  ///< "-o, --output FILE"
@@ -28,10 +28,10 @@ struct OptionRow {
 };
 [[nodiscard]] std::vector<OptionRow> rows_of(const po::options_description& options);
 
-/// A value of that name is a file's name: "FILE", "OUT.png", "LOG".
+/// Whether values of that name are file names: "FILE", "OUT.png", "LOG".
 [[nodiscard]] bool names_a_file(std::string_view value_name);
 
-/// Those of a subcommand and those that all have.
+/// The options of a subcommand and the common ones.
 [[nodiscard]] std::vector<OptionRow> all_rows(const Subcommand& subcommand);
 
 }  // namespace clsurf::cli

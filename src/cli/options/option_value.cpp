@@ -31,7 +31,7 @@ bool is_list_type(const std::type_info& type) {
            type == typeid(std::vector<long long>);
 }
 
-// Checked here, so that the message does not speak of C++ and -1 never wraps into an unsigned.
+// Checked here, so that the message does not mention C++ and -1 does not wrap around to an unsigned number.
 void check_number(const std::string& option, const std::type_info& type, const std::string& text) {
     const bool whole = type == typeid(int) || type == typeid(long) || type == typeid(long long) ||
                        type == typeid(std::vector<int>) || type == typeid(std::vector<long>) ||

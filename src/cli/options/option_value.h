@@ -1,5 +1,5 @@
 #pragma once
-// Whether a text is a value that an option takes. What is wrong with it is said in our words, not in Boost's.
+// Checks values of options, with our own error messages instead of Boost's.
 
 #include <string>
 
@@ -7,11 +7,11 @@
 
 namespace clsurf::cli {
 
-/// Checks the values of one option: numbers that are numbers, words that are in the list. Throws UsageError.
+/// Checks the values of one option: whether numbers are numbers, and words are in the list. Throws UsageError.
 void check_option(const po::option& option, const po::option_description& description);
-/// A finite number, with a sign or without.
+/// Whether a text is a finite number, with or without a sign.
 [[nodiscard]] bool is_a_number(const std::string& text);
-/// The option may be repeated.
+/// Whether the option may be repeated.
 [[nodiscard]] bool takes_a_list(const po::typed_value_base& type);
 
 }  // namespace clsurf::cli

@@ -161,7 +161,7 @@ void refuse_program_options(const po::variables_map& values, const std::string& 
 
 namespace {
 
-/// The values of one option, as they are written on a command line.
+/// The values of one option, as on a command line.
 std::vector<std::string> texts_of(const boost::any& value, const std::string& name) {
     if (const auto* text = boost::any_cast<std::string>(&value)) return {*text};
     if (const auto* texts = boost::any_cast<std::vector<std::string>>(&value)) return *texts;
@@ -238,7 +238,7 @@ std::vector<double> parse_numbers(const std::string& text, const std::string& op
         if (read.ec != std::errc() || !std::isfinite(value)) break;
         numbers.push_back(value);
         at = read.ptr;
-        // Commas, blanks, or both part them.
+        // Numbers are separated by commas, blanks, or both.
         const bool blank = at != end && *at == ' ';
         while (at != end && *at == ' ') ++at;
         if (at == end || (*at != ',' && !blank)) break;

@@ -17,11 +17,11 @@
 
 namespace clsurf::cli {
 
-/// -q, -v, --threads, --progress: every subcommand has them.
+/// -q, -v, --threads, --progress: common to all subcommands.
 struct CommonOptions {
     bool quiet = false;
     bool verbose = false;
-    int threads = 0;  ///< 0: as many as cores
+    int threads = 0;  ///< 0: the number of cores
     std::string progress = "auto";
 };
 void declare_common(po::options_description& options);
@@ -29,29 +29,29 @@ void declare_common(po::options_description& options);
 
 /// --dialect, --block-delete, --tools
 void declare_program_options(po::options_description& options);
-/// With --start, where a subcommand has it.
+/// Reads --start, too, if the subcommand has it.
 [[nodiscard]] io::ProgramOptions read_program_options(const po::variables_map& values);
 
 /// --layout, --mapping, --period
 void declare_log_options(po::options_description& options);
 [[nodiscard]] io::LogOptions read_log_options(const po::variables_map& values);
 
-/// --force, of what takes a log that must belong to its program
+/// --force, for logs that must belong to their program
 void declare_force(po::options_description& options);
 
-/// What a subcommand takes from a machine file, besides its kinematics.
+/// The use of a machine file by a subcommand, besides its kinematics.
 enum class MachineUse : std::uint8_t {
-    kinematics,  ///< nothing else
-    simulation,  ///< a program without a log is simulated on it
-    limits,      ///< the commanded motion is compared with its limits
-    known,       ///< what the runs do not determine
+    kinematics,  ///< no other use
+    simulation,  ///< to simulate a program without a log
+    limits,      ///< to compare the commanded motion with its limits
+    known,       ///< for values that the runs do not determine
 };
 /// --machine, for its kinematics
 void declare_kinematics(po::options_description& options, MachineUse use = MachineUse::kinematics);
 /// The kinematics of a machine file; nullptr: no file, or three axes.
 [[nodiscard]] std::shared_ptr<const Kinematics> load_kinematics(const std::string& path);
 
-/// --machine, --start: how a program is run where it is simulated.
+/// --machine, --start: how a program is simulated.
 void declare_simulation(po::options_description& options);
 [[nodiscard]] Vec3 read_start(const po::variables_map& values);
 
@@ -59,33 +59,33 @@ void declare_simulation(po::options_description& options);
 void declare_json(po::options_description& options);
 [[nodiscard]] bool read_json(const po::variables_map& values);
 
-/// The option is on the command line, not in a configuration (cli/options/config.h).
+/// Whether the option is on the command line, not in a configuration (cli/options/config.h).
 [[nodiscard]] bool given(const po::variables_map& values, const char* name);
-/// Throws UsageError where one of `options` is given, which needs something that is not there.
+/// Throws UsageError if one of `options` is given but something that it needs is missing.
 void refuse_given(const po::variables_map& values, const po::options_description& options, const std::string& needed,
                   const std::string& hint);
-/// The same of the options that say how a program is read.
+/// The same for the options for reading a program.
 void refuse_program_options(const po::variables_map& values, const std::string& hint);
 
-/// The options of a group that have values, but `except`, as words of a command line that gives the same values.
+/// The options of a group that have values, except `except`, as words of a command line that gives the same values.
 [[nodiscard]] std::vector<std::string> words_of(const po::options_description& group, const po::variables_map& values,
                                                 const std::vector<std::string>& except = {});
 
-/// A note that what a log says of itself came before another value that the configuration has for `option`.
+/// Adds a note that a value in a log overrides a different one of the configuration for `option`.
 void note_overruled(Diagnostics& diagnostics, const Log& log, const std::string& option, const std::string& configured,
                     const std::string& recorded);
 
-/// A positional argument or an option that must be there; UsageError names it otherwise.
+/// A required positional argument or option; a UsageError names it if it is missing.
 [[nodiscard]] std::string required(const po::variables_map& values, const char* name);
 
-/// --json of a subcommand whose output is another file. Throws UsageError where both go to standard output.
+/// --json of a subcommand whose output is another file. Throws UsageError if both go to standard output.
 [[nodiscard]] bool read_json_beside_output(const po::variables_map& values);
 
-/// What a subcommand has to say to people: nothing with -q, and to standard error where its output goes to
+/// Writes messages of a subcommand for the user: nothing with -q, and to standard error if its output goes to
 /// standard output. Throws SystemError.
 void write_answer(std::string_view text, const po::variables_map& values);
 
-/// required() of an argument that may be repeated: the first.
+/// required() for an argument that may be repeated: the first value.
 [[nodiscard]] std::string first_value(const po::variables_map& values, const char* name);
 
 /// "5um", "0.005mm" → [mm]. Throws UsageError, naming `option`.

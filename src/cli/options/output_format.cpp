@@ -57,7 +57,7 @@ std::vector<std::string_view> endings_of(const OutputFormat& format) {
     return endings;
 }
 
-/// The format with the longest ending that the name has; nullptr: none has it.
+/// The format with the longest extension of the name; nullptr: none matches.
 const OutputFormat* by_ending(const std::string& path, OutputFormats formats) {
     const std::string name = lower_case(file_name(path));
     const OutputFormat* found = nullptr;
@@ -138,7 +138,7 @@ bool is_stream(const std::string& path) {
     if (path == "-") return true;
     struct stat status {};
     const bool there = ::stat(path.c_str(), &status) == 0;
-    // Standard output may be redirected to a file; it is written to as it is all the same.
+    // Standard output may be a file; it is nevertheless written as a stream.
     return is_standard_output(path) || (there && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Where a report goes, and in which form: --format, --json, --output of `check`, `lint`, `intervals`, `moves`.
+// Target and format of a report: --format, --json, --output of `check`, `lint`, `intervals`, `moves`.
 
 #include <memory>
 #include <string>
@@ -12,19 +12,19 @@
 
 namespace clsurf::cli {
 
-/// --format with the words of `words` ("text|json|csv"), --json, --output.
+/// --format with the values `words` ("text|json|csv"), --json, --output.
 void declare_report_output(po::options_description& options, const char* words);
 
-/// The file of --output, or standard output. A name that cannot be written fails before the work.
+/// The file of --output, or standard output. It is opened early, so that a name that cannot be written fails before the work.
 class ReportOutput {
 public:
-    /// `words`: those of --format. Throws UsageError (two forms asked for, an ending that is none of them),
+    /// `words`: the values of --format. Throws UsageError (two formats requested, an unknown extension),
     /// SystemError.
     ReportOutput(const po::variables_map& values, std::string_view words);
 
-    /// "text" where nothing asks for another one.
+    /// "text" if no other format is requested.
     [[nodiscard]] const std::string& format() const { return format_; }
-    /// The whole report. With -q a text for people goes into a file only. Throws SystemError.
+    /// Writes the whole report. With -q a text report is only written to a file. Throws SystemError.
     void write(std::string_view text);
 
 private:
@@ -33,7 +33,7 @@ private:
     std::unique_ptr<io::AtomicFile> file_;
 };
 
-/// The reports of several logs as one. `format`: as ReportOutput has it.
+/// Combines the reports of several logs. `format`: as in ReportOutput.
 [[nodiscard]] std::string joined_reports(const std::vector<std::string>& logs, const std::vector<std::string>& texts,
                                          const std::string& format);
 

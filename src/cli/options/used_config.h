@@ -1,5 +1,5 @@
 #pragma once
-// The configuration file of this run, and what was taken from it: messages name its lines.
+// The configuration file of this run, and the values taken from it: messages refer to its lines.
 
 #include <map>
 #include <string>
@@ -11,12 +11,12 @@ namespace clsurf::cli {
 
 constexpr const char* config_name = ".clsurf.toml";
 
-/// What was taken from a configuration.
+/// The values taken from a configuration.
 struct UsedConfig {
     std::string path;                     ///< empty: there is none
-    std::map<std::string, Place> places;  ///< of the keys that this subcommand took
+    std::map<std::string, Place> places;  ///< of the keys that this subcommand used
 
-    /// Where the value of an option stands that a message is about ("--tool: …"); nullptr: it is about none of these.
+    /// The place of the option that a message is about ("--tool: …"); nullptr: the message is about none of these.
     [[nodiscard]] const Place* find(std::string_view message) const;
 };
 

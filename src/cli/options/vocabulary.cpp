@@ -102,7 +102,7 @@ std::vector<std::string> words_of(std::string_view value_name) {
     for (const std::string_view alternative : alternatives_of(value_name)) {
         if (value_name.find('|') != std::string_view::npos && is_word(alternative)) { words.emplace_back(alternative); }
         for (const Vocabulary& vocabulary : vocabularies()) {
-            // "FIELD,…" is a list of them.
+            // "FIELD,…" is a list of fields.
             const std::string_view first = alternative.substr(0, alternative.find(','));
             if (vocabulary.value_name != first) continue;
             for (const io::ListingRow& row : vocabulary.rows()) words.push_back(row.name);

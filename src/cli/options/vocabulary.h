@@ -1,6 +1,6 @@
 #pragma once
-// Vocabulary: the words of one kind that options take as values, read from the table that defines
-// them. `clsurf help fields` prints one; completion and docs/reference are made from them.
+// Vocabulary: the values that options of one kind accept, from the table that defines
+// them. `clsurf help fields` prints one; completion and docs/reference are generated from them.
 
 #include <span>
 #include <string>
@@ -12,20 +12,20 @@
 namespace clsurf::cli {
 
 struct Vocabulary {
-    std::string_view name;        ///< "dialects", the word of `clsurf help`
-    std::string_view value_name;  ///< "DIALECT": options whose value has this name take these words
+    std::string_view name;        ///< "dialects", the argument of `clsurf help`
+    std::string_view value_name;  ///< "DIALECT": options with this value name accept these words
     std::string_view summary;     ///< one line
     std::vector<io::ListingRow> (*rows)();
 };
 
-/// All of them, in the order of the help text.
+/// All vocabularies, in the order of the help text.
 [[nodiscard]] std::span<const Vocabulary> vocabularies();
 
-/// The words that a value name stands for: those of a vocabulary ("DIALECT"), or the lower-case
+/// The words for a value name: those of a vocabulary ("DIALECT"), or the lower-case
 /// ones of "iso|top|AZ,EL". Empty: any text.
 [[nodiscard]] std::vector<std::string> words_of(std::string_view value_name);
 
-/// The value name lists every word that may be given: "auto|always|never".
+/// Whether the value name lists every allowed word: "auto|always|never".
 [[nodiscard]] bool lists_all_words(std::string_view value_name);
 
 }  // namespace clsurf::cli

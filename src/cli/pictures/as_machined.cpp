@@ -12,11 +12,11 @@
 namespace clsurf::cli {
 namespace {
 
-constexpr double most_cells = 1e8;  ///< of a picture; beyond, cells grow
+constexpr double most_cells = 1e8;  ///< of a picture; for larger areas cells are larger
 constexpr double least_tilt =
-    0.2;  ///< sine of the view's elevation below which the plan cannot be told from the picture
+    0.2;  ///< sine of the view's elevation below which the picture does not determine the plan
 
-/// What the picture can show, in plan, of heights between two.
+/// The area in plan that the picture can show, for heights from low to high.
 Box2 shown_plan(const viz::Camera& camera, double low, double high) {
     const viz::Projection projection = camera.projection();
     const Eigen::Matrix2d plan = projection.leftCols<2>();
@@ -32,7 +32,7 @@ Box2 shown_plan(const viz::Camera& camera, double low, double high) {
     return box;
 }
 
-/// Lowest and highest tip of what cuts.
+/// Lowest and highest tip of cutting points.
 std::pair<double, double> heights_of(const ClSurface& surface) {
     float low = std::numeric_limits<float>::infinity();
     float high = -low;
@@ -47,8 +47,8 @@ std::pair<double, double> heights_of(const ClSurface& surface) {
     return {low + surface.positions.origin.z(), high + surface.positions.origin.z()};
 }
 
-/// Heights beyond the outermost contact points are those of the tool's flank, not of the part: NaN. Where the form is
-/// not known they stay.
+/// Sets heights beyond the outermost contact points to NaN: they are of the tool's flank, not of the part. Heights among
+/// the contact points stay, even if the form is not known there.
 void leave_out_flanks(const Form& form, const MapFrame& frame, std::int64_t first_row, std::span<float> heights,
                       std::span<const float> deviation) {
     constexpr std::int64_t grain = 4096;
@@ -123,7 +123,7 @@ AsMachinedMap make_as_machined_map(const AsMachinedPart& part, const Box3& box, 
     if (region.isEmpty()) throw UsageError("nothing of the formed surface lies in the part that is shown");
     const double cell = std::max(as_machined.usual_cell(), std::sqrt(region.volume() / most_cells));
     const auto per_vertex = std::max<std::int64_t>(1, std::lround(camera.mm_per_pixel / cell));
-    // Finer than the cells where the picture is: cusps stay sharp.
+    // Finer than the usual cells if the picture is, so that cusps stay sharp.
     const double fine = per_vertex == 1 ? std::clamp(camera.mm_per_pixel, cell / 10, cell)
                                         : camera.mm_per_pixel / static_cast<double>(per_vertex);
     const MapFrame frame = frame_of(region, fine);

@@ -1,5 +1,5 @@
 #pragma once
-// The formed surface of a part as a picture shows it.
+// The as-machined surface of a part for pictures.
 
 #include "field/field.h"
 #include "pipeline/as_machined_part.h"
@@ -8,13 +8,13 @@
 
 namespace clsurf::cli {
 
-/// What a map of the formed surface is drawn from.
+/// A map of the as-machined surface.
 struct AsMachinedMap {
     viz::Relief relief;
-    Field field;  ///< deviations over the relief's vertices
+    Field field;  ///< deviations at the relief's vertices
 };
 
-/// As fine as a picture's pixels, each vertex the mean of its cells. `box` empty: all that `camera` shows.
+/// In the resolution of the picture; each vertex is the mean of its cells. `box` empty: everything that `camera` shows.
 [[nodiscard]] AsMachinedMap make_as_machined_map(const AsMachinedPart& part, const Box3& box,
                                                  const viz::Camera& camera);
 

@@ -17,14 +17,14 @@
 namespace clsurf::cli {
 namespace {
 
-constexpr double least_share = 0.1;  ///< of the range of both maps: smaller differences stay pale
+constexpr double least_share = 0.1;  ///< of the range of both maps: smaller differences are pale
 
 DefectMatch match_of(const Shown& before, const Shown& after) {
     return match_defects({&before.defects.report.defects, &before.surface.positions, before.surface.step_over},
                          {&after.defects.report.defects, &after.surface.positions, after.surface.step_over});
 }
 
-/// Those of the later run, and those that are gone.
+/// The outlines of the later run's defects, and of those that are gone.
 std::vector<viz::OutlineMark> outlines_of_change(const Shown& before, const Shown& after, const DefectMatch& match) {
     std::vector<viz::OutlineMark> marks;
     for (std::size_t i = 0; i < after.defects.outlines.size(); ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// What changed from one run to the other: the third map of `render --before`.
+// The changes between two runs: the third map of `render --before`.
 
 #include <functional>
 #include <optional>
@@ -11,20 +11,20 @@
 
 namespace clsurf::cli {
 
-/// "2 gone, 1 new, 5 remaining", of the defects of both. Domain: they were looked for.
+/// "2 gone, 1 new, 5 remaining", from the defects of both. Domain: the defects of both are known.
 [[nodiscard]] std::string changed_defects_text(const Shown& before, const Shown& after);
 
-/// "roughness Ra 1.80 to 1.85 µm, …", of the surfaces that both leave. Empty: the tool is not known, or is not the same.
+/// "roughness Ra 1.80 to 1.85 µm, …", of both surfaces. Empty: the tool is not known, or not the same.
 [[nodiscard]] std::string changed_roughness_text(const Shown& before, const Shown& after);
 
-/// The field of the later run minus that of the earlier one, place by place, as large as `options` say. `range`: of the maps of
-/// both, which tells how large a difference is. Nothing where there is none to draw: classes, machined surfaces, runs
-/// that nowhere follow the same path.
+/// The field of the later run minus that of the earlier one at the same path locations, in the size of `options`. `range`:
+/// the range of both maps, for the scale of the differences. Nothing if there is no difference to draw: classes, as-machined
+/// surfaces, runs without a common path.
 [[nodiscard]] std::optional<viz::Image> draw_change(const Shown& before, const Shown& after, double range,
                                                     const RenderOptions& options);
 
-/// The map that `draw` makes, with the map of the differences below it, or at its right in a wide picture. Without the second
-/// one if there is nothing to compare. `draw` gets a look with the size that the first map has.
+/// The map that `draw` makes, with the map of the differences below it, or to its right in a wide picture. Without the
+/// latter if there is nothing to compare. `draw` gets a look with the size of the first map.
 [[nodiscard]] viz::Image draw_with_change(const Shown& before, const Shown& after, double range, RenderOptions options,
                                           const std::function<viz::Image(const viz::Look&)>& draw);
 

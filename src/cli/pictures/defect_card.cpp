@@ -28,11 +28,11 @@ namespace {
 
 constexpr viz::Rgb far_colour{176, 176, 182};
 constexpr viz::Rgb near_colour{96, 96, 104};
-constexpr double least_surroundings = 8;  ///< step-overs round a section in the map
-constexpr double surroundings = 0.4;      ///< of its size, likewise
+constexpr double least_surroundings = 8;  ///< step-overs around a section in the map
+constexpr double surroundings = 0.4;      ///< share of the section's size around it
 constexpr std::size_t most_labelled_lines = 400;
 
-/// Along the normal of the surface, so that the section is seen as it is.
+/// A view along the normal of the surface, so that the section is not foreshortened.
 viz::View view_along(const Eigen::Vector3f& normal) {
     if (!normal.allFinite() || std::abs(normal.z()) > 0.999F) return viz::parse_view("top");
     const Vec3 n = normal.cast<double>().normalized();
@@ -50,14 +50,14 @@ viz::CardBearings bearings_of(const viz::Camera& camera, const Eigen::Vector3f& 
     return bearings;
 }
 
-/// The map of a card, and how it lies.
+/// Draws the map of a card, and sets its orientation.
 void draw_place(const JudgedPart& judged, std::size_t index, const viz::CardMapSize& size, const std::string& gl,
                 bool keep_drawing, viz::DefectCard& card) {
     const Defect& d = judged.report.defects[index];
     QualityReport one;
     one.defects = {d};
     viz::DefectMap map = defect_map_of(one);
-    // There is one kind only; a double line across the whole strip would look like a hole.
+    // There is only one kind; a double line across the whole strip would look like a hole.
     map.kinds.front().style = viz::StrokeStyle::solid;
     viz::MapPanel panel;
     panel.surface = &judged.surface;
@@ -85,7 +85,7 @@ void draw_place(const JudgedPart& judged, std::size_t index, const viz::CardMapS
     card.bearings = bearings_of(placed.camera, judged.signals.feed(d.point));
 }
 
-/// Curves of one quantity along the section, with the band of what is usual.
+/// Curves of one quantity along the section, with the band of usual values.
 viz::CardChart chart_along(const DefectProfile& profile,
                            const std::array<std::vector<float>, DefectProfile::passes>& of,
                            const std::vector<float>& usual, double unit, const std::vector<double>& threshold,
@@ -112,7 +112,7 @@ viz::CardChart chart_along(const DefectProfile& profile,
     return chart;
 }
 
-/// "line 3065" where the section begins, and where it ends.
+/// "line 3065" at the beginning and at the end of the section.
 void label_lines(viz::CardChart& chart, const DefectProfile& profile) {
     const DefectProfile::LineStart* first = nullptr;
     const DefectProfile::LineStart* last = nullptr;
@@ -126,7 +126,7 @@ void label_lines(viz::CardChart& chart, const DefectProfile& profile) {
         chart.tick_labels.emplace_back(last->along, fmt::format("line {}", last->line));
 }
 
-/// "pass 14": the one of the strongest section.
+/// "pass 14": that of the strongest section.
 std::string pass_name(const Defect& d) {
     for (const DefectSection& section : d.sections) {
         if (d.point >= section.points.first && d.point <= section.points.last)
@@ -167,7 +167,7 @@ std::string title_of(DefectProfile::HeightOf height, Cause cause) {
     return {};
 }
 
-/// " · formed 5.0 µm high": of the mark in the formed surface.
+/// " · formed 5.0 µm high": the mark in the as-machined surface.
 std::string formed_text(const JudgedPart& judged, std::size_t index) {
     if (judged.as_machined == nullptr) return {};
     const AsMachinedMark& mark = judged.as_machined->marks[index];

@@ -11,7 +11,7 @@
 
 namespace clsurf::cli {
 
-/// A part, and what was found on it.
+/// A part with its report.
 struct JudgedPart {
     const Part& part;
     const ClSurface& surface;

@@ -1,5 +1,5 @@
 #pragma once
-// How well a picture shows a defect.
+// How visible a defect is in a picture.
 
 #include <vector>
 
@@ -8,8 +8,8 @@
 
 namespace clsurf::cli {
 
-/// How different a defect and the adjacent passes look in the map that `render` draws by default: speeds as shares of the
-/// programmed feed, or where there is none of the usual speed. CIEDE2000, one for each defect.
+/// The colour difference of a defect and the adjacent passes in the map that `render` draws by default: speeds as shares of
+/// the programmed feed, or if there is none, of the usual speed. CIEDE2000, one for each defect.
 [[nodiscard]] std::vector<double> colour_differences(const QualityReport& report, const Part& part);
 
 }  // namespace clsurf::cli

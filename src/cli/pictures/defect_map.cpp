@@ -13,9 +13,10 @@
 namespace clsurf::cli {
 namespace {
 
-constexpr double darkest_score = 16;  ///< multiples of the threshold at which a mark has its full colour
+constexpr double darkest_score = 16;  ///< multiples of the threshold from which a mark has its full colour
 
-// Vermilion, orange, blue and bluish green: apart for colour-blind readers (Okabe and Ito 2008), and their strokes differ.
+// Vermilion, orange, blue and bluish green are distinct for colour-blind readers (Okabe and Ito 2008); the strokes differ,
+// too.
 viz::DefectKind kind_of(Quantity quantity) {
     switch (quantity) {
         case Quantity::speed: return {"speed", {200, 70, 0}, viz::StrokeStyle::solid};
@@ -26,7 +27,7 @@ viz::DefectKind kind_of(Quantity quantity) {
     return {};
 }
 
-/// Where it is strongest, on the section that io::lines_label() names.
+/// The strongest point, on the section that io::lines_label() names.
 PointIndex named_point(const Defect& d) {
     const DefectSection* section = strongest_section(d);
     if (section == nullptr) return d.point;
@@ -73,7 +74,7 @@ viz::MapTexts defect_map_texts(const QualityReport& report, const Part& part, st
     texts.frame = common_work_system(part.program.motions);
     texts.title = io::headline_of(report);
     if (!is_judged && found > 0) texts.title = "Not judged: " + texts.title;
-    // "0 defects" would clear a part that was not judged.
+    // "0 defects" would suggest that a part was good although it was not judged.
     if (is_judged || found > 0) texts.subtitle = found == 1 ? "1 defect · " : fmt::format("{} defects · ", found);
     texts.subtitle += subtitle;
     if (found > 0) {

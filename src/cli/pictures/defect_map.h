@@ -1,5 +1,5 @@
 #pragma once
-// What the defect map of `render --defects` and of `report` shows of the defects of a part.
+// The content of the defect maps of `render --defects` and `report`.
 
 #include <string>
 #include <string_view>
@@ -12,13 +12,13 @@
 
 namespace clsurf::cli {
 
-/// The defects of a report as marks, the strongest first.
+/// The defects of a report as marks, in decreasing order of strength.
 [[nodiscard]] viz::DefectMap defect_map_of(const QualityReport& report);
 
-/// Title, subtitle and notes. `subtitle` names the run; the number of defects stands before it.
+/// Title, subtitle and notes. `subtitle` names the run; the number of defects precedes it.
 [[nodiscard]] viz::MapTexts defect_map_texts(const QualityReport& report, const Part& part, std::string_view subtitle);
 
-/// A picture without defects of a run that was not judged would look like one of a good part. `which` says which of two.
+/// Adds a note if a run was not judged: without it, a picture without defects would suggest a good part. `which`: the panel.
 void note_judgement(const QualityReport& report, std::string_view which, std::vector<std::string>& notes);
 
 }  // namespace clsurf::cli

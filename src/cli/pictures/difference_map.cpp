@@ -33,7 +33,7 @@ DrawnDifference drawn_difference(RunDifferences& differences, RunQuantity quanti
     shown.field.info = {
         std::string(info.name), fmt::format("{}, difference", info.label), info.unit, FieldScale::diverging, {}};
     shown.field.info.threshold = differences.threshold[index_of(quantity)];
-    shown.field.info.least_span = 2 * shown.field.info.threshold;  // equal runs are not to look different
+    shown.field.info.least_span = 2 * shown.field.info.threshold;  // equal runs must not look different
     shown.field.values = std::move(differences.of[index_of(quantity)]);
     return shown;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The map that `diff` draws: one quantity's difference on the surface of the reference.
+// The map of `diff`: the difference of one quantity on the surface of the reference.
 
 #include <string>
 
@@ -14,17 +14,17 @@ namespace clsurf::cli {
 /// "speed", "acceleration", "lag" or "height", of --color. Throws UsageError.
 [[nodiscard]] RunQuantity parse_quantity(const std::string& text);
 
-/// One quantity, and what the runs are called.
+/// One quantity, and the names of the runs.
 struct DrawnDifference {
     Field field;
     std::string reference, run;
     std::string note{};  ///< below the map
 };
 
-/// Takes the values of a quantity out of `differences`. Throws UsageError: the runs do not have it.
+/// Moves the values of a quantity out of `differences`. Throws UsageError: the runs do not have it.
 [[nodiscard]] DrawnDifference drawn_difference(RunDifferences& differences, RunQuantity quantity);
 
-/// `path`: of the reference, whose surface that is.
+/// `path`: of the reference.
 void draw_difference(const DrawnDifference& shown, const Trajectory& path, const ClSurface& surface,
                      const LookOptions& look, PictureOutput& output);
 

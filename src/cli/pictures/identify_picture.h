@@ -1,5 +1,5 @@
 #pragma once
-// The picture of `identify`: where along the path the simulation with the machine found runs at another speed than the log.
+// The picture of `identify`: where the simulated speed differs from the log along the path.
 
 #include <span>
 
@@ -9,7 +9,7 @@
 
 namespace clsurf::cli {
 
-/// Of the run with the greatest speed error: of the test runs, where there are some, else of the runs of the fit. Throws
+/// Draws the run with the largest speed error, of the test runs if there are any, otherwise of the runs of the fit. Throws
 /// InputError: no run can be simulated.
 void draw_speed_residual(const Identification& result, std::span<const Part> parts, std::span<const Part> tests,
                          PictureOutput& output);

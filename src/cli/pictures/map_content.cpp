@@ -96,7 +96,7 @@ viz::Image draw_defect_map(const Shown& shown, const RenderOptions& options) {
                                            fmt::format("{} · {} · {}", file_name(options.part.program),
                                                        run_name(shown, options), viz::counts_of(shown.surface)));
     if (options.programmed) texts.notes.emplace_back("thin lines: the programmed path");
-    // Without defects a column of names would be empty.
+    // Without defects the column of names would be empty.
     viz::Look look = options.shown.look;
     look.names = !defects.marks.empty();
     return viz::draw_map({panel}, viz::placed_map({panel}, look), {}, texts, look);

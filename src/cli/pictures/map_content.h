@@ -1,5 +1,5 @@
 #pragma once
-// What `render` draws of the parts that it has loaded: marks, titles and footnotes.
+// The content of `render` for loaded parts: marks, titles and footnotes.
 
 #include <optional>
 #include <string>
@@ -12,18 +12,18 @@
 
 namespace clsurf::cli {
 
-/// The run that a map shows: "run.biip", "simulated on mill", "as programmed".
+/// The name of a run in a map: "run.biip", "simulated on mill", "as programmed".
 [[nodiscard]] std::string run_name(const Shown& shown, const RenderOptions& options);
-/// The ramps at the ends of passes are drawn paler, because all passes have them.
+/// Whether a field is a speed. Its ramps at the ends of passes are drawn paler, because all passes have them.
 [[nodiscard]] bool is_speed(const FieldInfo& field);
-/// One part with its marks. Refers to `shown`. Throws UsageError: a mark that the log does not have.
+/// One part with its marks. Refers to `shown`. Throws UsageError: a mark at a point or line that the log does not have.
 [[nodiscard]] viz::MapPanel panel_of(const Shown& shown, const RenderOptions& options, std::string caption);
 
-/// Title, subtitle and footnotes of a map that a field colours.
+/// Title, subtitle and footnotes of a map coloured by a field.
 [[nodiscard]] viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before,
                                      const RenderOptions& options, const std::vector<std::string>& range_notes);
 
-/// The defect map: a grey relief, the sections at fault on it, and their names beside it.
+/// The defect map: a grey relief with the defective sections, and their names next to it.
 [[nodiscard]] viz::Image draw_defect_map(const Shown& shown, const RenderOptions& options);
 
 }  // namespace clsurf::cli

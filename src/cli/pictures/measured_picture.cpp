@@ -18,7 +18,7 @@ std::vector<double> in_um(std::span<const double> mm) {
     return um;
 }
 
-/// The marks that are judged, where a profile crosses them.
+/// The judged marks that a profile crosses.
 std::vector<viz::ChartCursor> cursors_of(const io::ReportedMeasurement& measured, const ComparedProfile& profile) {
     std::vector<viz::ChartCursor> cursors;
     if (measured.data.kind != MeasuredKind::profile) return cursors;

@@ -15,8 +15,8 @@ struct MeasuredPicture {
     std::string title;
 };
 
-/// Of an areal map the profile in its middle. `keep_drawing`: as PictureOutput::wants_drawing() says. Domain: something was
-/// compared.
+/// For an areal map the profile in its middle. `keep_drawing`: as PictureOutput::wants_drawing(). Domain: the comparison
+/// is not empty.
 [[nodiscard]] MeasuredPicture draw_measured(const io::ReportedMeasurement& measured, const Part& part,
                                             const CuttingTool& tool, bool keep_drawing = false);
 

@@ -19,7 +19,7 @@
 namespace clsurf::cli {
 namespace {
 
-/// A field of both runs on one scale.
+/// A field of both runs with the same scale.
 viz::Image draw_pair(const Optimized& result, const Field& before, const Field& after, const viz::MapTexts& texts,
                      bool keep_drawing) {
     viz::MapPanel left{&result.before.surface, &before, "before", {}, {}, {}},
@@ -37,7 +37,7 @@ viz::Image draw_pair(const Optimized& result, const Field& before, const Field& 
 
 Field speed_of(const JudgedRun& run) { return FieldSet(run.log, run.path, run.surface.passes).get("speed"); }
 
-/// The residual, which only the pass at fault has: of two passes that differ, both have the difference.
+/// The residual, because only the pass that causes the difference has it; both adjacent passes have the difference.
 Field mismatch_of(const JudgedRun& run) {
     const QualityFields fields(run.surface, [&] { return run.signals; });
     return std::move(

@@ -1,5 +1,5 @@
 #pragma once
-// Where a picture goes, in the form that the ending of its name stands for.
+// The file of a picture; the extension of its name selects the format.
 
 #include <string>
 #include <string_view>
@@ -10,18 +10,18 @@
 
 namespace clsurf::cli {
 
-/// Pixels alone, or what can be drawn as lines and texts, too.
+/// Pixels only, or also lines and texts as vectors.
 enum class PictureKind { pixels, drawing };
 
 class PictureOutput {
 public:
-    /// Opens the file: a name that cannot be written fails before the work. Begins to load the libraries that pictures need.
-    /// `option` names it in messages. Throws UsageError (the ending, a terminal, an input), SystemError.
+    /// Opens the file early: a name that cannot be written fails before the work. Starts loading the libraries for pictures.
+    /// `option` is the name for messages. Throws UsageError (the extension, a terminal, an input), SystemError.
     explicit PictureOutput(const std::string& path, std::string_view option = "-o",
                            PictureKind kind = PictureKind::pixels);
     /// Whether write() needs the drawing of the picture: SVG, PDF.
     [[nodiscard]] bool wants_drawing() const { return format_ == "svg" || format_ == "pdf"; }
-    /// The whole picture. Throws SystemError.
+    /// Writes the whole picture. Throws SystemError.
     void write(const viz::Image& image, const std::string& description);
 
 private:

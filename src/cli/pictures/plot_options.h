@@ -15,10 +15,10 @@ struct PlotOptions {
     std::string output;
     std::vector<std::string> fields;
     bool over_length = false;
-    std::optional<double> from, to;  ///< [s], or [mm] over length
+    std::optional<double> from, to;  ///< [s], or [mm] for curves over length
     std::optional<LineNumber> line;
     std::vector<PointIndex> points;
-    std::optional<long long> defect;  ///< its card in place of curves
+    std::optional<long long> defect;  ///< draws its card instead of curves
     viz::ChartLook look;
 };
 

@@ -10,7 +10,7 @@ namespace clsurf::cli {
 
 void draw_fit(const io::CutReport& report, const ScanCut& cut, PictureOutput& output) {
     const io::ScanResiduals fit = io::residuals_of(report, cut);
-    // Deviations are micrometres, heights are millimetres.
+    // Deviations are in micrometres, heights in millimetres.
     const bool deviations = report.corrected.has_value();
     const double scale = deviations ? um_per_mm : 1;
     std::vector<double> measured, fitted, residuals;

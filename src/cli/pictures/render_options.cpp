@@ -110,7 +110,7 @@ RenderOptions read_render_options(const po::variables_map& values) {
     options.output = required(values, "output");
     options.before = text_of(values, "before", "");
     options.shown = read_look_options(values);
-    // Numbers of --range are mm/min where no field is named.
+    // If no field is named, numbers of --range are in mm/min.
     const bool of_speeds = options.shown.range.kind == RangeRule::Kind::fixed;
     options.field = text_of(values, "color", of_speeds ? "speed" : "");
     if (values.count("mark-point") > 0) {

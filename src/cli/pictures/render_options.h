@@ -12,13 +12,13 @@
 
 namespace clsurf::cli {
 
-/// Numbers from `first` to `last`; what is not said has no end.
+/// Numbers from `first` to `last`; a missing end is open.
 struct NumberRange {
     std::int64_t first = 0;
     std::int64_t last = std::numeric_limits<std::int64_t>::max();
 };
 
-/// What of a part is shown: what all of them have in common.
+/// The shown part of a run: the intersection of all ranges.
 struct Selection {
     std::optional<NumberRange> points, lines, passes;
     [[nodiscard]] bool is_all() const { return !points && !lines && !passes; }
@@ -30,14 +30,14 @@ struct RenderOptions {
     Selection selection;
     std::string before;  ///< log of the other panel; empty: one panel
     std::string output;
-    bool defect_map = false;  ///< of `defects`: sections and names on a grey relief, not outlines on a field
-    std::string field;        ///< empty: feed_share, or speed where no feed is known
+    bool defect_map = false;  ///< sections and names on a grey relief, instead of outlines on a field
+    std::string field;        ///< empty: feed_share, or speed if no feed is known
     LookOptions shown;
     std::vector<PointIndex> points;
     std::vector<LineNumber> lines;
     bool defects = false;
-    bool programmed = false;    ///< the path of the program is drawn, too
-    std::optional<Role> swept;  ///< its positions; none: the most truthful
+    bool programmed = false;    ///< draw the path of the program, too
+    std::optional<Role> swept;  ///< the swept positions; none: the most truthful
 };
 
 void declare_render(po::options_description& options);

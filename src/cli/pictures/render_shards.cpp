@@ -39,7 +39,7 @@ void refuse_unclear_shards(const po::variables_map& values) {
     if (values.count("survey") == 0) refuse_without_survey(values, {"shard", "shards", "merge"});
 }
 
-/// What pieces must have in common besides the survey: how the map looks.
+/// The settings that all pieces must share besides the survey: the look of the map.
 std::string settings_of_map(const po::variables_map& values) {
     po::options_description options;
     declare_render(options);
@@ -74,7 +74,7 @@ struct NamedPiece {
     io::MapPiece piece;
 };
 
-/// Pieces of all shards, in their order. Throws UsageError: one is missing, there twice, or of other shards.
+/// The pieces of all shards, in order. Throws UsageError: one is missing, duplicate, or of another division into shards.
 std::vector<NamedPiece> read_pieces(const std::vector<std::string>& paths, const io::SurveyOrigin& origin,
                                     const std::string& settings) {
     std::vector<NamedPiece> pieces;
@@ -95,7 +95,7 @@ std::vector<NamedPiece> read_pieces(const std::vector<std::string>& paths, const
     return pieces;
 }
 
-/// The samples of two pieces are in memory at a time.
+/// Merges pieces with the samples of at most two in memory.
 ShardMap::Drawn merged(const std::vector<NamedPiece>& pieces, const ShardMap& map) {
     std::optional<ShardMap::Drawn> all;
     for (const auto& [path, piece] : pieces) {

@@ -8,8 +8,8 @@ namespace clsurf::cli {
 /// The options of `render`, with --survey and --shards.
 void declare_render_with_shards(po::options_description& options);
 
-/// Draws the map with the memory of one shard where --survey is given; false: it is not. Throws UsageError: an option that
-/// needs the whole log, a field without a range that is known before.
+/// With --survey, draws the map in the memory of one shard and returns true. Throws UsageError: an option that
+/// needs the whole log, a field whose range is not known in advance.
 [[nodiscard]] bool draw_in_shards(const RenderOptions& options, const po::variables_map& values);
 
 }  // namespace clsurf::cli

@@ -35,7 +35,7 @@ ShardMap::ShardMap(const RenderOptions& options, Shown shown, const Survey& surv
       scale_(scale_of(shown_.field.info, range_, options.shown)),
       whole_{&shown_.surface, &shown_.field, "", {}, {}, {}},
       placed_(viz::placed_map({whole_}, options.shown.look)) {
-    shown_.surface.positions.forget();  // what told how far the surface reaches
+    shown_.surface.positions.forget();  // used only for the extent of the surface
 }
 
 ShownRange ShardMap::choose_field() {
@@ -43,7 +43,7 @@ ShownRange ShardMap::choose_field() {
     const std::string name = options_.field.empty() ? usual : options_.field;
     if (!fields_.has(name) && fields_of(shown_.part, shown_.surface).has(name))
         throw UsageError("'" + name + "' is a field of the whole log, not of a shard", "leave out --survey");
-    // What it is called and how it is computed is the same at all points.
+    // Name and kernel of a field are the same at all points.
     shown_.field = std::move(fields_.get_all({name}, {0, 0}).front());
     if (has_classes(shown_.field.info))
         throw UsageError("'" + name + "' has classes, whose colours depend on the whole log",
@@ -57,7 +57,7 @@ void ShardMap::Drawn::add(const Drawn& later) {
     highest = std::max(highest, later.highest);
 }
 
-/// The shards of a map, in memory one at a time.
+/// The shards of a map, one in memory at a time.
 class ShardMap::Shards {
 public:
     Shards(ShardMap& map, int first, int last, int count, Drawn& drawn)
@@ -83,7 +83,7 @@ public:
     }
 
 private:
-    /// The values of the field at the points of the part; NaN for points outside of its ranges.
+    /// Sets the values of the field at the points of the part; NaN for points outside its ranges.
     void take_field() {
         field_.info = map_.shown_.field.info;
         field_.values = Column<float>(part_.points.size(), missing<float>);
@@ -102,7 +102,7 @@ private:
         const double unit = field_.info.unit.per_inside;
         for (const Pass& pass : part_.surface.passes) {
             if (pass.kind != PassKind::cut) continue;
-            // Passes belong to a shard as a whole, or not at all.
+            // A pass belongs to a shard completely, or not at all.
             if (pass.first < part_.own.first || pass.last > part_.own.last) continue;
             for (PointIndex i = pass.first; i <= pass.last; ++i) {
                 const float value = field_.values[static_cast<std::size_t>(i)];

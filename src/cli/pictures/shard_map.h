@@ -17,20 +17,20 @@ namespace clsurf::cli {
 
 class ShardMap {
 public:
-    /// `shown`: the surveyed part, without a field. Throws UsageError: a field whose values or whose range depend on the whole log.
+    /// `shown`: the surveyed part, without a field. Throws UsageError: a field whose values or range depend on the whole log.
     ShardMap(const RenderOptions& options, Shown shown, const Survey& survey);
     ShardMap(const ShardMap&) = delete;
     ShardMap& operator=(const ShardMap&) = delete;
 
-    /// What is drawn of a shard, or of some of them, and the range of its values on cut passes that are shown.
+    /// The drawn parts of one or several shards, and the range of their values on shown cut passes.
     struct Drawn {
         viz::DrawnParts parts;
         double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
 
-        /// Of the shards that come after these.
+        /// Adds later shards.
         void add(const Drawn& later);
     };
-    /// Reads one shard after the other. Domain: 1 ≤ first ≤ last ≤ count.
+    /// Reads one shard after another. Domain: 1 ≤ first ≤ last ≤ count.
     [[nodiscard]] Drawn draw(int first, int last, int count);
     /// The picture of all shards.
     [[nodiscard]] viz::Image picture(const Drawn& all) const;

@@ -21,9 +21,9 @@
 namespace clsurf::cli {
 namespace {
 
-/// What `check` finds, with outlines: passes are compared where they were commanded, heights measured
-/// from the positions that are shown. With `tool` they are drawn where it touches the part. Adds why nothing was judged
-/// to the part's diagnostics.
+/// The findings of `check`, with outlines: passes are compared at their commanded positions, heights measured
+/// from the shown positions. With `tool`, outlines are drawn at the contact points. If nothing was judged, the reasons
+/// are added to the part's diagnostics.
 ShownDefects find_shown_defects(Part& part, const ClSurface& surface, const std::optional<CuttingTool>& tool,
                                 StageClock& clock) {
     ShownDefects shown;
@@ -82,7 +82,7 @@ Shown programmed(const PartOptions& options, const std::string& field, StageCloc
     return shown;
 }
 
-/// A part from a log, or from the simulation of a program that comes alone.
+/// A part from a log, or from the simulation of a program without a log.
 Part load_run_of(const PartOptions& options, StageClock& clock) {
     if (!options.log.empty()) return load_part(options, clock);
     clock.begin("read the program");
@@ -123,7 +123,7 @@ Shown load_shown(const PartOptions& options, const std::string& field, bool defe
 }
 
 void show_programmed(Shown& shown, const PartOptions& options) {
-    constexpr PointIndex most_points = 2'000'000;  // of longer programs a point now and then is left out
+    constexpr PointIndex most_points = 2'000'000;  // of longer programs some points are left out
     if (const std::string why = why_no_programmed_lines(options, shown.part); !why.empty())
         throw UsageError("--programmed: " + why);
     shown.programmed = programmed_lines(options, most_points);

@@ -1,5 +1,5 @@
 #pragma once
-// What `render` shows of one log.
+// One log as `render` shows it.
 
 #include <memory>
 #include <optional>
@@ -18,13 +18,13 @@
 
 namespace clsurf::cli {
 
-/// What `check` finds, and its outlines on the surface.
+/// The findings of `check`, with outlines on the surface.
 struct ShownDefects {
     QualityReport report;
     std::vector<viz::OutlineMark> outlines;  ///< of report.defects
 };
 
-/// Where the points come from.
+/// The source of the points.
 enum class PointOrigin : std::uint8_t { log, simulation, program };
 
 /// A part with its surface and its field.
@@ -33,36 +33,36 @@ struct Shown {
     Part part;
     ClSurface surface;
     Field field;
-    viz::FieldClasses classes;          ///< of the field, where its values are names
-    std::optional<viz::Relief> relief;  ///< the formed surface, whose vertices have the field then
+    viz::FieldClasses classes;          ///< of the field, if its values are names
+    std::optional<viz::Relief> relief;  ///< the as-machined surface; the field then has values at its vertices
     ShownDefects defects;
-    std::vector<std::vector<Vec3>> programmed;     ///< path of the program as lines [mm]; empty: not asked for
-    std::unique_ptr<const PartContacts> contacts;  ///< of the formed surface; `this` does not move any more
+    std::vector<std::vector<Vec3>> programmed;     ///< path of the program as lines [mm]; empty: not requested
+    std::unique_ptr<const PartContacts> contacts;  ///< of the as-machined surface; once set, `this` does not move
 
-    /// Where a point is marked in the picture [mm].
+    /// The position of a point's mark in the picture [mm].
     [[nodiscard]] Vec3 place_of(PointIndex i) const {
         return contacts ? contacts->place(i).position() : surface.positions.absolute(i);
     }
 };
 
-/// Reads a part and computes its field (empty: as RenderOptions::field); with `defects` also what `check` finds. Without a log
-/// the points of what a program itself says are on its path, and all others those of a simulation. Throws InputError,
+/// Reads a part and computes its field (empty: as RenderOptions::field); with `defects` also the findings of `check`. Without
+/// a log, quantities of the program itself are shown on its path, all others on a simulation. Throws InputError,
 /// UsageError.
 [[nodiscard]] Shown load_shown(const PartOptions& options, const std::string& field, bool defects, StageClock& clock);
 
-/// The path of the program, to be drawn as thin lines. Throws UsageError: it cannot be shown; InputError.
+/// Adds the path of the program as thin lines. Throws UsageError: it cannot be shown; InputError.
 void show_programmed(Shown& shown, const PartOptions& options);
 
-/// Leaves what was selected. Throws UsageError: nothing is left.
+/// Keeps only the selection. Throws UsageError: it is empty.
 void show_selection(Shown& shown, const Selection& selection);
 
-/// The formed surface in place of the positions', as fine as the picture shows it.
+/// Replaces the surface by the as-machined one, in the resolution of the picture.
 void show_as_machined(Shown& shown, const RenderOptions& options, StageClock& clock);
 
-/// The range of what lies in the picture.
+/// The range of values in the picture.
 [[nodiscard]] ShownRange range_in_picture(const Shown& shown, const RenderOptions& options, const viz::Camera& camera);
 
-/// A mark that the picture cannot show is said on stderr, since its lack may not be noticed.
+/// Warns on stderr of marks outside the picture, whose absence may go unnoticed.
 void warn_of_marks_outside(const Shown& shown, const RenderOptions& options, const viz::Camera& camera,
                            const po::variables_map& values);
 

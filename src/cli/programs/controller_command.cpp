@@ -22,7 +22,7 @@ namespace clsurf::cli {
 namespace {
 
 constexpr double usual_timeout = 3600;               // s
-constexpr std::uintmax_t most_output = 100'000'000;  // bytes that a command may print: the disk is not filled
+constexpr std::uintmax_t most_output = 100'000'000;  // bytes of output of a command: protects the disk
 
 void replace_all(std::string& text, std::string_view word, const std::string& by) {
     for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + by.size()))
@@ -34,7 +34,7 @@ void stop(pid_t child) {
     ::waitpid(child, nullptr, 0);
 }
 
-/// Waits for the child, whose output is in a file. Why it was stopped; empty: it ended with that status.
+/// Waits for the child, whose output is in a file. Returns why it was stopped; empty: it ended itself with that status.
 std::string wait_for(pid_t child, const std::filesystem::path& output, double timeout, int& status) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point end =

@@ -1,5 +1,5 @@
 #pragma once
-// --controller: the user's own controller, as a command that runs a program and writes its log.
+// --controller: a command of the user that runs a program on a controller and writes its log.
 
 #include <filesystem>
 #include <optional>
@@ -14,12 +14,12 @@ void declare_controller(po::options_description& options);
 
 class ControllerCommand {
 public:
-    /// `words`: a command line of the shell with {program} and {log}. Throws UsageError: one of them is missing.
+    /// `words`: a shell command line with {program} and {log}. Throws UsageError: one of them is missing.
     ControllerCommand(std::string words, double timeout);
 
-    /// Runs it; both names are quoted for the shell. Returns how it failed, as a clause with the last line that it printed;
-    /// empty: it ended with exit code 0 in time and wrote the log. A command that takes too long is killed with all that
-    /// it started. Throws SystemError: nothing can be started.
+    /// Runs the command; both names are quoted for the shell. Returns how it failed, as a clause with the last line of its
+    /// output; empty: it ended with exit code 0 in time and wrote the log. After the timeout it is killed with all processes
+    /// that it started. Throws SystemError: nothing can be started.
     [[nodiscard]] std::string run(const std::filesystem::path& program, const std::filesystem::path& log) const;
 
 private:
@@ -30,7 +30,7 @@ private:
 /// The command of the options. Throws UsageError: --timeout without --controller, or not above 0.
 [[nodiscard]] std::optional<ControllerCommand> read_controller(const po::variables_map& values);
 
-/// A folder for the files of runs, gone with the object. Throws SystemError.
+/// A folder for the files of runs; the destructor removes it. Throws SystemError.
 class RunFolder {
 public:
     RunFolder();

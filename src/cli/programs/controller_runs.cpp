@@ -19,7 +19,7 @@
 namespace clsurf::cli {
 namespace {
 
-/// The sentence of a message, without the file that is gone when it is read, and without hints.
+/// The first sentence of a message, without the name of the temporary file and without hints.
 std::string first_sentence(const std::string& message) {
     constexpr std::string_view mark = "error: ";
     const std::size_t at = message.find(mark);

@@ -1,5 +1,5 @@
 #pragma once
-// Runs of new programs on the user's controller, with logs that can be judged.
+// Runs new programs on the user's controller and reads their logs.
 
 #include <string>
 
@@ -11,10 +11,10 @@ namespace clsurf::cli {
 
 class ControllerRuns {
 public:
-    /// `reader` says what the text of a program belongs to, and must outlive it.
+    /// `reader` determines how the text of a program is read, and must outlive the object.
     ControllerRuns(ControllerCommand command, const io::TextReader& reader);
 
-    /// Writes the text into a file with the name of the program, runs the command, reads the log and checks that it belongs
+    /// Writes the text to a file with the name of the program, runs the command, reads the log and checks that it belongs
     /// to the text. Throws SystemError: the file cannot be written, or nothing can be started.
     [[nodiscard]] ControllerOutcome run(const std::string& text) const;
 
@@ -25,8 +25,8 @@ private:
 };
 
 /// `simulate --controller`: runs a program file on the controller instead of a simulated one, and keeps its log. Throws
-/// UsageError: options of the simulation; InputError: the run failed, or wrote no log of this program. Warns of a log that does
-/// not have all of the program's motions.
+/// UsageError: options of the simulation; InputError: the run failed, or its log is not of this program. Warns of a log that
+/// lacks motions of the program.
 ExitCode record_on_controller(const ControllerCommand& command, const std::string& program, const std::string& output,
                               const po::variables_map& values);
 

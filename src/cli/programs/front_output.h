@@ -1,5 +1,5 @@
 #pragma once
-// --tradeoff and --weight: where a Pareto front goes, and what is chosen from it.
+// --tradeoff and --weight: the file of a Pareto front, and the choice from it.
 
 #include <memory>
 #include <optional>
@@ -15,20 +15,20 @@
 
 namespace clsurf::cli {
 
-/// --tradeoff, --weight. `of`: what the front is of, and what --weight does with its choice.
+/// --tradeoff, --weight. `of`: the subject of the front, and the effect of --weight.
 void declare_front(po::options_description& options, const char* of, const char* choice);
-/// --tradeoff or --weight is there.
+/// Whether --tradeoff or --weight is given.
 [[nodiscard]] bool trades_off(const po::variables_map& values);
 /// --weight. Throws UsageError: not 0 to 1.
 [[nodiscard]] std::optional<double> read_weight(const po::variables_map& values);
 
-/// The file of --tradeoff, a picture or a table; without the option nothing is written. A name that cannot be written
-/// fails before the work.
+/// The file of --tradeoff, a picture or a table; without the option nothing is written. It is opened early, so that a name
+/// that cannot be written fails before the work.
 class FrontOutput {
 public:
     /// Throws UsageError, SystemError.
     explicit FrontOutput(const po::variables_map& values);
-    /// `settings`: one a row, or none. `title`: "Time against surface: part.nc". Throws SystemError.
+    /// `settings`: one per row, or none. `title`: "Time against surface: part.nc". Throws SystemError.
     void write(const TradeoffFront& front, std::span<const PlanSettings> settings, const std::string& title,
                const Diagnostics& diagnostics);
 

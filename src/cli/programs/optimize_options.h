@@ -11,14 +11,14 @@
 namespace clsurf::cli {
 
 void declare_optimize(po::options_description& options);
-/// How often --controller runs. Throws UsageError.
+/// The number of runs of --controller. Throws UsageError.
 [[nodiscard]] int read_runs(const po::variables_map& values);
 /// Throws UsageError.
 [[nodiscard]] OptimizeRules read_optimize_rules(const po::variables_map& values);
-/// The pairs of --round, each a repaired program and the log of its run. Throws UsageError: not pairs, or no --log and no
+/// The pairs of --round: a repaired program and the log of its run. Throws UsageError: not pairs, or neither --log nor
 /// --controller.
 [[nodiscard]] std::vector<EarlierRound> read_rounds(const po::variables_map& values);
-/// The recorded run of --log. Throws UsageError where its options are given without it.
+/// The recorded run of --log. Throws UsageError if its options are given without it.
 [[nodiscard]] std::optional<Log> read_measured(const po::variables_map& values, bool five_axes);
 
 }  // namespace clsurf::cli

@@ -10,14 +10,14 @@
 
 namespace clsurf::cli {
 
-/// What the tool is to follow, the plane of it, and the pass that it corrects where there is one.
+/// The profile that the tool follows, its plane, and the pass that it corrects, if any.
 struct PlannedCut {
     ScanCut cut;
     double plane = 0;
     std::optional<io::CorrectedPass> corrected;
 };
 
-/// Throws InputError: points that are no profile, a pass that cannot be corrected, and what scan_cut() throws.
+/// Throws InputError: points that are not a profile, a pass that cannot be corrected, and the errors of scan_cut().
 [[nodiscard]] PlannedCut planned_cut(const MeasuredData& data, const ProfileOptions& options);
 
 }  // namespace clsurf::cli

@@ -14,7 +14,7 @@ struct ProfileOptions {
     SensorMount mount;
     ScanCutRules cut;
     std::string dialect = "linuxcnc";
-    std::string pass;  ///< program of a finished pass, whose deviations the scan has; empty: the scan is the profile
+    std::string pass;  ///< program of a finished pass; the scan then has its deviations; empty: the scan is the profile
     bool splines = false;
     double feed = 0;       ///< [mm/min]
     double clearance = 0;  ///< [mm] above the highest point of the path

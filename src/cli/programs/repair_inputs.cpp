@@ -37,7 +37,7 @@ RepairInputs read_repair_inputs(const po::variables_map& values, Diagnostics& di
     FramePoses poses = read_work_offset(values);
     if (in.measured) poses.zero = zero_of(poses, *in.measured, in.measured->diagnostics);
     poses.tool_by_kinematics = five_axes;
-    // Its axes along those of the machine, whose limits count.
+    // Axes along those of the machine, because its limits apply to them.
     const Eigen::Isometry3d zero = place_motions(in.program, poses, Coordinates::level);
     in.reader = {source, read_program_options(values), std::string(in.program.dialect->name), poses};
     diagnostics.append(in.program.diagnostics);

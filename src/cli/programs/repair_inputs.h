@@ -1,5 +1,5 @@
 #pragma once
-// What `optimize` repairs, with which machine, and on which runs.
+// The inputs of `optimize`: the program, its machine, and its runs.
 
 #include <optional>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace clsurf::cli {
 
-/// What a program is repaired from.
+/// The inputs of the repair of a program.
 struct RepairInputs {
     OptimizeRules rules;
     Machine machine;
@@ -25,7 +25,7 @@ struct RepairInputs {
 /// Throws UsageError and InputError.
 [[nodiscard]] RepairInputs read_repair_inputs(const po::variables_map& values, Diagnostics& diagnostics);
 
-/// By simulation, on the user's controller, or with the logs of earlier rounds, as the options ask.
+/// Repairs by simulation, on the user's controller, or with the logs of earlier rounds, depending on the options.
 [[nodiscard]] Optimized run_repair(const po::variables_map& values, RepairInputs& in, const Progress& progress,
                                    Diagnostics& diagnostics);
 

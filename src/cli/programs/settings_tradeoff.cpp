@@ -34,7 +34,7 @@ SettingsRules read_settings_rules(const po::variables_map& values) {
     return rules;
 }
 
-/// The files that a choice is written to.
+/// The output files of a choice.
 struct ChoiceOutputs {
     std::string log;                           ///< empty: none
     std::unique_ptr<io::AtomicFile> settings;  ///< nullptr: none

@@ -1,5 +1,5 @@
 #pragma once
-// The program that `profile` writes, run on a simulated machine before it appears.
+// Runs the program of `profile` on a simulated machine before it is written.
 
 #include "io/reports/cut_report.h"
 #include "machine/machine.h"
@@ -8,8 +8,8 @@
 
 namespace clsurf::cli {
 
-/// `program`: as it is read again. Adds a warning to it where the path is farther from the fit than the program and the corners
-/// may be. Throws what simulate() throws.
+/// `program`: as read back. Adds a warning to it if the path is farther from the fit than the tolerances of program and
+/// corners allow. Throws as simulate() does.
 [[nodiscard]] io::SimulatedCut simulated_cut(Program& program, const ScanCut& cut, double tolerance,
                                              const Machine& machine);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What `simulate` says of a run, for people.
+// The output of `simulate` as text.
 
 #include <string>
 
@@ -9,10 +9,10 @@
 
 namespace clsurf::cli {
 
-/// Points, duration, the greatest speed, acceleration and jerk, and what limited the points.
+/// Points, duration, the largest speed, acceleration and jerk, and the limiting factors of the points.
 [[nodiscard]] std::string summary_text(const SimulationSummary& s);
 
-/// The rows of rotary axes, and how far the tool axis leaves its great circles.
+/// The rows of rotary axes, and the deviation of the tool axis from its great circles.
 [[nodiscard]] std::string rotary_text(const FiveAxisSummary& s, const Kinematics& k);
 
 }  // namespace clsurf::cli

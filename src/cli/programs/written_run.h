@@ -1,5 +1,5 @@
 #pragma once
-// A program simulated into a log file, point by point.
+// Simulates a program into a log file, point by point.
 
 #include <string>
 
@@ -11,12 +11,12 @@
 namespace clsurf::cli {
 
 struct WrittenRun {
-    FiveAxisSummary summary;  ///< on three axes `run` alone
+    FiveAxisSummary summary;  ///< on three axes only `run`
     bool five_axes = false;
     Diagnostics diagnostics;
 };
 
-/// Runs PROGRAM of the options on a machine and writes its log. Throws UsageError, InputError, SystemError.
+/// Runs PROGRAM of the options on a machine and writes the log. Throws UsageError, InputError, SystemError.
 [[nodiscard]] WrittenRun write_run(const Machine& machine, const std::string& output, const po::variables_map& values);
 
 }  // namespace clsurf::cli

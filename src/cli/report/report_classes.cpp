@@ -7,7 +7,7 @@
 namespace clsurf::cli {
 namespace {
 
-/// The classes of one log that have a colour of their own, without shares.
+/// The classes of one log that have their own colour, without shares.
 std::vector<io::PageClass> named_classes(const FieldInfo& info, const viz::ValueCounts& counts) {
     const viz::FieldClasses classes(info, counts);
     const double unit = info.unit.per_inside;
@@ -22,7 +22,7 @@ std::vector<io::PageClass> named_classes(const FieldInfo& info, const viz::Value
     return named;
 }
 
-/// With their shares in one log, the largest first.
+/// Adds their shares in one log, in decreasing order.
 std::vector<io::PageClass> with_shares(std::vector<io::PageClass> named, const FieldInfo& info,
                                        const viz::ValueCounts& counts) {
     double all = 0;

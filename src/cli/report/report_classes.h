@@ -1,5 +1,5 @@
 #pragma once
-// Fields of a page whose values are names: which classes they have, in the colours of `render`.
+// Fields of a page whose values are names: their classes, with the colours of `render`.
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace clsurf::cli {
 
-/// The classes of each field of each log. A class has the same colour in all logs: that of the first one.
+/// Sets the classes of each field of each log. A class has the same colour in all logs: that of the first one.
 void name_classes(std::vector<ReportLog>& logs);
 
 }  // namespace clsurf::cli

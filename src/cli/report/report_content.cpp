@@ -25,7 +25,7 @@ namespace clsurf::cli {
 namespace {
 
 constexpr std::size_t pictured_defects = 6;
-constexpr int relief_pixels = 700;  ///< of the formed surface across the page
+constexpr int relief_pixels = 700;  ///< of the as-machined surface across the page
 
 std::vector<ShownRange> ranges_of(const std::vector<ReportLog>& logs) {
     std::vector<ShownRange> ranges;
@@ -40,7 +40,7 @@ std::vector<ShownRange> ranges_of(const std::vector<ReportLog>& logs) {
     return ranges;
 }
 
-/// "2026-11-24 09:30 UTC"; empty: the log is no file.
+/// "2026-11-24 09:30 UTC"; empty: the log is not a file.
 std::string date_of_file(const std::string& name) {
     std::error_code none;
     const auto written = std::filesystem::last_write_time(name, none);
@@ -49,7 +49,7 @@ std::string date_of_file(const std::string& name) {
     return fmt::format("{:%Y-%m-%d %H:%M} UTC", time);
 }
 
-/// The name of the field that is coloured at first. `wanted`: its name or another word for it; empty: the first.
+/// The name of the field that is shown first. `wanted`: its name or an alias; empty: the first field.
 std::string first_field(const std::vector<Field>& fields, const std::string& wanted) {
     if (wanted.empty()) return fields.front().info.name;
     for (const Field& field : fields) {
@@ -142,7 +142,7 @@ io::PageRelief page_relief_of(const ReportedForm& as_machined) {
 }
 
 std::optional<io::PageProgrammed> programmed_path(const ReportLog& shown, const ReportOptions& options) {
-    constexpr PointIndex most_corners = 200'000;  // of a long program some are left out: it is drawn thinly
+    constexpr PointIndex most_corners = 200'000;  // some points of a long program are left out: its lines are thin
     if (!why_no_programmed_lines(options.part, shown.part).empty()) return std::nullopt;
     io::PageProgrammed programmed;
     for (const std::vector<Vec3>& line : programmed_lines(options.part, most_corners)) {

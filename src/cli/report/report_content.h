@@ -1,5 +1,5 @@
 #pragma once
-// What `report` puts on its page.
+// The content of the page of `report`.
 
 #include <optional>
 #include <vector>
@@ -12,13 +12,13 @@
 
 namespace clsurf::cli {
 
-/// The formed surface as a height map that a page can carry.
+/// The as-machined surface as a height map of a size for a page.
 struct ReportedForm {
     AsMachinedMap map;
     ShownRange range;
 };
 
-/// Sweeps the tool of the part, which is known.
+/// Sweeps the tool of the part. Domain: it is known.
 [[nodiscard]] ReportedForm form_for_report(const ReportLog& shown, const ReportOptions& options, StageClock& clock);
 [[nodiscard]] io::PageRelief page_relief_of(const ReportedForm& as_machined);
 
@@ -26,16 +26,16 @@ struct ReportedForm {
 /// rotary axes, whose programmed path is not that of the tool in the workpiece.
 [[nodiscard]] std::optional<io::PageProgrammed> programmed_path(const ReportLog& shown, const ReportOptions& options);
 
-/// The page without its pictures and the machined surface. Refers to `shown`. Throws UsageError: none of its fields is
-/// called --color.
+/// The page without its pictures and the as-machined surface. Refers to `shown`. Throws UsageError: no field has the name
+/// of --color.
 [[nodiscard]] io::ReportPage report_page_of(const ReportLog& shown, const std::vector<ReportLog>& logs,
                                             const ReportOptions& options);
 
-/// What was measured on the part, with its picture. Throws as compare_measured() does.
+/// The measurement of the part with its picture. Throws as compare_measured() does.
 [[nodiscard]] io::PageMeasured measured_for_report(const ReportLog& shown, const ReportOptions& options,
                                                    StageClock& clock);
 
-/// The pictures of the part, of its machined surface and of the first defects.
+/// Adds the pictures of the part, of its as-machined surface and of the first defects.
 void add_report_pictures(io::ReportPage& page, const ReportLog& shown, const ReportOptions& options,
                          const std::optional<ReportedForm>& as_machined);
 

@@ -17,15 +17,15 @@
 namespace clsurf::cli {
 namespace {
 
-constexpr std::size_t most_fields = 28;          ///< where none are named
-constexpr double usual_bytes = 24;               ///< of a point in the page, before it is known
-constexpr std::uint64_t usual_rest = 3'000'000;  ///< [bytes] of pictures, text and the page's own program
+constexpr std::size_t most_fields = 28;          ///< if none are named
+constexpr double usual_bytes = 24;               ///< of a point in the page, as a first estimate
+constexpr std::uint64_t usual_rest = 3'000'000;  ///< [bytes] of pictures, text and script
 
-/// Chooses the points of a log's share of the page.
+/// Chooses at most `most` points of a log for the page.
 void choose_points(ReportLog& shown, PointIndex most) {
     shown.kept = keep_points(shown.surface, *shown.part.lines, shown.fields, shown.quality.report.defects, most);
     shown.vertices = viz::section_vertices(shown.surface, shown.kept.points);
-    // The ends of passes are among the points, so the nearer one stands for those between, however far.
+    // All ends of passes are kept, so the closer vertex represents the points between, at any distance.
     shown.bands =
         viz::join_passes(shown.surface, shown.vertices, viz::NearnessFrame(), std::numeric_limits<float>::max());
     shown.slow = slow_words(shown.part, shown.kept.points, speeds_of(shown));
@@ -87,7 +87,7 @@ ReportLog load_report_log(const PartOptions& part_options, const ReportOptions& 
         clock.begin("stitch the surface");
         shown.surface = stitch(shown.part);
         fields = fields_of(shown.part, shown.surface);
-        refuse_unknown_fields(options.fields, *fields);  // before what takes long
+        refuse_unknown_fields(options.fields, *fields);  // before the long computations
         shown.quality = judge(shown.part, shown.surface, options.measured, {}, clock.stages());
         show_all_cutting(shown.surface);
     }
@@ -95,7 +95,7 @@ ReportLog load_report_log(const PartOptions& part_options, const ReportOptions& 
     clock.begin("compute the fields");
     const bool usual = options.fields.empty();
     for (Field& field : fields->get_all(usual ? fields->report_names(most_fields) : options.fields)) {
-        // What was asked for by name must be there; of the usual ones a log has some.
+        // Fields requested by name must exist; of the default ones a log has some.
         if (!usual || has_values(field, shown.surface.passes)) shown.fields.push_back(std::move(field));
     }
     if (speeds_of(shown).empty()) shown.speed = std::move(fields->get("speed").values);
@@ -131,7 +131,7 @@ std::string fit_page(io::ReportPage& page, std::vector<ReportLog>& logs) {
         text = io::write_page(page);
         const bool whole = std::none_of(logs.begin(), logs.end(), [](const ReportLog& s) { return s.kept.reduced(); });
         const double filled = static_cast<double>(text.size()) / static_cast<double>(page.most_bytes);
-        // Enough room left for a tenth more points is used.
+        // Another try is worth it if a tenth more points fit.
         if (filled <= 1 && (whole || filled > 0.9 || k > tries / 2)) return text;
         const double rest = std::min(static_cast<double>(text.size()), static_cast<double>(usual_rest));
         const double each =

@@ -1,5 +1,5 @@
 #pragma once
-// ReportLog: what a report shows of one log, and the page that holds as much of it as may be.
+// ReportLog: the content of a report for one log, and the page with as much of it as fits.
 
 #include <optional>
 #include <span>
@@ -16,18 +16,18 @@
 
 namespace clsurf::cli {
 
-/// One log, read and put together; `kept` and what follows are chosen by fit_page().
+/// One log, read and assembled; fit_page() sets `kept` and the members after it.
 struct ReportLog {
     Part part;
     ClSurface surface;
     Quality quality;
-    std::optional<io::Acceptance> acceptance;  ///< of the log that is shown, where there is a file
+    std::optional<io::Acceptance> acceptance;  ///< of the shown log, if there is a file
     std::vector<Field> fields;
     std::vector<std::vector<io::PageClass>> classes;  ///< per field
-    std::vector<std::vector<PointRange>> ramps;       ///< per field: points in a lighter tone, rising
-    Column<float> speed;                              ///< per point [mm/s], where it is none of the fields
+    std::vector<std::vector<PointRange>> ramps;       ///< per field: points in a lighter tone, increasing
+    Column<float> speed;                              ///< per point [mm/s], if no field has it
     std::vector<Trajectory> other_roles;
-    Column<PathLocation> places_before;  ///< per point, on the log before; empty: there is none
+    Column<PathLocation> places_before;  ///< per point, on the earlier log; empty: there is none
     KeptPoints kept;
     SlowWords slow;
     viz::SectionVertices vertices;
@@ -41,14 +41,14 @@ struct ReportLog {
 [[nodiscard]] ReportLog load_report_log(const PartOptions& part_options, const ReportOptions& options,
                                         StageClock& clock);
 
-/// Finds in the speeds of all logs the ramps that all passes have.
+/// Finds the ramps that all passes have, in the speeds of all logs.
 void find_ramps(std::vector<ReportLog>& logs);
 
-/// The page with all points of its logs, or with as many as its `most_bytes` allow. Throws UsageError where the
-/// least that a page must hold is more than that.
+/// The page with all points of its logs, or with as many as its `most_bytes` allow. Throws UsageError if even the
+/// smallest page is larger.
 [[nodiscard]] std::string fit_page(io::ReportPage& page, std::vector<ReportLog>& logs);
 
-/// Every named colour map, as colours.
+/// The colours of every named colour map.
 [[nodiscard]] std::vector<io::PageColourMap> page_colour_maps();
 
 }  // namespace clsurf::cli

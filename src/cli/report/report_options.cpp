@@ -8,7 +8,7 @@
 namespace clsurf::cli {
 namespace {
 
-/// What `render` needs to read the same, as words of a command line. Which positions are shown the page itself knows.
+/// The options that `render` needs to read the same, as words of a command line. The page itself adds the shown positions.
 std::vector<std::string> reading_options_of(const po::variables_map& values) {
     po::options_description reading;
     declare_part(reading);

@@ -17,14 +17,14 @@ struct ReportOptions {
     PartOptions part;
     std::optional<Role> measured;
     std::string before, output, gl;
-    std::optional<Measurement> measurement;  ///< of the part, where it was measured
+    std::optional<Measurement> measurement;  ///< of the part, if it was measured
     std::optional<io::AcceptedFile> accepted;
-    std::vector<std::string> fields;  ///< empty: the usual ones
+    std::vector<std::string> fields;  ///< empty: the default ones
     std::string first_field;
     std::uint64_t most_bytes = 0;
     std::vector<std::string> reading_options;
-    std::optional<MergedShards> merged;  ///< of a log that is judged in shards
-    int shards = 0;                      ///< that the map is drawn in; 0: at once
+    std::optional<MergedShards> merged;  ///< of a log judged in shards
+    int shards = 0;                      ///< number of shards for drawing the map; 0: undivided
 };
 
 void declare_report(po::options_description& options);

@@ -70,7 +70,7 @@ public:
     }
 
 private:
-    /// The pale points of the whole panel that are in the part: a pass beside it may be there without its ends.
+    /// The pale points of the whole panel that are in the part, which may contain an adjacent pass without its ends.
     [[nodiscard]] std::vector<PointRange> pale_of_part() const {
         std::vector<PointRange> pale;
         for (std::size_t k = 0; k < part_.points.size(); ++k) {

@@ -1,5 +1,5 @@
 #pragma once
-// The pictures of a report: maps as `render` draws them.
+// The pictures of a report: maps like those of `render`.
 
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace clsurf::cli {
 
-/// A part as the pictures show it. All that is pointed at must outlive it.
+/// A part for the pictures. Everything that it points to must outlive it.
 struct PicturedPart {
     const Part* part = nullptr;
     const ClSurface* surface = nullptr;
@@ -21,19 +21,19 @@ struct PicturedPart {
     const QualityReport* report = nullptr;
     std::vector<viz::OutlineMark> outlines;  ///< one per defect of the report
     std::string gl;
-    int shards = 0;  ///< that the map is drawn in, with the memory of one; 0: at once
+    int shards = 0;  ///< number of shards for drawing, in the memory of one; 0: undivided
 };
 
-/// The same map as `render --defects`: defects in colour on a grey surface, with their names beside it.
+/// The map of `render --defects`: defects in colour on a grey surface, with their names next to it.
 [[nodiscard]] io::PagePicture picture_of_defects(const PicturedPart& shown);
 
-/// The whole part in a field, with what was found outlined.
+/// The whole part coloured by a field, with outlines of the findings.
 [[nodiscard]] io::PagePicture picture_of_part(const PicturedPart& shown, const std::string& name);
 
 /// The card of a defect.
 [[nodiscard]] io::PagePicture picture_of_defect(const PicturedPart& shown, const Signals& signals, std::size_t defect);
 
-/// A height map as the whole picture.
+/// A height map that fills the picture.
 [[nodiscard]] io::PagePicture picture_of_relief(const PicturedPart& shown, const viz::Relief& relief,
                                                 const Field& field, const ShownRange& range);
 

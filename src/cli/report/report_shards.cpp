@@ -12,7 +12,7 @@
 namespace clsurf::cli {
 namespace {
 
-/// [bytes] A page has up to 32 fields, each with a column of that size or less in memory.
+/// [bytes] A page has up to 32 fields; columns up to this size stay in memory.
 constexpr std::size_t least_in_files = std::size_t{16} << 20U;
 
 std::string folder_of(const std::string& path) {

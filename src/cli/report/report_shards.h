@@ -8,7 +8,7 @@ namespace clsurf::cli {
 /// The options of `report`, with --survey, --shards, --merge and --scratch.
 void declare_report_with_shards(po::options_description& options);
 
-/// Fills in `shards` and `merged` where --survey is given, and keeps large columns in files from then on. Throws UsageError: an
+/// Sets `shards` and `merged` if --survey is given; large columns are then kept in files. Throws UsageError: an
 /// option that needs the whole log; InputError as read_survey() does.
 void read_report_shards(const po::variables_map& values, ReportOptions& options);
 

@@ -11,10 +11,10 @@ namespace clsurf::cli {
 /// --survey, --shard, --merge.
 void declare_shards(po::options_description& options);
 
-/// --shard: writes the findings of a part of the log. Throws UsageError: an option that is for the whole log.
+/// --shard: writes the findings of a part of the log. Throws UsageError: an option for the whole log.
 ExitCode check_shard(PartOptions options, const ShardNumber& shard, const po::variables_map& values);
 
-/// --merge; nothing: it is not given. `logs`: how many there are. Throws UsageError: several, or --survey alone.
+/// --merge; nothing: not given. `logs`: the number of logs. Throws UsageError: several logs, or --survey alone.
 [[nodiscard]] std::optional<MergedShards> read_merged(const PartOptions& options, const po::variables_map& values,
                                                       std::size_t logs);
 

@@ -1,5 +1,5 @@
 #pragma once
-// One log as `check` judges and reports it.
+// One log, judged and reported by `check`.
 
 #include <memory>
 #include <optional>
@@ -14,11 +14,11 @@
 
 namespace clsurf::cli {
 
-/// One log's report, and what it comes to.
+/// The report of one log, with its verdict.
 struct Checked {
     std::string text;
     ExitCode code = ExitCode::done;
-    ResolvedFindings resolved;  ///< of a log that was followed
+    ResolvedFindings resolved;  ///< of a followed log
 };
 
 /// What one log is checked for, besides how it is read.
@@ -33,12 +33,12 @@ struct CheckRules {
     std::unique_ptr<FollowedCheck> followed;  ///< nullptr: the log is complete
 };
 
-/// Reads and judges the log of `options`, records it and compares it with what `rules` name, and prints its diagnostics. Throws as
-/// check_run() does.
+/// Reads and judges the log of `options`, records it, compares it with the inputs of `rules`, and prints its diagnostics.
+/// Throws as check_run() does.
 [[nodiscard]] Checked check_log(const PartOptions& options, CheckRules& rules, const po::variables_map& values);
 
-/// check_log() of one of several logs: an error of the log is its result, so that the verdicts on the others stand.
-/// Throws what is no error of the log: program, options, machine.
+/// check_log() for one of several logs: an error of the log becomes its result, so that the other logs are still judged.
+/// Throws errors that are not of the log: program, options, machine.
 [[nodiscard]] Checked check_log_of_several(const PartOptions& options, CheckRules& rules,
                                            const po::variables_map& values);
 

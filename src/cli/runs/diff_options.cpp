@@ -11,14 +11,14 @@
 namespace clsurf::cli {
 namespace {
 
-/// Whether there is a program among the files that are compared. A pipe cannot be read twice, and may be one.
+/// Whether a compared file may be a program. A pipe may be one, and cannot be read twice.
 bool may_simulate(const DiffOptions& options) {
     return std::any_of(options.files.begin(), options.files.end(), [&](const std::string& file) {
         return !std::filesystem::is_regular_file(file) || !is_log(io::open_source(file), options.runs.log_options);
     });
 }
 
-/// Options that nothing would read.
+/// Refuses options without effect.
 void refuse_unused(const po::variables_map& values, const DiffOptions& options) {
     if (options.output.empty()) {
         po::options_description of_map;

@@ -12,8 +12,8 @@
 namespace clsurf::cli {
 namespace {
 
-constexpr PointIndex least_records = 1000;      ///< that show how program and log lie to each other
-constexpr PointIndex telling_records = 10'000;  ///< of a log that does not belong to the program
+constexpr PointIndex least_records = 1000;      ///< needed to align program and log
+constexpr PointIndex telling_records = 10'000;  ///< after which a log is known not to belong to the program
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 #pragma once
-// `check --follow`: the findings of a log that is still being written, as they come, and what the complete log says of them.
+// `check --follow`: reports findings while a log is still being written, and confirms or withdraws them with the complete
+// log.
 
 #include <memory>
 #include <optional>
@@ -12,15 +13,15 @@ namespace clsurf::cli {
 
 class FollowedCheck {
 public:
-    /// `json`: what it says is JSON, one object a line. `quiet`: a text is not written.
+    /// `json`: the output is JSON, one object per line. `quiet`: no text is written.
     FollowedCheck(FollowOptions follow, bool json, bool quiet) : follow_(follow), json_(json), quiet_(quiet) {}
 
-    /// Follows the log to its end, writes each finding to standard output, and makes all bytes of the log the log of
-    /// `options`. Throws as follow_log() and FollowedRun do.
+    /// Follows the log to its end, writes each finding to standard output, and sets the log of `options` to all its
+    /// bytes. Throws as follow_log() and FollowedRun do.
     void follow(PartOptions& options, std::optional<Role> measured);
 
     [[nodiscard]] ResolvedFindings resolve(const QualityReport& complete) const;
-    /// What the complete log says of the findings; as JSON with the report and its exit code.
+    /// Confirms or withdraws the findings with the complete log; as JSON with the report and its exit code.
     void write_end(const ResolvedFindings& resolved, const std::string& report, ExitCode code) const;
     [[nodiscard]] bool json() const { return json_; }
 
@@ -32,8 +33,8 @@ private:
     std::optional<FollowedRun> run_;
 };
 
-/// nullptr: --follow is not given. `format`: of the report of `logs` logs. Throws UsageError: several logs, a form that cannot
-/// be written while the log grows.
+/// nullptr: --follow is not given. `format`: of the report of `logs` logs. Throws UsageError: several logs, a format that
+/// cannot be written while the log grows.
 [[nodiscard]] std::unique_ptr<FollowedCheck> read_followed(const po::variables_map& values, const std::string& format,
                                                            std::size_t logs);
 

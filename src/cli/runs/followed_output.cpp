@@ -9,7 +9,7 @@
 namespace clsurf::cli {
 namespace {
 
-constexpr double least_seconds = 2;  ///< from one picture to the next
+constexpr double least_seconds = 2;  ///< between two pictures
 constexpr double pause_share = 2;
 
 }  // namespace

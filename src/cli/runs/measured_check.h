@@ -1,5 +1,5 @@
 #pragma once
-// `check --measured`: what was measured on the part, next to the prediction.
+// `check --measured`: compares a measurement of the part with the prediction.
 
 #include <memory>
 #include <string>
@@ -12,27 +12,27 @@
 
 namespace clsurf::cli {
 
-/// What was measured on the part, and the picture of the comparison.
+/// A measurement of the part, and the picture of the comparison.
 struct MeasuredInput {
     Measurement measurement;
-    std::unique_ptr<PictureOutput> picture;  ///< nullptr: not asked for
+    std::unique_ptr<PictureOutput> picture;  ///< nullptr: not requested
 };
 
-/// --measured, --picture, and how a measurement is read and aligned.
+/// --measured, --picture, and the options for reading and aligning a measurement.
 void declare_measured_check(po::options_description& options);
 
-/// nullptr: nothing was measured. `format`: of the report. Throws UsageError: --picture and others without --measured, a form of
-/// report that cannot hold it, several logs; InputError: the file cannot be read.
+/// nullptr: no measurement is given. `format`: of the report. Throws UsageError: --picture and others without --measured, a
+/// report format that cannot contain it, several logs; InputError: the file cannot be read.
 [[nodiscard]] std::unique_ptr<MeasuredInput> read_measured_input(const po::variables_map& values,
                                                                  const std::string& format, std::size_t logs);
 
-/// Aligns what was measured on a part with the surface that `role` (none: the most truthful positions) predicts, and compares.
+/// Aligns a measurement of a part with the predicted surface of `role` (none: the most truthful positions), and compares.
 /// `report` has the predicted marks. Throws UsageError: the tool is not known; InputError: no adjacent passes.
 [[nodiscard]] io::ReportedMeasurement compare_measured(const Part& part, const ClSurface& surface,
                                                        const QualityReport& report, std::optional<Role> role,
                                                        Measurement measurement, StageClock& clock);
 
-/// The same of a run, and draws the picture, or adds a warning that it is not drawn. Takes the data out of `input`.
+/// The same for a run; also draws the picture, or warns that it is not drawn. Moves the data out of `input`.
 [[nodiscard]] io::ReportedMeasurement compare_measured(CheckedRun& run, std::optional<Role> role, MeasuredInput& input,
                                                        StageClock& clock);
 

@@ -7,7 +7,7 @@
 namespace clsurf::cli {
 namespace {
 
-/// Candidates lie at the ends of passes, and the points between them are not looked at.
+/// Candidates are near the ends of passes; the points between are not read.
 constexpr PointIndex points_of_block = 1024;
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// MergedShards: what was found in all shards of a log, for whoever shows the whole of it: `check --merge`, `report --survey`.
+// MergedShards: the findings of all shards of a log, for `check --merge` and `report --survey`.
 
 #include <functional>
 #include <memory>
@@ -15,23 +15,23 @@ namespace clsurf::cli {
 
 struct MergedShards {
     std::shared_ptr<const Survey> survey;
-    /// Of the shards of that part. Their motion is added to `motion`, which takes less memory.
+    /// Reads the findings of the shards of a part. Their motion is added to `motion`, which takes less memory.
     std::function<std::vector<ShardFindings>(const Part&, MotionSizes& motion)> read;
-    /// Positions and signals are those of the whole log, in columns that are kept in files (core/column_file.h). Else of blocks,
-    /// which are filled when they are read.
+    /// true: positions and signals of the whole log are in columns kept in files (core/column_file.h); false: in blocks that
+    /// are filled when they are read.
     bool in_files = false;
 };
 
-/// What the findings of a shard depend on besides its survey.
+/// The settings that the findings of a shard depend on besides its survey.
 [[nodiscard]] std::string shard_settings(const Part& part);
 
 /// From files of `check --shard`.
 [[nodiscard]] MergedShards shards_of_files(SurveyedLog log, std::vector<std::string> paths);
-/// From `count` shards that are judged one after the other, with the memory of one.
+/// From `count` shards that are judged one after another, in the memory of one.
 [[nodiscard]] MergedShards shards_judged_here(SurveyedLog log, int count, std::optional<Role> measured);
 
-/// The verdict on the whole log. `surface` becomes that of the part, and borrows from the survey; `with_motion`: Quality::motion is
-/// asked for. Throws as rules_of_shards() does.
+/// The verdict on the whole log. Sets `surface` to that of the part; it borrows from the survey. `with_motion`: compute
+/// Quality::motion. Throws as rules_of_shards() does.
 [[nodiscard]] Quality judge_merged(const MergedShards& merged, const Part& part, std::optional<Role> measured,
                                    bool with_motion, StageClock& clock, ClSurface& surface);
 

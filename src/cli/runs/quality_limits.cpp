@@ -37,7 +37,7 @@ CheckBudget read_limits(const po::variables_map& values) {
     }
     if (values.count("fail-on") > 0)
         budget.quality.max_severity =
-            severity_of(values["fail-on"].as<std::string>()) - 1.0;  // those below do not fail
+            severity_of(values["fail-on"].as<std::string>()) - 1.0;  // lower severities do not fail
     if (values.count("max-depth") > 0)
         budget.quality.max_depth_um = um_per_mm * parse_length(values["max-depth"].as<std::string>(), "--max-depth");
     if (values.count("accepted") > 0) budget.accepted = io::read_accepted(values["accepted"].as<std::string>());

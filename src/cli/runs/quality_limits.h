@@ -1,5 +1,5 @@
 #pragma once
-// --budget, --fail-on, --max-depth: limits that a part must keep.
+// --budget, --fail-on, --max-depth: limits for a part.
 
 #include <optional>
 #include <string>
@@ -12,28 +12,29 @@
 
 namespace clsurf::cli {
 
-/// By name and by number (predictor/severity.h).
+/// Names and numbers (predictor/severity.h).
 constexpr const char* severity_words = "trace|visible|distinct|reject|1|2|3|4";
 
-/// What a part may have.
+/// The limits for the defects of a part.
 struct CheckBudget {
     QualityBudget quality;
     LimitBudget limits;
     std::optional<io::AcceptedFile> accepted;  ///< defects that do not count
 
-    /// Nothing is said of the passes, only of limits of the machine.
+    /// Whether the budget has only limits of the machine, none for the passes.
     [[nodiscard]] bool only_limits() const;
 };
 
-/// The limits of --budget, those of the command line, which come first, and --accepted. Throws UsageError: a limit factor without
+/// The limits of the command line, then those of --budget, and --accepted. Throws UsageError: a limit factor without
 /// --machine.
 [[nodiscard]] CheckBudget read_limits(const po::variables_map& values);
 
-/// Limits of a machine, and of the budget.
+/// The limits of a machine, and those of the budget.
 [[nodiscard]] std::vector<StatedLimit> stated_limits(std::vector<StatedLimit> limits, const CheckBudget& budget);
 
-/// No verdict on the passes comes before a failed one: numbers that mean nothing meet no budget and miss none. `limits`, lines
-/// on limits of the machine, count whether the passes are judged or not. A budget of these alone asks nothing of the passes.
+/// If the passes were not judged, this result takes precedence over exceeded limits on passes, whose values then mean
+/// nothing. `limits` (lines on limits of the machine) always count. A budget of these alone does not need a verdict on
+/// passes.
 [[nodiscard]] ExitCode code_of(bool judged, const std::vector<BudgetLine>& all, const std::vector<BudgetLine>& limits,
                                const CheckBudget& budget);
 

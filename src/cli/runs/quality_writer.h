@@ -1,5 +1,5 @@
 #pragma once
-// What writes the result of a log in `check`, by the word of --format.
+// The writers of the result of a log in `check`, selected by --format.
 
 #include <functional>
 #include <map>
@@ -10,13 +10,13 @@
 
 namespace clsurf::cli {
 
-/// The functions that write one form of a report.
+/// The functions that write one format of a report.
 struct ResultWriter {
     std::string (*quality)(const io::ReportedQuality&);
     std::string (*unusable)(const io::UnusableLog&);
 };
 
-/// Domain: a word of --format.
+/// Domain: a value of --format.
 [[nodiscard]] inline const ResultWriter& result_writer(const std::string& format) {
     static const std::map<std::string, ResultWriter, std::less<>> writers{
         {"text", {io::quality_text, io::unusable_text}},

@@ -12,7 +12,7 @@ void require_alignment(const RunDifferences& differences, const std::string& a, 
 }
 
 void note_left_out(const RunReport& report, const LoadedRun& b, const std::string& a, Diagnostics& diagnostics) {
-    constexpr double few = 0.02;  // another approach, another retract
+    constexpr double few = 0.02;  // allows another approach or retract
     const double left_out = report.arc_length_of_b - report.aligned_of_b;
     if (left_out <= few * report.arc_length_of_b) return;
     const PointRange& points = report.left_out_of_b;

@@ -1,5 +1,5 @@
 #pragma once
-// What two runs of a comparison do not have in common.
+// Checks how much two compared runs have in common.
 
 #include <string>
 
@@ -9,10 +9,10 @@
 
 namespace clsurf::cli {
 
-/// Throws InputError where nothing of B lies on A: another part, or another work offset.
+/// Throws InputError if no part of B is on the path of A: another part, or another work offset.
 void require_alignment(const RunDifferences& differences, const std::string& a, const std::string& b);
 
-/// Warns where B has more than A: what A does not have is not compared.
+/// Warns if B has a path that A does not have: it is not compared.
 void note_left_out(const RunReport& report, const LoadedRun& b, const std::string& a, Diagnostics& diagnostics);
 
 }  // namespace clsurf::cli

@@ -8,8 +8,8 @@
 namespace clsurf::cli {
 namespace {
 
-/// What the points of a run belong to, as far as that tells which passes cut: --program may be the program of the reference
-/// only.
+/// The lines of the points of a run, as far as they determine which passes cut: --program may be the program of only the
+/// reference.
 std::unique_ptr<LineMap> lines_that_cut(LoadedRun& run, const Trajectory& path, const RunOptions& options) {
     RunOptions any = options;
     any.force = true;

@@ -1,5 +1,5 @@
 #pragma once
-// The roughness that two runs of `diff` leave.
+// The roughness of two runs in `diff`.
 
 #include <optional>
 
@@ -8,7 +8,7 @@
 
 namespace clsurf::cli {
 
-/// `b`: how `run` is compared. Nothing: as roughness_change() has it. Stitches the surface of `run`. O(points).
+/// `b`: the compared positions of `run`. Nothing: as in roughness_change(). Stitches the surface of `run`. O(points).
 [[nodiscard]] std::optional<RoughnessChange> roughness_change_of(const GaugedRun& reference, LoadedRun& run,
                                                                  const ComparedRun& b, const CuttingTool& tool,
                                                                  const RunOptions& options);

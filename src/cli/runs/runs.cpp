@@ -15,7 +15,7 @@
 namespace clsurf::cli {
 namespace {
 
-/// Without a pose all positions stay the machine's.
+/// Without a pose all positions stay in machine coordinates.
 io::ProgramOptions in_coordinates_of(const RunOptions& options, const Log& log) {
     io::ProgramOptions program = options.program_options;
     const bool told = options.poses.zero || log.work_offset;
@@ -68,7 +68,7 @@ ComparedRun run_of(const LoadedRun& run, const LoadedRun& other, const RunOption
 
 namespace {
 
-/// Lines of a simulated run on five axes. Its program has axes along those of the machine, and so has `level`.
+/// Lines of a simulated run on five axes. Its program has axes along those of the machine, like `level`.
 LineMap lines_on_five_axes(const LoadedRun& run, const Trajectory& path, Diagnostics& diagnostics) {
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     pose.translation() = run.pose.translation();
@@ -76,7 +76,7 @@ LineMap lines_on_five_axes(const LoadedRun& run, const Trajectory& path, Diagnos
     return map_lines(level, run.log, *run.program, true, diagnostics);
 }
 
-/// Lines of a log of --program, which becomes the program of the run.
+/// Lines of a log by --program, which becomes the program of the run.
 LineMap lines_of_program(LoadedRun& run, const Trajectory& path, const RunOptions& options, Diagnostics& diagnostics) {
     const io::Source source = io::open_source(options.program);
     io::ProgramOptions how = in_coordinates_of(options, run.log);
@@ -90,7 +90,7 @@ LineMap lines_of_program(LoadedRun& run, const Trajectory& path, const RunOption
     diagnostics.append(program.diagnostics);
     const ProgramIdentity identity = io::check_identity(source, run.log, diagnostics);
     LineMap lines = map_lines(path, run.log, program, true, diagnostics, identity);
-    // The path of the axes alone does not say whether a log of five axes belongs to the program.
+    // Without kinematics, the path of the axes does not show whether a log of five axes belongs to the program.
     if (run.kinematics || run.log.diagnostics.count("path.rotary") == 0)
         refuse_foreign(lines.match(), program, run.log, options.force, diagnostics);
     run.program = std::make_shared<const Program>(std::move(program));

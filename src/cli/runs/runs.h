@@ -1,5 +1,5 @@
 #pragma once
-// Runs for `diff`: logs, or programs that are simulated, as they are compared.
+// The runs of `diff`: logs, or programs that are simulated.
 
 #include <memory>
 #include <optional>
@@ -19,46 +19,46 @@ namespace clsurf::cli {
 struct RunOptions {
     io::ProgramOptions program_options;
     io::LogOptions log_options;
-    std::string program;                           ///< of logs; empty: their line channel is taken as it is
-    Machine machine;                               ///< --machine, else the default one
+    std::string program;                           ///< of logs; empty: their line channel is used
+    Machine machine;                               ///< --machine, otherwise the default one
     std::shared_ptr<const Kinematics> kinematics;  ///< of --machine; nullptr: three axes
     Vec3 start = Vec3::Zero();
     FramePoses poses;    ///< --work-offset
-    bool force = false;  ///< go on with a log that does not belong to `program`
+    bool force = false;  ///< accept a log that does not belong to `program`
     ToolChoice tool;
-    std::optional<Role> role;  ///< none: commanded where all runs have it
+    std::optional<Role> role;  ///< none: commanded if all runs have it
     DerivativeMethod derivative = DerivativeMethod::savgol;
 };
 
-/// --program, --machine, --start, --surface, --work-offset, --tool and what logs and programs need.
+/// --program, --machine, --start, --surface, --work-offset, --tool and the options for reading logs and programs.
 void declare_runs(po::options_description& options);
 [[nodiscard]] RunOptions read_run_options(const po::variables_map& values);
 
-/// A log, and the program if it was one that was simulated, as it was simulated.
+/// A log, and its program if it was simulated, as simulated.
 struct LoadedRun {
     std::string name;
     Log log;
-    std::shared_ptr<const Program> program;  ///< that was simulated, or --program; nullptr: none
+    std::shared_ptr<const Program> program;  ///< simulated, or from --program; nullptr: none
     bool simulated = false;
     std::shared_ptr<const Kinematics> kinematics;            ///< nullptr: the log has the positions of three axes
-    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< machine = pose · what is compared
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< machine = pose · compared positions
 };
 
-/// Told apart by content; a program is simulated, on five axes where it and --machine have them. Throws InputError:
-/// neither, or empty, or a machine with rotary axes that the log does not have. The log's diagnostics have `path.rotary` where a
-/// rotary axis moves and no machine is given.
+/// Loads a log or a program, distinguished by content. A program is simulated, on five axes if it and --machine have them.
+/// Throws InputError: neither, or empty, or a machine with rotary axes that the log does not have. The log's diagnostics have
+/// `path.rotary` if a rotary axis moves and no machine is given.
 [[nodiscard]] LoadedRun load_run(const std::string& path, const RunOptions& options);
 
-/// Which positions two runs are compared by: with --machine those of the tip. Throws InputError: they have none in
+/// The positions by which two runs are compared: with --machine those of the tip. Throws InputError: they have none in
 /// common.
 [[nodiscard]] ComparedRun run_of(const LoadedRun& run, const LoadedRun& other, const RunOptions& options);
 
-/// What the points of a run belong to; without a program all that the line channel does not call idle cuts. Reads
+/// The lines of the points of a run. Without a program, all points cut unless the line channel marks them as idle. Reads
 /// --program into `run`.
 [[nodiscard]] std::unique_ptr<LineMap> lines_of(LoadedRun& run, const Trajectory& path, const RunOptions& options,
                                                 Diagnostics& diagnostics);
 
-/// state_tool_axes() of the program of a run, where that is known. `diagnostics`: nullptr: it says nothing.
+/// state_tool_axes() of the program of a run, if it is known. `diagnostics`: nullptr: none are added.
 void state_tool_axes(Trajectory& path, const LoadedRun& run, const LineMap& lines, Diagnostics* diagnostics);
 
 }  // namespace clsurf::cli

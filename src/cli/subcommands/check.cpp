@@ -1,4 +1,4 @@
-// clsurf check: adjacent-path discontinuities and the marks that they will leave.
+// clsurf check: differences between adjacent passes, and the marks that they cause.
 
 #include <algorithm>
 #include <memory>

@@ -34,7 +34,7 @@ void join(Log& log, const po::variables_map& values) {
     print(io::join_log(log, slow, rules), values);
 }
 
-/// Those of --param, with their units; held to --parameters.
+/// The parameters of --param, with units, checked against --parameters.
 std::vector<RunParameter> read_parameters(const po::variables_map& values, const std::string& metadata) {
     std::vector<RunParameter> parameters;
     if (values.count("param") > 0) {
@@ -45,7 +45,7 @@ std::vector<RunParameter> read_parameters(const po::variables_map& values, const
         sort_parameters(parameters);
         return parameters;
     }
-    // A log may have some already: what it lacks is asked for, and all of them keep to the file.
+    // The log may have parameters already: they must obey --parameters, too, and only missing ones are required.
     for (RunParameter& known : io::parameters_of_metadata(metadata)) {
         if (std::ranges::find(parameters, known.name, &RunParameter::name) == parameters.end())
             parameters.push_back(std::move(known));

@@ -1,4 +1,4 @@
-// clsurf diff: runs of a part against each other, by path.
+// clsurf diff: compares runs of a part, by path.
 
 #include <memory>
 #include <optional>
@@ -28,7 +28,7 @@ void write_result(const io::ReportedRuns& reported, const Diagnostics& diagnosti
     write_answer(io::runs_text(reported), values);
 }
 
-/// No runs yet. Both must outlive it.
+/// A report without runs yet. Both arguments must outlive it.
 io::ReportedRuns reported_against(const LoadedRun& reference, const Diagnostics& diagnostics) {
     io::ReportedRuns reported;
     reported.reference = reference.name;
@@ -36,7 +36,7 @@ io::ReportedRuns reported_against(const LoadedRun& reference, const Diagnostics&
     return reported;
 }
 
-/// Opens the file of the map, if one is asked for.
+/// Opens the file of the map, if one is requested.
 void open_map(DiffOptions& options, std::optional<PictureOutput>& output) {
     if (options.output.empty()) return;
     output.emplace(options.output, "-o", PictureKind::drawing);

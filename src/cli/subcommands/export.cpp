@@ -33,7 +33,7 @@ void write_vtk(const std::string& path, bool hdf, const ClSurface& surface,
     file.commit();
 }
 
-/// `--list`: what could be exported of the part.
+/// `--list`: the columns that the part can export.
 ExitCode list_columns(const po::variables_map& values, const Part& part, StageClock& clock) {
     clock.begin("stitch the surface");
     const std::vector<io::ListingRow> rows = exportable_columns(part, stitch(part));
@@ -52,7 +52,7 @@ bool has_positions(const Log& log) {
     return log.has(Role::commanded) || log.has(Role::feedback) || log.has(Role::actual);
 }
 
-/// Of slow signals (`clsurf record`), which have no positions.
+/// Exports slow signals (`clsurf record`), which have no positions.
 ExitCode write_channels(const Log& log, const std::string& output, std::string_view format,
                         const po::variables_map& values) {
     print(log.diagnostics, values);

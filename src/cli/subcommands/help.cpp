@@ -1,4 +1,4 @@
-// clsurf help: the options of a subcommand, and the words that options take.
+// clsurf help: the options of a subcommand, and the values of options.
 
 #include <string>
 #include <string_view>
@@ -13,7 +13,7 @@
 namespace clsurf::cli {
 namespace {
 
-/// "fields, channels, formats": the lists of words.
+/// "fields, channels, formats": the names of the vocabularies.
 std::string vocabulary_names() {
     std::string names;
     for (const Vocabulary& vocabulary : vocabularies())
@@ -49,7 +49,7 @@ ExitCode run_help(const po::variables_map& values) {
 }  // namespace
 
 Subcommand help_subcommand() {
-    // Views of these outlive the call.
+    // Static, because views of them outlive the call.
     static const std::string summary = "a subcommand's options; " + vocabulary_names();
     static const std::string description = "TOPIC is a subcommand, or a list of words that options take as values:\n" +
                                            vocabulary_names() + ". Lists can be had as JSON.";

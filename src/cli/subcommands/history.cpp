@@ -1,4 +1,4 @@
-// clsurf history: judged runs in a database, and what many of them tell.
+// clsurf history: judged runs in a database, and their trends.
 
 #include <algorithm>
 #include <set>

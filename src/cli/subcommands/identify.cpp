@@ -21,7 +21,7 @@ struct RunFiles {
     std::string program, log;
 };
 
-/// PROGRAM LOG, and the pairs that follow.
+/// PROGRAM LOG, and any further pairs.
 std::vector<RunFiles> read_runs(const po::variables_map& values) {
     const std::string program = required(values, "PROGRAM");
     (void)first_value(values, "LOG");
@@ -34,7 +34,7 @@ std::vector<RunFiles> read_runs(const po::variables_map& values) {
     return runs;
 }
 
-/// --test PROGRAM LOG, as often as wanted.
+/// The pairs of --test PROGRAM LOG.
 std::vector<RunFiles> read_tests(const po::variables_map& values) {
     std::vector<RunFiles> runs;
     if (values.count("test") == 0) return runs;
@@ -49,7 +49,7 @@ std::vector<RunFiles> read_tests(const po::variables_map& values) {
 std::vector<Part> load_parts(const std::vector<RunFiles>& files, PartOptions options, StageClock& clock,
                              Diagnostics& diagnostics) {
     std::vector<Part> parts;
-    options.accept_unknown_tips = true;  // the loops of the axes show without them
+    options.accept_unknown_tips = true;  // the servo loops can be identified without tip positions
     for (const RunFiles& run : files) {
         options.program = run.program;
         options.log = run.log;
@@ -90,7 +90,7 @@ ExitCode run_identify(const po::variables_map& values) {
         print(diagnostics, values);
         write_answer(io::identification_text(result), values);
     }
-    // The machine file is what was asked for: it stays where the picture cannot be drawn.
+    // The machine file is the requested result: it is kept even if the picture cannot be drawn.
     if (picture) draw_speed_residual(result, parts, tests, *picture);
     return ExitCode::done;
 }

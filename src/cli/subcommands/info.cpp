@@ -1,4 +1,4 @@
-// clsurf info: what a program or a log holds, and whether it can be trusted.
+// clsurf info: the content of a program or a log, and whether it can be trusted.
 
 #include "cli/options/options.h"
 #include "cli/options/work_frames.h"
@@ -38,7 +38,7 @@ struct CheckedLog {
     LogVerdict verdict;
 };
 
-/// Reads a log and checks it, against the program too where there is one.
+/// Reads a log and checks it, also against the program if there is one.
 CheckedLog check_log(const io::Source& source, const io::LogOptions& options, const std::optional<ReadProgram>& read,
                      const std::shared_ptr<const Kinematics>& kinematics, const po::variables_map& values) {
     CheckedLog checked{io::open_log(source, options), {}, {}};
@@ -74,7 +74,7 @@ ExitCode run_info(const po::variables_map& values) {
         const io::Source source = io::open_source(path);
         if (source.bytes.empty())
             throw InputError(Place::of_file(source.name), "is empty, expected a program or a log");
-        // A layout and a mapping say how a log is read; with them every file could be one.
+        // A layout or a mapping determines how a log is read: with them any file could be one.
         const bool is_log = io::recognise_log(source, log_options) != nullptr &&
                             !(io::forces_log(log_options) && io::looks_like_program(source));
         if (!is_log && describe_table(source, values, objects)) {

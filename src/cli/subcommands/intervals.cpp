@@ -1,4 +1,4 @@
-// clsurf intervals: where a program can be run at constant speed, and at which.
+// clsurf intervals: the sections of a program that can be cut at constant speed, and their speeds.
 
 #include <cmath>
 

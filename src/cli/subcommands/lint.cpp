@@ -27,7 +27,7 @@ ChannelView view_of(const Column<float>& values) {
     return view;
 }
 
-/// The same positions again, which must outlive it.
+/// A trajectory that shares the positions, which must outlive it.
 Trajectory trajectory_on(const Positions& positions) {
     Trajectory path;
     path.axes = {view_of(positions.x), view_of(positions.y), view_of(positions.z)};
@@ -36,7 +36,7 @@ Trajectory trajectory_on(const Positions& positions) {
     return path;
 }
 
-/// Adds the contact points to what lint found; nothing where the program turns the tool. O(findings).
+/// Adds contact points to the findings of lint, unless the program turns the tool. O(findings).
 void locate(LintReport& report, const Program& program, const ProgrammedSurface& programmed, const CuttingTool& tool) {
     if (!program.motions.rotary.empty() || !program.motions.tool_axis.empty()) return;
     const Trajectory path = trajectory_on(programmed.surface.positions);

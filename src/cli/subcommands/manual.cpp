@@ -1,5 +1,5 @@
-// clsurf manual: man pages, completion and docs/reference, written from the tables that the
-// program itself uses. A test compares docs/reference with what this writes.
+// clsurf manual: man pages, completion and docs/reference, generated from the program's own
+// tables. A test compares docs/reference with this output.
 
 #include <algorithm>
 #include <filesystem>

@@ -33,7 +33,7 @@ std::vector<double> x_values(const Part& part, bool over_length) {
     return x;
 }
 
-/// The points to show: from --from to --to, or the section of --line with as much on both sides.
+/// The shown points: from --from to --to, or the section of --line with as much on both sides.
 PointRange shown_range(const PlotOptions& options, const Part& part, const std::vector<double>& x) {
     const auto last = static_cast<PointIndex>(x.size()) - 1;
     PointRange range{0, last};
@@ -53,7 +53,7 @@ PointRange shown_range(const PlotOptions& options, const Part& part, const std::
     return range;
 }
 
-/// The names of a field's values in the colours of the map, those that occur.
+/// The names of the values of a field that occur, with the colours of the map.
 std::vector<viz::CurveClass> classes_of(const Field& field, const ClSurface& surface) {
     const viz::FieldClasses classes(field.info, field.values, surface.passes);
     std::vector<viz::CurveClass> all;

@@ -24,7 +24,7 @@
 namespace clsurf::cli {
 namespace {
 
-/// The program as it will be read from the file.
+/// The program, read back as from its file.
 Program read_written(const std::string& name, const std::string& text, const std::string& dialect) {
     const auto kept = std::make_shared<const std::string>(text);
     const io::Source source{name, std::as_bytes(std::span(kept->data(), kept->size())), kept};
@@ -42,7 +42,7 @@ std::string program_of(const ScanCut& cut, const ProfileOptions& options, const 
     return options.splines ? span_program(cut.path.spans(), rules) : line_program(cut.path.points(), rules);
 }
 
-/// A fit that rounds off what was scanned: scatter alone is not that far.
+/// Warns if the fit rounds off features of the scan: its residuals are larger than scatter explains.
 void warn_of_misfit(const MeasuredData& data, const ScanCut& cut, double tolerance, Diagnostics& diagnostics) {
     constexpr double far_above_tolerance = 10, above_scatter = 3, above_rms = 6;
     const double worst = cut.residuals.worst, rms = cut.residuals.rms;

@@ -1,4 +1,4 @@
-// clsurf query: the line and the point at a place, number or time, with the values there.
+// clsurf query: the line, the point and the values at a place, number or time.
 
 #include <cstdio>
 

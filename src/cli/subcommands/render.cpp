@@ -25,12 +25,12 @@
 namespace clsurf::cli {
 namespace {
 
-/// How values become colours, and what the picture says of it.
+/// The colour scale of the values, and its description in the picture.
 struct MapScale {
     viz::ColourScale colours;
     std::vector<std::string> notes;
     std::string words;  ///< " 0 to 100 %"
-    double span = 0;    ///< from end to end, in shown units; of classes 0
+    double span = 0;    ///< of the range, in shown units; 0 for classes
 };
 
 MapScale scale_of_map(const Shown& after, const std::optional<Shown>& before, const RenderOptions& options,
@@ -42,7 +42,7 @@ MapScale scale_of_map(const Shown& after, const std::optional<Shown>& before, co
             fmt::format(" {:g} to {:g} {}", range.low, range.high, after.field.info.unit.name), range.high - range.low};
 }
 
-/// One map, or before and after side by side, with what changed.
+/// One map, or maps before and after next to each other, with the changes.
 viz::Image draw_maps(const std::vector<viz::MapPanel>& panels, const Shown& after, const std::optional<Shown>& before,
                      const MapScale& scale, const RenderOptions& options) {
     viz::MapTexts texts = texts_of(after, before, options, scale.notes);
@@ -55,7 +55,7 @@ viz::Image draw_maps(const std::vector<viz::MapPanel>& panels, const Shown& afte
     return before ? draw_with_change(*before, after, scale.span, options, draw) : draw(options.shown.look);
 }
 
-/// `last`: the log is complete. Problems of the part are said then.
+/// `last`: the log is complete. Problems of the part are only reported then.
 ExitCode draw_once(RenderOptions options, const po::variables_map& values, bool last) {
     PictureOutput output(options.output, "-o", PictureKind::drawing);
     options.shown.look.keep_drawing = output.wants_drawing();

@@ -18,14 +18,14 @@
 namespace clsurf::cli {
 namespace {
 
-/// Only fields that both logs have can be compared.
+/// Keeps the fields that both logs have: only they can be compared.
 void keep_common_fields(std::vector<Field>& fields, const std::vector<Field>& other) {
     std::erase_if(fields, [&](const Field& field) {
         return std::none_of(other.begin(), other.end(), [&](const Field& f) { return f.info.name == field.info.name; });
     });
 }
 
-/// `last`: the log is complete. Problems of the part are said then.
+/// `last`: the log is complete. Problems of the part are only reported then.
 ExitCode write_page(const ReportOptions& options, const po::variables_map& values, bool last) {
     (void)output_format(options.output, page_formats());
     io::AtomicFile output(options.output);  // a name that cannot be written fails before the work
@@ -63,7 +63,7 @@ ExitCode write_page(const ReportOptions& options, const po::variables_map& value
     page.programmed = programmed_path(shown, options);
     if (options.measurement) page.measured = measured_for_report(shown, options, clock);
     std::optional<ReportedForm> as_machined;
-    if (shown.quality.as_machined) {  // not of a tool whose axis is not known
+    if (shown.quality.as_machined) {  // not if the axis of the tool is unknown
         as_machined = form_for_report(shown, options, clock);
         page.relief = page_relief_of(*as_machined);
         page.as_machined_options = {"--surface", "formed", "--tool", to_text(*shown.part.tool)};

@@ -1,4 +1,4 @@
-// clsurf survey: what a long log is as a whole, for judging it in shards.
+// clsurf survey: the properties of a long log as a whole, for judging it in shards.
 
 #include <algorithm>
 

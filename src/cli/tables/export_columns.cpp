@@ -27,7 +27,7 @@ constexpr std::array<std::array<std::string_view, 3>, 8> own_columns{{{"point", 
                                                                       {"y", "mm", "Y of the tool tip"},
                                                                       {"z", "mm", "Z of the tool tip"}}};
 
-/// What is exported as it is, not as a field, at some points; nullopt: none of these.
+/// Columns at some points that are not fields; nullopt: the name is not such a column.
 std::optional<io::ExportColumn> own_column(const std::string& name, const Part& part, const ClSurface& surface,
                                            const PointRange& points) {
     const auto count = static_cast<std::size_t>(points.size());
@@ -42,7 +42,7 @@ std::optional<io::ExportColumn> own_column(const std::string& name, const Part& 
         for_each_block(points.size(), [&](PointIndex first, PointIndex last) {
             const std::span<std::uint32_t> lines(column.counts.data() + first, static_cast<std::size_t>(last - first));
             part.lines->read(points.first + first, lines);
-            // A log without lines and without a program: 0 as of any point that has none.
+            // A log without lines and without a program: 0, as at any point without a line.
             std::ranges::replace(lines, no_line, 0U);
         });
     } else if (name == "pass") {
@@ -136,7 +136,7 @@ std::vector<io::ExportColumn> exported_channels(const std::vector<std::string>& 
             column.unit = channel->unit;
             column.exact.resize(count);
             copy_block(channel->values, 0, column.exact);
-            if (channel->values.type == ScalarType::f32) {  // no more digits than it has
+            if (channel->values.type == ScalarType::f32) {  // no more digits than the type has
                 column.values.resize(count);
                 std::ranges::transform(column.exact, column.values.begin(),
                                        [](double v) { return static_cast<float>(v); });
@@ -153,14 +153,14 @@ std::vector<io::ExportColumn> exported_channels(const std::vector<std::string>& 
 
 namespace {
 
-/// The values at some points of a column of the points from `first` on.
+/// Copies the values at some points from a column that begins with point `first`.
 template <typename T>
 void pick(const Column<T>& from, PointIndex first, std::span<const PointIndex> points, Column<T>& to) {
     if (from.empty()) return;
     for (const PointIndex point : points) to.push_back(from[static_cast<std::size_t>(point - first)]);
 }
 
-/// Values in the order of the points that they belong to: value k is that of point order[k].
+/// Restores the original order: value k becomes value order[k].
 template <typename T>
 void put_back(const std::vector<std::size_t>& order, Column<T>& values) {
     if (values.empty()) return;
@@ -169,7 +169,7 @@ void put_back(const std::vector<std::size_t>& order, Column<T>& values) {
     values = std::move(back);
 }
 
-/// Passes that end and begin where a range does, for derivatives inside it.
+/// Passes completely inside a range, for derivatives inside it.
 Passes passes_within(const Passes& passes, const PointRange& range) {
     Passes inside;
     for (const Pass& pass : passes) {
@@ -192,7 +192,7 @@ std::vector<io::ExportColumn> exported_columns(const std::vector<std::string>& n
                                                const ClSurface& surface, const std::vector<PointRange>& ranges,
                                                std::span<const PointIndex> points) {
     std::vector<io::ExportColumn> columns(names.size());
-    // Sorted, each range has its points in one go; then they go back to where they were.
+    // With sorted points each range is processed once; the order is restored afterwards.
     std::vector<std::size_t> order(points.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return points[a] < points[b]; });

@@ -44,7 +44,7 @@ ExitCode merge_pieces(const po::variables_map& values) {
     io::AtomicFile file(output);
     if (hdf) {
         for (const std::string& piece : pieces)
-            (void)io::map_file(piece);  // refuses the output, and what cannot be read
+            (void)io::map_file(piece);  // refuses an input that is the output, or is unreadable
         write_named(output, [&] { viz::merge_vtkhdf(file.temporary_path(), pieces); });
     } else {
         file.write(io::pvtp_text(pieces, std::filesystem::path(output).parent_path().string()));

@@ -10,13 +10,13 @@
 
 namespace clsurf::cli {
 
-/// Columns as VTK files have them. Not copied: they must outlive the result.
+/// Columns for VTK files. Not copied: they must outlive the result.
 [[nodiscard]] std::vector<viz::PointData> point_data_of(const std::vector<io::ExportColumn>& columns);
 
 /// --survey, --shard, --merge.
 void declare_export_shards(po::options_description& options);
 
-/// --merge: writes a .pvtp file that names the pieces, or a .vtkhdf file that has them as its partitions.
+/// --merge: writes a .pvtp file that lists the pieces, or a .vtkhdf file with the pieces as partitions.
 ExitCode merge_pieces(const po::variables_map& values);
 
 /// --shard: writes a piece with these columns.

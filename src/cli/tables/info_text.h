@@ -1,5 +1,5 @@
 #pragma once
-// What `info` prints of programs and logs.
+// The output of `info` for programs and logs.
 
 #include "log/log.h"
 #include "pipeline/log_verdict.h"
@@ -10,7 +10,7 @@ namespace clsurf::cli {
 
 void print_program(const Program& program, const ToolpathSummary& summary, const Diagnostics& diagnostics);
 void print_log(const Log& log, const LogVerdict& verdict, const Diagnostics& diagnostics);
-/// Errors decide the exit code, so they are messages on stderr as well.
+/// Prints errors, which determine the exit code, to stderr as well.
 void print_errors(const Diagnostics& diagnostics);
 
 }  // namespace clsurf::cli
