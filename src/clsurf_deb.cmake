@@ -1,6 +1,6 @@
-# `cpack -G DEB` in the build folder: packages split as Debian does, clsurf (program, man pages, completion), libclsurf-dev
-# (libraries, headers, CMake package), clsurf-doc, and python3-clsurf where the Python package is built. The same commit
-# gives the same packages, byte for byte: times are those of the commit (SOURCE_DATE_EPOCH, tests/deb/build).
+# `cpack -G DEB` in the build folder: packages divided as usual in Debian: clsurf (program, man pages, completion),
+# libclsurf-dev (libraries, headers, CMake package), clsurf-doc, and python3-clsurf if the Python package is built. The same
+# commit gives the same packages, byte for byte: times are those of the commit (SOURCE_DATE_EPOCH, tests/deb/build).
 
 set(debian_names clsurf libclsurf-dev clsurf-doc)
 if(TARGET clsurf_python)
@@ -10,11 +10,11 @@ endif()
 set(debian_files ${PROJECT_BINARY_DIR}/debian)
 file(MAKE_DIRECTORY ${debian_files})
 
-# Copyright: ours, and the licences of what the page of `report` holds.
+# Copyright: the project's licence, and the licences of the libraries in the page of `report`.
 file(READ ${PROJECT_SOURCE_DIR}/LICENSE license)
 file(READ ${PROJECT_SOURCE_DIR}/viz/page/dist/NOTICE.md notice)
 file(WRITE ${debian_files}/copyright "clsurf, Debian packages made by its own build (src/clsurf_deb.cmake)\n\n${license}\n\n${notice}")
-# The changelog's time is filled in when the packages are made.
+# The time of the changelog is filled in when the packages are made.
 file(WRITE ${debian_files}/changelog.in "clsurf (${PROJECT_VERSION}) unstable; urgency=medium\n\n  * See CHANGELOG.md of the sources.\n\n -- the clsurf authors <clsurf@example.org>  @time@\n")
 
 foreach(name ${debian_names})
@@ -46,10 +46,10 @@ set(CPACK_DEBIAN_LIBCLSURF-DEV_PACKAGE_NAME libclsurf-dev)
 set(CPACK_DEBIAN_LIBCLSURF-DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBCLSURF-DEV_PACKAGE_DEPENDS
   "libeigen3-dev, libtbb-dev, libfmt-dev, libtomlplusplus-dev, zlib1g-dev, libzstd-dev, liblzma-dev, libexpat1-dev, libssl-dev, libsqlite3-dev, libmodbus-dev")
-# Programs that draw load the libraries of clsurf.
+# Programs that draw load the shared libraries of the package clsurf.
 set(CPACK_DEBIAN_LIBCLSURF-DEV_PACKAGE_SUGGESTS clsurf)
 set(CPACK_DEBIAN_LIBCLSURF-DEV_DESCRIPTION "Static libraries, headers and the CMake package of clsurf, which finds the NC program lines that mark a machined surface.")
-# Its libclsurf_image, which writes pictures, is that of clsurf; VTK is linked to the package itself.
+# libclsurf_image, which writes pictures, comes from the package clsurf; VTK is linked to this package itself.
 set(CPACK_DEBIAN_PYTHON3-CLSURF_PACKAGE_NAME python3-clsurf)
 set(CPACK_DEBIAN_PYTHON3-CLSURF_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON3-CLSURF_PACKAGE_SHLIBDEPS ON)

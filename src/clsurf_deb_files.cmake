@@ -1,4 +1,4 @@
-# Run by CPack before it packs what was installed: man pages and changelogs compressed as Debian wants them, without times.
+# CPack runs this before packing the installed files: compresses man pages and changelogs as Debian requires, without times.
 cmake_policy(VERSION 3.25)
 set(epoch $ENV{SOURCE_DATE_EPOCH})
 if(NOT epoch MATCHES "^[0-9]+$")
@@ -8,7 +8,7 @@ execute_process(COMMAND date -u -R -d @${epoch} OUTPUT_VARIABLE time OUTPUT_STRI
 foreach(name ${CPACK_COMPONENTS_ALL})
   set(root ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/${name}/usr)
   file(GLOB pages ${root}/share/man/man1/*.1)
-  # The Python of the system looks there, whatever its minor version.
+  # The system's Python searches this folder, for any minor version.
   file(GLOB versioned ${root}/lib/python3.*)
   if(versioned)
     file(RENAME ${versioned} ${root}/lib/python3)
@@ -19,7 +19,7 @@ foreach(name ${CPACK_COMPONENTS_ALL})
     execute_process(COMMAND gzip -9nf ${file} COMMAND_ERROR_IS_FATAL ANY)
   endforeach()
   execute_process(COMMAND find ${root} -type f -exec chmod go-w {} + COMMAND_ERROR_IS_FATAL ANY)
-  # Archives keep a time, and paths of objects: neither belongs into a package.
+  # Archives contain a time and paths of objects, which would make packages irreproducible.
   file(GLOB archives ${root}/lib/*/*.a ${root}/lib/*.a)
   foreach(archive ${archives})
     execute_process(COMMAND strip --strip-debug --enable-deterministic-archives ${archive} COMMAND_ERROR_IS_FATAL ANY)

@@ -1,5 +1,5 @@
-# What `cmake --install` puts beside the libraries: the package config, so that another project says
-# find_package(clsurf COMPONENTS toolpath surface) and links clsurf::toolpath.
+# Installs the package config next to the libraries, so that another project can use
+# find_package(clsurf COMPONENTS toolpath surface) and link clsurf::toolpath.
 
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/clsurf)

@@ -1,6 +1,6 @@
-# Parsing the same large headers in every file was most of a build's time. Rooms share one set of
-# them, the command line and the tests have their own. Files still include what they use:
-# tests/separate reads each without any.
+# Without precompiled headers, parsing the same large headers took most of the build time. Rooms share one set of
+# them; the command line and the tests have their own. Files still include what they use:
+# tests/separate compiles each without them.
 #
 # clsurf_precompiled(TARGET [FROM target] [headers…])
 function(clsurf_precompiled target)

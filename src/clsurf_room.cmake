@@ -1,17 +1,17 @@
 # clsurf_room(NAME NEEDS rooms… SOURCES … HEADERS … [LIBRARIES …]): a room of the project, as the
 # library clsurf::NAME. Sources are listed, never globbed; a room may include only what it NEEDS
-# (tests/architecture reads the includes, preset `rooms` links without undefined symbols). What rooms need is
-# written to arrows.txt in the build folder: the one table of allowed includes.
+# (tests/architecture reads the includes, preset `rooms` links without undefined symbols). The allowed includes are
+# written to arrows.txt in the build folder, which is the only table of them.
 
 add_library(clsurf_build_options INTERFACE)
 target_compile_features(clsurf_build_options INTERFACE cxx_std_20)
-# No FMA contraction: the same numbers whatever the compiler makes of an expression.
-# -Wno-restrict: GCC 12 warns falsely of std::string operator+ (GCC bug 105651).
+# No FMA contraction, so that results do not depend on the compiler's choice.
+# -Wno-restrict: false warnings of GCC 12 about std::string operator+ (GCC bug 105651).
 target_compile_options(clsurf_build_options INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic
   -Wshadow -Wnon-virtual-dtor $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   $<$<BOOL:${CLSURF_STRICT}>:-Werror>)
 if(NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
-  # For ccache; and more false warnings of the same bug, which headers compiled before do not hide.
+  # The first is for ccache; the others are further false warnings of the same bug, which precompiled headers expose.
   target_compile_options(clsurf_build_options INTERFACE
     "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;-Wno-stringop-overflow;-Wno-array-bounds>")
 endif()
@@ -24,21 +24,21 @@ elseif(CLSURF_SANITIZE STREQUAL "thread")
   target_link_options(clsurf_build_options INTERFACE -fsanitize=thread)
 endif()
 if(CLSURF_LTO)
-  # The linker then sees every type: two different ones of the same name are an error. `-O1` keeps its work small.
+  # The linker then sees every type: two different types of the same name are an error. `-O1` limits the work at link time.
   target_compile_options(clsurf_build_options INTERFACE -flto=auto)
   target_link_options(clsurf_build_options INTERFACE -flto=auto -O1 -Werror=odr -Werror=lto-type-mismatch)
 endif()
 if(NOT CLSURF_SANITIZE STREQUAL "none")
-  # Instrumented code hides from GCC that an optional is asked before it is read.
+  # In instrumented code GCC does not see that an optional is checked before it is read.
   target_compile_options(clsurf_build_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 endif()
 
 if(CLSURF_FUZZ)
-  # Every room counts its edges; tests/fuzz adds the driver to the targets alone.
+  # Coverage instrumentation for every room; tests/fuzz adds the driver to its targets only.
   target_compile_options(clsurf_build_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
-# clsurf_arrows(NAME rooms…): what NAME may include.
+# clsurf_arrows(NAME rooms…): the rooms that NAME may include.
 function(clsurf_arrows name)
   list(JOIN ARGN " " needs)
   set_property(GLOBAL APPEND_STRING PROPERTY CLSURF_ARROWS "${name}: ${needs}\n")
@@ -52,11 +52,11 @@ function(clsurf_room name)
   target_sources(clsurf_${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${base} FILES ${ROOM_HEADERS})
   target_compile_features(clsurf_${name} PUBLIC cxx_std_20)
   clsurf_arrows(${name} ${ROOM_NEEDS})
-  # Rooms include each other as "room/header.h", users say <clsurf/room/header.h>.
+  # Rooms include each other as "room/header.h", users include <clsurf/room/header.h>.
   target_include_directories(clsurf_${name} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   list(TRANSFORM ROOM_NEEDS PREPEND clsurf_)
-  # A static room can become part of a shared object (the Python module, or another project's plug-in). Functions are not
-  # to be replaced from outside, so calls inside a file are as direct, and inlined, as without.
+  # A static room can become part of a shared object (the Python module, or another project's plug-in). Its functions are
+  # never interposed, so calls inside a file can be direct and inlined.
   set_target_properties(clsurf_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_compile_options(clsurf_${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
   target_link_libraries(clsurf_${name} PRIVATE $<BUILD_INTERFACE:clsurf_build_options>)

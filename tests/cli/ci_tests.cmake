@@ -1,4 +1,4 @@
-# One line in CI: exit codes by severity and depth, several logs, one shape of JSON.
+# Use in CI: exit codes by severity and depth, several logs, one shape of JSON.
 clsurf_cli_test(NAME ci_fail_on ARGS check ${part} ${run} --tool none --fail-on 2 -q EXIT 1 NO_STDOUT ".")
 clsurf_cli_test(NAME ci_fail_on_a_word ARGS check ${part} ${run} --tool none --fail-on visible EXIT 1 STDOUT "max_severity +[234] of 1 +NOT HELD")
 clsurf_cli_test(NAME ci_fail_on_what_is_not_there ARGS check @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip --fail-on reject STDOUT "max_severity +[0-3] of 3 +held")
@@ -17,9 +17,9 @@ clsurf_cli_test(NAME ci_several_logs_json SETUP "${two_logs}; $CLSURF check ${pl
 clsurf_cli_test(NAME ci_several_logs_csv SETUP "${two_logs}" ARGS check ${planted} a.biip b.biip --format csv STDOUT "^log,.*a.biip,.*b.biip," NO_STDOUT "log,.*log,")
 clsurf_cli_test(NAME ci_several_logs_sarif SETUP "${two_logs}; $CLSURF check ${planted} a.biip b.biip -o two.sarif; python3 -c \"import json; runs = json.load(open('two.sarif'))['runs']; assert len(runs) == 2 and len(runs[0]['results']) == len(runs[1]['results']) > 0 and runs[0]['automationDetails'] != runs[1]['automationDetails']\""
   ARGS check ${planted} a.biip -o one.sarif FILE one.sarif)
-# A step that only the second one has.
+# A step in the second log only.
 clsurf_cli_test(NAME ci_worst_of_several_logs SETUP "cp ${run} b.biip; head -c 100000 b.biip > a.biip" ARGS check ${part} a.biip b.biip --tool none --max-depth 5um -q EXIT 5 NO_STDOUT ".")
-# One that cannot be used is a result of its own.
+# A log that cannot be used is a result, too.
 clsurf_cli_test(NAME ci_one_of_several_logs_missing SETUP "${two_logs}" ARGS check ${planted} nowhere.biip a.biip EXIT 3 STDERR "nowhere.biip: error: cannot open" STDOUT "^nowhere.biip:\nERROR: nowhere.biip: cannot open: [^\n]*\n\na.biip:.*3 defects")
 clsurf_cli_test(NAME ci_one_of_several_logs_foreign SETUP "${two_logs}" ARGS check ${planted} a.biip @LOGS@/bottle_uneven.biip -o report.xml EXIT 3 STDERR "bottle_uneven.biip: error: does not belong to" FILE report.xml)
 foreach(form json csv sarif junit)
@@ -27,5 +27,5 @@ foreach(form json csv sarif junit)
 endforeach()
 clsurf_cli_test(NAME ci_program_of_several_logs_missing SETUP "${two_logs}" ARGS check nowhere.nc a.biip b.biip -o report.json EXIT 3 STDERR "^nowhere.nc: error: cannot open" NO_FILE report.json)
 clsurf_cli_test(NAME ci_program_from_standard_input SETUP "${two_logs}; cp ${planted} stdin" ARGS check - a.biip b.biip EXIT 2 STDERR "the program of several logs cannot come from standard input")
-# The shell steps of the GitHub action, as a runner runs them.
+# The shell steps of the GitHub action, run as by a runner.
 clsurf_cli_test(NAME ci_action SETUP "/usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/cli/run_action.py ${PROJECT_SOURCE_DIR}/action.yml $CLSURF @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip" ARGS --version STDOUT "clsurf")

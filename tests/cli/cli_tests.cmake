@@ -1,4 +1,4 @@
-# The command line as a user meets it: exit codes, messages, and no file left by a run that failed.
+# The command line from a user's view: exit codes, messages, and no files of failed runs.
 include(cli/clsurf_cli_test.cmake)
 
 # ---- words of the command line ----
@@ -74,7 +74,7 @@ clsurf_cli_test(NAME log_cut_inside_its_header SETUP "head -c 60 @LOGS@/bottle_u
   ARGS render ${part} run.biip -o map.png EXIT 3 STDERR "run.biip")
 clsurf_cli_test(NAME log_cut_inside_a_record SETUP "head -c 100000 @LOGS@/bottle_uneven.biip > run.biip"
   ARGS render ${part} run.biip -o map.png --size 160x120 EXIT 0 FILE map.png STDERR "warning")
-# record_bytes, channel_count, metadata_bytes and header_bytes of 2^32 − 1 must not be believed.
+# record_bytes, channel_count, metadata_bytes and header_bytes of 2^32 − 1 must be rejected.
 foreach(field 12 16 20 40)
   clsurf_cli_test(NAME log_with_a_gigantic_number_at_${field}
     SETUP "head -c 100000 @LOGS@/bottle_uneven.biip > run.biip; printf '\\377\\377\\377\\377' | dd of=run.biip bs=1 seek=${field} conv=notrunc status=none"
@@ -93,7 +93,7 @@ clsurf_cli_test(NAME standard_output_is_full SETUP "ln -s /dev/full stdout" ARGS
 clsurf_cli_test(NAME bad_input_keeps_the_old_picture SETUP "echo old > map.png; echo > run.biip"
   ARGS render ${part} run.biip -o map.png EXIT 3 FILE map.png STDERR "run.biip")
 
-# ---- the runner itself: what it must find ----
+# ---- the test runner itself: what it must detect ----
 function(clsurf_runner_test name)
   add_test(NAME cli.runner_finds_${name} COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_cli_test
     ${CMAKE_CURRENT_BINARY_DIR}/cli/runner_finds_${name} /bin/bash ${ARGN})
@@ -109,17 +109,17 @@ clsurf_runner_test(an_empty_file --file map.png -- -c ": > map.png")
 clsurf_runner_test(silence --exit 3 -- -c "exit 3")
 clsurf_runner_test(nothing_left --left yes -- -c "exit 0")
 
-# ---- what the subcommands answer ----
+# ---- answers of the subcommands ----
 set(run @LOGS@/bottle_uneven.biip)
 clsurf_cli_test(NAME moves_columns ARGS moves @DATA@/programs/mixed.ngc STDOUT "line,kind,x,y,z,a,b,c,ci,cj,ck,turns,plane,feed" "ccw,")
 clsurf_cli_test(NAME info_of_both ARGS info ${part} ${run} STDOUT "positions lie 0.000[0-9] mm")
-# A recorded log has nothing wrong: one remark, how near it lies to its program.
+# A recorded log is fine: there is one note, about its distance to the program.
 foreach(sample bottle_uneven.nc bottle_zigzag.nc dome_loops.nc transition_g61.nc petal_zigzag_g64.ngc petal_zigzag_irregular.ngc petal_loops_g64.ngc)
   string(REGEX REPLACE "[.].*" "" name ${sample})
   clsurf_cli_test(NAME info_of_good_${name} ARGS info @DATA@/programs/${sample} @LOGS@/${name}.biip
     STDOUT "togo.*note: [^:]*: positions lie 0.0" NO_STDOUT "log, format.*(warning|error|remark|note:.*note:)")
 endforeach()
-# Made logs too, and twice the same.
+# Generated logs, too, and reproducibly.
 set(make_sample $<TARGET_FILE:clsurf_make_sample>)
 foreach(pattern zigzag one-way loops)
   clsurf_cli_test(NAME info_of_made_${pattern}
@@ -140,7 +140,7 @@ clsurf_cli_test(NAME info_of_a_lathe_log SETUP "(echo time,x,z; seq 0 99 | awk '
   STDOUT "whether x, z are commanded or measured" "this axis is assumed to stay at 0" "cmd.x .mm., cmd.z .mm.")
 clsurf_cli_test(NAME export_of_a_log_without_lines SETUP "(echo time,x,z; seq 0 99 | awk '{printf \"%.3f,20,%.3f\\n\", $1/1000, -$1/100}') > lathe.csv" ARGS export lathe.csv -o - --columns point,line,x,y,z
   STDOUT "[^0-9]99,0,20,0,-0.99" NO_STDOUT "4294967295")
-# One run in the forms of several controls: lines and positions fit the program in each.
+# One run in the formats of several controls: lines and positions fit the program in each.
 foreach(form halscope.csv twincat.csv trace.xml)
   clsurf_cli_test(NAME info_of_${form} ARGS info @DATA@/programs/dome_loops.nc @LOGS@/dome_loops.${form}
     STDOUT "18531 records every 1 ms" "positions lie 0.0" NO_STDOUT "log, format.*(warning|error)")
@@ -149,7 +149,7 @@ endforeach()
 clsurf_cli_test(NAME query_of_events ARGS query @DATA@/programs/dome_loops.nc @LOGS@/dome_loops.signals.csv --mapping @DATA@/logs/dome_loops.events.mapping.toml --point 9000 --json
   STDOUT "\"line\": 863" "\"confidence\": 1.0")
 clsurf_cli_test(NAME info_of_edge ARGS info @LOGS@/edge_300.json EXIT 3 STDOUT "log, format edge" "300 records every 2 ms" "cmd.x .mm., .*cmd.b .deg." "DES_POS.3 .deg." "program" "axis .Z1. turns: " "no role has x, y and z" NO_STDOUT "cmd.z" "jumps by [0-9]+[.]")
-# What needs positions says which one the recording lacks.
+# Subcommands that need positions say which one the recording lacks.
 clsurf_cli_test(NAME check_edge_without_z ARGS check @DATA@/programs/keychain.mpf @LOGS@/edge_300.json EXIT 3 STDERR "no commanded positions: channel .cmd.z. is missing")
 clsurf_cli_test(NAME convert_edge SETUP "$CLSURF convert @LOGS@/edge_300.json -o edge.biip" ARGS info edge.biip --json EXIT 3 STDOUT "\"records\": 300" "\"program\"" "DES_POS.3")
 clsurf_cli_test(NAME info_of_compressed ARGS info @DATA@/logs/dome_loops.biip.xz STDOUT "18531 records")
@@ -157,7 +157,7 @@ clsurf_cli_test(NAME info_of_compressed_program SETUP "gzip -c @DATA@/programs/d
 clsurf_cli_test(NAME compressed_cut SETUP "head -c 1000 @DATA@/logs/dome_loops.biip.xz > run.biip" ARGS info run.biip EXIT 3 STDERR "run.biip: byte 1000: error: the compressed data end here")
 clsurf_cli_test(NAME edge_damaged SETUP "sed '20s/:/;/' @LOGS@/edge_300.json > run.json" ARGS info run.json EXIT 3 STDERR "run.json:20:[0-9]*: error: is not valid JSON")
 clsurf_cli_test(NAME trace_damaged SETUP "sed '8s/=/ /' @LOGS@/dome_loops.trace.xml > run.xml" ARGS info run.xml EXIT 3 STDERR "run.xml:8:[0-9]*: error: is not valid XML")
-# Two runs in one log, a part of a run, a stop: said, and the lines are right with and without line numbers.
+# Two runs in one log, a part of a run, a stop: reported, and the lines are right with and without line numbers.
 set(one_run "awk 'BEGIN {print \"cmd.x,cmd.y,cmd.z,line\"} {print $2 \",\" $3 \",\" $4 \",\" $8}' @LOGS@/dome_loops.halsampler.txt > one.csv")
 set(two_runs "${one_run}; (cat one.csv; tail -n +2 one.csv) > run.csv")
 set(part_of_run "${one_run}; (head -n 1 one.csv; sed -n 8002,15001p one.csv) > run.csv")
@@ -171,14 +171,14 @@ clsurf_cli_test(NAME stopped_run_without_lines SETUP "${stopped_run}" ARGS query
 clsurf_cli_test(NAME info_json ARGS info ${run} --json STDOUT "\"records\": 27517" "\"closed\": true")
 clsurf_cli_test(NAME info_program_json ARGS info ${part} --json STDOUT "\"feed\": 3704" "\"kind\": \"program\"")
 clsurf_cli_test(NAME info_wrong_program ARGS info @DATA@/programs/petal_loops_g64.ngc ${run} EXIT 3 STDOUT "another program")
-# A log in machine coordinates: the offset is said, and passing it helps.
+# A log in machine coordinates: the offset is reported, and passing it as an option helps.
 set(displace "$CLSURF export ${part} ${run} -o run.csv --columns time,x,y,z,line --work-offset -312.5,48.125,101.3; sed -i '1s/.*/time,cmd.x,cmd.y,cmd.z,line/' run.csv")
 set(displace_without_lines "$CLSURF export ${part} ${run} -o run.csv --columns time,x,y,z --work-offset -312.5,48.125,101.3; sed -i '1s/.*/time,cmd.x,cmd.y,cmd.z/' run.csv")
 clsurf_cli_test(NAME work_offset_unknown SETUP "${displace}" ARGS info ${part} run.csv
   STDOUT "displaced by X 312.5 Y -48.125 Z -101.3 mm" "hint: --work-offset 312.5,-48.125,-101.3 aligns them")
 clsurf_cli_test(NAME work_offset_unknown_without_lines SETUP "${displace_without_lines}"
   ARGS query ${part} run.csv --point 5000 STDERR "hint: --work-offset 312.5,-48.125,-101.3 aligns them" STDOUT "confidence 0.0")
-# The same in inches that the header does not name: no offset aligns it.
+# The same in inches without a unit in the header: no offset aligns it.
 clsurf_cli_test(NAME unit_unknown
   SETUP "$CLSURF export ${part} ${run} -o mm.csv --columns time,x,y,z,line && awk -F, 'NR == 1 { print \"time,cmd.x,cmd.y,cmd.z,line\"; next } { printf \"%s,%.7f,%.7f,%.7f,%s\\n\", $1, $2 / 25.4, $3 / 25.4, $4 / 25.4, $5 }' mm.csv > run.csv"
   ARGS check ${part} run.csv EXIT 3 STDERR "as if they were in inch" "hint: name the unit in the header of the log, as in .x .inch..")
@@ -190,19 +190,19 @@ clsurf_cli_test(NAME work_offset_wrong ARGS info ${part} ${run} --work-offset 1,
 clsurf_cli_test(NAME info_layout ARGS info @LOGS@/petal_spiral.raw --layout @DATA@/logs/petal_spiral.layout.toml STDOUT "84271 records")
 clsurf_cli_test(NAME query_at ARGS query ${part} ${run} --tool none --at -5.87,0,2.45 STDOUT "^line 1768")
 clsurf_cli_test(NAME query_at_no_place ARGS query ${part} ${run} --tool none --at 1e300,0,0 EXIT 1 STDOUT "no logged point is there" NO_STDOUT "comment")
-# Line 14 runs inside O3, which line 10 of O2 calls, which line 6 called the second time.
+# Line 14 runs inside O3, called in line 10 of O2, which was called in line 6 for the second time.
 set(nested_calls "printf '%s\\n' O1 'G21 G90 G54' 'G0 X0 Y0 Z0' 'M98 P2' 'G0 X0 Y10' 'M98 P2' M30 O2 G91 'M98 P3' G90 M99 O3 'G1 X5 F600' M99 > nested.nc; $CLSURF simulate nested.nc -o run.biip")
 clsurf_cli_test(NAME query_of_nested_calls SETUP "${nested_calls}" ARGS query nested.nc run.biip --at 3,10,0
   STDOUT "line 14: G1 X5 F600" "in nested.nc line 14: G1 X5 F600" "called by nested.nc line 10: M98 P3.*called by nested.nc line 6: M98 P2")
 clsurf_cli_test(NAME query_of_nested_calls_without_lines SETUP "${nested_calls}" ARGS query nested.nc run.biip --at 3,0,0 --ignore-lines --json
   STDOUT "\"subprogram\": .*\"line\": 14,.*\"calls\": .*\"line\": 4,.*\"line\": 10,")
 clsurf_cli_test(NAME query_outside_of_calls SETUP "${nested_calls}" ARGS query nested.nc run.biip --at 0,7,0 --json STDOUT "\"calls\": \\[\\]" "\"subprogram\": null")
-# A plane milled by a ball of 6 mm that leans by 20° to either side in turn, its centre on passes 0.6 mm apart: scallops are
-# those of an upright one, 0.6²/(8 · 3) = 15 µm, though the tips of two neighbours lie 0.6 ± 2.05 mm apart.
+# A plane milled by a ball of 6 mm that leans by 20° to alternating sides, with its centre on passes 0.6 mm apart: scallops
+# are those of an upright one, 0.6²/(8 · 3) = 15 µm, although the tips of two neighbours are 0.6 ± 2.05 mm apart.
 set(trunnion @DATA@/machines/five_axis_trunnion.toml)
 set(leaning "awk 'BEGIN { t = 20 * atan2(0, -1) / 180; print \"G21 G90 G54\\nG0 X0 Y0 Z20\\nG43.4 H1\"; for (i = 0; i < 6; ++i) { s = i % 2 ? 1 : -1; printf \"G0 X%g Y%.6f Z5 A%g C0\\nG1 Z%.6f F1200\\nX%g\\nG0 Z5\\n\", i % 2 ? 12 : 0, 0.6 * i + s * 3 * sin(t), s * 20, 3 - 3 * cos(t), i % 2 ? 0 : 12 } print \"M30\" }' > plane.nc; $CLSURF simulate plane.nc --machine ${trunnion} -o run.biip")
 clsurf_cli_test(NAME check_of_a_leaning_ball SETUP "${leaning}" ARGS check plane.nc run.biip --machine ${trunnion} --tool ball:6
-  EXIT 5  # of six passes two have one neighbour only: not enough for a verdict
+  EXIT 5  # two of six passes have only one neighbour: not enough for a verdict
   STDOUT "scallop between clean passes with ball:6: 15.0" "formed surface, .* Rz 1[45][.].. .at most 15")
 clsurf_cli_test(NAME check_of_a_leaning_bull SETUP "${leaning}" ARGS check plane.nc run.biip --machine ${trunnion} --tool bull:6,1
   EXIT 5 STDERR "bull:6,1 is tilted: the formed surface and its roughness are available for ball-end tools only")
@@ -267,7 +267,7 @@ clsurf_cli_test(NAME compare_updates SETUP "cp ${shot}/speed_iso.png a.png" ARGS
 # ---- the predictor ----
 clsurf_cli_test(NAME check_text ARGS check ${part} ${run} --tool ball:6
   STDOUT "point_spacing .*-83.0 .* 2408-2568" "scallop between clean passes with ball:6: 7")
-# What was planted, and nothing else: data/logs/README.md.
+# The planted defects, and no others: data/logs/README.md.
 clsurf_cli_test(NAME check_planted_zigzag ARGS check @DATA@/programs/planted_zigzag.nc @LOGS@/planted_zigzag.biip --tool ball:6
   STDOUT "2 distinct lag_step +6[.][0-9] +-0[.][0-9] +9[.][0-9] pit +4[.]2 +9[.][0-9].*lines 747-753, 679-686" "3 visible +lag_step .* 3[.][0-9] bulge .*lines 1785-1792, 1883-1889"
          "1 visible +feed_drop +8[.][0-9] +-24[.]1 +1[.]0 pit .* 1797-1800" "3 defects on 40 passes")
@@ -342,7 +342,7 @@ clsurf_cli_test(NAME machine_axis_without_kinematics SETUP "printf '[[axis]]\\nn
 
 # ---- five axes ----
 set(trunnion "printf '[kinematics]\\ntype = \"table-table\"\\n' > m.toml")
-# A quarter turn of C takes the axes from (10, 0) to (0, −10): the tip stays where it is.
+# A quarter turn of C moves the axes from (10, 0) to (0, −10): the tip does not move.
 set(turning "printf 'cmd.x,cmd.y,cmd.z,cmd.a,cmd.c,line\\n10,0,0,0,0,1\\n7.0710678119,-7.0710678119,0,0,45,1\\n0,-10,0,0,90,1\\n0,-10,5,0,90,2\\n' > turn.csv && printf 'G43.4 G1 X10 Y0 Z0 C90 F100\\nZ5\\n' > turn.nc")
 clsurf_cli_test(NAME five_axis_positions
   SETUP "${trunnion} && ${turning} && $CLSURF export turn.nc turn.csv --period 0.001 --machine m.toml -o out.csv --columns x,y,z,tool_axis.z -q && tail -n +2 out.csv | awk -F, '($1-10)^2 + $2^2 > 1e-12 || $4 != 1 { exit 1 }'"
@@ -372,7 +372,7 @@ foreach(dialect linuxcnc fanuc)
     SETUP "printf 'G21 G90\\nG1 X40 F600\\nM2\\n' > a.nc && $CLSURF simulate a.nc --dialect ${dialect} --start 30,20,10 -o a.biip -q && $CLSURF export a.biip --columns x,y,z -o a.csv && sed -n 2p a.csv | grep -q '^30[.0-9]*,20,10$' && tail -n 1 a.csv | grep -q '^40,20,10$'"
     ARGS --version)
 endforeach()
-# LinuxCNC knows where the axes stand: incremental words count from there.
+# LinuxCNC knows the position of the axes: incremental words count from it.
 clsurf_cli_test(NAME simulate_goes_on_from_where_the_axes_stand
   SETUP "printf 'G21 G91\\nG1 X10 Z-2 F600\\nM2\\n' > a.ngc && $CLSURF simulate a.ngc --dialect linuxcnc --start 30,20,10 -o a.biip -q && $CLSURF export a.biip --columns x,y,z -o a.csv && tail -n 1 a.csv | grep -q '^40,20,8$'"
   ARGS --version)
@@ -396,7 +396,7 @@ clsurf_cli_test(NAME simulate_feed_of_zero SETUP "printf 'G1 X1 F100\\nG1 X2 F0\
 clsurf_cli_test(NAME simulate_outside_the_travel SETUP "printf 'G1 X1000 F9000\\n' > a.nc" ARGS simulate a.nc -o run.biip
   STDERR "a.nc:1: warning: x leaves its travel" FILE run.biip)
 
-# ---- runs against each other ----
+# ---- comparison of runs ----
 set(as_recorded "$CLSURF convert @LOGS@/mixed.csv --period 0.001 -o a.biip; cp a.biip again.biip; $CLSURF convert @LOGS@/mixed.csv --period 0.002 -o slow.biip")
 clsurf_cli_test(NAME diff_of_equal_runs ARGS diff ${run} ${run} --tool none --program ${part}
   STDOUT "100.0 % of" "speed .mm/min. +0.00 +0.00 +0.00 +0.00 +0.00 +0.00 +0.0 +0" "height .µm. +0.00 +0.00 +0.00 +0.00 +0.00 +0.00 +0.0 +0")
@@ -451,7 +451,7 @@ clsurf_cli_test(NAME lint_several_sarif
 clsurf_cli_test(NAME lint_several_one_missing SETUP "${two_programs}" ARGS lint a.nc nowhere.nc EXIT 3 STDERR "nowhere.nc: error")
 clsurf_cli_test(NAME lint_missing_program ARGS lint nowhere.nc EXIT 3 STDERR "nowhere.nc: error")
 
-# ---- the linked page (what it does in a browser: tests/page) ----
+# ---- the linked page (its behaviour in a browser: tests/page) ----
 clsurf_cli_test(NAME report_writes_one_file SETUP "$CLSURF report ${part} ${run} --tool none -o r.html -q && grep -q '<p>Slow: [0-9]* of F3000 mm/min: blocks of 0.02' r.html"
   ARGS --version)
 clsurf_cli_test(NAME report_of_chosen_fields ARGS report ${part} ${run} -o r.html --fields speed,jerk --color jerk --tool none --max-size 4 FILE r.html)

@@ -1,14 +1,15 @@
 # clsurf_cli_test(NAME name ARGS word… [EXIT code] [STDOUT regex…] [NO_STDOUT regex…] [STDERR regex…]
 #                 [FILE name…] [NO_FILE path…] [SAME name…] [SETUP shell commands]):
-# runs the built program in an empty folder of its own and checks the exit code (0), that every
-# regex (extended, over all lines) is found and no NO_STDOUT, that the FILEs are there and not empty,
-# and the NO_FILEs are not, and that all files of SAME are equal byte for byte. A run that fails (exit code 2 to 4) must leave no new file but FILEs, and change none.
+# runs the built program in a new empty folder and checks the exit code (0), that every
+# regex (extended, over all lines) is found and no NO_STDOUT, that the FILEs exist and are not empty,
+# that the NO_FILEs do not exist, and that all files of SAME are equal byte for byte. A run that fails (exit code 2 to 4) must
+# leave no new file except FILEs, and change none.
 #
-# In ARGS and SETUP, @DATA@ is the folder data of the project, @LOGS@ that of the unpacked logs.
+# In ARGS and SETUP, @DATA@ is the folder data of the project, @LOGS@ the folder of the unpacked logs.
 # SETUP may use $CLSURF, the program.
 #
-# Tests of one command line (SETUP, ARGS and EXIT are the same) run it once: the first of them does, the others look at
-# what it left. AFTER test: this test is run after that one, whose folder is @AFTER@ in ARGS and SETUP.
+# Tests with the same command line (SETUP, ARGS and EXIT) run it once: the first test does, the others check its
+# results. AFTER test: this test runs after that one, whose folder is @AFTER@ in ARGS and SETUP.
 function(clsurf_cli_test)
   cmake_parse_arguments(PARSE_ARGV 0 TEST "" "NAME;EXIT;SETUP;AFTER" "ARGS;STDOUT;NO_STDOUT;STDERR;FILE;NO_FILE;SAME")
   if(TEST_UNPARSED_ARGUMENTS)

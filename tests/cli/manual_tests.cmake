@@ -1,4 +1,4 @@
-# The manual against the tables: docs/reference is what the program writes now, man pages are sound,
+# The manual is up to date: docs/reference equals the program's output, man pages are valid,
 # completion knows the words.
 set(written ${CMAKE_CURRENT_BINARY_DIR}/reference)
 add_test(NAME manual.reference_is_up_to_date COMMAND bash -c
@@ -8,7 +8,8 @@ add_test(NAME manual.reference_is_up_to_date COMMAND bash -c
 add_test(NAME manual.bash_completes COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/cli/completion_test
   ${PROJECT_BINARY_DIR}/manual/completion/clsurf)
 
-# The documents: links lead somewhere, pages for users have no history of measurements, shown outputs are what the commands print. `update` in place of `listings` writes them.
+# The documents: links exist, pages for users have no history of measurements, shown outputs are those of the commands.
+# `update` in place of `listings` writes them.
 set(check_documents python3 ${PROJECT_SOURCE_DIR}/tests/docs/check_documents.py)
 add_test(NAME docs.links COMMAND ${check_documents} links ${PROJECT_SOURCE_DIR})
 add_test(NAME docs.histories COMMAND ${check_documents} histories ${PROJECT_SOURCE_DIR})
@@ -38,7 +39,7 @@ add_test(NAME docs.wrong_listings_are_found COMMAND ${check_documents} listings 
 set_tests_properties(docs.wrong_listings_are_found PROPERTIES PASS_REGULAR_EXPRESSION
   "shown: +line 560: X1.874 Z4.723\n +printed: line 560: X1.873 Z4.723\n")
 
-# A picture of another field under the name of a command.
+# A picture of another field for a command's picture.
 file(MAKE_DIRECTORY ${wrong}/pictures)
 file(WRITE ${wrong}/pictures/README.md "![mismatch](guide/mismatch.png)\n\n    clsurf render part.nc run.biip --view top -o mismatch.png\n")
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/docs/guide ${wrong}/pictures/guide SYMBOLIC)

@@ -1,5 +1,5 @@
-# Outputs: nothing overwrites an input, whatever its name is spelled like.
-# run.* are names of one log, part.* of one program: each ending as its output wants it.
+# Outputs: no output overwrites an input, however its name is written.
+# run.* are names of one log, part.* of one program, with the extensions that outputs need.
 set(inputs "cp @DATA@/programs/bottle_uneven.nc part.nc; cp @LOGS@/bottle_uneven.biip run.biip; cp @DATA@/machines/three_axis_mill.toml mill.toml; echo 'max_defects = 1000' > part.toml; mkdir folder
   for ending in png html json csv; do ln -s run.biip run.$ending; ln part.nc part.$ending; done; ln mill.toml mill.biip; ln part.toml part.txt; ln run.biip hard.png; ln part.nc part.biip")
 function(clsurf_overwrite_test name output input)
@@ -43,7 +43,7 @@ clsurf_cli_test(NAME output_to_standard_output ARGS check ${part} ${run} --tool 
 clsurf_cli_test(NAME output_to_dev_stdout ARGS check ${part} ${run} --tool none --format csv -o /dev/stdout STDOUT "^id,")
 clsurf_cli_test(NAME output_to_a_pipe SETUP "mkfifo pipe; (cat pipe > ../piped) &" ARGS convert ${run} -o pipe FILE ../piped)
 
-# ---- the ending chooses the format, or is an error ----
+# ---- the extension selects the format, or is an error ----
 clsurf_cli_test(NAME ending_jpeg SETUP "$CLSURF render ${part} ${run} --size 160x120 -o map.JPG; head -c 3 map.JPG | od -An -tx1 | grep -q 'ff d8 ff'; $CLSURF render ${part} ${run} --size 160x120 -o map.png"
   ARGS compare map.JPG map.png --threshold 0.3 EXIT 0)
 foreach(form tif.II.0 webp.RIFF.1)
@@ -68,13 +68,13 @@ clsurf_ending_test(compare_gif "${picture_endings}" compare ${shot}/speed_iso.pn
 clsurf_ending_test(identify_picture "${drawing_endings}" identify ${part} ${run} -o m.toml --picture residual.eps)
 clsurf_ending_test(optimize_picture "${drawing_endings}" optimize ${part} -o better.nc --picture better.eps)
 clsurf_ending_test(report_pdf ".html or .htm" report ${part} ${run} -o r.pdf)
-# SVG and PDF: every word is text, and the surface is what the PNG shows.
+# SVG and PDF: every word is text, and the surface equals that in the PNG.
 find_program(PDFTOTEXT pdftotext)
 find_program(PDFTOPPM pdftoppm)
 set(read_svg "python3 ${CMAKE_CURRENT_LIST_DIR}/read_svg.py")
 clsurf_cli_test(NAME svg_map SETUP "$CLSURF render ${part} ${run} --defects --size 800x600 -o map.svg && ${read_svg} map.svg images 1 'bottle_uneven.nc' 'Five passes|slower'" ARGS --version)
 clsurf_cli_test(NAME svg_plot SETUP "$CLSURF plot ${part} ${run} --fields speed,acceleration -o curve.svg && ${read_svg} curve.svg images 0 'Path speed .mm/min.' 'time .s.'" ARGS --version)
-# The words of `query` for a slow point; none where the tool is as fast as programmed.
+# The words of `query` for a slow point; none if the tool is as fast as programmed.
 clsurf_cli_test(NAME svg_plot_says_why_it_is_slow SETUP "$CLSURF plot ${part} ${run} --line 600 -o slow.svg && ${read_svg} slow.svg images 0 'slow at point 4911: 622 of F3000 mm/min: blocks of 0.024 mm' && $CLSURF plot ${part} ${run} --mark-point 4500 -o fast.svg && ! grep -q 'slow at' fast.svg" ARGS --version)
 clsurf_cli_test(NAME svg_card SETUP "$CLSURF plot ${part} ${run} --tool none --defect 1 -o card.svg && ${read_svg} card.svg images 1 'Defect 1' 'Speed .mm/min.' 'line 1178'" ARGS --version)
 clsurf_cli_test(NAME svg_diff SETUP "$CLSURF diff ${run} ${run} --tool none -o map.svg && ${read_svg} map.svg images 1 'minus'" ARGS --version)
@@ -102,7 +102,7 @@ clsurf_cli_test(NAME ending_unknown_with_format ARGS check ${part} ${run} --tool
 clsurf_cli_test(NAME moves_into_a_file SETUP "$CLSURF moves ${part} > a.csv; $CLSURF moves ${part} -o b.csv; cmp a.csv b.csv" ARGS moves ${part} -o - STDOUT "line,kind")
 clsurf_cli_test(NAME intervals_into_a_file SETUP "$CLSURF intervals ${part} -o a.csv; grep -q 'own_speed .mm/min.' a.csv" ARGS intervals ${part} -o a.json FILE a.json)
 
-# ---- quiet: errors only; what was asked for as data is written ----
+# ---- quiet: only errors; requested data are written ----
 clsurf_cli_test(NAME quiet_check ARGS check ${part} ${run} --tool none -q NO_STDOUT ".")
 clsurf_cli_test(NAME quiet_check_json ARGS check ${part} ${run} --tool none -q --json STDOUT "\"defects\"")
 clsurf_cli_test(NAME quiet_lint ARGS lint ${part} -q EXIT 1 NO_STDOUT ".")

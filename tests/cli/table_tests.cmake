@@ -1,4 +1,4 @@
-# What is neither a program nor a log that can be read: said, with what to do.
+# Files that are neither a program nor a readable log: the message says so, and what to do.
 set(own "printf '%s\\n' 'Timestamp,Xcmd,X_act,PosY_soll,Z Ist (mm),F,Line,Mode' '0,1.0,1.0,2.0,3.0,3000,10,AUTO' '1,1.1,1.0,2.0,3.0,3000,10,AUTO' '2,1.2,1.1,2.0,3.0,3000,11,AUTO' > own.csv")
 clsurf_cli_test(NAME table_in_info SETUP "${own}" ARGS info own.csv EXIT 3 STDOUT "own.csv: a table that is not recognised as a log" "3  PosY_soll, such as 2.0" "name = .cmd.y." STDERR "own.csv: error: no column name is that of a position" "hint: .*--suggest-mapping own.csv")
 clsurf_cli_test(NAME table_in_info_json SETUP "${own}" ARGS info own.csv --json EXIT 3 STDOUT "\"kind\": \"table\"" "\"suggested_mapping\"" "\"Xcmd\"" STDERR "no column name")

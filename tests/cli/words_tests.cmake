@@ -1,4 +1,4 @@
-# Words that people try, in the order in which they try them; and those that a configuration says for them.
+# Words that users try, in the order in which they try them; and words from a configuration.
 clsurf_cli_test(NAME words_version ARGS version STDOUT "^clsurf ${PROJECT_VERSION}")
 clsurf_cli_test(NAME words_version_of_all_parts ARGS --version STDOUT "^clsurf ${PROJECT_VERSION}\ncommit    ([0-9a-f]{12}(-dirty)?|unknown)\ncompiler  "
   "VTK 9\\.[0-9]+\\.[0-9]+, OpenImageIO [0-9.]+, Eigen 3\\.[0-9.]+, Boost 1\\.[0-9.]+, TBB [0-9.]+, fmt [0-9.]+, nlohmann-json [0-9.]+, toml\\+\\+ [0-9.]+, HDF5 [0-9.]+, zlib [0-9.]+, Zstandard [0-9.]+, liblzma [0-9.]+, Expat [0-9.]+, OpenSSL [0-9][0-9a-z.]+, SQLite [0-9.]+, libmodbus [0-9.]+\n"
@@ -52,7 +52,7 @@ clsurf_cli_test(NAME config_wrong_value SETUP "${project}; printf 'threads = \"m
 clsurf_cli_test(NAME config_wrong_word SETUP "${project}; printf 'gl = \"vulkan\"\n' > parts/.clsurf.toml" ARGS render parts/deep/part.nc ${run} -o map.png EXIT 3 STDERR "parts/.clsurf.toml:1:[0-9]+: error: --gl: 'vulkan' is not one of osmesa, egl")
 clsurf_cli_test(NAME config_wrong_tool SETUP "${project}; printf '# mine\ntool = \"cone:6\"\n' > parts/.clsurf.toml" ARGS check parts/deep/part.nc ${run} EXIT 3 STDERR "parts/.clsurf.toml:2:[0-9]+: error: --tool: tool 'cone:6'")
 clsurf_cli_test(NAME config_wrong_work_offset SETUP "${project}; printf 'work-offset = [1, 2]\n' > parts/.clsurf.toml" ARGS check parts/deep/part.nc ${run} EXIT 3 STDERR "parts/.clsurf.toml:1:[0-9]+: error: --work-offset: '1,2' is not 3 or 4 numbers")
-# Where the log itself says where the program's zero lies, the configuration does not move it.
+# If the log states the program's zero, the configuration does not change it.
 set(trunnion @DATA@/machines/five_axis_trunnion.toml)
 clsurf_cli_test(NAME config_after_the_work_offset_of_the_log
   SETUP "printf 'G21 G90 G54\nG43.4 H1\nG0 X0 Y0 Z5 A10 C0\nG1 X10 F600\nM2\n' > a.nc; $CLSURF simulate a.nc --machine ${trunnion} --work-offset 1,2,3 -o a.biip; echo 'work-offset = [7, 7, 7]' > .clsurf.toml"

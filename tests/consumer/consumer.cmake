@@ -1,4 +1,4 @@
-# The package as a stranger meets it: installed into an empty folder, found, linked, run.
+# The package in use by another project: installed into an empty folder, found, linked, run.
 
 if(CLSURF_SANITIZE STREQUAL "none")
   set(launcher)

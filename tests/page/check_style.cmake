@@ -1,4 +1,4 @@
-# Layout (prettier) and mistakes (eslint) of the page's sources and of its tests, in BUILD, where its packages lie.
+# Layout (prettier) and mistakes (eslint) of the page's sources and tests, in BUILD, where its packages are.
 cmake_policy(VERSION 3.25)
 file(REMOVE_RECURSE ${BUILD}/style)
 file(COPY ${SOURCE}/ DESTINATION ${BUILD}/style PATTERN node_modules EXCLUDE PATTERN dist EXCLUDE)

@@ -1,4 +1,4 @@
-# npm's packages of the page, as the lockfile has them, in BUILD; only when it changed.
+# Installs npm's packages of the page in BUILD as in the lockfile, if it has changed.
 cmake_policy(VERSION 3.25)
 file(MAKE_DIRECTORY ${BUILD})
 file(SHA256 ${SOURCE}/package-lock.json wanted)
@@ -9,7 +9,7 @@ if(EXISTS ${stamp})
     return()
   endif()
 endif()
-# The lockfile belongs to the project, whatever registry a machine asks.
+# The lockfile must not depend on the registry of a machine.
 file(READ ${SOURCE}/package-lock.json lock)
 if(lock MATCHES "\"resolved\"")
   message(FATAL_ERROR "package-lock.json names a registry's host: npm install --omit-lockfile-registry-resolved")

@@ -1,5 +1,5 @@
-# Checks the types of the page's sources, builds them anew and compares with what stands in the tree; with
-# UPDATE it is put there.
+# Checks the types of the page's sources, rebuilds the bundle and compares it with the committed one; with
+# UPDATE it replaces that.
 cmake_policy(VERSION 3.25)
 file(REMOVE_RECURSE ${BUILD}/src ${BUILD}/dist)
 file(COPY ${SOURCE}/src ${SOURCE}/tsconfig.json ${SOURCE}/build.mjs ${SOURCE}/notices.mjs DESTINATION ${BUILD})

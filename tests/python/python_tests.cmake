@@ -1,4 +1,5 @@
-# The Python package, by pytest: numbers against those of the program, memory, errors, pictures, and what docs/python.md shows.
+# The Python package, with pytest: numbers against those of the program, memory, errors, pictures, and the examples of
+# docs/python.md.
 
 if(TARGET clsurf_python)
   get_target_property(interpreter clsurf_python CLSURF_INTERPRETER)
@@ -7,7 +8,7 @@ if(TARGET clsurf_python)
     add_test(NAME python.${file} COMMAND ${pytest} ${CMAKE_CURRENT_LIST_DIR}/test_${file}.py)
     list(APPEND python_tests python.${file})
   endforeach()
-  # The page works on part.nc and run.biip, as a reader does.
+  # The page uses part.nc and run.biip, like a reader.
   set(page ${CMAKE_CURRENT_BINARY_DIR}/python_page)
   file(MAKE_DIRECTORY ${page})
   configure_file(${PROJECT_SOURCE_DIR}/data/programs/bottle_uneven.nc ${page}/part.nc COPYONLY)
@@ -20,11 +21,11 @@ if(TARGET clsurf_python)
     "import sys, clsurf; assert clsurf.__file__.startswith(sys.argv[3]), clsurf.__file__; assert clsurf.Part(*sys.argv[1:3]).picture(size=(320, 240)).png"
     ${PROJECT_SOURCE_DIR}/data/programs/bottle_uneven.nc ${PROJECT_BINARY_DIR}/samples/bottle_uneven.biip ${installed})
   set_tests_properties(python.installed PROPERTIES LABELS python FIXTURES_REQUIRED installed_tree)
-  # The wheel, made as the target clsurf_wheel does.
+  # The wheel, made like the target clsurf_wheel.
   add_test(NAME python.wheel COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/wheel_test ${CMAKE_CURRENT_BINARY_DIR}/python_wheel ${interpreter}
     ${CMAKE_COMMAND} ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR} ${PROJECT_VERSION})
   set_tests_properties(python.wheel PROPERTIES LABELS python TIMEOUT 600)
-  # The notebook, cell by cell: what it shows is what comes out.
+  # The notebook, cell by cell: the shown results are the computed ones.
   list(APPEND python_tests python.notebook)
   add_test(NAME python.notebook COMMAND ${interpreter} -B ${CMAKE_CURRENT_LIST_DIR}/run_notebook.py check ${PROJECT_SOURCE_DIR}/docs/notebook/bottle.ipynb)
   set_tests_properties(${python_tests} PROPERTIES LABELS python TIMEOUT 600 ENVIRONMENT

@@ -1,10 +1,10 @@
-# optimize and simulate with a controller of the user's own: here another simulated machine, which nothing but its logs
-# shows; and controllers that fail.
+# optimize and simulate with the user's own controller, here another simulated machine that is only known from its logs;
+# and controllers that fail.
 
 set(other "printf '[path]\\nmax_normal_acceleration = 900\\n[[axis]]\\nname = \"x\"\\nmax_acceleration = 1300\\n' > other.toml")
 set(dome @DATA@/programs/dome_loops.nc)
-# A part of two and a half seconds: each run of a repair is simulated many times. Six passes, the fourth of which has fifty
-# points in a millimetre.
+# A part of two and a half seconds, because each run of a repair is simulated many times. Six passes, the fourth of which
+# has fifty points in a millimetre.
 set(crowded_part "awk 'BEGIN { print \"G21 G90\\nG64 P0.005\\nG0 X0 Y0 Z10\\nG1 Z0 F1000\\nG1 F3000\"; for (k = 0; k < 6; ++k) for (w = 0; w < 9.01; w += k == 3 && w > 3 && w < 4 ? 0.02 : 0.25) { x = k % 2 ? 9 - w : w; printf \"X%.3f Y%.3f Z%.3f\\n\", x, 0.4 * k, 0.5 * sin(0.8 * x) } print \"G0 Z10\\nM2\" }' > part.nc")
 # The machine of a machine file, and one with another limit.
 set(mill @DATA@/machines/linuxcnc_logs.toml)
@@ -12,14 +12,14 @@ set(other_mill "${crowded_part}; sed '0,/max_acceleration = .*/s//max_accelerati
 clsurf_cli_test(NAME optimize_on_a_controller SETUP "${other}; ${crowded_part}"
   ARGS optimize part.nc --controller "$CLSURF simulate {program} --machine other.toml -o {log} -q" --runs 3 -o better.nc FILE better.nc
   STDOUT "machine: that of clsurf machine --defaults, fitted to the runs of the controller" "run 1, the program: [0-9.]+ s, speed mismatch [0-9.]+ mm/min, [0-9]+ defect" "run [23], candidate [12]: .*. promised .*. accepted" "on the controller +before" "accepted")
-# The table has the defects of the runs above it, also where no candidate is taken.
+# The table has the defects of the runs above it, even if no candidate is accepted.
 clsurf_cli_test(NAME optimize_refused_by_a_controller
   SETUP "${other_mill}; sed 's/max_acceleration = .*/max_acceleration = 500/' ${mill} > slow.toml; printf '#!/bin/sh\\ngrep -q optimize \"$1\" && m=slow || m=other\\n\"$CLSURF\" simulate \"$1\" --machine $m.toml -o \"$2\" -q\\n' > controller; chmod +x controller; $CLSURF optimize part.nc --machine ${mill} --machines 0 --controller './controller {program} {log}' --runs 2 -o better.nc > out.txt || test $? -eq 1; grep -q 'refused: on the controller' out.txt && awk '/^run 1/ { a = $11 } /^run 2/ { b = $11 } /^defects / { exit !(a == $2 && b == $3 && a != b) }' out.txt"
   ARGS --version NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_controller_json SETUP "${other_mill}"
   ARGS optimize part.nc --machine ${mill} --controller "$CLSURF simulate {program} --machine other.toml -o {log} -q" --runs 2 -o better.nc --json
   STDOUT "\"controller_runs\"" "\"promised\"" "\"proof\": \"controller\"" "\"ensemble\"" "\"worst\"")
-# A candidate's failure is reported; without any that ran, nothing is written.
+# The failure of a candidate is reported; if none runs, nothing is written.
 clsurf_cli_test(NAME optimize_controller_fails_on_candidates EXIT 1
   SETUP "${other_mill}; printf '#!/bin/sh\\ngrep -q optimize \"$1\" && { echo no such tool; exit 7; }\\n\"$CLSURF\" simulate \"$1\" --machine other.toml -o \"$2\" -q\\n' > controller; chmod +x controller"
   ARGS optimize part.nc --machine ${mill} --controller "./controller {program} {log}" --runs 2 -o better.nc NO_FILE better.nc
@@ -46,7 +46,7 @@ clsurf_cli_test(NAME simulate_controller_runs_another_program EXIT 3
   ARGS simulate ${dome} --controller "cp @LOGS@/bottle_uneven.biip {log} # {program}" -o run.biip NO_FILE run.biip STDERR "run.biip: error: does not belong to")
 clsurf_cli_test(NAME simulate_controller_stops_early SETUP "${other}"
   ARGS simulate ${dome} --controller "$CLSURF simulate {program} --machine other.toml -o {log} -q; truncate -s -200000 {log}" -o run.biip FILE run.biip STDERR "run.biip: .*warning: the log ends at line [0-9]+: [0-9]+ % of the program's motions are missing after it")
-# What never ends is not read.
+# A log that never ends is not read.
 clsurf_cli_test(NAME simulate_controller_writes_a_device EXIT 3
   ARGS simulate ${dome} --controller "ln -s /dev/zero {log} # {program}" -o run.biip NO_FILE run.biip STDERR "its log is not a file")
 clsurf_cli_test(NAME simulate_controller_writes_a_pipe EXIT 3
@@ -57,7 +57,7 @@ clsurf_cli_test(NAME optimize_controller_stops_candidates_early EXIT 1
   SETUP "${other_mill}; printf '#!/bin/sh\n\"$CLSURF\" simulate \"$1\" --machine other.toml -o \"$2\" -q\ngrep -q optimize \"$1\" && truncate -s -20000 \"$2\" || true\n' > controller; chmod +x controller"
   ARGS optimize part.nc --machine ${mill} --controller "./controller {program} {log}" --runs 2 -o better.nc NO_FILE better.nc
   STDOUT "run 2, candidate 1: failed: the log lacks [0-9.]+ % of the program" "refused")
-# With a log and without a machine file, the machine is that of the log.
+# With a log and without a machine file, the machine is fitted to the log.
 clsurf_cli_test(NAME optimize_fits_the_machine_to_the_log SETUP "${crowded_part}; $CLSURF simulate part.nc --machine ${mill} -o run.biip -q"
   ARGS optimize part.nc --log run.biip -o better.nc
   STDOUT "machine: fitted to run.biip" "on 4 other machines that the machine file allows" "Fidelity of this machine file [(]the fitted runs: 1[)]")
@@ -73,7 +73,7 @@ clsurf_cli_test(NAME machine_file_with_uncertainty_of_nothing EXIT 3
   SETUP "printf '[[uncertainty]]\\nkey = \"position_gain\"\\nof = \"x\"\\nrelative_error = 0.1\\n' > m.toml"
   ARGS machine m.toml STDERR "no uncertainty is known of 'position_gain' of 'x'")
 
-# A repair that was verified on simulated machines, and ran on LinuxCNC (docs/experiments/kernel.md): 15 defects before, the
+# A repair that was verified on simulated machines and run on LinuxCNC (docs/experiments/kernel.md): 15 defects before, the
 # passes 82 to 87 % slower than their neighbours.
 set(repaired @DATA@/programs/bottle_uneven_repaired.nc)
 clsurf_cli_test(NAME repaired_on_a_kernel ARGS check ${repaired} @LOGS@/bottle_uneven_repaired.biip
@@ -82,12 +82,12 @@ clsurf_cli_test(NAME repaired_as_the_kernel_ran_it
   SETUP "$CLSURF simulate ${repaired} --machine @DATA@/machines/linuxcnc_kernel.toml -o simulated.biip -q"
   ARGS diff @LOGS@/bottle_uneven_repaired.biip simulated.biip --program ${repaired}
   STDOUT "aligned, 25[.]9[0-9]+ s and 26[.][0-9]+ s" "speed .mm/min. +-?0[.]0[0-9] +0[.]0[0-9] +-?0[.]0[0-9] +0[.]0[0-9] ")
-# Rounds: the machine is another one than its file says. Each round's log improves the fit, and what is kept must be better.
+# Rounds: the machine differs from its file. Each round's log improves the fit, and the result must be better.
 set(crowded_rounds "${crowded_part}; $CLSURF simulate part.nc --machine @DATA@/machines/linuxcnc_logs.toml -o run0.biip -q; $CLSURF optimize part.nc --tolerance 0.003 -o one.nc -q; $CLSURF simulate one.nc --machine @DATA@/machines/linuxcnc_logs.toml -o run1.biip -q")
 clsurf_cli_test(NAME optimize_learns_from_rounds SETUP "${crowded_rounds}; sed 's/F3000/F2500/' one.nc > slow.nc; $CLSURF simulate slow.nc --machine @DATA@/machines/linuxcnc_logs.toml -o run2.biip -q"
   ARGS optimize part.nc --log run0.biip --round slow.nc run2.biip -o two.nc FILE two.nc
   STDOUT "fitted to 2 logs" "run 1, the program: [0-9.]+ s" "run 2, slow.nc: [0-9.]+ s, .*no better than the program: it would take" "the fitted runs: 2" "accepted")
-# The same part without the crowded points, by hand, on a machine with better servo loops: nothing that the search finds
+# The same part without the crowded points, made by hand, on a machine with better servo loops: no candidate of the search
 # promises more.
 string(REPLACE "k == 3 && w > 3 && w < 4 ? 0.02 : 0.25" "0.25" even_part "${crowded_part}")
 string(REPLACE "part.nc" "even.nc" even_part "${even_part}")
@@ -102,14 +102,14 @@ clsurf_cli_test(NAME optimize_half_a_round EXIT 2
 clsurf_cli_test(NAME optimize_rounds_without_the_log EXIT 2
   ARGS optimize ${dome} --round ${dome} @LOGS@/dome_loops.biip -o better.nc STDERR "--round needs the log of the program itself")
 
-# Arcs in corners where axes have jerk limits.
+# Arcs in corners if axes have jerk limits.
 clsurf_cli_test(NAME machine_arc_steps_within_a_period SETUP "printf '[controller]\\nperiod = 0.002\\narc_step_time = 0.001\\n' > m.toml" ARGS machine --check m.toml
   EXIT 3 STDERR "m.toml:3:17: error: 'arc_step_time' is 0.001, expected 0 or at least the period, 0.002")
 clsurf_cli_test(NAME machine_arc_steps_of_splines SETUP "printf '[controller]\\ncorner = \"spline\"\\narc_step_time = 0.001\\n' > m.toml" ARGS machine --check m.toml
   EXIT 3 STDERR "m.toml:3:17: error: 'arc_step_time' has no effect with corner = \"spline\".*hint: remove the line")
 clsurf_cli_test(NAME machine_arc_steps_of_five_axes SETUP "printf '[controller]\\narc_step_time = 0.001\\n[kinematics]\\ntype = \"table-table\"\\n' > m.toml" ARGS machine --check m.toml
   EXIT 3 STDERR "arc_step_time is for three axes")
-# Merging of short lines: Q of G64 belongs to the trapezoidal planner, and five axes merge nothing.
+# Merging of short lines: Q of G64 belongs to the trapezoidal planner, and with five axes nothing is merged.
 clsurf_cli_test(NAME machine_merging SETUP "printf '[controller]\\nplanner = \"trapezoidal\"\\nmerging_tolerance = \"program\"\\n' > m.toml" ARGS machine --check m.toml STDOUT "can be used")
 clsurf_cli_test(NAME machine_merging_of_no_program SETUP "printf '[controller]\\nmerging_tolerance = \"program\"\\n' > m.toml" ARGS machine --check m.toml
   EXIT 3 STDERR "m.toml:2:21: error: 'merging_tolerance'")

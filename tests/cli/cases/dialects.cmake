@@ -1,4 +1,4 @@
-# Which dialect a program is read in, and what is refused.
+# How the dialect of a program is chosen, and what is refused.
 
 # ---- the guess ----
 clsurf_cli_test(NAME dialect_of_polar_words SETUP "printf '(holes)\\nG0 @3 ^45\\nG0 ^90\\nM2\\n' > part.nc" ARGS info part.nc

@@ -1,9 +1,9 @@
-# Runs on five axes are compared by the tip of the tool.
+# Runs on five axes are compared by the tool tip.
 
 set(dome @DATA@/programs/dome_five_axis.nc)
 set(trunnion --machine @DATA@/machines/five_axis_trunnion.toml)
 string(REPLACE ";" " " trunnion_words "${trunnion}")
-# The same part clamped elsewhere: its axes move otherwise, its tip does not.
+# The same part clamped elsewhere: its axes move differently, its tip does not.
 set(clamped_elsewhere "$CLSURF simulate ${dome} ${trunnion_words} --work-offset 10,20,30 -o here.biip -q && $CLSURF simulate ${dome} ${trunnion_words} --work-offset -40,5,60 -o there.biip -q")
 clsurf_cli_test(NAME diff_lays_tips_onto_each_other SETUP "${clamped_elsewhere}"
   ARGS diff here.biip there.biip ${trunnion} STDOUT "(100[.]0|9[0-9][.][0-9]) % of")
@@ -15,8 +15,9 @@ clsurf_cli_test(NAME diff_warns_of_rotary_axes_without_a_machine AFTER diff_lays
 clsurf_cli_test(NAME diff_knows_the_lines_of_a_program_on_five_axes AFTER diff_lays_tips_onto_each_other SETUP "${same_clamped_elsewhere}"
   ARGS diff here.biip there.biip ${trunnion} --program ${dome} STDOUT "(100[.]0|9[0-9][.][0-9]) % of")
 
-# Passes of a ball of 6 mm over a plane, 0.4 mm apart: scallops of 3 - sqrt(9 - 0.04) = 6.67 um, whose Sa is 4 / (9 sqrt 3) of that, 1.71 um; a filter
-# of 0.8 mm leaves 1 - 2^-4 of their first wave. In the other program every second pass is 6 um lower: waves of 0.8 mm, of which the filter
+# Passes of a ball of 6 mm over a plane, 0.4 mm apart: scallops of 3 - sqrt(9 - 0.04) = 6.67 um with an Sa of 4 / (9 sqrt 3)
+# of that, 1.71 um; a filter of 0.8 mm leaves 1 - 2^-4 of their first wave. In the other program every second pass is 6 um
+# lower: waves of 0.8 mm, of which the filter
 # leaves half. NumPy, from the envelope of the circles: Ra 1.73 and Sa 2.79 um. Both runs have the cut-off of the first one.
 set(deeper "awk 'BEGIN { for (n = 0; n < 2; ++n) { f = n ? \"deeper.nc\" : \"even.nc\"; print \"G21 G90\\nG0 X0 Y0 Z10\\nG1 Z0 F1000\\nG1 F3000\" > f; for (k = 0; k < 60; ++k) printf \"X%d Y%.1f Z%.3f\\nX%d\\n\", k % 2 * 20, 0.4 * k, n * (k % 2) * -0.006, (1 - k % 2) * 20 > f; print \"G0 Z10\\nM2\" > f } }'")
 clsurf_cli_test(NAME diff_roughness SETUP "${deeper}" ARGS diff even.nc deeper.nc --tool ball:6
@@ -31,7 +32,7 @@ clsurf_cli_test(NAME render_before_tells_roughness SETUP "${deeper} && $CLSURF s
 clsurf_cli_test(NAME report_before_tells_roughness SETUP "${deeper} && $CLSURF simulate even.nc -o a.biip -q && $CLSURF simulate deeper.nc -o b.biip -q && $CLSURF report even.nc b.biip --before a.biip --tool ball:6 --fields speed -o r.html -q && grep -q 'roughness Ra .*<td>1.60</td><td>1.7[234]</td>' r.html"
   ARGS --version)
 
-# Options that nothing would read.
+# Options without effect.
 foreach(option "dialect fanuc" "tools nofile.tbl" "block-delete on")
   separate_arguments(words UNIX_COMMAND "--${option}")
   string(MAKE_C_IDENTIFIER "${option}" name)

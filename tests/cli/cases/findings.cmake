@@ -1,7 +1,7 @@
-# What `check` and `report` say of findings: verdict, order, numbers, words.
+# How `check` and `report` present findings: verdict, order, numbers, words.
 
-# ---- no verdict where too little could be compared ----
-# Forty passes of 0.5 mm: all of them are ends, nothing is compared.
+# ---- no verdict if too little could be compared ----
+# Forty passes of 0.5 mm consist only of ends: nothing is compared.
 set(short_passes "(printf 'G21 G90 G54\\nG0 X0 Y0 Z5\\nG1 Z0 F600\\n' && seq 0 2 38 | awk '{printf \"G1 Y%.1f\\nX0.5\\nY%.1f\\nX0\\n\", $1/5, ($1+1)/5}' && echo M30) > part.nc"
   "$CLSURF simulate part.nc -o run.biip > /dev/null")
 set(one_pass "printf 'G21 G90 G54\\nG0 X0 Y0 Z5\\nG1 Z0 F600\\nX30\\nM30\\n' > part.nc" "$CLSURF simulate part.nc -o run.biip > /dev/null")
@@ -25,7 +25,7 @@ clsurf_cli_test(NAME not_judged_in_the_picture
   ARGS render part.nc run.biip --defects -o map.png FILE map.png)
 clsurf_cli_test(NAME judged_in_json ARGS check ${part} ${run} --tool none --json STDOUT "\"judged\": true" "\"not_judged_reasons\": ..,")
 
-# ---- order: what stands farthest out comes first ----
+# ---- order: the most conspicuous finding comes first ----
 # The five slow passes of the sample part, and then the lag of all passes as one finding.
 clsurf_cli_test(NAME slow_passes_come_first ARGS check ${part} ${run}
   STDOUT "1 distinct point_spacing .* 2 distinct point_spacing .* 3 distinct point_spacing .* 4 [dr][a-z]+ +point_spacing .* 5 [dr][a-z]+ +point_spacing .* 6 distinct lag_step .*±")
@@ -47,7 +47,7 @@ string(REPLACE COLUMNS 90 narrow "${in_a_terminal}")
 string(REPLACE COLUMNS 160 wide "${in_a_terminal}")
 clsurf_cli_test(NAME text_fits_a_narrow_terminal SETUP "${narrow} && grep -q 'lines 1178-1334$' seen && test $(LC_ALL=C.UTF-8 wc -L < seen) -le 90" ARGS --version)
 clsurf_cli_test(NAME table_uses_a_wide_terminal SETUP "${wide} && grep -q '^   1 distinct .* 1178-1334$' seen" ARGS --version)
-# 2.9999999329447746 is a float in a double's clothes.
+# 2.9999999329447746 is a float printed as a double.
 clsurf_cli_test(NAME json_has_as_many_digits_as_mean_something SETUP "$CLSURF check ${part} ${run} --tool ball:6 --json > report.json && (! grep -E '[.][0-9]{6}' report.json) && grep -q '\"speed_percent\": 3.0' report.json" ARGS --version)
 clsurf_cli_test(NAME slower_is_negative_everywhere
   SETUP "$CLSURF check ${part} ${run} --tool none --json | grep -E 'speed_jump_(mm_min|percent)' | sed -n 1,2p > first && test $(grep -c ': -[0-9]' first) = 2 && $CLSURF check ${part} ${run} --tool none --format csv | sed -n 2p | cut -d, -f14,19 | grep -qE '^-[0-9.]+,-[0-9.]+$'"
@@ -56,7 +56,7 @@ clsurf_cli_test(NAME sarif_speaks_in_sentences ARGS check ${part} ${run} --forma
   STDOUT "\"text\": \"Pass [0-9]+ runs 8[0-9] % slower than its neighbours" "\"markdown\"" "\"clsurfDefect/v1\": \"point_spacing/speed/14/" "\"help\"" "\"level\": \"error\"" "\"level\": \"warning\"" "\"ruleId\": \"systematic_lag\"")
 
 # ---- accepted defects ----
-# A file of them as the page saves it: `accepted RANK… > FILE` takes the fingerprints of a report.
+# A file of accepted defects like that of the page: `accepted RANK… > FILE` takes the fingerprints of a report.
 set(accept_two "$CLSURF check ${part} ${run} --tool none --json > all.json && python3 -c \"import json; d = json.load(open('all.json'))['defects']; json.dump({'clsurf_accepted': 1, 'defects': [{'fingerprint': x['fingerprint'], 'severity': x['severity'], 'comment': 'polished by hand'} for x in d[:2]]}, open('ok.json', 'w'))\"")
 clsurf_cli_test(NAME accepted_defects_are_listed SETUP "${accept_two}" ARGS check ${part} ${run} --tool none --accepted ok.json
   STDOUT "^1[0-9] defects" "   1 distinct point_spacing" "accepted: 1 .polished by hand., 2 .polished by hand.")
@@ -66,7 +66,7 @@ clsurf_cli_test(NAME accepted_defects_are_suppressed_in_sarif SETUP "${accept_tw
   ARGS --version)
 clsurf_cli_test(NAME accepted_defects_in_csv SETUP "${accept_two} && $CLSURF check ${part} ${run} --tool none --accepted ok.json -o part.csv && python3 -c \"import csv; rows = list(csv.DictReader(open('part.csv'))); assert all(None not in x for x in rows); assert {x['id'] for x in rows if x['accepted'] == 'true'} == {'1', '2'}\""
   ARGS --version)
-# Only what is not accepted counts: of a budget of all but two, one less is too few.
+# Only defects that are not accepted count: a budget of all but two is met, one less is not.
 set(all_but "${accept_two} && python3 -c \"import json; print('max_defects =', len(json.load(open('all.json'))['defects']) - COUNT)\" > budget.toml")
 string(REPLACE COUNT 2 all_but_two "${all_but}")
 string(REPLACE COUNT 3 all_but_three "${all_but}")

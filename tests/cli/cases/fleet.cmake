@@ -1,14 +1,14 @@
-# Many runs: failures are rows, what is recorded is not judged again, tasks and merged databases say the same.
+# Many runs: failures are rows, recorded runs are not judged again, tasks and merged databases give the same.
 
 set(planted @DATA@/programs/planted_loops.nc)
 set(fleet_runs "cp ${planted} part.nc; cp @LOGS@/planted_loops.biip part_1.biip; cp @LOGS@/planted_loops.biip part_2.biip; printf 'x' >> part_2.biip; printf '[[run]]\nprogram = \"part.nc\"\nlog = \"part_1.biip\"\nparameters = { tool = \"D6 R3\", wear = 0.1 }\ntime = \"2026-11-01\"\n[[run]]\nprogram = \"part.nc\"\nlog = \"nowhere.biip\"\n[[run]]\nprogram = \"part.nc\"\nlog = \"part_2.biip\"\ntime = \"2026-11-02\"\n' > runs.toml")
 set(fleet_twice "${fleet_runs}; $CLSURF fleet runs.toml -o shop.db -q || true")
-# What two histories of the same runs say, but for when they were judged and in which order.
+# The rows of two histories of the same runs, without their times and order of judging.
 set(rows "import sqlite3, sys; print(sorted(sqlite3.connect(sys.argv[1]).execute('SELECT log_sha256, CASE WHEN length(failure) = 0 THEN time END, worst_score, defects, failure, settings, (SELECT count(*) FROM sections WHERE run = id), (SELECT group_concat(value) FROM parameters WHERE run = id) FROM runs')))")
 clsurf_cli_test(NAME fleet_a_failure_is_a_row SETUP "${fleet_runs}" ARGS fleet runs.toml -o shop.db EXIT 1 FILE shop.db
   STDOUT "^3 runs in shop.db: 2 judged, 0 of them over their limits, 0 not judged, 1 failed" "failed: part.nc nowhere.biip: nowhere.biip: error: cannot open")
 clsurf_cli_test(NAME fleet_rows SETUP "${fleet_twice}" ARGS history shop.db list --json STDOUT "\"failure\": \"nowhere.biip: error: cannot open" "\"tool\": \"D6 R3\"" "\"wear\": \"0.1\"")
-# What failed is not a run without defects.
+# A failed run is not a run without defects.
 set(failed_and_judged "cp ${planted} part.nc; $CLSURF fleet --program part.nc --log nowhere.biip -o shop.db -q || true; $CLSURF fleet --program part.nc --log @LOGS@/planted_loops.biip -o shop.db -q")
 clsurf_cli_test(NAME fleet_a_failure_has_no_measures SETUP "${failed_and_judged}; $CLSURF history shop.db list --json > list.json; $CLSURF history shop.db show 1 --json > show.json; python3 @DATA@/../tests/cli/read_failed.py list.json show.json"
   ARGS history shop.db list STDOUT "part.nc +- +- +- +- +- failed")
@@ -20,7 +20,7 @@ clsurf_cli_test(NAME fleet_judges_again_what_changed SETUP "${fleet_twice}; prin
 clsurf_cli_test(NAME fleet_judges_again_with_other_options SETUP "${fleet_twice}" ARGS fleet runs.toml -o shop.db --tool ball:6 --json EXIT 1 STDOUT "\"already_recorded\": 0" "\"cause\": \"nowhere.biip: error")
 clsurf_cli_test(NAME fleet_tries_failed_runs_again SETUP "${fleet_twice}; $CLSURF history shop.db list > ../before; cp @LOGS@/planted_loops.biip nowhere.biip" ARGS fleet runs.toml -o shop.db --retry-failed STDOUT "3 judged.*0 failed. 2 of the 3 were recorded already")
 clsurf_cli_test(NAME fleet_a_verdict_replaces_its_failure SETUP "${fleet_twice}; cp @LOGS@/planted_loops.biip nowhere.biip; $CLSURF fleet runs.toml -o shop.db --retry-failed -q" ARGS history shop.db list --json STDOUT "\"log\": \"nowhere.biip\"" NO_STDOUT "\"failure\": \"nowhere")
-# Parameters of the log count, also where --param gives another one.
+# Parameters of the log count, even if --param gives another one.
 clsurf_cli_test(NAME fleet_knows_runs_by_the_parameters_of_their_logs
   SETUP "cp ${planted} part.nc; $CLSURF convert @LOGS@/planted_loops.biip --param tool=D6R3 -o part.biip -q; $CLSURF fleet --program part.nc --log part.biip -o shop.db --param wear=0.1 -q"
   ARGS fleet --program part.nc --log part.biip -o shop.db --param wear=0.1 STDOUT "^1 run in shop.db: 1 judged.* 0 failed. 1 of the 1 was recorded already")
@@ -43,13 +43,13 @@ clsurf_cli_test(NAME fleet_one_run SETUP "${fleet_runs}" ARGS fleet --program pa
 clsurf_cli_test(NAME fleet_within_little_memory SETUP "${fleet_runs}" ARGS fleet --program part.nc --log part_1.biip -o shop.db --memory 3M EXIT 1 STDOUT "0 judged.* 1 failed" "failed: part.nc part_1.biip: .*(memory|shared|signal)")
 clsurf_cli_test(NAME fleet_within_enough_memory SETUP "${fleet_runs}" ARGS fleet runs.toml -o shop.db --memory 2G --jobs 2 EXIT 1 STDOUT "2 judged")
 clsurf_cli_test(NAME fleet_progress SETUP "${fleet_runs}" ARGS fleet runs.toml -o shop.db --progress always EXIT 1 STDERR "of 3 runs, 1 failed")
-# The same list by tasks, in another order.
+# The same list as tasks, in another order.
 clsurf_cli_test(NAME fleet_tasks
   SETUP "${fleet_runs}; mkdir bin; ln -s $CLSURF bin/clsurf; $CLSURF fleet runs.toml -o shop.db -q || true; $CLSURF fleet runs.toml -o many.db --tasks | tac > tasks; PATH=$PWD/bin:$PATH; while read -r task; do sh -c \"$task\" > /dev/null || true; done < tasks; $CLSURF fleet --merge many.db.parts -o many.db -q; python3 -c \"${rows}\" shop.db > a; python3 -c \"${rows}\" many.db > b; sed -i \"s,$PWD/,,g\" a b; cmp a b"
   ARGS fleet --merge many.db.parts -o many.db STDOUT "^0 runs of 3 databases taken into many.db, which has 3 now")
 clsurf_cli_test(NAME fleet_tasks_are_quoted SETUP "cp ${planted} \"it's a part.nc\"; cp @LOGS@/planted_loops.biip a.biip" ARGS fleet --program "it's a part.nc" --log a.biip -o shop.db --tasks STDOUT "--program '/[^\n]*/it'.''s a part.nc'" NO_FILE shop.db)
 
-# ---- what it refuses ----
+# ---- refused arguments ----
 clsurf_cli_test(NAME fleet_of_nothing ARGS fleet -o shop.db EXIT 2 STDERR "one of RUNS.toml, FOLDER, and --program with --log is needed")
 clsurf_cli_test(NAME fleet_without_a_history SETUP "${fleet_runs}" ARGS fleet runs.toml EXIT 2 STDERR "no output file given")
 clsurf_cli_test(NAME fleet_missing_list ARGS fleet nowhere.toml -o shop.db EXIT 3 STDERR "nowhere.toml: error: cannot open" NO_FILE shop.db)

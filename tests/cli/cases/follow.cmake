@@ -1,4 +1,4 @@
-# Logs that are still being written: what is refused before anything is read; the rest is in tests/cli/follow_test.
+# Logs that are still being written: arguments that are refused before reading; the rest is in tests/cli/follow_test.
 set(followed @DATA@/programs/planted_zigzag.nc @LOGS@/planted_zigzag.biip)
 
 clsurf_cli_test(NAME follow_a_closed_log ARGS check ${followed} --follow STDOUT "finding [0-9] .provisional.: Pass 31 runs 24 % slower" "its writer closed it" "confirms 3 of 3 findings")

@@ -1,13 +1,13 @@
-# Work frames and poses of logs, as a user types them.
+# Work frames and poses of logs on the command line.
 
 set(g55 "printf 'G21 G90\\nG10 L2 P2 X100\\nG54 G0 X0 Y0 Z5\\nG1 X20 F3000\\nG55\\nG1 X0\\nM2\\n' > g55.ngc")
 set(g92 "printf 'G21 G90\\nG0 X82 Y10 Z5\\nG92 X0 Y0\\nG1 Z0 F100\\nX10 F1000\\nM2\\n' > g92.ngc")
-# From X 20 on 80 mm forward; what is exported is in the coordinates of the first cut.
+# From X 20, 80 mm forward; exported positions are in the coordinates of the first cut.
 clsurf_cli_test(NAME another_work_system_is_where_its_offset_puts_it
   SETUP "${g55} && $CLSURF simulate g55.ngc --dialect linuxcnc -o run.biip > /dev/null && $CLSURF export g55.ngc run.biip --dialect linuxcnc -o run.csv && tail -n 1 run.csv | grep -q '^[0-9]*,[0-9.]*,6,100,0,5,'"
   ARGS info g55.ngc run.biip --dialect linuxcnc STDOUT "positions lie 0.0000 mm .median. and 0.0000 mm" NO_STDOUT "another program")
 clsurf_cli_test(NAME moves_stay_in_their_work_system SETUP "${g55}" ARGS moves g55.ngc --dialect linuxcnc STDOUT "6,feed,0,0,5")
-# The plunge after G92 is one: 5 mm down at F100 are 3 s, 82 mm would be 50 s.
+# The plunge after G92 is 5 mm at F100, 3 s; without the shift it would be 82 mm, 50 s.
 clsurf_cli_test(NAME shifted_position_moves_nothing
   SETUP "${g92} && $CLSURF simulate g92.ngc --dialect linuxcnc -o run.biip > /dev/null && $CLSURF export g92.ngc run.biip --dialect linuxcnc -o run.csv && tail -n 1 run.csv | grep -q ',5,10,0,0,'"
   ARGS info g92.ngc run.biip --dialect linuxcnc STDOUT "4[.]1[0-9]* s" "positions lie 0.0000 mm .median. and 0.0000 mm" NO_STDOUT "another program")
@@ -19,7 +19,7 @@ clsurf_cli_test(NAME info_mapping_is_of_the_log
   ARGS info part.nc run.txt --mapping run.toml STDOUT "part.nc: program" "run.txt: log")
 
 # ---- the pose of a log ----
-# A run in a turned work system, whose program does not say so: `info` finds it and names the option.
+# A run in a rotated work system that its program does not set: `info` finds it and names the option.
 set(wavy "(printf 'G21 G90 G61\\n(offset)\\nG54 G0 Z10\\nG0 X0 Y0\\nG1 Z0 F600\\n' && awk 'BEGIN{for(k=0;k<8;++k)for(i=0;i<=60;++i){x=k%2?30-i/2:i/2;y=0.4*k;printf \"G1 X%.3f Y%.3f Z%.4f F2400\\n\",x,y,-1+0.8*sin(x/4)+0.02*y}}' && printf 'G0 Z10\\nM2\\n') > part.ngc")
 set(turned_run "${wavy} && sed 's/^.offset.$/G10 L2 P1 X35.5 Y-22.25 Z-14 R17.5/' part.ngc > turned.ngc && $CLSURF simulate turned.ngc --dialect linuxcnc -o run.biip > /dev/null")
 clsurf_cli_test(NAME pose_of_a_turned_log SETUP "${turned_run}" ARGS info part.ngc run.biip --dialect linuxcnc
@@ -33,7 +33,7 @@ clsurf_cli_test(NAME report_without_its_work_offset_is_told_it SETUP "${turned_r
   STDERR "--work-offset 35[.]5,-22[.]25,-14,17[.]5 aligns them")
 clsurf_cli_test(NAME work_offset_of_the_program_itself SETUP "${turned_run}" ARGS info turned.ngc run.biip --dialect linuxcnc
   STDOUT "positions lie 0.0000 mm .median. and 0.000" NO_STDOUT "displaced" "map.disagreement")
-# The same log as a control writes it that records the work system.
+# The same log from a control that records the work system.
 clsurf_cli_test(NAME positions_of_the_work_system
   SETUP "${turned_run} && $CLSURF simulate part.ngc --dialect linuxcnc -o run.biip > /dev/null"
   ARGS info turned.ngc run.biip --dialect linuxcnc STDOUT "read as those of the work system, without the offset 35[.]5,-22[.]25,-14,17[.]5" "positions lie 0.0000 mm .median. and 0.000")

@@ -1,4 +1,4 @@
-# A history as a user makes and asks it; what it refuses. Rows are read by Python's own SQLite, too.
+# A history from making to queries, and refused arguments. Rows are also read with Python's own SQLite.
 
 set(bottle @DATA@/programs/bottle_uneven.nc)
 set(recorded "$CLSURF history shop.db add ${bottle} @LOGS@/bottle_uneven.biip --tool ball:6 --param tool=D6R3 --time 2026-11-02 -q; $CLSURF history shop.db add ${planted} @LOGS@/planted_loops.biip --param tool=D8R1 --time 2026-11-01 -q")
@@ -21,7 +21,7 @@ clsurf_cli_test(NAME history_add_fails_as_check_does ARGS history shop.db add ${
 clsurf_cli_test(NAME history_adds_what_is_not_judged SETUP "head -c 100000 @LOGS@/bottle_uneven.biip > run.biip" ARGS history shop.db add ${bottle} run.biip EXIT 5 STDOUT "not judged")
 
 # ---- since when, with which tool ----
-# Twelve runs of one part: with the new tool all is well, with the worn one five passes slow down.
+# Twelve runs of one part: without defects with the new tool; with the worn one five passes slow down.
 set(twelve "for day in 01 02 03 04 05 06; do $CLSURF history shop.db add ${planted} @LOGS@/planted_loops.biip --time 2026-11-$day --param tool=new --param number=$day -q; done; python3 @DATA@/../tests/cli/worsen_runs.py shop.db 6")
 clsurf_cli_test(NAME history_since_when SETUP "${twelve}" ARGS history shop.db trend --quantity worst_score --by tool -o trend.png FILE trend.png
   STDOUT "Since run 7 .2026-11-07 00:00. the median is" "worn +6 runs.*new +6 runs")
@@ -37,7 +37,7 @@ clsurf_cli_test(NAME history_outliers AFTER history_since_when SETUP "${same_run
 clsurf_cli_test(NAME history_against_first AFTER history_since_when SETUP "${same_runs}" ARGS history shop.db against first STDOUT "run 12 .* against run 1 .*: 0 new defects, [0-9]+ worse")
 clsurf_cli_test(NAME history_against_best AFTER history_since_when SETUP "${same_runs}" ARGS history shop.db against best --run 8 --json STDOUT "\"state\": \"worse\"")
 clsurf_cli_test(NAME history_against_a_number AFTER history_list_is_in_the_order_of_time SETUP "${same_runs}" ARGS history shop.db against 2 STDERR "warning: runs 1 and 2 are of different programs" STDOUT "new defects")
-# Every 32nd record: too few to judge.
+# Every 32nd record only: too few to judge.
 set(one_unjudged "cp @DATA@/programs/dome_loops.nc . && $CLSURF export dome_loops.nc @LOGS@/dome_loops.biip -o all.csv --columns cmd.x,cmd.y,cmd.z -q && awk 'NR == 1 || NR % 32 == 0' all.csv > slow.csv && $CLSURF history shop.db add dome_loops.nc @LOGS@/dome_loops.biip --tool none -q && { $CLSURF history shop.db add dome_loops.nc slow.csv --period 0.032 -q || true; }")
 clsurf_cli_test(NAME history_against_without_a_verdict SETUP "${one_unjudged}" ARGS history shop.db against 1 --run 2 EXIT 3 STDERR "run 2 was not judged: A record comes every 32 ms" "hint: choose runs with a verdict")
 clsurf_cli_test(NAME history_trend_without_a_verdict AFTER history_against_without_a_verdict SETUP "${same_runs}" ARGS history shop.db trend STDOUT "over 1 run: [0-9.]+ times the threshold in run 1 .*, the latest with a value" "1 run has no value: failed, or not judged")
@@ -55,7 +55,7 @@ clsurf_cli_test(NAME history_parameter_without_a_value ARGS history shop.db add 
 clsurf_cli_test(NAME history_parameters_malformed SETUP "printf '[wear]\nkind = \"nubmer\"\n' > rules.toml" ARGS history shop.db add ${planted} @LOGS@/planted_loops.biip --parameters rules.toml EXIT 3 STDERR "rules.toml:2:[0-9]+: error: 'nubmer' is not text, number or integer")
 clsurf_cli_test(NAME history_parameters_range_of_a_text SETUP "printf '[tool]\nrange = [0, 1]\n' > rules.toml" ARGS history shop.db add ${planted} @LOGS@/planted_loops.biip --parameters rules.toml EXIT 3 STDERR "rules.toml:2:[0-9]+: error: is for numbers")
 
-# ---- what it refuses ----
+# ---- refused arguments ----
 clsurf_cli_test(NAME history_of_nothing ARGS history EXIT 2 STDERR "missing argument: DB")
 clsurf_cli_test(NAME history_without_a_verb ARGS history shop.db EXIT 2 STDERR "missing argument: VERB")
 clsurf_cli_test(NAME history_unknown_verb ARGS history shop.db lst EXIT 2 STDERR "'lst' is not one of add, list, show" "did you mean 'list'")
@@ -83,7 +83,7 @@ clsurf_cli_test(NAME record_check SETUP "$CLSURF check ${bottle} @LOGS@/bottle_u
 clsurf_cli_test(NAME record_says_where ARGS check ${planted} @LOGS@/planted_loops.biip --record shop.db FILE shop.db STDERR "recorded as run 1 of shop.db")
 clsurf_cli_test(NAME record_without_a_history ARGS check ${planted} @LOGS@/planted_loops.biip --param tool=D6R3 EXIT 2 STDERR "--param needs --record" "--record shop.db")
 clsurf_cli_test(NAME record_into_no_database SETUP "cp ${bottle} shop.db" ARGS check ${planted} @LOGS@/planted_loops.biip --record shop.db EXIT 3 STDERR "shop.db: error: is not a history of clsurf")
-# The configuration of a part is found beside the part, wherever the history is.
+# The configuration of a part is found next to the part, wherever the history is.
 clsurf_cli_test(NAME record_with_the_configuration_of_the_part
   SETUP "mkdir part; cp ${bottle} part/part.nc; echo 'tool = \"ball:6\"' > part/.clsurf.toml; for k in 1 2; do $CLSURF history shop.db add part/part.nc @LOGS@/bottle_uneven.biip --param k=$k -q; done"
   ARGS history shop.db list --json STDOUT "\"tool\": \"ball:6\".*\"tool\": \"ball:6\"")

@@ -1,5 +1,5 @@
-# identify: servo loops of a kernel's logs (LinuxCNC with the gains of data/machines/linuxcnc_logs.toml), of simulated ones,
-# and of logs that tell little.
+# identify: servo loops from logs of a kernel (LinuxCNC with the gains of data/machines/linuxcnc_logs.toml), from simulated
+# ones, and from logs with little information.
 
 set(bottle @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip)
 set(dome @DATA@/programs/dome_loops.nc @LOGS@/dome_loops.biip)
@@ -18,12 +18,12 @@ set(two_parts_of_the_dome "(head -n 200 @DATA@/programs/dome_loops.nc; echo M2) 
 set(json_of_parts identify fit.nc fit.biip -o m.toml --test test.nc test.biip --json)
 clsurf_cli_test(NAME identify_json SETUP "${two_parts_of_the_dome}" ARGS ${json_of_parts}
   STDOUT "\"schema_version\"" "\"machine\"" "\"parameters\"" "\"standard_error\"" "\"unidentified\"" "\"runs\"")
-# Less than a third of the dome says it as well, in a fifth of the time.
+# Less than a third of the dome is sufficient, in a fifth of the time.
 clsurf_cli_test(NAME identify_friction_and_backlash
   SETUP "(head -n 500 @DATA@/programs/dome_loops.nc; echo M2) > p.nc; printf '[[axis]]\\nname = \"x\"\\n[axis.servo]\\nposition_gain = 70\\nfriction = 90\\n[[axis]]\\nname = \"y\"\\n[axis.servo]\\nbacklash = 0.01\\ndead_time = 0.002\\n' > t.toml; $CLSURF simulate p.nc --machine t.toml -o r.biip"
   ARGS identify p.nc r.biip -o m.toml
   STDOUT "position_gain +x +(70|69[.]9|70[.]0)[0-9]* 1/s" "friction +x +(89[.][89]|90)[0-9.]* mm/min" "backlash +y +0[.]0(1|099|100)[0-9]* mm" "dead_time +y +0[.]00(2|199|200)[0-9]* s")
-# Drives with a PI controller of the velocity, computed apart from clsurf (tests/identify/pi_drive.py): without the integral the
+# Drives with a PI controller of the velocity, computed independently (tests/identify/pi_drive.py): without the integral the
 # following error of the other part is off by 4.9 of 25.5 µm (95 %).
 clsurf_cli_test(NAME identify_pi_velocity_loops
   SETUP "${two_parts_of_the_dome}; for name in fit test; do $CLSURF export $name.nc $name.biip -o $name.csv --columns time,line,cmd.x,cmd.y,cmd.z -q; /usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/identify/pi_drive.py $name.csv $name.driven.csv; done"
@@ -50,7 +50,7 @@ clsurf_cli_test(NAME identify_five_axes_without_kinematics
 # Of a kernel whose blocks overlap: each has half of the acceleration.
 clsurf_cli_test(NAME identify_overlapping_blocks ARGS identify @DATA@/programs/tangential_lines.ngc @LOGS@/tangential_lines.parabolic.biip -o m.toml
   STDOUT "trapezoidal, parabolic blends +[-0-9.]+ +[0-9.]+  chosen" "max_acceleration +x +2000 mm/s² .*twice what blocks that overlap keep")
-# Of LinuxCNC with MAX_FEED_OVERRIDE = 2: in percent, as a machine file has it.
+# LinuxCNC with MAX_FEED_OVERRIDE = 2: in percent, as in a machine file.
 clsurf_cli_test(NAME identify_feed_override_of_a_kernel ARGS identify @DATA@/programs/dome_loops.nc @LOGS@/dome_loops.biip -o m.toml
   STDOUT "max_feed_override +200 +[-0-9.]+ +[0-9.]+  chosen")
 clsurf_cli_test(NAME identify_limits_of_a_simulation
@@ -61,12 +61,12 @@ clsurf_cli_test(NAME identify_limits_of_a_simulation
     "planner +time-optimal, corner (arc|spline) .*chosen")
 # Both simulate many machines: on a slow machine with other work, for more than the usual limit.
 set_tests_properties(cli.identify_a_kernel cli.identify_limits_of_a_simulation PROPERTIES TIMEOUT 300)
-# Axes have 80000 mm/s³, the path 50000: what its limit holds is none of the axes'.
+# The axes have 80000 mm/s³, the path 50000: where the path limits the jerk, it is not attributed to the axes.
 clsurf_cli_test(NAME identify_limits_of_the_path
   SETUP "$CLSURF simulate @DATA@/programs/transition_g61.nc --machine @DATA@/machines/three_axis_mill.toml -o r.biip"
   ARGS identify @DATA@/programs/transition_g61.nc r.biip -o m.toml
   STDOUT "max_jerk +path +(499|500)[0-9]+ mm/s³ .*reached" "max_jerk +x +499[0-9]+ mm/s³ +lower bound. hardly exceeded. the file has 80000" "max_jerk +z +499[0-9]+ mm/s³ +lower bound")
-# Without fed-back positions nothing is known of the loops.
+# Without feedback positions the loops are unknown.
 clsurf_cli_test(NAME identify_without_feedback
   SETUP "$CLSURF export @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip --columns time,cmd.x,cmd.y,cmd.z -o r.biip"
   ARGS identify @DATA@/programs/bottle_uneven.nc r.biip -o m.toml FILE m.toml STDOUT "max_acceleration +z" "x: no log has fed-back positions of it .position_gain"
@@ -75,7 +75,7 @@ clsurf_cli_test(NAME identify_without_commanded
   SETUP "$CLSURF export @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip --columns time,fb.x,fb.y,fb.z -o r.biip"
   ARGS identify @DATA@/programs/bottle_uneven.nc r.biip -o m.toml EXIT 3 NO_FILE m.toml STDERR "nothing can be identified: axis x: no log has commanded positions")
 clsurf_cli_test(NAME identify_another_program ARGS identify @DATA@/programs/dome_loops.nc @LOGS@/bottle_uneven.biip -o m.toml EXIT 3 NO_FILE m.toml STDERR "another program|does not belong")
-# With --force the loops and limits show; no rule explains speeds that are compared nowhere, so none is chosen.
+# With --force, loops and limits are found; no rule explains speeds that are not compared, so none is chosen.
 clsurf_cli_test(NAME identify_another_program_by_force ARGS identify @DATA@/programs/dome_loops.nc @LOGS@/bottle_uneven.biip --force -o m.toml FILE m.toml
   STDOUT "position_gain +y +(80|79[.]999[0-9]*|80[.]000[0-9]*) 1/s" "no run follows its program .planner" "does not follow its program anywhere .fidelity" NO_STDOUT "chosen" STDERR "does not belong")
 clsurf_cli_test(NAME identify_without_a_log ARGS identify ${bottle} @DATA@/programs/dome_loops.nc -o m.toml EXIT 2 STDERR "dome_loops.nc' has no log")
@@ -83,7 +83,7 @@ clsurf_cli_test(NAME identify_without_output ARGS identify ${bottle} EXIT 2 STDE
 clsurf_cli_test(NAME identify_does_not_replace_its_log SETUP "cp @LOGS@/bottle_uneven.biip r.biip" ARGS identify @DATA@/programs/bottle_uneven.nc r.biip -o r.biip EXIT 2 STDERR "is an input|input")
 clsurf_cli_test(NAME machine_dead_time_too_long SETUP "printf '[[axis]]\\nname = \"x\"\\n[axis.servo]\\ndead_time = 0.2\\n' > m.toml" ARGS machine m.toml EXIT 3 STDERR "'dead_time' is 0.2, expected 0 or more, at most 0.1")
 
-# One line at constant speed, without its ends: nothing is known of accelerations, and the time is that of the piece.
+# One line at constant speed, without its ends: accelerations are unknown, and the time is that of the piece.
 clsurf_cli_test(NAME identify_constant_speed_throughout
   SETUP "printf 'G21 G90\\nG0 X0 Y0 Z0\\nG1 X200 F3000\\nM2\\n' > p.nc; $CLSURF simulate p.nc --machine @DATA@/machines/three_axis_mill.toml -o r.biip -q; $CLSURF export p.nc r.biip --columns time,cmd.x,cmd.y,cmd.z,fb.x,fb.y,fb.z -o r.csv -q; sed -n '1p;200,3800p' r.csv > c.csv"
   ARGS identify p.nc c.csv -o m.toml FILE m.toml
@@ -92,7 +92,7 @@ clsurf_cli_test(NAME identify_constant_speed_throughout
 clsurf_cli_test(NAME identify_too_short
   SETUP "printf 'G21 G90\\nG0 X0 Y0 Z0\\nG1 X50 F3000\\nM2\\n' > p.nc; $CLSURF simulate p.nc --machine @DATA@/machines/three_axis_mill.toml -o r.biip -q; $CLSURF export p.nc r.biip --columns time,cmd.x,cmd.y,cmd.z,fb.x,fb.y,fb.z -o r.csv -q; sed -n '1,40p' r.csv > c.csv"
   ARGS identify p.nc c.csv -o m.toml STDOUT "x: too few records .position_gain" "c.csv: time 0[.]0[0-9]+ s, simulated 0[.]0[0-9]+ s")
-# The axis Z1 of this recording turns: it is called A here, and the spindle, which stands still, Z.
+# The axis Z1 of this recording is rotary: it is called A here, and the spindle, which does not move, Z.
 set(gear_cutting "xzcat @DATA@/logs/edge_300.json.xz | sed 's/\"Axis\": \"Z1\"/\"Axis\": \"A1\"/; s/\"Axis\": \"SP1\"/\"Axis\": \"Z1\"/' > gear.json")
 clsurf_cli_test(NAME identify_keeps_the_fit_where_a_run_cannot_be_tested
   SETUP "printf 'G21 G90\\nG0 X0 Y0 Z0\\nG1 X50 F3000\\nM2\\n' > p.nc; $CLSURF simulate p.nc --machine @DATA@/machines/three_axis_mill.toml -o r.biip -q; ${gear_cutting}"
@@ -101,12 +101,12 @@ clsurf_cli_test(NAME identify_keeps_the_fit_where_a_run_cannot_be_tested
 clsurf_cli_test(NAME identify_two_periods
   SETUP "printf '[controller]\\nperiod = 0.002\\n' > p.toml; $CLSURF simulate @DATA@/programs/dome_loops.nc --machine p.toml -o r.biip -q"
   ARGS identify ${bottle} @DATA@/programs/dome_loops.nc r.biip -o m.toml EXIT 3 NO_FILE m.toml STDERR "r.biip: error: has a period of 0.002 s, but .* has 0.001 s")
-# A recording of a SINUMERIK: 0.6 s of a gear-cutting cycle. A counter begins again at its end, which is no motion.
+# A recording of a SINUMERIK: 0.6 s of a gear-cutting cycle. A counter restarts at its end, which is not a motion.
 clsurf_cli_test(NAME identify_a_short_recording SETUP "${gear_cutting}" ARGS identify @DATA@/programs/keychain.mpf gear.json -o m.toml
   STDOUT "x: the axis does not move" "b: constant speed throughout .max_acceleration" "moves rotary axes, and the kinematics are not known"
   NO_STDOUT "max_speed +a +[0-9]+[0-9][0-9][0-9][0-9][0-9][0-9][0-9] deg/min" "0[.]00 %")
 
-# The planner's rules: a kernel's log, and what the machine is worth on a run that the fit has not seen.
+# The planner's rules, from a kernel's log, and the fidelity of the machine on a run that the fit has not used.
 set(bottle_and_test identify ${bottle} -o m.toml --test ${dome} --picture residual.png)
 clsurf_cli_test(NAME identify_selects_the_rules_of_a_kernel ARGS ${bottle_and_test} FILE m.toml
   STDOUT "planner +trapezoidal, arc blends .*chosen" "fitted runs" "the runs do not distinguish .*lookahead_blocks")

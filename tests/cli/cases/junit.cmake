@@ -1,4 +1,4 @@
-# JUnit and baselines: what a build server is told agrees with the exit code.
+# JUnit and baselines: the report for a build server agrees with the exit code.
 
 set(planted @DATA@/programs/planted_loops.nc)
 set(planted_log @LOGS@/planted_loops.biip)
@@ -12,7 +12,7 @@ clsurf_cli_test(NAME junit_compare SETUP "cp ${shot}/speed_iso.png a.png; cp ${s
 
 # ---- baselines ----
 set(baselines "$CLSURF check ${planted} ${planted_log} -o old.json; $CLSURF check ${planted} ${planted_log} -o old.sarif")
-# The earlier run had one defect less, and another one was milder.
+# The earlier run had one defect less, and another one was less severe.
 set(milder "python3 -c \"import json; r = json.load(open('old.json')); d = r['logs'][0]['defects']; d.pop(0); d[0]['severity'] = 1; json.dump(r, open('old.json', 'w')); s = json.load(open('old.sarif')); e = s['runs'][0]['results']; e.pop(0); e[0]['properties']['severity'] = 1; json.dump(s, open('old.sarif', 'w'))\"")
 foreach(form json sarif)
   clsurf_cli_test(NAME baseline_same_${form} SETUP "${baselines}" ARGS check ${planted} ${planted_log} --baseline old.${form} STDOUT "against the baseline: 0 new defects, 0 worse, 0 gone, 3 as before")

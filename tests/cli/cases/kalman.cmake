@@ -1,4 +1,4 @@
-# --derivative kalman: one estimate of all that was measured, with its uncertainty.
+# --derivative kalman: one estimate from all measurements, with its uncertainty.
 
 clsurf_cli_test(NAME kalman_query ARGS query @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip --point 4848 --derivative kalman --json STDOUT "\"acceleration_uncertainty_mm_s2\": [0-9.]+" "\"speed_uncertainty_mm_min\"")
 clsurf_cli_test(NAME kalman_renders ARGS render @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip --derivative kalman --color acceleration_uncertainty --size 200x150 -o u.png FILE u.png)

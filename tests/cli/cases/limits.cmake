@@ -1,16 +1,16 @@
-# `check --machine`: the commanded motion against the limits of its machine.
+# `check --machine`: compares the commanded motion with the limits of its machine.
 
 set(kept @DATA@/programs/micro_segments.ngc @LOGS@/micro_segments.arcs.biip)
 set(exceeded @DATA@/programs/tangential_lines.ngc @LOGS@/tangential_lines.parabolic.biip)
 string(REPLACE ";" " " exceeded_words "${exceeded}")
-# What the kernel was given: its axes, and nothing of the path.
+# The limits given to the kernel: those of its axes, none of the path.
 string(CONCAT axes_only
   "for a in x y z; do printf '[[axis]]\\nname = \"%s\"\\nmax_acceleration = %s\\nmax_speed = %s\\n' $a "
   "$(test $a = z && echo 1500 9000 || echo 2000 15000); done > axes.toml")
 set(one "echo 'max_limit_factor = 1' > budget.toml")
 set(two "echo 'max_limit_factor = 2' > budget.toml")
 
-# The blend of line 302 takes 1.5005 times what y may, for 7 ms: a plain second difference of the positions.
+# The blend of line 302 has 1.5005 times the limit of y, for 7 ms: a plain second difference of the positions.
 clsurf_cli_test(NAME limits_find_the_parabolic_blend SETUP "${axes_only}" ARGS check ${exceeded} --machine axes.toml
   EXIT 5 STDOUT "^LIMITS EXCEEDED in 2 places. Worst: The acceleration of y is 1[.]50[01] ± 0[.]001 times its limit for [78] ms: 300[01] of 2000 mm/s², line 302[.]")
 clsurf_cli_test(NAME limits_in_json SETUP "${axes_only}" ARGS check ${exceeded} --machine axes.toml --json EXIT 5
@@ -21,7 +21,7 @@ clsurf_cli_test(NAME limits_in_sarif SETUP "${axes_only}" ARGS check ${exceeded}
   STDOUT "\"ruleId\": \"limit_acceleration\".*\"level\": \"error\".*\"startLine\": 302" "\"clsurfLimit/v1\": \"limit_acceleration/y/302/1\"")
 clsurf_cli_test(NAME limits_that_are_kept SETUP "${axes_only}" ARGS check ${kept} --machine axes.toml
   EXIT 5 STDOUT "^The commanded motion keeps all [0-9]+ limits that are stated for it" "\n  acceleration +x .* z 1[.]001")
-# A file without [path] states nothing of the path.
+# A file without [path] has no limits of the path.
 clsurf_cli_test(NAME limits_are_those_of_the_file SETUP "printf '[[axis]]\\nname = \"x\"\\nmax_speed = 15000\\n' > x.toml" ARGS check ${exceeded} --machine x.toml --json
   EXIT 5 NO_STDOUT "\"quantity\": \"acceleration\"" "\"axis\": \"y\"" "path_speed" STDOUT "\"quantity\": \"speed\"")
 
@@ -42,7 +42,7 @@ clsurf_cli_test(NAME limit_share_of_an_axis_in_a_table SETUP "${axes_only} && $C
 clsurf_cli_test(NAME limit_share_needs_a_machine ARGS render ${exceeded} --color jerk_share -o map.png EXIT 2 STDERR "jerk_share" "--machine")
 
 # ---- modulo axes ----
-# C turns on from 350 deg at 20 deg/s and is logged within a turn.
+# C turns from 350 deg at 20 deg/s and is logged modulo 360.
 string(CONCAT turning
   "printf 'G21 G90 G94\\nG1 X0 Y0 Z0 A0 C350 F6000\\nG1 Z20 C390 F600\\nM2\\n' > turning.nc && "
   "printf '[[axis]]\\nname = \"c\"\\nmax_speed = 1500\\nmax_acceleration = 1000\\n[kinematics]\\ntype = \"table-table\"\\n' > c.toml && "

@@ -1,4 +1,4 @@
-# Whether a log belongs to its program: foreign, edited and truncated ones, and lines that run again and again.
+# Whether a log belongs to its program: foreign, edited and truncated ones, and lines that run repeatedly.
 set(uneven @DATA@/programs/bottle_uneven.nc)
 set(zigzag @DATA@/programs/bottle_zigzag.nc)
 set(uneven_log @LOGS@/bottle_uneven.biip)
@@ -13,7 +13,7 @@ endforeach()
 clsurf_cli_test(NAME foreign_log_in_info ARGS info ${zigzag} ${uneven_log} EXIT 3 STDOUT "error: .*does not belong to .*bottle_zigzag.nc")
 clsurf_cli_test(NAME foreign_log_forced ARGS check ${zigzag} ${uneven_log} --tool none --force EXIT 5
   STDOUT "NOT JUDGED: The log does not belong to this program" STDERR "warning: does not belong to")
-# A program that lacks most of its lines, and the log of all of it.
+# A program that lacks most of its lines, with the log of the complete program.
 set(cut_off "head -n 1000 ${uneven} > cut.nc; $CLSURF export ${uneven} ${uneven_log} --columns time,line,x,y,z -o run.csv -q")
 set(cut_off_error "moving points have line numbers that the program of 1000 lines does not have: 100[1-9] … 371[0-9]")
 clsurf_cli_test(NAME log_of_a_program_that_was_cut_off SETUP "${cut_off}" ARGS check cut.nc run.csv EXIT 3
@@ -40,11 +40,11 @@ clsurf_cli_test(NAME feed_raised_after_the_run SETUP "sed 's/F3000/F4000/' ${une
 clsurf_cli_test(NAME comment_does_not_change_a_feed SETUP "${insert_comment}" ARGS info bottle_uneven.nc ${uneven_log} STDOUT "inserted" NO_STDOUT "ran at")
 clsurf_cli_test(NAME crlf_is_the_same_program SETUP "sed 's/$/\\r/' ${uneven} > bottle_uneven.nc" ARGS info bottle_uneven.nc ${uneven_log}
   STDOUT "positions lie" NO_STDOUT "edited" "another program")
-# A log that was recorded from a text with mixed line ends, and the text with LF only.
+# A log recorded from a text with mixed line ends, and the text with LF only.
 clsurf_cli_test(NAME mixed_line_ends_are_the_same_program
   SETUP "sed '1~2s/$/\\r/' ${uneven} > bottle_uneven.nc && $CLSURF convert ${uneven_log} --program bottle_uneven.nc -o run.biip && cp ${uneven} bottle_uneven.nc"
   ARGS info bottle_uneven.nc run.biip STDOUT "positions lie" NO_STDOUT "edited" "another program")
-# A kernel's line numbers lead its axes by two records, in which the tool passes several of the shorter lines.
+# A kernel's line numbers are two records ahead of its axes, in which the tool passes several of the shorter lines.
 set(irregular @DATA@/programs/petal_zigzag_irregular.ngc)
 clsurf_cli_test(NAME comment_appended_after_the_run SETUP "(cat ${irregular} && echo '(the end)') > petal_zigzag_irregular.ngc"
   ARGS info petal_zigzag_irregular.ngc @LOGS@/petal_zigzag_irregular.biip STDOUT "the edit moved no line" NO_STDOUT "inserted" "deleted")
@@ -52,13 +52,13 @@ clsurf_cli_test(NAME lines_edited_where_they_are_short
   SETUP "sed -e '12001i (a comment)' -e '16000,16001d' ${irregular} > petal_zigzag_irregular.ngc"
   ARGS info petal_zigzag_irregular.ngc @LOGS@/petal_zigzag_irregular.biip
   STDOUT "1 line inserted before line 1200[0-3], 2 lines deleted before line 1600[0-4] since")
-# Line numbers that lead by three records more: five in all.
+# Line numbers ahead by three more records: five in all.
 set(led "$CLSURF export ${zigzag} @LOGS@/bottle_zigzag.biip --columns line,cmd.x,cmd.y,cmd.z -o all.csv -q"
   "(head -n 1 all.csv && paste -d, <(tail -n +5 all.csv | cut -d, -f1) <(tail -n +2 all.csv | head -n -3 | cut -d, -f2-)) > run.csv")
 list(JOIN led " && " led)
 clsurf_cli_test(NAME lines_that_lead_are_kept SETUP "${led}" ARGS info ${zigzag} run.csv --period 0.001
   STDOUT "positions lie" NO_STDOUT "do not fit" "since the run")
-# The log of petal_spiral carries no hash.
+# The log of petal_spiral has no hash.
 clsurf_cli_test(NAME lines_inserted_without_a_hash SETUP "sed -e '3000i (a)' -e '3000i (b)' @DATA@/programs/petal_spiral.ngc > petal_spiral.ngc"
   ARGS query petal_spiral.ngc @LOGS@/petal_spiral.raw --layout @DATA@/logs/petal_spiral.layout.toml --point 70000
   STDOUT "confidence 0[.]95" STDERR "2 lines inserted before line 300[0-9]")
@@ -79,7 +79,7 @@ clsurf_cli_test(NAME truncated_log_is_not_judged SETUP "head -c 300000 @LOGS@/bo
 clsurf_cli_test(NAME lines_of_another_program_are_one_finding ARGS info ${uneven} @LOGS@/bottle_zigzag.biip EXIT 3
   STDOUT "points have a line number that the program of 3716 lines does not have: 3718 … 3938")
 
-# ---- subprograms in files of their own ----
+# ---- subprograms in separate files ----
 set(rib "printf 'G21 G90 G17\\nG0 X0 Y0 Z5\\nG1 Z0 F600\\no<rib> call [1]\\nG1 X0 Y2\\no<rib> call [3]\\nM2\\n' > part.ngc"
   "printf 'o<rib> sub\\nG1 X0 Y[#1] F3000\\nX20 Y[#1]\\nX20 Y[#1+0.5]\\no<rib> endsub\\nM2\\n' > rib.ngc"
   "$CLSURF simulate part.ngc --dialect linuxcnc -o run.biip > /dev/null")
@@ -91,7 +91,7 @@ clsurf_cli_test(NAME line_that_calls_a_file SETUP "${rib}" ARGS query part.ngc r
 clsurf_cli_test(NAME line_of_no_file SETUP "${rib}" ARGS query part.ngc run.biip --dialect linuxcnc --line web.ngc:3 EXIT 2 STDERR "no file 'web.ngc'" "rib.ngc")
 clsurf_cli_test(NAME line_beyond_a_called_file SETUP "${rib}" ARGS query part.ngc run.biip --dialect linuxcnc --line rib.ngc:30 EXIT 2 STDERR "rib.ngc has lines 1 … 6")
 clsurf_cli_test(NAME line_that_is_no_number SETUP "${rib}" ARGS query part.ngc run.biip --dialect linuxcnc --line six EXIT 2 STDERR "'six' is not a whole number")
-# Every fifth of thirty passes that a file makes is run at half the feed.
+# A file makes thirty passes, every fifth of which is run at half the feed.
 set(slow_passes "(printf 'G21 G90 G17\\nG0 X0 Y0 Z5\\nG1 Z0 F600\\n' && seq 0 29 | awk '{printf \"o<pair> call [%.1f] [%d]\\n\", $1*0.8, $1 % 5 == 2 ? 1500 : 3000}' && echo M2) > part.ngc"
   "printf 'o<pair> sub\\nF3000\\nG1 X0 Y[#1]\\nX20\\nY[#1+0.4]\\nX14\\nF[#2]\\nX6\\nF3000\\nX0\\no<pair> endsub\\nM2\\n' > pair.ngc"
   "$CLSURF simulate part.ngc --dialect linuxcnc -o run.biip > /dev/null")
@@ -106,8 +106,8 @@ clsurf_cli_test(NAME defect_in_a_file_that_is_called_in_csv SETUP "${slow_passes
 clsurf_cli_test(NAME defect_in_a_file_that_is_called_in_sarif SETUP "${slow_passes}" ARGS check part.ngc run.biip --dialect linuxcnc --format sarif
   STDOUT "\"locations\": .{,120}\"uri\": \"pair.ngc\".{,80}\"startLine\": 6,.{,30}\"endLine\": 10" "\"uri\": \"part.ngc\".{,80}\"startLine\": 16,.{,160}Calls pair.ngc")
 
-# ---- what is no finishing pass ----
-# Forty passes of 30 mm side by side, then three levels of a square pocket and two drilled holes.
+# ---- moves that are not finishing passes ----
+# Forty passes of 30 mm next to each other, then three levels of a square pocket and two drilled holes.
 set(with_pocket "(printf 'G21 G90 G17\\nG0 X0 Y0 Z5\\nG1 Z0 F600\\nF3000\\n' && seq 0 2 38 | awk '{printf \"G1 Y%.1f\\nX30\\nY%.1f\\nX0\\n\", $1/5, ($1+1)/5}'"
   "seq 1 3 | awk '{printf \"G0 Z5\\nG0 X60 Y0\\nG1 Z-%d\\nX75\\nY15\\nX60\\nY0\\n\", $1}'"
   "printf 'G0 Z5\\nG81 X100 Y0 Z-8 R2 F300\\nX110\\nG80\\nM30\\n') > part.nc" "$CLSURF simulate part.nc --dialect fanuc -o run.biip > /dev/null")
@@ -117,30 +117,30 @@ clsurf_cli_test(NAME pocket_is_no_finishing_pass SETUP "${with_pocket}" ARGS che
 clsurf_cli_test(NAME lint_of_a_pocket_judges_nothing
   SETUP "(printf 'G21 G90 G17\\nG0 X0 Y0 Z5\\nF3000\\n' && seq 1 3 | awk '{printf \"G0 Z5\\nG0 X60 Y0\\nG1 Z-%d\\nX75 F2000\\nY15\\nG3 X60 I-7.5 F3000\\nG1 Y0\\n\", $1}' && echo M30) > part.nc"
   ARGS lint part.nc STDOUT "no finishing passes to judge: 100 % of the cutting" NO_STDOUT "warning")
-# Levels of a pocket 0.8 mm apart, whose lines are so long that a coarse look takes passes 2.27 mm apart for adjacent.
+# Levels of a pocket 0.8 mm apart, with lines so long that a coarse search takes passes 2.27 mm apart for adjacent.
 clsurf_cli_test(NAME lint_of_long_lines_in_a_pocket_judges_nothing
   ARGS lint @DATA@/programs/mixed.ngc STDOUT "no finishing passes to judge: 99 % of the cutting" NO_STDOUT "warning")
-# Eight turns of a helix of 20 mm, 1 mm deep each, lead into the material.
+# Eight turns of a helix of 20 mm, 1 mm deep each, enter the material.
 set(helix "(printf 'G21 G90 G17\\nG0 X0 Y0 Z5\\nG0 X10 Y0\\nG1 Z0 F1000\\n' && seq 1 8 | awk '{printf \"G3 X10 Y0 Z-%d I-10 J0\\n\", $1}' && printf 'G3 X10 Y0 I-10 J0\\nG1 X0\\nG0 Z5\\nM30\\n') > part.nc"
   "$CLSURF simulate part.nc --dialect linuxcnc -o run.biip > /dev/null")
 list(JOIN helix " && " helix)
 clsurf_cli_test(NAME helix_into_the_material_is_no_finishing SETUP "${helix}" ARGS check part.nc run.biip --dialect linuxcnc EXIT 5
   STDOUT "NOT JUDGED: [0-9]+ % of the cutting points belong to no finishing passes")
-# A square wall of twelve levels, 0.3 mm apart, is finished.
+# A square wall of twelve levels, 0.3 mm apart, is a finishing operation.
 set(waterlines "(printf 'G21 G90 G17\\nG0 X0 Y0 Z5\\nG1 Z0 F600\\nF3000\\n' && seq 1 12 | awk '{printf \"G1 Z-%.1f\\nX20\\nY20\\nX0\\nY0\\n\", $1*0.3}' && echo M30) > part.nc"
   "$CLSURF simulate part.nc -o run.biip > /dev/null")
 list(JOIN waterlines " && " waterlines)
 clsurf_cli_test(NAME waterlines_are_finishing_passes SETUP "${waterlines}" ARGS check part.nc run.biip --json STDOUT "\"not_finishing_percent\": 0[.]0," "\"judged\": true")
 
-# A point has the line on which it lies: those of the simulation, also in every twentieth record, and from the middle on.
+# A point has the line on which it is: the lines of the simulation, also with every twentieth record, and from the middle on.
 set(simulated_lines "$CLSURF simulate @DATA@/programs/planted_zigzag.nc -o run.biip -q; $CLSURF export @DATA@/programs/planted_zigzag.nc run.biip --columns line,cmd.x,cmd.y,cmd.z -o all.csv -q")
 set(lines_differ "$CLSURF export @DATA@/programs/planted_zigzag.nc part.csv --period 0.001 --ignore-lines --columns line -o found.csv -q; cut -d, -f1 part.csv | paste -d, - found.csv | awk -F, 'NR > 1 && $1 != $2 { n++ } END { print n + 0, NR; exit !(n < 0.002 * NR) }'")
 clsurf_cli_test(NAME lines_by_geometry_are_those_of_the_simulation SETUP "${simulated_lines} && mv all.csv part.csv && ${lines_differ}" ARGS --version)
 clsurf_cli_test(NAME lines_by_geometry_of_few_records SETUP "${simulated_lines} && awk 'NR == 1 || NR % 20 == 0' all.csv > part.csv && ${lines_differ}" ARGS --version)
 clsurf_cli_test(NAME lines_by_geometry_from_the_middle_on SETUP "${simulated_lines} && awk 'NR == 1 || NR > 9000' all.csv > part.csv && ${lines_differ}" ARGS --version)
 # ---- several runs in one log ----
-# A plane of 14 passes, 0.3 mm apart, in lines of 1 mm at 40 mm/s, with a record every 4 ms. The second run is half as fast
-# between X8 and X12 of the seventh pass. Or the run is stopped inside pass 9, and begun again from pass 6.
+# A plane of 14 passes, 0.3 mm apart, in lines of 1 mm at 40 mm/s, with a record every 4 ms. The second run has half the speed
+# between X8 and X12 of the seventh pass. Or the run is stopped inside pass 9 and restarted from pass 6.
 string(CONCAT some_runs "awk -v stop=STOP -v runs=RUNS 'BEGIN { print \"G21 G90 F2400\\nG0 X0 Y0 Z0\" > \"part.nc\"; "
   "for (k = 0; k < 14; ++k) { print \"G1 Y\" k * 0.3 > \"part.nc\"; for (i = 1; i <= 20; ++i) print \"X\" (k % 2 ? 20 - i : i) > \"part.nc\" } "
   "print \"M2\" > \"part.nc\"; print \"time [s],cmd.x [mm],cmd.y [mm],cmd.z [mm],line\"; "

@@ -1,5 +1,5 @@
-# What was measured on the part, by a plain dexel simulator (tests/measured/dexel_part.py) that shares nothing with the product:
-# pose, roughness and marks that were planted.
+# Measurements of a part from a simple dexel simulator (tests/measured/dexel_part.py) that shares no code with the product:
+# pose, roughness and planted marks.
 
 set(dexel "python3 ${PROJECT_SOURCE_DIR}/tests/measured/dexel_part.py")
 set(stylus --measured profile.csv --measured-at 7.1,2.9,90)
@@ -25,7 +25,7 @@ clsurf_cli_test(NAME align_touched_points
   ARGS align cmm.csv part.nc run.csv --tool ball:6 STDOUT "cmm.csv: points of 648 places. 0[.][0-9]+ µm rms" "c [+]0[.]0[0-9]+° ± ")
 clsurf_cli_test(NAME align_on_even_passes SETUP "${dexel} make . --part flat_plane --without-mark"
   ARGS align profile.csv part.nc run.csv --tool ball:6 --measured-at 7.1,2.9,90 EXIT 5 STDOUT "not determined: another pose, [0-9.]+ mm away, fits as well")
-# Stated without its angle, the profile lies along a pass, which is smooth.
+# Without its angle, the profile is along a pass, which is smooth.
 clsurf_cli_test(NAME measured_without_its_angle SETUP "${dexel} make ."
   ARGS check part.nc run.csv --tool ball:6 --measured profile.csv --measured-at 7.1,2.9 EXIT 5 STDOUT "not determined: " NO_STDOUT "marks found")
 clsurf_cli_test(NAME align_without_the_angle SETUP "${dexel} make ."
@@ -45,7 +45,7 @@ clsurf_cli_test(NAME measured_free_unknown SETUP "${three}" ARGS align m.csv ${b
 clsurf_cli_test(NAME measured_bad_number SETUP "printf 'x,z\\n0,1\\n1,oops\\n' > m.csv" ARGS align m.csv ${bottle} --tool ball:6 EXIT 3 STDERR "m.csv:3: error: 'oops' in column 'z' is not a number")
 clsurf_cli_test(NAME measured_program_instead ARGS align ${bottle} ${bottle} --tool ball:6 EXIT 2 STDERR "argument|too many")
 
-# The page has the numbers of `check` and the picture; without a start nothing can be compared.
+# The page has the numbers of `check` and the picture; without an initial pose nothing can be compared.
 clsurf_cli_test(NAME report_measured SETUP "${dexel} make . && $CLSURF report part.nc run.csv --tool ball:6 --fields speed -o r.html -q --measured profile.csv --measured-at 7.1,2.9,90 && $CLSURF check part.nc run.csv --tool ball:6 --measured profile.csv --measured-at 7.1,2.9,90 > r.txt; ra=$(sed -n 's/^  Ra \\([0-9.]*\\) µm measured, \\([0-9.]*\\) µm.*/<td>Ra<.td><td>\\1<.td><td>\\2<.td>/p' r.txt) && test -n \"$ra\" && grep -q \"$ra\" r.html && grep -q '1 is found and 0 are missing' r.html && grep -q 'data-defect=.1.><td>1</td><td>found</td>' r.html && grep -q 'alt=.Measured profile. src=.data:image/png' r.html && $CLSURF report part.nc run.csv --tool ball:6 --fields speed -o r.html -q --measured profile.csv && grep -q 'Its place on the part is not determined' r.html && ! grep -q 'Measured profile' r.html"
   ARGS --version)
 clsurf_cli_test(NAME report_measured_without_a_tool SETUP "${three}" ARGS report ${bottle} --tool none --measured m.csv --measured-at 0,0 -o r.html EXIT 2 NO_FILE r.html STDERR "--measured needs to know the tool")

@@ -1,4 +1,4 @@
-# A tool path from scanned points. Scans are made, and programs judged, by tests/scan/scanned_part.py, which shares nothing with
+# A tool path from scanned points. tests/scan/scanned_part.py makes the scans and judges the programs; it shares no code with
 # the product.
 
 set(scanned "python3 ${PROJECT_SOURCE_DIR}/tests/scan/scanned_part.py")
@@ -24,14 +24,14 @@ foreach(dialect linuxcnc siemens klartext fanuc)
     SETUP "${scanned} make .; $CLSURF profile scan.csv --x x --z height --window 40 --tool-offset 3 --dialect ${dialect} --blocks ${blocks} -o cut.nc"
     ARGS simulate cut.nc --dialect ${dialect} -o run.biip FILE run.biip STDOUT "off the path +0[.]0[01]" "[0-9]+ points, 1[0-9][.]")
 endforeach()
-# The run of the program on a machine is part of the answer, and a machine that leaves the fit too far is a warning.
+# The answer includes a run of the program on a machine; a machine that deviates too far from the fit is a warning.
 clsurf_cli_test(NAME profile_is_simulated
   SETUP "${scanned} make .; $CLSURF profile scan.csv --x x --z height --window 40 -o first.nc 2> said.txt && ! grep -q warning said.txt"
   ARGS profile scan.csv --x x --z height --window 40 -o cut.nc --machine @DATA@/machines/three_axis_mill.toml FILE cut.nc
   STDOUT "simulated on .*: within 0[.]0[012][0-9]+ mm of it .tolerance and corners allow 0[.]0[0-9]+ mm., [0-9.]+ s")
 clsurf_cli_test(NAME profile_simulation_in_json SETUP "${scanned} make ."
   ARGS profile scan.csv --x x --z height --window 40 -o cut.nc --json STDOUT "\"simulation\": ." "\"deviation_mm\": 0[.]0" "\"allowed_mm\": 0[.]02" "\"time_s\": [0-9]")
-# A step is rounded off by every fit.
+# Every fit rounds off a step.
 clsurf_cli_test(NAME profile_of_a_step
   SETUP "awk 'BEGIN { print \"x,z\"; for (i = 0; i < 400; ++i) printf \"%g,%g\\n\", i / 10, i < 200 ? 0 : 5 }' > step.csv"
   ARGS profile step.csv --outliers 0 -o c.nc FILE c.nc STDERR "step.csv: warning: the fit is [0-9.]+ mm away from a scanned point, at X (19|20)[0-9.]* mm: [0-9]+ times the tolerance")
@@ -56,7 +56,7 @@ clsurf_cli_test(NAME profile_splines_of_linuxcnc SETUP "${few}" ARGS profile m.c
 clsurf_cli_test(NAME profile_unknown_dialect SETUP "${few}" ARGS profile m.csv --dialect rs -o c.nc EXIT 2 STDERR "rs")
 clsurf_cli_test(NAME profile_over_its_scan SETUP "${few}" ARGS profile m.csv --degree 2 --window 3 -o m.csv EXIT 2)
 
-# Deviations along a finished pass become a corrected one. The part is cut by brute force in NumPy.
+# Deviations along a finished pass give a corrected pass. NumPy cuts the part by brute force.
 set(compensated "/usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/scan/compensated_part.py")
 foreach(radius 0 3)
   clsurf_cli_test(NAME profile_compensates_radius_${radius}

@@ -1,4 +1,4 @@
-# Recordings over Modbus. What goes wrong before one begins leaves no file; the rest is in tests/cli/record_test.
+# Recordings over Modbus. Errors before a recording begins leave no file; the rest is in tests/cli/record_test.
 set(registers "printf '[[channel]]\\nname = \"load\"\\nfunction = \"input\"\\naddress = 7\\ntype = \"u16\"\\n' > registers.toml")
 clsurf_cli_test(NAME record_without_an_address SETUP "${registers}" ARGS record --map registers.toml -o run.biip EXIT 2 STDERR "modbus")
 clsurf_cli_test(NAME record_without_a_map ARGS record --modbus tcp:127.0.0.1:1 -o run.biip EXIT 2 STDERR "map")
@@ -23,7 +23,7 @@ add_test(NAME cli.record COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/cli/record_tes
   ${PROJECT_BINARY_DIR}/tests/cli/record $<TARGET_FILE:clsurf> $<TARGET_FILE:clsurf_modbus_server> ${PROJECT_SOURCE_DIR}/data ${PROJECT_BINARY_DIR}/samples)
 set_tests_properties(cli.record PROPERTIES TIMEOUT 120)
 
-# What `record` writes has no positions.
+# The output of `record` has no positions.
 set(slow_signals "$CLSURF export ${run} -o slow.biip --columns time,speed,acceleration -q")
 clsurf_cli_test(NAME export_slow_signals SETUP "${slow_signals}; $CLSURF export slow.biip -o out.csv; $CLSURF export ${run} -o same.csv --columns time,speed,acceleration -q; head -n 1 out.csv | grep -q '^time .s.,speed .mm/min.,acceleration' && cut -d, -f2 out.csv > a; cut -d, -f2 same.csv > b; cmp a b" ARGS --version)
 clsurf_cli_test(NAME export_slow_signals_chosen SETUP "${slow_signals}" ARGS export slow.biip -o out.biip --columns point,acceleration FILE out.biip)

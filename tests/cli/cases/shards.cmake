@@ -1,4 +1,4 @@
-# A log in shards: the merged report is that of the whole log, byte for byte, but for the percentiles of the motion.
+# A log in shards: the merged report equals that of the whole log, byte for byte, except for percentiles of the motion.
 
 function(clsurf_shard_test program log count)
   cmake_parse_arguments(PARSE_ARGV 3 RUN "TEXT" "TOOL;LINES" "")
@@ -13,7 +13,7 @@ function(clsurf_shard_test program log count)
   foreach(i RANGE 1 ${count})
     list(APPEND files shard${i}.json)
   endforeach()
-  # The text of what is merged is looked at once: its numbers are those of the JSON.
+  # The text of a merged report is tested once: its numbers are those of the JSON.
   set(as_text --version)
   if(RUN_TEXT)
     set(as_text check @DATA@/programs/${program} @LOGS@/${log}.biip --survey run.survey --merge ${files} ${judged} STDOUT "cutting points compared with both neighbours")
@@ -22,7 +22,7 @@ function(clsurf_shard_test program log count)
     SETUP "$CLSURF check ${run} ${judging} -o whole.json -q; $CLSURF survey ${run} ${part} -o run.survey -q; for i in $(seq ${count}); do $CLSURF check ${run} --survey run.survey --shard $i/${count} ${judging} -o shard$i.json -q; done; $CLSURF check ${run} --survey run.survey --merge shard*.json ${judging} -o merged.json -q; /usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/cli/read_merged.py whole.json merged.json; grep -q '\"severity\"' merged.json; $CLSURF check ${run} --survey run.survey --merge shard*.json ${judging} --scratch . -o in_files.json -q; cmp merged.json in_files.json"
     ARGS ${as_text})
 endfunction()
-# Without the surface after cutting, which takes most of the time and is judged with the tools below.
+# Without the as-machined surface, which takes most of the time and is tested with the tools below.
 clsurf_shard_test(petal_zigzag_g64.ngc petal_zigzag_g64 5 TOOL none)
 clsurf_shard_test(petal_loops_g64.ngc petal_loops_g64 3 TOOL none)
 clsurf_shard_test(planted_loops.nc planted_loops 4 TOOL ball:6 TEXT)
@@ -33,7 +33,7 @@ clsurf_shard_test(planted_zigzag.nc planted_zigzag 3 LINES --ignore-lines TEXT)
 set(shard_run_args @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip)
 list(JOIN shard_run_args " " shard_run)
 set(shards_made "$CLSURF survey ${shard_run} -o run.survey -q; for i in 1 2; do $CLSURF check ${shard_run} --survey run.survey --shard $i/2 -o shard$i.json -q; done")
-# Of the first test, which makes them.
+# The shards of the first test, which makes them.
 set(same_shards "cp @AFTER@/run.survey @AFTER@/shard1.json @AFTER@/shard2.json .")
 set(merge_args check @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip --survey run.survey)
 clsurf_cli_test(NAME shards_survey ARGS survey @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip -o run.survey FILE run.survey STDOUT "^44930 points, [0-9]+ of them in 25 passes, 0.491 mm apart")
@@ -55,7 +55,7 @@ clsurf_cli_test(NAME shards_with_a_kalman_smoother AFTER shards_say_what_they_re
 clsurf_cli_test(NAME shards_of_five_axes SETUP "$CLSURF simulate @DATA@/programs/dome_five_axis.nc --machine @DATA@/machines/five_axis_trunnion.toml -o run.biip -q" ARGS survey @DATA@/programs/dome_five_axis.nc run.biip --machine @DATA@/machines/five_axis_trunnion.toml -o run.survey EXIT 2 STDERR "a survey is for machines of three axes")
 clsurf_cli_test(NAME shards_of_text SETUP "head -n 2000 @LOGS@/mixed.csv > run.csv" ARGS survey @DATA@/programs/mixed.ngc run.csv -o run.survey EXIT 2 STDERR "run.csv is not a BIIP log: only these can be read in parts")
 clsurf_cli_test(NAME shards_damaged_findings AFTER shards_say_what_they_read SETUP "${same_shards}; sed -i s/compared/comparef/ shard2.json" ARGS ${merge_args} --merge shard1.json shard2.json -o whole.json EXIT 3 STDERR "shard2.json: error: is cut or damaged: its checksum differs")
-# The last bytes of the file are those of a section with a checksum, and zeros up to the end of the page.
+# The last bytes of the file are a section with a checksum, and zeros up to the end of the page.
 clsurf_cli_test(NAME shards_damaged_section AFTER shards_say_what_they_read SETUP "${same_shards}; printf x | dd of=run.survey bs=1 seek=$(($(stat -c %s run.survey) - 1)) conv=notrunc status=none" ARGS ${merge_args} --shard 1/2 -o shard.json EXIT 3 STDERR "run.survey: error: is damaged: the checksum of section 13 differs")
 clsurf_cli_test(NAME shards_damaged_survey AFTER shards_say_what_they_read SETUP "${same_shards}; head -c 9000 run.survey > cut; mv cut run.survey" ARGS ${merge_args} --shard 1/2 -o shard.json EXIT 3 STDERR "run.survey: error: is cut or damaged")
 
@@ -84,7 +84,7 @@ clsurf_cli_test(NAME shards_pieces_with_marks_of_xml_in_their_names AFTER shards
   SETUP "${same_shards}; $CLSURF export ${shard_run} --columns point -o whole.vtp -q; $CLSURF export ${shard_run} --survey run.survey --shard 1/2 --columns point -o 'top & <side>.vtp' -q; $CLSURF export ${shard_run} --survey run.survey --shard 2/2 --columns point -o b.vtp -q; $CLSURF export --merge 'top & <side>.vtp' b.vtp -o map.pvtp; /usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/cli/read_pieces.py whole.vtp map.pvtp"
   ARGS --version)
 
-# ---- the same as partitions of one file, which VTK's reader reads ----
+# ---- the same as partitions of one file, read by VTK's reader ----
 set(partitions_made "for i in 1 2 3; do $CLSURF export ${shard_run} --survey run.survey --shard $i/3 --columns point,line,time,speed -o piece$i.vtkhdf -q; done")
 set(same_partitions "cp @AFTER@/piece1.vtkhdf @AFTER@/piece2.vtkhdf @AFTER@/piece3.vtkhdf .")
 clsurf_cli_test(NAME shards_partitions AFTER shards_say_what_they_read
@@ -102,8 +102,8 @@ clsurf_partitions_error_test(one_is_cut "head -c 300000 piece2.vtkhdf > cut.vtkh
 clsurf_partitions_error_test(one_is_not_there : "piece1.vtkhdf;nowhere.vtkhdf;-o;map.vtkhdf" 3 "nowhere.vtkhdf.*No such file")
 clsurf_cli_test(NAME shards_partitions_that_differ AFTER shards_partitions SETUP "${same_partitions}; $CLSURF export ${shard_run} --survey @AFTER@/run.survey --shard 2/3 --columns point -o other.vtkhdf -q" ARGS export --merge piece1.vtkhdf other.vtkhdf piece3.vtkhdf -o map.vtkhdf EXIT 3 STDERR "other.vtkhdf: error: has other columns than piece1.vtkhdf")
 
-# ---- the map, drawn shard by shard, here or in pieces: the same picture, byte for byte ----
-# Of COUNT shards.
+# ---- the map, drawn shard by shard, at once or in pieces: the same picture, byte for byte ----
+# With COUNT shards.
 function(clsurf_map_of_shards_test name program log count)
   string(REPLACE ";" " " options "${ARGN}")
   set(run "@DATA@/programs/${program} @LOGS@/${log}.biip")
@@ -126,7 +126,7 @@ clsurf_cli_test(NAME shards_map_of_a_field_of_the_whole AFTER shards_say_what_th
 clsurf_cli_test(NAME shards_map_of_classes AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${map_args} --survey run.survey --color line EXIT 2 STDERR "'line' has classes")
 clsurf_cli_test(NAME shards_map_with_marks AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${map_args} --survey run.survey --mark-point 7 EXIT 2 STDERR "--mark-point needs the whole log: leave out --survey")
 clsurf_cli_test(NAME shards_map_without_a_survey ARGS ${map_args} --shards 3 EXIT 2 STDERR "--shards goes with --survey")
-# One sample of these two is as near on a line as on a triangle of the shard beside.
+# One sample of these two is equally near on a line and on a triangle of the adjacent shard.
 clsurf_map_of_shards_test(ties dome_loops.nc dome_loops 5 --size 1600x1200)
 set(piece_made "$CLSURF render ${shard_run} --survey run.survey --size 400x300 -q")
 clsurf_cli_test(NAME shards_map_piece AFTER shards_say_what_they_read SETUP "${same_shards}; ${piece_made} --shard 1/2 -o a.piece" ARGS render ${shard_run_args} --survey run.survey --size 400x300 --shard 2/2 -o b.piece FILE b.piece)
@@ -147,11 +147,11 @@ clsurf_cli_test(NAME shards_map_piece_without_a_survey ARGS ${map_args} --shard 
 clsurf_cli_test(NAME shards_map_of_no_shards AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${map_args} --survey run.survey --shards 0 EXIT 2 STDERR "--shards: 0 is not 1")
 
 # ---- the page: the same, byte for byte ----
-# Findings of `check --shard` and `report --shard`, which are the same, and the formed surface.
+# Findings of `check --shard` and `report --shard`, which are equal, and the as-machined surface.
 clsurf_cli_test(NAME shards_page_of_findings AFTER shards_say_what_they_read
   SETUP "cp @AFTER@/run.survey .; $CLSURF report ${shard_run} --tool ball:6 -o whole.html; for i in 1 2; do $CLSURF check ${shard_run} --survey run.survey --shard $i/2 --tool ball:6 -o checked$i.json -q; $CLSURF report ${shard_run} --survey run.survey --shard $i/2 --tool ball:6 -o shard$i.json -q; cmp checked$i.json shard$i.json; done; grep -q 'id=.defect-list' whole.html"
   ARGS report ${shard_run_args} --tool ball:6 --survey run.survey --merge shard1.json shard2.json --shards 4 -o shards.html SAME whole.html shards.html)
-# Shards that are judged for the page, and points that are left out.
+# Shards that are judged for the page, with points omitted.
 set(page_of "$CLSURF report ${shard_run} --color jerk --max-size 2")
 clsurf_cli_test(NAME shards_page AFTER shards_say_what_they_read
   SETUP "cp @AFTER@/run.survey .; mkdir files; ${page_of} -o whole.html; grep -q 'of 44[^0-9]*930 points are in this page' whole.html; ${page_of} --survey run.survey --shards 1 --scratch files -o one.html"
@@ -162,9 +162,9 @@ clsurf_cli_test(NAME shards_page_shard_with_fields AFTER shards_say_what_they_re
 clsurf_cli_test(NAME shards_page_without_a_survey ARGS ${page_args} --shards 3 EXIT 2 STDERR "--shards goes with --survey")
 clsurf_cli_test(NAME shards_page_with_one_missing AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${page_args} --survey run.survey --merge shard2.json EXIT 2 STDERR "points 0 … [0-9]+ are in none of the shards")
 
-# ---- made logs, which may be as long as one likes ----
+# ---- generated logs of any length ----
 set(make_sample $<TARGET_FILE:clsurf_make_sample>)
-# A flat part and one lag for all axes: its defects are the slow places, and no others.
+# A flat part and one lag for all axes: the only defects are the slow places.
 foreach(pattern zigzag one-way)
   clsurf_cli_test(NAME check_of_made_slow_${pattern}
     SETUP "${make_sample} ${pattern} 200000 a.nc a.biip --line 8 --wave 500 --height 2 --lag 4 --slow 2 > slow; test $(wc -l < slow) = 2"

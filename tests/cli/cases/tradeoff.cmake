@@ -1,4 +1,4 @@
-# Fronts of time against surface: each row by itself, the choice by a weight, and what is written.
+# Fronts of time against surface: each row by itself, the choice by a weight, and the written files.
 
 set(read_tradeoff "/usr/bin/python3 @DATA@/../tests/cli/read_tradeoff.py")
 set(mill "@DATA@/machines/three_axis_mill.toml")
@@ -6,7 +6,7 @@ set(mill "@DATA@/machines/three_axis_mill.toml")
 set(waves "awk 'BEGIN { print \"G21 G90 G17\\nG64 P0.005\\nG0 X0 Y0 Z10\\nG1 Z0 F1000\\nG1 F3000\"; for (k = 0; k < 6; ++k) for (w = 0; w < 9.01; w += k == 3 && w > 3 && w < 4 ? 0.02 : 0.25) { x = k % 2 ? 9 - w : w; printf \"X%.3f Y%.3f Z%.3f\\n\", x, 0.4 * k, 0.5 * sin(0.8 * x) } print \"G0 Z10\\nM2\" }' > part.nc")
 set(trade "$CLSURF simulate part.nc --machine ${mill} --no-config --runs 10")
 
-# Each row alone, from a machine file that this test makes, by simulate and check. The choice and what is written for it, at
+# Each row by itself, from a machine file made here, with simulate and check. The choice and its files, for
 # every weight.
 foreach(weight 0 0.5 1)
   set(kind choice)
@@ -38,7 +38,7 @@ clsurf_cli_test(NAME tradeoff_controller ARGS simulate part.nc --tradeoff f.png 
 clsurf_cli_test(NAME tradeoff_one_pass SETUP "printf 'G21 G90\\nG1 X50 F3000\\nM2\\n' > part.nc" ARGS simulate part.nc --tradeoff front.png EXIT 3 STDERR "has no adjacent passes" NO_FILE front.png)
 clsurf_cli_test(NAME tradeoff_overwrites_nothing SETUP "${waves}" ARGS simulate part.nc --weight 0.5 --runs 3 --settings part.nc EXIT 2 NO_FILE run.biip)
 
-# Repairs: the program that was written, alone, is the chosen row.
+# Repairs: judged alone, the written program has the values of the chosen row.
 foreach(weight 0 1)
   clsurf_cli_test(NAME tradeoff_repair_${weight}
     SETUP "${waves}; $CLSURF optimize part.nc --machine ${mill} --machines 0 --no-config --more-time 5 --tradeoff front.json --weight ${weight} -o better.nc -q; ${read_tradeoff} repair front.json better.nc ${mill} ${weight}"
