@@ -27,7 +27,7 @@ enum class Layout : std::uint8_t {
     slanted,      ///< the same with links of 3.4 mm that begin before the loop closes
     helix,        ///< the same as one continuous turn
     wall,         ///< a zigzag on a steep wall, from level to level
-    triangles,  ///< closed loops with sharp corners inwards from the border of a triangle, joined by straight moves
+    triangles,    ///< closed loops with sharp corners inwards from the border of a triangle, joined by straight moves
 };
 inline constexpr int layouts = 14;
 [[nodiscard]] std::string_view name_of(Layout layout);

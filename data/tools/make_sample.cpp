@@ -47,9 +47,9 @@ constexpr std::array<std::string_view, 3> pattern_names{"zigzag", "one-way", "lo
 struct Wishes {
     Pattern pattern = Pattern::zigzag;
     std::int64_t points = 0;
-    double line = 0.5;  ///< [mm] of a programmed line
-    double wave = 100;  ///< [mm] of the surface
-    double height = 3;  ///< [mm] amplitude of its waves, if the part is larger than a wave
+    double line = 0.5;                               ///< [mm] of a programmed line
+    double wave = 100;                               ///< [mm] of the surface
+    double height = 3;                               ///< [mm] amplitude of its waves, if the part is larger than a wave
     std::array<double, 3> lag{0.003, 0.004, 0.005};  ///< [s] of the feedback
     std::int64_t slow = 0;                           ///< passes with a slow place
 };

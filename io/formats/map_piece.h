@@ -13,8 +13,8 @@ namespace clsurf::io {
 
 struct MapPiece {
     ShardNumber shard;
-    double lowest = 0, highest = 0;  ///< of the shown values; lowest > highest: there are none
-    std::string_view drawn;          ///< bytes of the drawn parts (viz/drawn_parts.h)
+    double lowest = 0, highest = 0;                    ///< of the shown values; lowest > highest: there are none
+    std::string_view drawn;                            ///< bytes of the drawn parts (viz/drawn_parts.h)
     std::shared_ptr<const void> keep_alive = nullptr;  ///< of a piece from a file: the mapped file of `drawn`
 };
 

@@ -33,8 +33,8 @@ struct ReportedQuality {
     const LimitReport* limits = nullptr;            ///< nullptr: no limits are given
     const Acceptance* acceptance = nullptr;         ///< nullptr: no file of accepted defects
     std::vector<BudgetLine> budget;
-    std::optional<SimulationOrigin> origin;   ///< nullopt: the log is a recorded run
-    const RecordedMatch* baseline = nullptr;  ///< comparison with the defects of an earlier run; nullptr: none
+    std::optional<SimulationOrigin> origin;         ///< nullopt: the log is a recorded run
+    const RecordedMatch* baseline = nullptr;        ///< comparison with the defects of an earlier run; nullptr: none
     const ReportedMeasurement* measured = nullptr;  ///< nullptr: nothing was measured; in text and JSON only
     bool passes_asked = true;                       ///< false: the budget has only limits of the machine
     const Diagnostics* diagnostics = nullptr;
