@@ -1,6 +1,6 @@
 // Which room may include which, which third party is used where, what is listed in CMake, the form of a file. Each rule
-// is a function from a source text to complaints, tried first on a text that breaks it. The table of rooms is CMake's
-// own (src/clsurf_room.cmake writes it to arrows.txt).
+// is a function from source text to complaints, tested first on a text that breaks it. The table of rooms is that of
+// CMake (src/clsurf_room.cmake writes it to arrows.txt).
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace clsurf::test::architecture_test {
 namespace {
 
-// Room → rooms whose headers it may include besides its own.
+// Room → other rooms whose headers it may include.
 using Arrows = std::map<std::string, std::set<std::string>>;
 
 Arrows read_arrows() {
@@ -26,7 +26,7 @@ Arrows read_arrows() {
     return arrows;
 }
 
-// How the headers of a third party begin → paths that may include them.
+// Prefixes of a third party's headers → paths that may include them.
 struct ThirdParty {
     std::string_view header;
     std::vector<std::string_view> where;
@@ -75,7 +75,7 @@ Complaints check_rooms(const SourceFile& file, const Arrows& arrows) {
     return complaints;
 }
 
-// Arrows that no include follows.
+// Arrows without an include.
 Complaints check_unused(const std::vector<SourceFile>& files, Arrows arrows) {
     for (const SourceFile& file : files) {
         const auto needs = arrows.find(room_of(file.path));
@@ -142,8 +142,8 @@ Complaints check_form(const SourceFile& file) {
     return complaints;
 }
 
-// A source begins with its own header, so that reading each source by itself (tests/separate) reads the header by itself, too.
-// src/ is the folder that includes count from.
+// A source includes its own header first, so that compiling each source by itself (tests/separate) also compiles the header
+// by itself. src/ is the folder to which includes are relative.
 Complaints check_own_header_first(const SourceFile& source, bool has_header) {
     if (!has_header || !source.path.ends_with(".cpp")) return {};
     const std::string from_root = fs::path(source.path).replace_extension(".h").generic_string();
@@ -153,7 +153,7 @@ Complaints check_own_header_first(const SourceFile& source, bool has_header) {
     return {source.path + " does not include " + own + " first"};
 }
 
-// A file is built when the CMakeLists.txt of its folder, or the nearest above, names it.
+// A file is built if the CMakeLists.txt of its folder, or the closest one above, names it.
 Complaints check_listed(const SourceFile& file, const std::string& cmake_folder, const std::string& cmake_text) {
     const std::string name = fs::relative(file.path, cmake_folder).generic_string();
     const std::string plain = fs::path(file.path).filename().string();
@@ -260,7 +260,7 @@ TEST(Listing, EveryFileIsBuilt) {
     }
 }
 
-/// The code blocks of a Markdown text that are marked as C++.
+/// The code blocks of a Markdown text with the language C++.
 std::vector<std::string> cpp_blocks(const std::string& text) {
     std::vector<std::string> blocks;
     const std::string fence = "```cpp\n";

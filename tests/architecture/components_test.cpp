@@ -1,5 +1,5 @@
 // A component is a header with the source of its name. Components include each other without cycles, so that each can
-// be read, and tested, after those that it needs.
+// be read and tested after those that it needs.
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ Graph graph_of(const std::vector<SourceFile>& files) {
     return graph;
 }
 
-/// Depth first; an arrow to a component that is not finished closes a cycle.
+/// Depth first; an arrow to an unfinished component closes a cycle.
 Complaints check_cycles(const Graph& graph) {
     Complaints complaints;
     std::map<std::string, bool> finished;
@@ -62,7 +62,7 @@ Complaints check_cycles(const Graph& graph) {
 
 std::string folder_of(const std::string& path) { return path.substr(0, path.rfind('/')); }
 
-/// The folders inside rooms ("src/simulation/plan"), and which others of the same room they include.
+/// The folders inside rooms ("src/simulation/plan"), and the other folders of the room that they include.
 Graph folders_of(const std::vector<SourceFile>& files) {
     Graph graph;
     for (const auto& [component, included] : graph_of(files)) {

@@ -1,6 +1,6 @@
 #pragma once
-// Where the functions of a C++ text begin and end, by its braces: what stands before an opening brace outside of any
-// function tells whether it opens a namespace, a type, a value or a function.
+// Where the functions of a C++ text begin and end, by its braces: the text before an opening brace outside of any
+// function decides whether it opens a namespace, a type, a value or a function.
 
 #include <string>
 #include <vector>
@@ -97,7 +97,7 @@ private:
         }
         if (!called) return type ? Scope::open : Scope::value;
         if (type && statement_.find(')') == std::string::npos) return Scope::open;
-        // A member's initial value: a(…), b{…} behind the colon of a constructor.
+        // A member's initial value: a(…), b{…} after the colon of a constructor.
         const std::size_t colon = statement_.find(") :");
         const std::size_t last = statement_.find_last_not_of(' ');
         const bool member = std::isalnum(static_cast<unsigned char>(statement_[last])) != 0 ||
@@ -105,7 +105,7 @@ private:
         return colon != std::string::npos && member ? Scope::value : Scope::function;
     }
 
-    /// Where a value is assigned outside parentheses; not an operator's name.
+    /// The position of an assignment outside parentheses, except in the name of an operator.
     [[nodiscard]] std::size_t assignment() const {
         if (statement_.find("operator") != std::string::npos) return std::string::npos;
         int depth = 0;

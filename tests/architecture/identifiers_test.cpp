@@ -9,17 +9,17 @@
 namespace clsurf::test::identifiers_test {
 namespace {
 
-/// Proper names, and names of others' code.
+/// Proper names, and names in the code of others.
 const std::set<std::string> of_others{"NumPy",         "SciPy", "DecompressionStream", "PolyData", "is_discarded",
                                       "KeyboardEvent", "GitLab"};
-/// Documents for authors; the others name parameters of controls as code, too.
+/// Documents for authors; other documents also format parameters of controls as code.
 const std::vector<std::string> documents{"docs/contributing.md", "docs/api.md", "docs/design/", "docs/howto/"};
 
 bool in_identifier(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }
 bool is_lower(char c) { return std::islower(static_cast<unsigned char>(c)) != 0; }
 
-/// f(word, its end) for the identifiers of a text; what belongs to a longer word ("ö", "a-b.c") is none.
+/// Calls f(word, its end) for the identifiers of a text, except parts of longer words ("ö", "a-b.c").
 template <typename F>
 void for_each_identifier(const std::string& text, F&& f) {
     for (std::size_t i = 0; i < text.size();) {
@@ -34,7 +34,7 @@ void for_each_identifier(const std::string& text, F&& f) {
     }
 }
 
-/// "PathLocation": two words at least, each of an upper and a lower letter at least.
+/// "PathLocation": at least two words, each with at least one upper-case and one lower-case letter.
 bool names_a_type(const std::string& word) {
     if (word.size() < 4 || !is_upper(word[0]) || !is_lower(word[1])) return false;
     for (std::size_t i = 2; i + 1 < word.size(); ++i) {
@@ -57,7 +57,7 @@ std::set<std::string> identifiers_of(const std::vector<SourceFile>& files) {
     return known;
 }
 
-/// Types ("PathLocation") and functions ("read_part()") that comments name.
+/// Checks types ("PathLocation") and functions ("read_part()") in comments.
 Complaints check_comments(const SourceFile& file, const std::set<std::string>& known) {
     Complaints complaints;
     const std::string comments = part(file.text).comments;
@@ -69,7 +69,7 @@ Complaints check_comments(const SourceFile& file, const std::set<std::string>& k
     return complaints;
 }
 
-/// What stands in backquotes and is written as code is: types, and words with an underscore.
+/// Checks words in backquotes that are written like code: types, and words with an underscore.
 Complaints check_document(const SourceFile& file, const std::set<std::string>& known) {
     Complaints complaints;
     for (const std::string& line : lines_of(file.text)) {
@@ -93,7 +93,7 @@ std::vector<SourceFile> all_code() {
     return sources_in({"src", "io", "viz", "tests", "data"}, {".cpp", ".h", ".h.in", ".ts", ".mjs"});
 }
 
-/// Those of the code, and what CMake makes: targets, options, variables.
+/// The identifiers of the code, and those of CMake: targets, options, variables.
 std::set<std::string> known_identifiers(const std::vector<SourceFile>& code) {
     std::set<std::string> known = identifiers_of(code);
     std::vector<SourceFile> build = sources_in({"src", "io", "viz", "tests", "data"}, {"CMakeLists.txt", ".cmake"});

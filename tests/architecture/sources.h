@@ -1,5 +1,5 @@
 #pragma once
-// The project's sources, as the tests of the house rules read them.
+// Reads the project's sources for the architecture tests.
 
 #include <gtest/gtest.h>
 
@@ -29,8 +29,8 @@ inline std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
-/// What stands in a C++ text where: its code with comments, strings and characters as blanks, or its comments with
-/// all else as blanks. Ends of lines stay, so that places are the text's own.
+/// A C++ text in two layers: its code with comments, strings and characters as blanks, or its comments with
+/// everything else as blanks. Line ends stay, so that positions are those of the text.
 struct Parted {
     std::string code, comments;
 };
@@ -76,7 +76,7 @@ inline std::string read(const fs::path& path) {
     return text.str();
 }
 
-/// The files of folders with one of the endings, by path.
+/// The files of folders with one of the extensions, sorted by path.
 inline std::vector<SourceFile> sources_in(const std::vector<std::string>& folders,
                                           const std::vector<std::string>& endings = {".cpp", ".h"}) {
     std::vector<SourceFile> files;

@@ -1,4 +1,4 @@
-// The size of files and functions, the names of files in comments and documents, and what lies at the top of the tree.
+// The size of files and functions, the names of files in comments and documents, and the top level of the tree.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t longest_file = 500;     // lines
 constexpr std::size_t longest_function = 60;  // lines, from its first word to its closing brace
-// A subcommand reads options and files, calls the library and words the answer; more than that belongs elsewhere.
+// A subcommand reads options and files, calls the library and formats the answer; anything else belongs elsewhere.
 constexpr std::size_t longest_subcommand = 150;
 
 Complaints check_lengths(const SourceFile& file) {
@@ -76,7 +76,7 @@ bool in_name(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.' || c == '/';
 }
 
-/// What is named as a file or folder of the tree: a source by its ending, or a path that begins with one of our folders.
+/// Whether a word names a file or folder of the tree: a source by its extension, or a path that begins with a known folder.
 bool names_ours(const std::string& word) {
     static const std::set<std::string> folders{"src", "io", "viz", "tests", "data", "docs"};
     static const std::set<std::string> endings{".h", ".cpp", ".md", ".cmake", ".mjs", ".ts"};
@@ -99,14 +99,14 @@ Complaints check_names(const std::string& path, const std::string& text, const T
         std::size_t end = i;
         while (end < text.size() && in_name(text[end])) ++end;
         std::string word = text.substr(i, end - i);
-        // A pattern ("docs/*"), an address or a part of one is no name; nor is what only stands for a name.
+        // A pattern ("docs/*"), an address or a part of one is not a name; neither is a placeholder.
         const bool pattern = (end < text.size() && (std::string("*<{$:").find(text[end]) != std::string::npos ||
                                                     static_cast<unsigned char>(text[end]) >= 0x80)) ||
                              (i > 0 && std::string("*>}$:~@").find(text[i - 1]) != std::string::npos);
         i = end;
         while (!word.empty() && (word.back() == '.' || word.back() == '/')) word.pop_back();
         while (word.starts_with("../")) word = word.substr(3);
-        if (word.starts_with("clsurf/")) word = word.substr(7);  // as users of the installed headers say
+        if (word.starts_with("clsurf/")) word = word.substr(7);  // as used with the installed headers
         const bool stands_for_one =
             std::any_of(word.begin(), word.end(), [](unsigned char c) { return std::isupper(c) != 0; });
         if (pattern || (stands_for_one && !word.ends_with(".md")) || word.starts_with("room/") || !names_ours(word))

@@ -1,6 +1,6 @@
-// Why the rows of a speed problem are made anew for cells that have changed, and kept for the others: a window of cells
-// with twelve rows each, of which one cell in fifty gets a row more, as the planner finds it in dense programs. And what a
-// step over all rows takes. The argument is the number of cells.
+// Compares rebuilding the rows of a speed problem only for changed cells with a step over all rows: a window of cells
+// with twelve rows each, of which one cell in fifty gets another row, as the planner finds it in dense
+// programs. The argument is the number of cells.
 #include <cstdint>
 #include <vector>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t rows_of_a_cell = 12, one_in = 50;
 
-/// Half of them limit acceleration, half jerk. All are held by coefficients of 1.
+/// Half of them limit acceleration, half jerk. All have coefficients of 1.
 void add_rows(LimitRows& rows, std::uint32_t cell, std::uint32_t count) {
     for (std::uint32_t number = 0; number < count; ++number) {
         LimitRow row;

@@ -1,5 +1,5 @@
-// Why numeric/root_between.h and not Boost.Math: the root that S-curves look for, by both. The counter is the number of
-// times that the function is asked.
+// Compares numeric/root_between.h with Boost.Math on the root that S-curves need. The counter is the number of
+// function calls.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace clsurf {
 namespace {
 
-/// The way that jerk-limited ramps from and to two speeds need above what there is, at a speed between them.
+/// The distance that jerk-limited ramps between two speeds and a speed in between need beyond the available one.
 struct Excess {
     double from, to, acceleration, jerk, arc_length;
     [[nodiscard]] double ramp(double a, double b) const {

@@ -1,4 +1,4 @@
-// The stages of `render` that are ours, on a zigzag made in memory: bytes or points per second.
+// The project's own stages of `render`, on a zigzag made in memory: bytes or points per second.
 #include <string>
 #include <utility>
 #include <vector>
@@ -79,7 +79,7 @@ void walk_both_neighbours(benchmark::State& state) {
 }
 BENCHMARK(walk_both_neighbours)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// Positions as nanoflann reads them.
+/// Positions in the form for nanoflann.
 struct Cloud {
     const Positions& p;
     [[nodiscard]] std::size_t kdtree_get_point_count() const { return static_cast<std::size_t>(p.size()); }
@@ -92,8 +92,8 @@ struct Cloud {
     }
 };
 
-/// The same question to a k-d tree, as it is usually put: of the points within 1.6 step-overs, the nearest
-/// on the left and on the right that is not the own pass. Both threads.
+/// The same query with a k-d tree, in its usual form: of the points within 1.6 step-overs, the nearest
+/// on the left and on the right that is not on the same pass. Both threads.
 void ask_a_tree_for_both_neighbours(benchmark::State& state) {
     using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud>, Cloud, 3>;
     const Positions& p = made_zigzag();

@@ -1,6 +1,6 @@
 // A Modbus device for command-line tests: modbus_server ADDRESS_FILE [tcp|rtu] [DIES_AFTER]. Writes its address for
-// --modbus into the file, answers until standard input ends or so many requests have come, and then prints the codes of
-// the functions that it was asked for.
+// --modbus to the file, answers until standard input ends or this many requests have arrived, and then prints the codes of
+// the requested functions.
 
 #include <cstdio>
 #include <cstdlib>
@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
     server.start();
     const std::string unfinished = std::string(argv[1]) + ".new";
     std::ofstream(unfinished) << server.address();
-    std::rename(unfinished.c_str(), argv[1]);  // whoever finds it finds it whole
+    std::rename(unfinished.c_str(), argv[1]);  // so that the file appears complete
     for (;;) {
         pollfd input{STDIN_FILENO, POLLIN, 0};
         if (::poll(&input, 1, 20) > 0) break;

@@ -34,7 +34,7 @@ TEST(Vocabulary, KnowsWhenAllWordsAreListed) {
     EXPECT_FALSE(lists_all_words("FILE"));
 }
 
-// What the help promises of every subcommand, so that nobody forgets it in a new one.
+// The help promises these for every subcommand, including new ones.
 TEST(Subcommands, AreDescribedInFull) {
     std::set<std::string_view> names;
     for (const Subcommand& subcommand : subcommands()) {

@@ -18,7 +18,7 @@ using test::MadeRun;
 using test::make_run;
 using test::RunRecipe;
 
-/// Every point of a run cuts.
+/// A surface in which every point of a run cuts.
 ClSurface surface_of(const ComparedRun& run, double step_over = 2) {
     ClSurface surface;
     surface.positions = gather(run.path);
@@ -46,7 +46,7 @@ RunAlignment align(const MadeRun& a, const MadeRun& b) {
     return align_runs(gather(a.run().path), gather(b.run().path));
 }
 
-/// How far, in way, a station lies off the truth at worst, among points of A inside [begin, end].
+/// The largest error [mm of arc length] of path locations, for points of A inside [begin, end].
 double worst_error(const MadeRun& a, const MadeRun& b, const RunAlignment& alignment, double begin, double end) {
     double worst = 0;
     for (std::size_t i = 0; i < a.arc_length.size(); ++i) {
@@ -124,14 +124,15 @@ TEST(RunDifference, FindsADipOfSpeed) {
     EXPECT_TRUE(sections_of(c.report, RunQuantity::lag).empty());
 }
 
-// The same speed on the average, but it swings: v = v0 + a sin ωt has the jerk a ω² |sin ωt|, root mean square a ω²/√2.
+// The same speed on average, but oscillating: v = v0 + a sin ωt has the jerk a ω² |sin ωt|, root mean square a ω²/√2.
 TEST(RunDifference, FindsWhereARunIsRougher) {
     constexpr double v0 = 30, hertz = 12, swing = 1;
     constexpr double omega = 2 * std::numbers::pi * hertz;
     const MadeRun a = make_run(zigzag_recipe());
     RunRecipe recipe = zigzag_recipe();
     recipe.speed = [](double s) {
-        // It grows and fades over 2 mm about its ends: a jump of the acceleration would be rougher than the swing.
+        // The oscillation grows and fades over 2 mm at its ends: a jump of the acceleration would be rougher than the
+        // oscillation.
         const double u = std::clamp(std::min(s - 95, 109 - s) / 2, 0.0, 1.0);
         return v0 + swing * u * u * (3 - 2 * u) * std::sin(omega * (s - 96) / v0);
     };
@@ -146,7 +147,7 @@ TEST(RunDifference, FindsWhereARunIsRougher) {
     EXPECT_NEAR(back[0].peak, -found[0].peak, 0.05 * found[0].peak);
 }
 
-// A vibration of 125 Hz: a window of 40 ms takes the mean over five of its periods. A sin ωt has the jerk A ω³, root mean square
+// A vibration of 125 Hz: a window of 40 ms averages five of its periods. A sin ωt has the jerk A ω³, root mean square
 // A ω³/√2, of which a window of five records shows three quarters.
 TEST(RunDifference, FindsAVibrationThatIsShorterThanTheUsualWindow) {
     constexpr double v = 30, hertz = 125, amplitude = 0.002;
@@ -212,7 +213,7 @@ TEST(RunDifference, FindsAHeightAlongTheNormalOfTheSurface) {
     ASSERT_EQ(found.size(), 1u);
     EXPECT_NEAR(found[0].peak, 0.003, 1e-4);
     EXPECT_NEAR(found[0].mean, 0.003, 4e-4);
-    // Along the surface, across the feed, it is no height.
+    // A deviation along the surface and across the feed is not a height.
     recipe.off = [=](double s) -> Vec3 {
         return s > 27 && s < 37 ? Vec3(0.003 * side + Vec3(0.004, 0, 0)) : Vec3(0.004, 0, 0);
     };
@@ -314,7 +315,7 @@ TEST(RunAlignment, ComesBackAfterARetractOfOneRun) {
     RunRecipe recipe = zigzag_recipe();
     const MadeRun plain = make_run(recipe);
     const auto path = recipe.path;
-    // At 70 mm 30 mm up and down again; what comes after has 60 mm more of arc length.
+    // At 70 mm the path goes 30 mm up and down again; everything after has 60 mm more arc length.
     recipe.path = [path](double s) -> Vec3 {
         if (s < 70) return path(s);
         if (s > 130) return path(s - 60);
@@ -410,7 +411,7 @@ TEST(DriftedRun, IsTheOneThatDepartsFromTheOthers) {
     EXPECT_EQ(drifted({0, 1, 3, 2}), 3);
     EXPECT_EQ(drifted({3, 1, 2}), 3);  // the reference itself
     EXPECT_EQ(drifted({0, 1, 2}), -1);
-    EXPECT_EQ(drifted({0, 3}), -1);  // two differ from each other: nobody knows which
+    EXPECT_EQ(drifted({0, 3}), -1);  // two differ from each other: which one drifted is unknown
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Which lines of a program leave marks on the part that was cut, and how long a simulated machine would take for it.
+// Which lines of a program leave marks on the cut part, and how long a simulated machine would take.
 
 #include <cstdio>
 #include <exception>

@@ -1,4 +1,4 @@
-// A picture from a program of someone else: VTK and OpenImageIO are loaded from where clsurf is installed.
+// A picture in another program: VTK and OpenImageIO are loaded from the folder where clsurf is installed.
 
 #include <fstream>
 #include <iostream>

@@ -81,7 +81,7 @@ TEST(BlockFill, ColumnsThatAreFilledWhenReadAreNotCopied) {
 }
 
 TEST(BlockPortions, LieInFewBlocksAndAreForgottenOneAfterTheOther) {
-    // Three in each of 200 blocks, then as many again from the first one on, by turns with those of a pass far away.
+    // Three in each of 200 blocks, then as many again from the first one on, alternating with those of a pass far away.
     std::vector<PointIndex> looked_at;
     for (PointIndex k = 0; k < 600; ++k) looked_at.push_back(k / 3 * block_points + k % 3);
     for (PointIndex k = 0; k < 600; ++k) looked_at.push_back((k / 6 + k % 2 * 1000) * block_points);

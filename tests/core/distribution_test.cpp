@@ -21,7 +21,7 @@ TEST(SumOfSquares, IsExact) {
     sum.add(3);
     sum.add(-4);
     EXPECT_EQ(sum.value(), 25);
-    // 2^−149 squared is one unit of the lowest digit.
+    // The square of 2^−149 is one unit of the lowest digit.
     SumOfSquares least;
     least.add(Floats::denorm_min());
     EXPECT_EQ(least.value(), std::ldexp(1.0, -298));
@@ -29,7 +29,7 @@ TEST(SumOfSquares, IsExact) {
     SumOfSquares most;
     most.add(Floats::max());
     EXPECT_EQ(most.value(), static_cast<double>(Floats::max()) * static_cast<double>(Floats::max()));
-    // Doubles lose the ones: 2^60 + 1000 is no multiple of 256, the distance of doubles there.
+    // Doubles lose the ones: 2^60 + 1000 is not a multiple of 256, the spacing of doubles there.
     SumOfSquares wide;
     wide.add(std::ldexp(1.0F, 30));
     for (int k = 0; k < 1000; ++k) wide.add(1);

@@ -63,7 +63,7 @@ Field field_along(const std::vector<double> (&commanded)[3], const char* name) {
 }
 
 TEST(FieldSet, ShowsNoMotionBeforeTheToolStarts) {
-    // It rests, starts with 800 mm/s², runs at 40 mm/s, and stops as it started. Positions of 0.1 µm.
+    // A rest, a start with 800 mm/s², 40 mm/s, and a symmetric stop. Positions of 0.1 µm.
     constexpr double acceleration = 800, top = 40, rest = 0.2, ramp = top / acceleration, run = 0.3;
     std::vector<double> columns[3];
     double x = 0, v = 0;
@@ -121,7 +121,7 @@ TEST(FieldSet, CurvatureIsThatOfThePathWhereTheToolHardlyMoves) {
 }
 
 TEST(FieldSet, CurvatureLeavesOutTheCornersBetweenPasses) {
-    // Along X, a corner of 90 deg with a radius of 0.02 mm, along Y; an arc of 1 mm is no corner.
+    // Along X, a corner of 90 deg with a radius of 0.02 mm, along Y; an arc of 1 mm is not a corner.
     for (const double round : {0.02, 1.0}) {
         std::vector<double> columns[3];
         const double quarter = 0.5 * M_PI * round;

@@ -1,5 +1,5 @@
-// A made five-axis run whose feedback lags and lies off by planted amounts: through the chain both come
-// back, whatever the axes did meanwhile.
+// A made five-axis run whose feedback has a planted delay and offset: both are recovered through the kinematics,
+// whatever the axes do.
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,9 @@ namespace clsurf::five_axis_fields_test {
 namespace {
 
 constexpr double period = 0.001;
-constexpr double step = 0.03;     ///< [mm] a record along the way: 30 mm/s
-constexpr double lift = 0.004;    ///< [mm] the tip is off, along the commanded tool axis
-constexpr double leaning = 2e-4;  ///< [rad] the tilt is off
+constexpr double step = 0.03;     ///< [mm] of path per record: 30 mm/s
+constexpr double lift = 0.004;    ///< [mm] offset of the tip along the commanded tool axis
+constexpr double leaning = 2e-4;  ///< [rad] offset of the tilt
 constexpr int late = 3;           ///< records
 constexpr int count = 4000;
 
@@ -60,13 +60,13 @@ TEST(FiveAxisFields, GiveThePlantedErrorsBack) {
         EXPECT_NEAR(lag.values[i], std::hypot(late * step, lift), 1e-6);
         EXPECT_NEAR(contour.values[i], lift, 1e-6);
         EXPECT_NEAR(speed.values[i], step / period, 1e-3);
-        // Tilt is late by 3/4000 rad and off by the lean; C late by 6/4000 rad: on the sphere
+        // Tilt is delayed by 3/4000 rad and offset by the lean; C is delayed by 6/4000 rad: on the sphere
         // √(ΔA² + sin²A ΔC²).
         const double tilt = 0.2 + static_cast<double>(i) / count;
         const double expected = std::hypot(1.0 * late / count - leaning, std::sin(tilt) * 2.0 * late / count);
         EXPECT_NEAR(orientation.values[i], expected, 2e-6) << i;
     }
-    // Of the linear axes alone the speed is another one.
+    // The speed of the linear axes alone is different.
     EXPECT_GT(std::abs(run.get("speed", false).values[2000] - step / period), 1);
 }
 

@@ -1,4 +1,4 @@
-// Fields from outside: a row, and a provider, that no source of ours knows. And what the registry promises of ours.
+// Fields of another program: a row, and a provider, that clsurf does not contain; and guarantees of the registry.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ constexpr double speed = 50;   // [mm/s]
 constexpr double period = 0.001;
 constexpr PointIndex points = 3000;
 
-/// A circle at constant speed, with feedback and a channel of its own.
+/// A circle at constant speed, with feedback and an additional channel.
 struct Circle {
     std::vector<double> columns[8];
     Log log;
@@ -54,7 +54,7 @@ struct Circle {
     }
 };
 
-// ---- a field from outside is one row ----
+// ---- an additional field is one row ----
 
 double power(const FieldBlock::Vector& v, const FieldBlock::Vector& a, std::size_t i) {
     return std::abs(v[0][i] * a[0][i] + v[1][i] * a[1][i] + v[2][i] * a[2][i]) + 7;
@@ -188,7 +188,7 @@ TEST(FieldRow, ThatReadsMoreThanItNeedsIsAnErrorWithItsName) {
     } catch (const std::logic_error& error) {
         EXPECT_STREQ(error.what(), "field 'power_per_mass' reads acceleration, which its row does not need");
     }
-    // However much other rows need.
+    // Whatever other rows need.
     const FieldRow rows[] = {row, {.name = "full", .needs = own_row.needs, .compute = own_row.compute}};
     EXPECT_THROW((void)circle.with(rows).get_all({"full", "power_per_mass"}), std::logic_error);
     // An angle has one component, and a component needs an axis.

@@ -127,7 +127,7 @@ TEST_F(RangeTest, AUsualRangeIsTheSameForAllRuns) {
 }
 
 TEST_F(RangeTest, RampsOfPassesEndWhereTheSpeedDoes) {
-    // 100 points from 1 to 100 at the beginning; at the end a fall of 20 points first, as of a step to the next pass.
+    // 100 points from 1 to 100 at the beginning; at the end first a fall of 20 points, as at a step to the next pass.
     for (PointIndex i = 0; i < 100; ++i) set(i, 1, static_cast<float>(i + 1));
     for (PointIndex i = 0; i < 60; ++i) set(9979 - i, 1, static_cast<float>(20 + i));
     for (PointIndex i = 0; i < 20; ++i) set(9980 + i, 1, static_cast<float>(20 + i));

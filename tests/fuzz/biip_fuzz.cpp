@@ -1,4 +1,4 @@
-// BIIP, whatever their first bytes say.
+// BIIP, with any first bytes.
 #include "fuzz/fuzz_input.h"
 #include "io/formats/known_formats.h"
 

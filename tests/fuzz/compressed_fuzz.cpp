@@ -1,4 +1,4 @@
-// Compressed data of any kind, and what is not compressed.
+// Compressed data of any kind, and data that are not compressed.
 #include "fuzz/fuzz_input.h"
 
 using namespace clsurf;

@@ -1,4 +1,4 @@
-// SINUMERIK Edge recordings, whatever their first bytes say.
+// SINUMERIK Edge recordings, with any first bytes.
 #include "fuzz/fuzz_input.h"
 #include "io/formats/known_formats.h"
 

@@ -1,6 +1,6 @@
 #pragma once
-// What the fuzz targets share: each takes any bytes, reads them as users would, looks at all that came
-// out, and may end in an InputError and nothing else.
+// The common part of fuzz targets: each takes any bytes, reads them as the program does, reads all results,
+// and may only end with an InputError.
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -50,13 +50,13 @@ inline io::Source source_of(std::string_view bytes) {
     return {"input", {reinterpret_cast<const std::byte*>(bytes.data()), bytes.size()}, nullptr};
 }
 
-/// The input in two: what stands before and behind the first NUL byte.
+/// The input in two parts: before and after the first NUL byte.
 inline std::pair<std::string_view, std::string_view> in_two(std::string_view input) {
     const std::size_t nul = std::min(input.find('\0'), input.size());
     return {input.substr(0, nul), input.substr(std::min(nul + 1, input.size()))};
 }
 
-/// Every value of every channel, and what info says of the log.
+/// Reads every value of every channel, and the output of info for the log.
 inline void look_at(const Log& log) {
     std::array<double, 1024> values;
     for (const Channel& channel : log.channels) {
@@ -70,7 +70,7 @@ inline void look_at(const Log& log) {
     for (const Diagnostic& d : check_health(log, 100).summary()) (void)to_text(d);
 }
 
-/// Runs `read`; an InputError is an answer.
+/// Runs `read`; an InputError is a valid answer.
 template <typename Read>
 int answer(const Read& read) {
     try {

@@ -1,4 +1,4 @@
-// halscope logs, whatever their first bytes say.
+// halscope logs, with any first bytes.
 #include "fuzz/fuzz_input.h"
 #include "io/formats/known_formats.h"
 

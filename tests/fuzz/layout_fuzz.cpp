@@ -1,4 +1,4 @@
-// A layout file, a NUL byte, the records that it describes.
+// A layout file, a NUL byte, and the records that it describes.
 #include "fuzz/fuzz_input.h"
 
 using namespace clsurf;

@@ -1,4 +1,4 @@
-// Any log that needs no file beside it: BIIP, text with a header, the formats of controls, compressed or not.
+// Any log that needs no second file: BIIP, text with a header, the formats of controls, compressed or not.
 #include "fuzz/fuzz_input.h"
 
 using namespace clsurf;

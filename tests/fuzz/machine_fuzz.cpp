@@ -1,4 +1,4 @@
-// Machine files: what can be read must be written, and read again as the same.
+// Machine files: a readable file can be written, and reads back as the same.
 #include <cstdlib>
 
 #include "fuzz/fuzz_input.h"

@@ -1,4 +1,4 @@
-// A mapping file, a NUL byte, the text log that it is for.
+// A mapping file, a NUL byte, and the text log for it.
 #include "fuzz/fuzz_input.h"
 
 using namespace clsurf;

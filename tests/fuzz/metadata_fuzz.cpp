@@ -1,4 +1,4 @@
-// The JSON metadata of a log, to which the programs that ran are added.
+// The JSON metadata of a log, to which the programs of the run are added.
 #include "fuzz/fuzz_input.h"
 #include "io/formats/program_identity.h"
 

@@ -1,4 +1,4 @@
-// NC programs: the first byte picks the dialect (its number among all, else detected), and their motions.
+// NC programs: the first byte selects the dialect (by number, otherwise detected); the rest is the program.
 #include "fuzz/fuzz_input.h"
 #include "program/interpreter.h"
 #include "toolpath/toolpath_summary.h"

@@ -1,5 +1,5 @@
-// Runs a fuzz target on files that are there, without the fuzzer: replay FOLDER…
-// Every corpus is a test this way, with any compiler.
+// Runs a fuzz target on existing files, without the fuzzer: replay FOLDER…
+// Every corpus is thus a test, with any compiler.
 
 #include <algorithm>
 #include <cstdio>
@@ -19,10 +19,10 @@ int main(int count, char** folders) {
         }
         std::sort(files.begin(), files.end());
         for (const std::filesystem::path& path : files) {
-            std::fprintf(stderr, "%s\n", path.c_str());  // the last one named is the one that fails
+            std::fprintf(stderr, "%s\n", path.c_str());  // the last one printed is the one that fails
             std::ifstream file(path, std::ios::binary);
             const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-            // A copy of its own size: a sanitizer then sees a read behind its end.
+            // A copy of exact size: a sanitizer then detects reads beyond its end.
             const std::vector<std::uint8_t> data(bytes.begin(), bytes.end());
             LLVMFuzzerTestOneInput(data.data(), data.size());
             ++inputs;

@@ -1,4 +1,4 @@
-// SINUMERIK trace sessions, whatever their first bytes say.
+// SINUMERIK trace sessions, with any first bytes.
 #include "fuzz/fuzz_input.h"
 #include "io/formats/known_formats.h"
 

@@ -1,4 +1,4 @@
-// TwinCAT Scope exports, whatever their first bytes say.
+// TwinCAT Scope exports, with any first bytes.
 #include "fuzz/fuzz_input.h"
 #include "io/formats/known_formats.h"
 

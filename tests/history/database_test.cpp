@@ -1,5 +1,5 @@
-// The database of a history: what is written is read, by others too; older and newer versions; several writers; a death
-// in the middle.
+// The database of a history: written runs are read back, also by other programs; older and newer versions; several writers;
+// writers that are killed.
 
 #include "io/history/history_database.h"
 
@@ -41,7 +41,7 @@ private:
     fs::path folder_;
 };
 
-/// Every number of it follows from `number`, so that a row that is partly another one is seen.
+/// All its numbers depend on `number`, so that a row mixed from two runs is detected.
 RunRecord numbered_run(int number) {
     RunRecord run;
     run.time = "2026-11-24T07:30:00Z";
@@ -212,7 +212,7 @@ TEST(History, KeepsTheRulesOfParameters) {
     EXPECT_FALSE(rules.rules[1].low);
 }
 
-// ---- files that are none ----
+// ---- files that are not histories ----
 
 template <typename Error>
 std::string refusal(const std::string& path) {
@@ -278,7 +278,7 @@ RunRecord failed_run(int number) {
     return run;
 }
 
-/// Takes the runs of one database into another one.
+/// Merges the runs of one database into another one.
 std::size_t merged(const HistoryFile& from, const HistoryFile& into) {
     const std::vector<std::string> paths{from.path()};
     const std::vector<HistoryDatabase> opened(paths.begin(), paths.end());
@@ -363,7 +363,7 @@ TEST(History, AVerdictReplacesTheFailureOfItsRun) {
     EXPECT_EQ(added.id, 1);
     EXPECT_FALSE(added.replaced) << "no verdict was there";
     EXPECT_EQ(answer(file.path(), "SELECT id, length(failure) > 0 FROM runs ORDER BY id"), "1 0 2 1 3 1 ");
-    // The failures of another history are not taken where there is a verdict, and a verdict replaces those here.
+    // Failures of another history are not merged if there is a verdict, and a verdict replaces those here.
     const HistoryFile failures("superseded_failures");
     HistoryWriter(failures.path()).add(unread);
     EXPECT_EQ(merged(failures, file), 0U);
@@ -396,9 +396,9 @@ TEST(History, ACutFileIsDamaged) {
         InputError);
 }
 
-// ---- several writers, and deaths ----
+// ---- several writers, and killed ones ----
 
-/// A child that adds the runs from `first` on until it has `count` of them, or is killed.
+/// A child that adds runs beginning with `first` until it has `count` of them, or is killed.
 pid_t start_writer(const std::string& path, int first, int count) {
     const pid_t child = ::fork();
     if (child != 0) return child;
@@ -433,12 +433,13 @@ int kills() {
 
 TEST(History, AKilledWriterLeavesWholeRowsOnly) {
     std::minstd_rand random(26);
-    std::uniform_int_distribution<int> wait(0, 40'000);  // [µs]: from before the tables are made to many rows
+    std::uniform_int_distribution<int> wait(0, 40'000);  // [µs]: from before the tables exist to many rows
     std::int64_t rows = 0;
     int empty = 0;
     for (int round = 0; round < kills();) {
         const HistoryFile file("killed");
-        // Ten deaths a file: what one leaves is where the next one begins. Another writer works beside each of them.
+        // Ten kills per file: each writer continues with the file that the killed one left. Another writer runs at the same
+        // time.
         for (int k = 0; k < 10 && round < kills(); ++k, ++round) {
             const pid_t victim = start_writer(file.path(), 100'000 * k, 1'000'000);
             const pid_t survivor = start_writer(file.path(), 50'000'000 + 100 * k, 3);

@@ -1,4 +1,4 @@
-// Which runs of a fleet work at the same time: never more than the jobs, never above the memory.
+// Which runs of a fleet work at the same time: never more than the number of jobs, never beyond the memory.
 
 #include "history/memory_plan.h"
 

@@ -1,4 +1,4 @@
-// When a level changes, which runs stand out, which defects are the same ones: answers worked out on paper or by others.
+// When a level changes, which runs stand out, which defects are the same: answers computed by hand or published.
 
 #include "history/trend.h"
 
@@ -61,7 +61,7 @@ int sum_of_signs(std::span<const double> values, std::size_t first) {
 }
 
 TEST(Change, OfTheNileIsThatOf1899) {
-    // Annual flow of the Nile at Aswan 1871–1970 [10⁸ m³]: it fell in 1899, when the first dam was built (Cobb 1978).
+    // Annual flow of the Nile at Aswan 1871–1970 [10⁸ m³]: it decreased in 1899, when the first dam was built (Cobb 1978).
     const std::array<double, 100> nile{
         1120, 1160, 963,  1210, 1160, 1160, 813,  1230, 1370, 1140, 995,  935,  1110, 994, 1020, 960,  1180,
         799,  958,  1140, 1100, 1210, 1150, 1250, 1260, 1220, 1030, 1100, 774,  840,  874, 694,  940,  833,

@@ -1,4 +1,4 @@
-// Sections of consecutive records: what no axis does ends one.
+// Sections of consecutive records: a step that no axis can make ends a section.
 
 #include "identify/axis_record.h"
 
@@ -27,14 +27,14 @@ std::vector<PointRange> sections_of(const std::vector<double>& values, double pe
     return find_sections(log, {&view, 1});
 }
 
-/// 0.1 mm a record.
+/// 0.1 mm per record.
 std::vector<double> ramp(std::size_t count) {
     std::vector<double> values;
     for (std::size_t i = 0; i < count; ++i) values.push_back(0.1 * static_cast<double>(i));
     return values;
 }
 
-// A counter that begins again after 360: the step of the motion goes on after it.
+// A counter that restarts after 360: the step of the motion continues after it.
 TEST(AxisRecord, ACounterThatBeginsAgainEndsASection) {
     std::vector<double> values = ramp(100);
     for (std::size_t i = 40; i < values.size(); ++i) values[i] -= 360;
@@ -44,7 +44,7 @@ TEST(AxisRecord, ACounterThatBeginsAgainEndsASection) {
     EXPECT_EQ(sections[1].first, 40);
 }
 
-// The jump lies where two blocks of records meet, which are read one after the other.
+// The jump is where two blocks of records meet, which are read one after the other.
 TEST(AxisRecord, AJumpBetweenTwoBlocksEndsASection) {
     std::vector<double> values = ramp(40000);
     for (std::size_t i = 16384; i < values.size(); ++i) values[i] += 5;
@@ -53,7 +53,8 @@ TEST(AxisRecord, AJumpBetweenTwoBlocksEndsASection) {
     EXPECT_EQ(sections[1].first, 16384);
 }
 
-// From rest to 12 m/min at once, as kernels without a jerk limit begin: 0.2 mm in a record of 1 ms is 20 g, but it goes on so.
+// From rest to 12 m/min in one step, as kernels without a jerk limit start: 0.2 mm in a record of 1 ms is 20 g, but the
+// motion continues.
 TEST(AxisRecord, AMotionThatBeginsAtOnceIsNoJump) {
     std::vector<double> values(50, 0.0);
     for (const double value : ramp(50)) values.push_back(2 * value);

@@ -1,4 +1,4 @@
-// A limit is reached where no other one explains it: machines whose limits are known, and their own runs.
+// A limit counts as reached if no other one explains it: machines with known limits, and their own runs.
 
 #include "identify/limit_parameters.h"
 
@@ -49,7 +49,7 @@ Identification identified(const Machine& machine, const std::vector<Vec3>& direc
     return result;
 }
 
-/// A jerk limit that is called reached is right, and a lower bound is no more than the true value.
+/// A jerk limit that is reported as reached is right, and a lower bound is at most the true value.
 void expect_no_contradiction(const Identification& result, const char* of, double truth) {
     const IdentifiedParameter* jerk = result.find("max_jerk", of);
     ASSERT_NE(jerk, nullptr) << of;
@@ -93,7 +93,7 @@ TEST(LimitParameters, LinesAlongTheAxesTellNoneFromThePath) {
     }
 }
 
-/// Values of a quantity with some plateaus of 8 records each, at rising speeds, and a ramp between them.
+/// Values of a quantity with some plateaus of 8 records each, at increasing speeds, with ramps between them.
 PlateauFinder with_plateaus(const std::vector<double>& levels) {
     std::vector<double> values, speeds;
     double speed = 10;

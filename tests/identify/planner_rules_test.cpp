@@ -1,4 +1,4 @@
-// The rules of a simulated planner are found again, and what the runs do not show is left alone.
+// The rules of a simulated planner are identified, and rules that the runs do not show are not changed.
 
 #include "identify/planner_rules.h"
 
@@ -56,7 +56,7 @@ TEST(PlannerRules, ATrapezoidalPlannerIsToldFromATimeOptimalOne) {
     EXPECT_LT(last->speed_error, 0.1) << "mm/s";
 }
 
-// The first rules alone take it for a look-ahead of 20 blocks.
+// The first rules alone would be mistaken for a look-ahead of 20 blocks.
 TEST(PlannerRules, ABlockTimeBetweenTheTriedOnesIsFound) {
     Machine real, known;
     real.controller.block_time = 0.004;
@@ -81,7 +81,7 @@ TEST(PlannerRules, AShortLookAheadIsFound) {
     EXPECT_EQ(identified(part, known).machine.controller.lookahead_blocks, 7);
 }
 
-/// Lines of 0.12 mm over waves, none of which the program merges.
+/// Lines of 0.12 mm over waves, which the program does not allow to be merged.
 Program short_lines() {
     std::string text = wavy_zigzag(6, 20, [](int, double) { return 0.12; });
     text.replace(text.find("G64 P0.005"), 10, "G64 P0.02 Q0");
@@ -99,7 +99,7 @@ TEST(PlannerRules, LinesThatTheControllerMergesAreFound) {
     ASSERT_LT(merged_lines(program, real).size(), merged_lines(program, known).size() * 7 / 10);
     const Identification merging = identified(run_on(real, program), known);
     EXPECT_EQ(merging.machine.controller.merging_tolerance, 0.004);
-    // Without merging the program's Q of 0 explains the run as well as a machine that never merges.
+    // Without merging, the program's Q of 0 explains the run as well as a machine that never merges.
     const Identification plain = identified(run_on(known, program), known);
     EXPECT_EQ(plain.machine.controller.merging_tolerance, std::nullopt);
     ASSERT_NE(chosen(plain, "merging_tolerance"), nullptr);
@@ -118,7 +118,7 @@ Program polygons() {
     return read_text(text + "M2\n");
 }
 
-// At F3000 a corner of 10° would step the speed of an axis by up to 523 mm/min. 400 mm/min is not among the tried values.
+// At F3000 a corner of 10° would change the speed of an axis by up to 523 mm/min. 400 mm/min is not among the tried values.
 TEST(PlannerRules, TheSpeedStepOfCornersThatAreNotRoundedIsFound) {
     Machine real;
     real.controller.corner = CornerMode::junction;

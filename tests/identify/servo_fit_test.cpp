@@ -1,5 +1,5 @@
-// Servo loops are recovered within their standard errors: from records computed apart from ServoLoop
-// (vectors/servo_records.py), and from loops that are drawn at random.
+// Servo loops are identified within their standard errors: from records computed independently of ServoLoop
+// (vectors/servo_records.py), and from random loops.
 #include "identify/servo_fit.h"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ struct AxisRun {
     }
 };
 
-/// Moves to random places with limited acceleration.
+/// Moves to random positions with limited acceleration.
 std::vector<double> random_moves(std::mt19937_64& random, std::size_t count, double period) {
     const auto uniform = [&](double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random);
@@ -72,7 +72,7 @@ AxisRun run_of(const ServoModel& model, double period, const std::vector<double>
 
 constexpr double limit = 4.5;  // standard errors
 
-/// A term that is in the loop is found within its error, one that is not is left out.
+/// A term in the loop is found within its error, a term that is not in it is left out.
 void expect_term(const ServoFit& fit, ServoTerm term, double truth, const std::string& of) {
     EXPECT_EQ(fit.parameters.has(term), truth > 0) << of;
     if (truth > 0 && fit.parameters.has(term)) {
@@ -87,7 +87,7 @@ void expect_loop(const ServoFit& fit, const ServoModel& truth, double period, co
                 limit * fit.standard_error[index_of(ServoTerm::feedforward)])
         << of;
     EXPECT_NEAR(fit.time_constant(period), truth.velocity_time_constant, limit * fit.time_constant_error(period)) << of;
-    // Errors are stated small enough to be of use.
+    // The stated errors are small enough to be useful.
     EXPECT_LT(fit.standard_error[index_of(ServoTerm::log_gain)], 0.05) << of;
     EXPECT_LT(fit.time_constant_error(period), 0.05 * truth.velocity_time_constant) << of;
 }
@@ -142,7 +142,7 @@ TEST(ServoFit, LoopsDrawnAtRandom) {
     }
 }
 
-/// The mean of `width` positions before each one: jerks are limited, and loops look more alike.
+/// The mean of `width` positions before each one: limits the jerk, which makes loops more similar.
 std::vector<double> smoothed(const std::vector<double>& positions, std::size_t width) {
     std::vector<double> means;
     double sum = positions.front() * static_cast<double>(width);
@@ -153,8 +153,8 @@ std::vector<double> smoothed(const std::vector<double>& positions, std::size_t w
     return means;
 }
 
-// Gain, feed-forward and time constant of gentle motions, and friction, backlash and dead time, explain each other nearly: the
-// searches end in narrow valleys unless these are followed.
+// For gentle motions, gain, feed-forward and time constant are nearly collinear, and so are friction, backlash and dead time:
+// the searches must follow narrow valleys to their minimum.
 TEST(ServoFit, GentleMotionsLeaveNoMoreThanQuantumAndNoise) {
     struct Case {
         double gain, feedforward, time_constant, friction, backlash, dead_time, quantum, noise, period;
@@ -179,14 +179,14 @@ TEST(ServoFit, GentleMotionsLeaveNoMoreThanQuantumAndNoise) {
         expect_term(fit, ServoTerm::friction, truth.friction, of + " friction");
         expect_term(fit, ServoTerm::backlash, truth.backlash, of + " backlash");
         expect_term(fit, ServoTerm::dead_time, truth.dead_time / c.period, of + " dead time");
-        // A quantum rounds by a twelfth of its square on average.
+        // Rounding to a quantum has a mean square of a twelfth of the quantum squared.
         EXPECT_LT(fit.residual, 1.03 * std::sqrt(c.quantum * c.quantum / 12 + c.noise * c.noise)) << of;
     }
 }
 
 // A dead time of several periods, little feed-forward, friction and backlash, in motions with limited jerk: a lower gain with
-// another dead time explains nearly as much, and an axis that sticks makes the residuals jump. Over all draws the true
-// values are within the errors that are stated.
+// another dead time explains nearly as much, and stiction makes the residuals jump. Over all draws the true
+// values are within the stated errors.
 TEST(ServoFit, ErrorsCoverLoopsWithEveryTerm) {
     std::mt19937_64 random(41);
     const auto uniform = [&](double low, double high) {
@@ -206,7 +206,7 @@ TEST(ServoFit, ErrorsCoverLoopsWithEveryTerm) {
         truth.quantum = 1e-4;
         truth.noise = 1e-4;
         const ServoFit fit = run_of(truth, period, smoothed(random_moves(random, 8000, period), 40)).fit(period);
-        // What quantum and noise leave; 4 % are some five standard deviations of the rms of 8000 records.
+        // The residual is that of quantum and noise; 4 % are some five standard deviations of the rms of 8000 records.
         EXPECT_LT(fit.residual, 1.04 * std::sqrt(truth.quantum * truth.quantum / 12 + truth.noise * truth.noise)) << of;
         const ServoParameters right = parameters_of(truth, period);
         for (std::size_t k = 0; k < index_of(ServoTerm::offset); ++k) {
@@ -232,7 +232,7 @@ double lag_at_constant_speed(const ServoModel& model, double period) {
     return (commanded - position) / speed;
 }
 
-// From few records much of a loop is not known by itself. What the machine has of it then still gives the lag that is.
+// From few records many parameters of a loop are not identified. With the machine's values for these, the lag is still right.
 TEST(ServoParameters, TheMachineHasTheLagOfTheRecords) {
     std::mt19937_64 random(5);
     const auto uniform = [&](double low, double high) {

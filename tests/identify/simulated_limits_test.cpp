@@ -1,4 +1,4 @@
-// Limits that the motion hides are found by simulation, and those that nothing depends on are left alone.
+// Limits that the motion does not show are found by simulation, and limits without effect are not changed.
 
 #include "identify/simulated_limits.h"
 
@@ -37,7 +37,7 @@ struct Searched {
     std::vector<SimulatedLimit> limits;
 };
 
-/// What simulations tell of the acceleration of an axis or of the path, of which the motion shows `bound` [mm/s²].
+/// The result of simulations for the acceleration of an axis or of the path, of which the motion shows `bound` [mm/s²].
 Searched searched(const Part& part, const Machine& known, const char* of, double bound) {
     const RecordedRun run(part);
     RuleScores scores({&run, 1});
@@ -50,7 +50,7 @@ Searched searched(const Part& part, const Machine& known, const char* of, double
     return found;
 }
 
-/// The acceleration of an axis, of a machine that is known to have `now`.
+/// The acceleration of an axis, for a machine file with the value `now`.
 IdentifiedParameter found_from(const Part& part, const char* axis, double now) {
     Machine known = overlapping();
     set_planning_value(known, "max_acceleration", axis, now);
@@ -95,7 +95,7 @@ TEST(SimulatedLimits, AModelThatDoesNotExplainTheRunGivesNoStandardError) {
     EXPECT_EQ(result.parameters[0].reached, false);
 }
 
-// The known path is slower in two ways, so that either value alone explains little more.
+// Two limits of the known path are too low, so that either value alone explains little more.
 TEST(SimulatedLimits, LimitsThatHoldBackTheSimulationTogetherAreFreedTogether) {
     Machine real;
     real.path.max_acceleration = 5000;
@@ -119,7 +119,7 @@ TEST(SimulatedLimits, LimitsThatHoldBackTheSimulationTogetherAreFreedTogether) {
 }
 
 /// Passes of flat arcs in the XZ plane, with `in_xy` also of arcs in the XY plane. Blocks overlap, so that each has half of
-/// 800 mm/s². At 120 mm/s, the normal acceleration is 0.866 of that on a radius of 42 mm. All radii here are greater, so the
+/// 800 mm/s². At 120 mm/s, the normal acceleration is 0.866 of that on a radius of 42 mm. All radii here are larger, so the
 /// highest speed determines the tangential acceleration.
 Part arcs_on(const Machine& machine, bool in_xy) {
     std::string text = "G21 G90 G17\nG64 P0.01\nF3000\nG1 X0 Y0 Z0\n";
@@ -136,7 +136,8 @@ Part arcs_on(const Machine& machine, bool in_xy) {
     return assemble(program, simulate_to_log(program, machine, Vec3::Zero()).log);
 }
 
-/// What simulations tell of the highest speeds of all axes, of which the motion shows 3000 and the file has 15,000 mm/min.
+/// The result of simulations for the highest speeds of all axes, of which the motion shows 3000 and the file has 15,000
+/// mm/min.
 Identification speeds_from(const Part& part) {
     const RecordedRun run(part);
     RuleScores scores({&run, 1});
@@ -149,7 +150,8 @@ Identification speeds_from(const Part& part) {
     return found;
 }
 
-// An arc is limited by the slower axis of its plane. Arcs of the XZ plane do not tell X from Z; those of the XY plane do.
+// An arc is limited by the slower axis of its plane. Arcs of the XZ plane do not distinguish X from Z; those of the XY plane
+// do.
 TEST(SimulatedLimits, SpeedsOfAxesThatOnlyArcsDependOn) {
     Machine real = overlapping();
     set_planning_value(real, "max_speed", "z", 7200);
@@ -166,7 +168,7 @@ TEST(SimulatedLimits, SpeedsOfAxesThatOnlyArcsDependOn) {
     EXPECT_DOUBLE_EQ(*planning_value(of_one.machine, "max_speed", "y"), 15'000);
 }
 
-// Only rapids depend on them where no arc is.
+// Without arcs only rapids depend on them.
 TEST(SimulatedLimits, SpeedsOfAxesAreNotSearchedWithoutArcs) {
     const Identification found = speeds_from(waves_on(overlapping()));
     for (const char* axis : {"x", "y", "z"}) {
@@ -175,7 +177,8 @@ TEST(SimulatedLimits, SpeedsOfAxesAreNotSearchedWithoutArcs) {
     }
 }
 
-// A path limit that the axes hide gets no standard error, and no bound above the truth, from what another fault leaves.
+// If a path limit has no effect because of the axes, deviations from another fault give it no standard error and no bound
+// above the truth.
 TEST(SimulatedLimits, WhatAnotherFaultLeavesDeterminesNoLimit) {
     Identification result;
     result.machine.path.max_acceleration = 2511;

@@ -1,4 +1,4 @@
-// Constant-speed intervals against vectors that were computed independently, and their edge cases.
+// Constant-speed intervals compared with independently computed vectors, and edge cases.
 
 #include <gtest/gtest.h>
 
@@ -95,7 +95,7 @@ TEST(IntervalVectors, AreTheSameForthAndBack) {
     }
 }
 
-// A clothoid: no point changes much against its neighbours, the whole does.
+// A clothoid: the curvature changes little from point to point, but much over the whole.
 TEST(Intervals, CutWhereCurvatureDrifts) {
     std::vector<Vec3> points{Vec3::Zero()};
     double angle = 0, curvature = 0.002;
@@ -113,7 +113,7 @@ TEST(Intervals, CutWhereCurvatureDrifts) {
         EXPECT_LE(interval.greatest_curvature, 2.01 * std::max(interval.mean_curvature, rules.flat_curvature));
 }
 
-// A line, an arc of 1.2 rad and a line, by arc length, in coordinates that are rounded to micrometres.
+// A line, an arc of 1.2 rad and a line, by arc length, with coordinates rounded to micrometres.
 TEST(Intervals, EndWithinABlockOfWhereALineMeetsAnArc) {
     constexpr double line = 20, turn = 1.2;
     IntervalRules rules;
@@ -164,7 +164,7 @@ TEST(Intervals, EndWhereThePathTurnsBack) {
     EXPECT_EQ(intervals[0].last, 3U);
 }
 
-// A closed loop has no end to begin with: it is cut at the point farthest from its start.
+// A closed loop has no natural ends: it is cut at the point farthest from its start.
 TEST(Intervals, CharacteristicPointsOfALoopAreThoseOfItsHalves) {
     std::vector<Vec3> points;
     for (int i = 0; i <= 64; ++i)

@@ -1,4 +1,4 @@
-// Constant-speed intervals of whole programs: what rounding adds, and what adjacent passes share.
+// Constant-speed intervals of whole programs: effects of rounding, and intervals shared by adjacent passes.
 
 #include "intervals/program_intervals.h"
 
@@ -40,7 +40,7 @@ ProgramIntervals planned(const Program& program, const IntervalRules& rules = {}
     return plan_intervals(program, build_programmed_surface(program), rules, machine);
 }
 
-// Without a scale, the third decimal makes 326 intervals of one pass.
+// Without a scale, rounding to three decimals makes 326 intervals of one pass.
 TEST(ProgramIntervals, AreNotMadeByRounding) {
     const ProgramIntervals rounded = planned(wave(0.05, 4, 3)), exact = planned(wave(0.05, 4, 6));
     EXPECT_EQ(rounded.passes, 4);

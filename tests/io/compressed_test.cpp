@@ -61,7 +61,7 @@ struct Packer {
 };
 const Packer packers[] = {{"gzip", gzip}, {"zstd", zstd}, {"xz", xz}};
 
-/// Bytes that no packer makes smaller, and so stores.
+/// Incompressible bytes, which packers store unchanged.
 std::string noise() {
     std::mt19937_64 random(5);
     std::string bytes(4000, '\0');
@@ -117,13 +117,13 @@ TEST(Compressed, SurvivesDamageOfAnyByte) {
             damaged[i] = static_cast<char>(damaged[i] ^ 0x55);
             try {
                 (void)unpacked(source(damaged));
-            } catch (const InputError&) {  // most damage is found; what matters is that nothing worse happens
+            } catch (const InputError&) {  // most damage is detected; nothing worse than this error may happen
             }
         }
     }
 }
 
-/// A byte of the text itself, in a stream that holds it as it is: the data unpack, and only the checksum is wrong.
+/// A byte of the text itself in an uncompressed block: the data unpack, and only the checksum is wrong.
 TEST(Compressed, FindsDamageThatUnpacks) {
     for (const Packer& packer : {Packer{"gzip", stored_gzip}, Packer{"xz", xz}}) {
         std::string packed = packer.pack(noise());

@@ -43,7 +43,7 @@ TEST(Delimited, TakesPositionsWithoutARoleAsCommanded) {
     EXPECT_NE(log.find("fb"), nullptr);
     EXPECT_DOUBLE_EQ(log.period, 0.002);
     EXPECT_EQ(log.diagnostics.count("log.roles"), 1U);
-    // Where one role is named, X is something else.
+    // If a role is named, plain X is not a position.
     const Log named = open(folder, "time,X,FB.X\n0,1,2\n0.002,1,2\n");
     EXPECT_NE(named.find("x"), nullptr);
     EXPECT_EQ(named.find("fb.x")->values.at(0), 2);
@@ -58,7 +58,7 @@ TEST(Delimited, FindsTheSeparatorOutsideQuotes) {
     EXPECT_EQ(log.find("a;b")->values.at(1), 4);
 }
 
-/// What the message says that refuses a text.
+/// The message that refuses a text.
 std::string error_of(const std::string& text) {
     const test::TemporaryFolder folder;
     try {
@@ -125,12 +125,12 @@ TEST(Delimited, TakesNamesFromTheCommentAboveTheRecords) {
     log = open(folder, "% time [ms], x [in], y, z\n0, 1, 2, 3\n2, 1, 2, 3\n");
     EXPECT_DOUBLE_EQ(log.period, 0.002);
     EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(0), 25.4);
-    // A remark above the names is no name; comments may stand anywhere.
+    // A remark above the names is not a line of names; comments may be anywhere.
     log = open(folder, "// machine 7, shift 2\ntime,cmd.x\n// begin\n0,1\n% half\n0.001,2\n");
     EXPECT_EQ(log.records, 2);
     EXPECT_TRUE(log.diagnostics.kept().empty());
     EXPECT_THROW((void)open(folder, "# machine 7, shift 2, run 3\n0,1,2\n0.001,1,2\n"), InputError);
-    // Errors about columns name the line that names them, whatever stands between it and the records.
+    // Errors about columns name the line with the column names, whatever is between it and the records.
     const TextHead head = read_head("# measured\n# time cmd.x\n#\n\n0 1\n");
     EXPECT_EQ(head.line, 2U);
     EXPECT_EQ(head.first_data_line, 5U);
@@ -138,7 +138,7 @@ TEST(Delimited, TakesNamesFromTheCommentAboveTheRecords) {
 
 TEST(Delimited, ReadsTimesOfDay) {
     const test::TemporaryFolder folder;
-    // Differences are exact to the last digit that is written: the date does not cost any.
+    // Differences are exact to the last written digit: the date costs no precision.
     Log log = open(
         folder,
         "time,cmd.x\n2024-05-01T12:00:00.000125Z,1\n2024-05-01T12:00:00.001125Z,2\n2024-05-01T12:00:00.002125Z,3\n");
@@ -155,7 +155,7 @@ TEST(Delimited, ReadsTimesOfDay) {
     log = open(folder, "time,cmd.x\n2024/05/01 12:00:00.000 +02:00,1\n2024/05/01 10:00:00.004Z,2\n");
     EXPECT_NEAR(log.period, 0.004, 1e-9);
     EXPECT_EQ(log.diagnostics.count("log.unit"), 0U);
-    // What is no time among them is missing, with its place.
+    // Fields that are not times are missing values, with their place.
     log = open(folder, "time,cmd.x\n12:00:00.000,1\n12:61:00.001,2\n12:00:00.002,3\n12:00:00.003,3\n");
     EXPECT_EQ(log.diagnostics.count("log.bad-number"), 1U);
     EXPECT_TRUE(std::isnan(log.time_of(1)));
@@ -170,7 +170,7 @@ TEST(Delimited, PassesOverColumnsOfWords) {
     EXPECT_EQ(log.find("Date"), nullptr);
     EXPECT_EQ(log.diagnostics.count("log.words"), 1U);
     EXPECT_EQ(log.diagnostics.count("log.bad-number"), 0U);
-    // A position that begins badly is one all the same.
+    // A column of positions may begin with missing values.
     EXPECT_EQ(open(folder, "time,cmd.x\n0,-\n0.001,2\n").find("cmd.x")->values.at(1), 2);
 }
 
@@ -216,7 +216,7 @@ TEST(Delimited, LeavesOutALastLineThatWasCut) {
     ASSERT_EQ(log.diagnostics.kept().size(), 1u);
     EXPECT_EQ(log.diagnostics.kept()[0].code, "log.incomplete");
     EXPECT_EQ(log.diagnostics.kept()[0].where.number, 4u);
-    // Whole, though without an end.
+    // Complete, although without a line end.
     EXPECT_EQ(open(folder, "time,cmd.x\n0,1\n0.001,2").records, 2);
 }
 
@@ -230,7 +230,7 @@ TEST(Delimited, RefusesRowsWithMoreFieldsThanTheHeader) {
         EXPECT_NE(std::string(error.what()).find("decimal commas need another separator"), std::string::npos)
             << error.what();
     }
-    // A separator at the end of each line is no field, and one row alone is a warning.
+    // A separator at the end of each line is not a field; at the end of one row only it is a warning.
     EXPECT_EQ(open(folder, "time,cmd.x\n0,1,\n0.001,2,\n").records, 2);
     EXPECT_EQ(open(folder, "time,cmd.x\n0,1\n0.001,2,7\n0.002,3\n").diagnostics.count("log.ragged-row"), 1u);
 }

@@ -96,7 +96,7 @@ TEST(Edge, CountsTimeFromTheFirstKnownCycle) {
     EXPECT_DOUBLE_EQ(log.find("time")->values.at(2), 0.004);
 }
 
-/// A recording of Z1, a position for each cycle.
+/// A recording of Z1, with one position per cycle.
 Log open_z(const std::vector<std::pair<int, double>>& rows, const LogOptions& options = {}) {
     std::string text =
         "{\"Header\":{\"CycleTimeMs\":2,\"SignalListHFData\":[{\"Name\":\"CYCLE\",\"Axis\":\"Cycle\"},"

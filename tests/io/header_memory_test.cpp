@@ -1,5 +1,5 @@
-// No field of a header may ask for more memory than the file can hold: crafted files are read in a process of
-// their own, whose memory is limited and measured.
+// No field of a header may request more memory than the file can need: crafted files are read in a separate
+// process with limited and measured memory.
 
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -25,16 +25,16 @@ namespace clsurf::io::header_memory_test {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool sanitized = true;  // shadow memory: neither limit nor measurement mean anything
+constexpr bool sanitized = true;  // with shadow memory neither limit nor measurement is meaningful
 #else
 constexpr bool sanitized = false;
 #endif
 
 constexpr rlim_t most_address_space = rlim_t{2} << 30;
-constexpr long most_growth = 24 * 1024;  ///< of the resident memory [KiB], whatever a small file says
+constexpr long most_growth = 24 * 1024;  ///< of the resident memory [KiB], for any small file
 constexpr double huge = 9e18;
 
-/// Reads in a child process; how many KiB its memory grew, −1: it did not end with an answer.
+/// Reads in a child process. Returns how many KiB its memory grew, −1: it ended without an answer.
 template <typename Read>
 long growth_of(const Read& read) {
     const pid_t child = ::fork();
@@ -57,7 +57,7 @@ long growth_of(const Read& read) {
     return WIFEXITED(status) && WEXITSTATUS(status) < 255 ? WEXITSTATUS(status) * 1024L : -1;
 }
 
-/// Any log, packed or not, with all its values looked at.
+/// Opens any log, packed or not, and reads all its values.
 void expect_small(const std::string& bytes, const std::string& what, const LogOptions& given = {}) {
     if (sanitized) GTEST_SKIP() << "not under a sanitizer";
     LogOptions options = given;
@@ -105,7 +105,7 @@ std::string small_biip() {
     return bytes;
 }
 
-/// With the checksum that its header has now; a header that is said to be longer than the file keeps its old one.
+/// Updates the checksum of the header; a header length beyond the end of the file keeps its old one.
 std::string sealed(std::string bytes) {
     const std::size_t header = u32_at(bytes, 12);
     put<std::uint32_t>(bytes, 44, 0);
@@ -194,7 +194,7 @@ TEST(HeaderMemory, OfPackedDataWhateverTheySayToUnpackTo) {
     for (const int window : {0, 0x50, 0x88, 0x90, 0xa8, 0xf8, 0xff})
         expect_small(block(std::string("\x28\xb5\x2f\xfd\x00", 5) + static_cast<char>(window)),
                      fmt::format("zstd, window {:#x}", window));
-    // xz: the dictionary of the block header, which has a checksum of its own.
+    // xz: the dictionary size in the block header, which has its own checksum.
     std::string xz(256, '\0');
     std::size_t size = 0;
     ASSERT_EQ(lzma_easy_buffer_encode(0, LZMA_CHECK_CRC32, nullptr, reinterpret_cast<const std::uint8_t*>(text.data()),

@@ -11,7 +11,7 @@
 namespace clsurf::io::joined_log_test {
 namespace {
 
-/// A log of the times 0, 1, 2 … n − 1 times `period` and a channel that counts from `first`.
+/// A log with the times 0, 1, 2 … n − 1 times `period` and a channel that counts from `first`.
 Log made_log(const test::TemporaryFolder& folder, const std::string& name, const std::string& channel, int records,
              double period, double first, const std::string& metadata) {
     const std::string path = folder / name;

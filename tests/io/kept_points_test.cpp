@@ -1,4 +1,4 @@
-// What stays of a log for a page, and that nothing that matters is among what goes.
+// Which points of a log a page keeps: no significant point is left out.
 
 #include "io/page/kept_points.h"
 
@@ -118,7 +118,7 @@ TEST(KeptPoints, ADefectStaysWhole) {
 }
 
 TEST(KeptPoints, DefectsTooLargeForAQuarterOfTheRoomAreReducedLikeAllElse) {
-    // 12 passes of 900 points, and behind it one of 100 points.
+    // 12 passes of 900 points, and then one of 100 points.
     Defect large;
     large.point = 450;
     for (PointIndex pass = 0; pass < 12; ++pass)

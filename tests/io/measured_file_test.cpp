@@ -20,7 +20,7 @@ Source source_of(std::string text) {
     return {"m.csv", std::as_bytes(std::span(kept->data(), kept->size())), kept};
 }
 
-/// What is said of a text that cannot be read, with its place.
+/// The message about an unreadable text, with its place.
 std::string complaint(const std::string& text, const MeasuredColumns& columns = {}) {
     try {
         (void)read_measured(source_of(text), columns);

@@ -1,4 +1,4 @@
-// Recordings from the server of libmodbus and from one that cuts and exchanges frames.
+// Recordings from the server of libmodbus and from one that truncates and exchanges frames.
 
 #include "io/modbus/modbus_recording.h"
 
@@ -29,7 +29,7 @@ RegisterChannel channel(const std::string& name, RegisterFunction function, int 
     return result;
 }
 
-/// The number of the request; a register of its own function.
+/// The number of the request, and a register of the other function.
 std::vector<RegisterChannel> two_channels() {
     return {channel("count", RegisterFunction::holding, 0), channel("load", RegisterFunction::input, 5)};
 }
@@ -70,7 +70,7 @@ protected:
     test::TemporaryFolder folder_;
 };
 
-/// Each record has the number of its own request or none, and the numbers rise: no answer counts for another request.
+/// Each record has the number of its own request or none, and the numbers increase: no answer counts for another request.
 void expect_rising(const std::vector<double>& counts) {
     double last = 0;
     for (const double count : counts) {
@@ -239,10 +239,10 @@ TEST_F(ModbusRecording, DoesNotReplaceAnUnfinishedOne) {
     EXPECT_EQ(folder_.files(), 1u);
 }
 
-/// A server of one function that makes its frames by itself: the value is the number of the request.
+/// A server of one function that builds its own frames: the value is the number of the request.
 class RawServer {
 public:
-    /// `spoil` changes the answer to a request; returns how many of its bytes are sent at first, the rest 0.5 s later.
+    /// `spoil` changes the answer to a request; returns how many bytes are sent at first, the rest follows after 0.5 s.
     explicit RawServer(std::function<std::size_t(int request, std::string& frame)> spoil) : spoil_(std::move(spoil)) {
         listener_ = ::socket(AF_INET, SOCK_STREAM, 0);
         sockaddr_in bound{};

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int refused = 7;
 
-/// The guard cannot be taken off again: `use` runs in a process of its own, whose exit code says what came of it.
+/// The guard cannot be removed: `use` runs in a separate process, whose exit code is the result.
 template <typename Use>
 [[noreturn]] void guarded(Use&& use) {
     guard_inputs();

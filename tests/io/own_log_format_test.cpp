@@ -1,4 +1,4 @@
-// A log format from outside: a row in the caller's own file, given with the options.
+// A log format of another program: a row in the caller's own file, passed with the options.
 
 #include <gtest/gtest.h>
 

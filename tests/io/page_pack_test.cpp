@@ -1,4 +1,4 @@
-// Columns of a page: what a browser reads back (its own code is tried in tests/page).
+// Columns of a page, unpacked as in a browser (its own code is tested in tests/page).
 
 #include "io/page/page_pack.h"
 
@@ -34,7 +34,7 @@ std::int64_t unfold(std::uint64_t value) {
     return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1);
 }
 
-/// As viz/page/src/columns.ts has it.
+/// The same algorithm as in viz/page/src/columns.ts.
 std::vector<std::int64_t> unpack_integers(const PackedColumn& packed) {
     std::string bytes(packed.count * static_cast<std::size_t>(packed.planes), '\0');
     const std::string stream = from_base64(packed.base64);

@@ -10,8 +10,8 @@ namespace {
 
 std::string hash_of(std::string_view text) { return sha256(std::as_bytes(std::span(text.data(), text.size()))); }
 
-// The examples of FIPS 180-4 (NIST's csrc "Examples with Intermediate Values"), and the lengths at
-// which the padding takes a block more.
+// The examples of FIPS 180-4 (NIST's csrc "Examples with Intermediate Values"), and the lengths from
+// which the padding takes another block.
 TEST(Sha256, HasTheValuesOfItsDefinition) {
     EXPECT_EQ(hash_of(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
     EXPECT_EQ(hash_of("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");

@@ -1,4 +1,4 @@
-// What a simulated log says of its machine comes back; metadata of others and damaged ones say nothing.
+// The machine in a simulated log is read back; foreign and damaged metadata give none.
 
 #include "io/reports/simulation_origin.h"
 

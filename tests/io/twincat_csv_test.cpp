@@ -55,7 +55,7 @@ std::string with(const std::string& from, const std::string& to) {
 }
 
 TEST(TwinCat, ADamagedTimeIsTheOnlyThingMissing) {
-    // Of the fast channels the time of the second record cannot be read: their values are in that row all the same.
+    // An unreadable time of the fast channels in the second record: their values are nevertheless in that row.
     Log log = open(with("\n1\t1,6", "\n1#\t1,6"));
     EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(0), 1.5);
     EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(1), 1.6);
@@ -63,7 +63,7 @@ TEST(TwinCat, ADamagedTimeIsTheOnlyThingMissing) {
     EXPECT_DOUBLE_EQ(log.find("load")->values.at(1), 17) << "not earlier than the record before it";
     EXPECT_DOUBLE_EQ(log.find("load")->values.at(2), 18);
     EXPECT_EQ(log.diagnostics.count("log.bad-number"), 1u);
-    // Of the slow one: that sample is ignored, the next one counts.
+    // An unreadable time of the slow channel: that sample is ignored, the next one counts.
     log = open(with("2\t2\t18\n2\t1,7\t2\t\t\n", "2\t2#\t18\n2\t1,7\t2\t2\t19\n"));
     EXPECT_DOUBLE_EQ(log.find("load")->values.at(0), 17);
     EXPECT_DOUBLE_EQ(log.find("load")->values.at(1), 17);

@@ -16,7 +16,7 @@ struct Record {
 
 constexpr PointIndex longest_gap = 100;
 
-/// Judged in blocks of `block` records, of lines as long as `line`.
+/// Findings of records judged in blocks of `block`, on lines of `line` records.
 std::vector<LimitFinding> found(const std::vector<Record>& records, std::size_t block = 1000, PointIndex line = 1000) {
     const StatedLimit limit{LimitedQuantity::acceleration, 'x', 2000};
     RecordRuns all;
@@ -30,7 +30,7 @@ std::vector<LimitFinding> found(const std::vector<Record>& records, std::size_t 
     return findings_of(all, longest_gap, [&](PointIndex point) { return static_cast<LineNumber>(1 + point / line); });
 }
 
-/// 1.003 all the time, of which noise shows every seventh record.
+/// A constant 1.003, of which noise lets only every seventh record show.
 std::vector<Record> steady(int records) {
     std::vector<Record> made;
     for (int i = 0; i < records; ++i) made.push_back({i % 7 == 3 ? 1.004 : 1.002, 0.0025});
@@ -48,14 +48,14 @@ TEST(FindingRuns, ASteadyExcessThatNoiseHidesInPartsIsOneFinding) {
 }
 
 TEST(FindingRuns, AFactorIsThatOfThePeakWhateverTheBendMakesOfIt) {
-    // As on a blend of micro_segments.parabolic: the peak bends most.
+    // As on a blend of micro_segments.parabolic: the curvature is largest at the peak.
     const std::vector<Record> bend{
         {0.55, 0.04, 0.002}, {1.044, 0.024, 0.002}, {1.067, 0.066, 0.002}, {0.9, 0.09, 0.002}};
     ASSERT_EQ(found(bend).size(), 1u);
     EXPECT_DOUBLE_EQ(found(bend)[0].factor, 1.067);
     EXPECT_DOUBLE_EQ(found(bend)[0].uncertainty, 0.066);
     EXPECT_EQ(found(bend)[0].point, 2);
-    // Noise makes greater values, too, and those are no peaks.
+    // Noise makes larger values, too, which are not peaks.
     EXPECT_DOUBLE_EQ(found({{1.2, 0.01}, {1.23, 0.05}})[0].factor, 1.2);
 }
 

@@ -18,10 +18,10 @@ namespace clsurf::judge_limits_test {
 namespace {
 
 constexpr double period = 0.001;
-constexpr double micrometre_step = 1e-6;  // [mm] of positions as a kernel writes them
+constexpr double micrometre_step = 1e-6;  // [mm] resolution of a kernel's positions
 using Positions = std::vector<Vec3>;
 
-/// A log of commanded positions, rounded to `step`; with the clock where there is one.
+/// A log of commanded positions, rounded to `step`, optionally with a clock.
 Log log_of(const Positions& positions, double step = micrometre_step, const std::vector<double>& times = {}) {
     auto columns = std::make_shared<std::vector<std::vector<double>>>(4);
     Log log;
@@ -61,9 +61,9 @@ LimitReport judged(const Log& log, const std::vector<StatedLimit>& limits) {
     return judge_limits(LimitedRun{log, path, program, lines}, limits);
 }
 
-constexpr double slow = 1.23456789;  // [mm/s] so that no motion is a grid of its own
+constexpr double slow = 1.23456789;  // [mm/s] not a multiple of the resolution per period
 
-/// Along x: these accelerations [mm/s²] for so many records each, starting at `speed` [mm/s].
+/// Motion along x: pairs of an acceleration [mm/s²] and a number of records, starting at `speed` [mm/s].
 Positions driven(const std::vector<std::pair<double, int>>& accelerations, double speed = slow,
                  const Vec3& along = Vec3::UnitX()) {
     Positions positions;
@@ -87,7 +87,7 @@ TEST(JudgeLimits, APlateauAtTheLimitIsNoFinding) {
     EXPECT_TRUE(report.findings.empty());
     ASSERT_EQ(report.judged.size(), 2u);
     EXPECT_NEAR(report.judged[0].factor, 1, 0.0011);
-    // Three roundings of half a micrometre's thousandth: 2e-6 mm / (1 ms)² of 2000 mm/s².
+    // Three roundings of 5e-7 mm: 2e-6 mm / (1 ms)² relative to 2000 mm/s².
     EXPECT_NEAR(report.judged[0].uncertainty, 0.001, 1e-6);
     EXPECT_NEAR(report.judged[1].factor, 1, 1e-5);
     EXPECT_LE(report.greatest_factor(), 1);
@@ -117,7 +117,7 @@ TEST(JudgeLimits, ABurstOfThreeRecordsIsFoundWithItsFactorAndDuration) {
 }
 
 TEST(JudgeLimits, SpeedAndJerkAreDifferencesToo) {
-    // The acceleration rises by 100 mm/s² in each period: a jerk of 100,000 mm/s³, for 10 records. The speed grows by
+    // The acceleration increases by 100 mm/s² in each period: a jerk of 100,000 mm/s³, for 10 records. The speed increases by
     // 100·0.001·(1 + … + 10) + 1000·0.001·20 + 100·0.001·(9 + … + 1) = 30 mm/s.
     std::vector<std::pair<double, int>> ramp{{0, 300}};
     for (int i = 1; i <= 10; ++i) ramp.emplace_back(100.0 * i, 1);
@@ -144,7 +144,7 @@ TEST(JudgeLimits, APathTakesWhatEachAxisMay) {
 }
 
 TEST(JudgeLimits, ACircleHasNormalAccelerationOnly) {
-    // 50 mm/s on 1 mm: v²/r = 2500 mm/s². A second difference shows sinc²(ωT/2) of it, 0.02 % less.
+    // 50 mm/s on a radius of 1 mm: v²/r = 2500 mm/s². A second difference shows sinc²(ωT/2) of it, 0.02 % less.
     Positions positions;
     for (int i = 0; i < 1000; ++i) positions.emplace_back(std::cos(0.05 * i), std::sin(0.05 * i), 0);
     const LimitReport report = judged(log_of(positions), {{LimitedQuantity::normal_acceleration, 0, 2000},
@@ -157,7 +157,7 @@ TEST(JudgeLimits, ACircleHasNormalAccelerationOnly) {
 }
 
 TEST(JudgeLimits, ACornerAtSpeedChangesNoSpeedAlongThePath) {
-    // A corner of 90° at 20 mm/s inside a period: the chord over it is 29 % shorter.
+    // A corner of 90° at 20 mm/s within a period: the chord across it is 29 % shorter.
     Positions positions;
     for (int i = 0; i < 100; ++i) positions.emplace_back(0.02 * i - 1.99, 0, 0);
     for (int i = 0; i < 100; ++i) positions.emplace_back(0, 0.01 + 0.02 * i, 0);
@@ -166,7 +166,8 @@ TEST(JudgeLimits, ACornerAtSpeedChangesNoSpeedAlongThePath) {
     EXPECT_TRUE(report.findings.empty());
 }
 
-// Down to a stop in a sharp corner and away from it. The corner is between records, and nothing bends.
+// Deceleration to a stop in a sharp corner and acceleration away from it. The corner is between records, and the path is
+// straight.
 TEST(JudgeLimits, AStopInASharpCornerIsNoNormalAcceleration) {
     constexpr double limit = 2000, braking = 3800;
     for (int degrees = 91; degrees < 180; degrees += 4) {
@@ -185,7 +186,7 @@ TEST(JudgeLimits, AStopInASharpCornerIsNoNormalAcceleration) {
 }
 
 TEST(JudgeLimits, ASharpCornerAtSpeedIsNormalAcceleration) {
-    // 120° inside a period: the velocity changes by √3 of the speed.
+    // 120° within a period: the velocity changes by √3 of the speed.
     constexpr double speed = 16 * slow, step = speed * period;
     const Vec3 out(-0.5, 0.5 * std::sqrt(3.0), 0);
     Positions positions;
@@ -197,7 +198,8 @@ TEST(JudgeLimits, ASharpCornerAtSpeedIsNormalAcceleration) {
 }
 
 TEST(JudgeLimits, CoarsePositionsAreLookedAtOverMoreRecords) {
-    // Steps of 0.1 µm and 1 ms: 200 mm/s² of rounding, a tenth of the limit. 20 records at 1.2 times the limit show.
+    // Steps of 0.1 µm and 1 ms: a rounding error of 200 mm/s², a tenth of the limit. 20 records at 1.2 times the limit are
+    // found.
     const Log log = log_of(driven({{0, 300}, {2000, 100}, {2400, 20}, {2000, 100}, {0, 300}}), 1e-4);
     const LimitReport report = judged(log, {acceleration_of_x});
     ASSERT_FALSE(report.findings.empty());
@@ -236,12 +238,12 @@ TEST(JudgeLimits, LostRecordsAreNoFindings) {
 TEST(JudgeLimits, RepeatedRecordsAreNoFindings) {
     Positions positions = even(1000);
     positions[300] = positions[299];                            // a stale sample
-    positions.insert(positions.begin() + 600, positions[599]);  // one that came twice
+    positions.insert(positions.begin() + 600, positions[599]);  // a duplicate sample
     EXPECT_TRUE(judged(log_of(positions), all_limits).findings.empty());
 }
 
 TEST(JudgeLimits, ALostRecordNearStandstillIsNoFinding) {
-    // Each of the records around a start, a stop and a turn on the spot.
+    // Each of the records around a start, a stop and a reversal.
     const Positions whole = driven({{0, 50}, {2000, 20}, {-2000, 40}, {2000, 20}, {0, 50}}, 1e-4);
     ASSERT_TRUE(judged(log_of(whole), {acceleration_of_x}).findings.empty());
     for (std::ptrdiff_t lost = 45; lost < 135; ++lost) {
@@ -252,7 +254,7 @@ TEST(JudgeLimits, ALostRecordNearStandstillIsNoFinding) {
     }
 }
 
-/// From rest to rest: the jerk is 50,000 mm/s³ or nothing, so the acceleration changes by 50 mm/s² in a period.
+/// From rest to rest: the jerk is 50,000 mm/s³ or zero, so the acceleration changes by 50 mm/s² per period.
 Positions driven_smoothly(const Vec3& along) {
     std::vector<std::pair<double, int>> accelerations{{0, 20}};
     for (int i = 1; i <= 20; ++i) accelerations.emplace_back(50.0 * i, 1);
@@ -263,7 +265,8 @@ Positions driven_smoothly(const Vec3& along) {
 }
 
 TEST(JudgeLimits, ALostRecordOfASmoothStartIsNoJerk) {
-    // Near standstill it changes the acceleration by less than the limit, but the jerk by ten times its limit and more.
+    // Near standstill a lost record changes the acceleration by less than the limit, but the jerk by ten times its limit or
+    // more.
     const std::vector<StatedLimit> limits{acceleration_of_x,
                                           {LimitedQuantity::acceleration, 'y', 2000},
                                           {LimitedQuantity::jerk, 'x', 50000},
@@ -304,21 +307,22 @@ TEST(JudgeLimits, GapsOfTheClockAreNoFindings) {
     EXPECT_TRUE(judged(log_of(positions, micrometre_step, times), {acceleration_of_x}).findings.empty());
 }
 
-/// Times of 1000 records, early and late by up to 5 % of a period. `turn` [rad] from record to record.
+/// Times of 1000 records, early or late by up to 5 % of a period. `turn` [rad]: phase per record.
 std::vector<double> unsteady_times(double turn) {
     std::vector<double> times;
     for (int i = 0; i < 1000; ++i) times.push_back(period * (i + 0.05 * std::sin(turn * i)));
     return times;
 }
 
-/// Where an axis is that drives at 50 mm/s, from 0.4 s on accelerated by 2,400 mm/s², and from 0.42 s on even again.
+/// The position of an axis that moves at 50 mm/s, accelerates by 2,400 mm/s² from 0.4 s on, and is at constant speed from
+/// 0.42 s on.
 double driven_to(double time) {
     const double since = std::clamp(time - 0.4, 0.0, 0.02), after = std::max(0.0, time - 0.42);
     return 50 * time + 1200 * since * since + 48 * after;
 }
 
 TEST(JudgeLimits, WhatAnUnsteadyClockExplainsIsNoFinding) {
-    // Even motion: between even periods these would be accelerations of 600 mm/s² and jerks of 230,000 mm/s³, and with the
+    // Constant speed: with equal periods these would be accelerations of 600 mm/s² and jerks of 230,000 mm/s³, and with the
     // faster change accelerations of 5,000 mm/s².
     for (const double turn : {0.5, 2.0}) {
         const std::vector<double> times = unsteady_times(turn);
@@ -364,7 +368,7 @@ TEST(Resolution, IsTheStepThatPositionsWereRoundedTo) {
         const Log log = log_of(driven({{0, 2000}, {777, 3000}}), step);
         EXPECT_NEAR(resolution_of(log.find("cmd.x")->values), step, 1e-3 * step);
     }
-    // As text of a number of 32 bits near 1,000 mm: its last place is 2^-14 mm.
+    // A 32-bit number near 1,000 mm as text: its last place is 2^-14 mm.
     Positions floats = driven({{0, 2000}, {777, 3000}});
     for (Vec3& p : floats) p.x() = static_cast<double>(static_cast<float>(p.x() + 1000));
     EXPECT_GE(resolution_of(log_of(floats, 0).find("cmd.x")->values), std::ldexp(1.0, -14));

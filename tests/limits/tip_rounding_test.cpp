@@ -1,4 +1,4 @@
-// What rounding of rotary axes does to the tip: it moves by the step times its distance from the axis.
+// The effect of rounded rotary axes on the tip: it moves by the step times its distance from the axis.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double period = 0.001;
 
-/// A trunnion. The tip is 60 to 100 mm beside the axis of C, and 80 mm above that of A.
+/// A trunnion. The tip is 60 to 100 mm from the axis of C, and 80 mm above that of A.
 std::shared_ptr<const Kinematics> trunnion() {
     Kinematics kinematics;
     kinematics.type = KinematicsType::table_table;
@@ -25,7 +25,8 @@ std::shared_ptr<const Kinematics> trunnion() {
     return std::make_shared<const Kinematics>(kinematics);
 }
 
-/// The tip at these places of a straight line, while both rotary axes turn evenly. Angles are rounded to `step` [deg].
+/// The tip at these places of a straight line, while both rotary axes turn at constant speed. Angles are rounded to `step`
+/// [deg].
 Log turning_log(const std::vector<double>& places, double step) {
     const std::shared_ptr<const Kinematics> kinematics = trunnion();
     test::NamedColumns columns{{"cmd.x", {}}, {"cmd.y", {}}, {"cmd.z", {}}, {"cmd.a", {}}, {"cmd.c", {}}};
@@ -66,8 +67,8 @@ TEST(TipRounding, RoundedAnglesAloneExceedNoLimit) {
 }
 
 TEST(TipRounding, WhatExceedsALimitIsFoundAllTheSame) {
-    // 100 records at 1.3 times the acceleration. A step of 0.001 deg moves the tip by some 3 µm: over 16 records that
-    // makes it uncertain by 23 mm/s².
+    // 100 records at 1.3 times the acceleration. A step of 0.001 deg moves the tip by some 3 µm: over 16 records
+    // its acceleration is uncertain by 23 mm/s².
     std::vector<double> places{0};
     double speed = 0;
     for (int i = 0; i < 1000; ++i) {

@@ -1,4 +1,4 @@
-// Lint on small parts with one fault each, put where it must be found.
+// Lint on small parts with one planted fault each.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ LintReport lint_text(const std::string& text, const LintThresholds& rules = {}) 
     return lint(program, build_programmed_surface(program), rules);
 }
 
-/// Even points 0.3 mm apart.
+/// Points spaced 0.3 mm apart.
 double even(int, double) { return 0.3; }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -52,7 +52,7 @@ TEST(Lint, FindsCrowdedPointsOnThePassThatHasThem) {
 }
 
 TEST(Lint, ChordErrorIsHeldAgainstTheProgramsTolerance) {
-    // Curvature at most 0.8 · 0.9² = 0.65 /mm: 0.3 mm leave 7.3 µm, more than 5/1.1.
+    // Curvature at most 0.8 · 0.9² = 0.65 /mm: 0.3 mm have a chord error of 7.3 µm, more than 5/1.1.
     const LintReport report = lint_text(wavy_zigzag(5, 12, even));
     EXPECT_DOUBLE_EQ(report.tolerance, 0.005);
     EXPECT_GT(report.count("chord-error"), 0U);

@@ -1,4 +1,4 @@
-// A rule of lint from outside: one row, that no source of ours knows.
+// A lint rule of another program: one row, which clsurf does not contain.
 
 #include <gtest/gtest.h>
 

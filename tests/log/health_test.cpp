@@ -1,4 +1,4 @@
-// Made logs with one thing wrong each, and a place and a number to find; nothing else may be found.
+// Generated logs with one fault each, and its expected place and number; nothing else may be found.
 #include "log/health.h"
 
 #include <bit>
@@ -16,7 +16,7 @@ constexpr double period = 0.002;  // [s]
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// A good log: a zigzag of 40 passes of 40 mm, 0.3 mm apart, over a dome, accelerated by 1000 mm/s²
-/// up to 50 mm/s. A line a pass and a line a step-over. Feedback lags by 3 ms.
+/// up to 50 mm/s. One line per pass and one per step-over. Feedback lags by 3 ms.
 struct Made {
     std::map<std::string, std::vector<double>> columns;
     double stated_period = period;
@@ -82,7 +82,7 @@ private:
     double x_ = 0, y_ = 0;
 };
 
-/// The only finding, of that code; an empty one where there is another number of them.
+/// The only finding, with that code; an empty one if their number differs.
 Diagnostic only(const Diagnostics& found, const std::string& code, std::uint64_t times = 1) {
     EXPECT_EQ(found.count(code), times);
     for (const Diagnostic& d : found.kept()) EXPECT_EQ(d.code, code) << to_text(d);
@@ -205,7 +205,7 @@ TEST(Health, CountsASpikeOnce) {
 }
 
 TEST(Health, DoesNotTakeAFastStartForAJump) {
-    // Idealised logs have no acceleration: 40 m/min at once, with corners.
+    // Idealised logs have no acceleration: 40 m/min in one step, with corners.
     Made made;
     made.columns.clear();
     for (int i = 0; i < 3000; ++i) {
@@ -275,7 +275,7 @@ TEST(Health, FindsALineThatIsAlwaysZero) {
 }
 
 TEST(Health, LetsOneMotionTurnToOneSideAsLongAsItLikes) {
-    // A helix of 40 turns is one line; so is a straight of 2 m.
+    // A helix of 40 turns is one line; a straight of 2 m is one, too.
     Made made;
     made.columns.clear();
     for (int i = 0; i < 40'000; ++i) {

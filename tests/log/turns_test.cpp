@@ -17,7 +17,7 @@ using test::log_of_columns;
 
 double within(double angle, double low) { return angle - 360 * std::floor((angle - low) / 360); }
 
-/// Three turns forth and back from 10 deg, at up to 1 deg a record.
+/// Three turns forward and back from 10 deg, at up to 1 deg per record.
 std::vector<double> turning() {
     std::vector<double> angles;
     for (int i = 0; i < 4000; ++i) angles.push_back(10 + 550 * (1 - std::cos(0.0018 * i)));
@@ -51,7 +51,7 @@ TEST(Turns, PositionsOfAModuloAxisCountOn) {
 }
 
 TEST(Turns, AllRolesOfAnAxisAreInTheSameTurn) {
-    // The encoder stands on the other side of the end of the turn, where the axis starts.
+    // The encoder starts on the other side of the end of the turn.
     std::vector<double> commanded = turning(), measured = turning();
     for (double& angle : commanded) angle -= 10;
     for (double& angle : measured) angle -= 10.003;
@@ -92,7 +92,7 @@ TEST(Turns, TheStepThatPositionsAreRoundedToIsStillKnown) {
     count_turns_on(log);
     EXPECT_GE(resolution_of(log.find("cmd.c")->values), std::ldexp(1.0, -15));
 
-    // Counts of an encoder: 2^28 a turn.
+    // Counts of an encoder: 2^28 per turn.
     const double step = std::ldexp(360.0, -28);
     std::vector<std::int32_t> counts;
     for (const double angle : wrapped(turning(), 0)) counts.push_back(static_cast<std::int32_t>(angle / step));

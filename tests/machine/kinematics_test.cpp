@@ -1,4 +1,4 @@
-// Chains against vectors computed independently, against poses derived on paper, and there and back.
+// Kinematic chains compared with independently computed vectors and with poses derived by hand, forward and backward.
 
 #include "machine/kinematics.h"
 
@@ -57,9 +57,9 @@ TEST(Kinematics, AgreesWithIndependentVectors) {
     }
 }
 
-// On paper: a trunnion whose A axis runs through the machine's zero, C centre 30 mm above it. With A at
+// By hand: a trunnion whose A axis passes through the machine's zero, with the C centre 30 mm above it. With A at
 // 90° the tool comes from −y: t = (sin 90 sin 0, −sin 90 cos 0, cos 90) = (0, −1, 0). The tip in the
-// centre of C stood at (0, 0, 30); T(−90°) about x takes z to y: (0, 30, 0).
+// centre of C was at (0, 0, 30); T(−90°) about x maps z to y: (0, 30, 0).
 TEST(Kinematics, TrunnionOnPaper) {
     Kinematics k = machine_of(KinematicsType::table_table, "AC");
     k.centre_from_tilt = {0, 0, 30};
@@ -72,7 +72,7 @@ TEST(Kinematics, TrunnionOnPaper) {
 }
 
 // A fork head with L = 200 and tilt B = 30°, C = 90°: t = (sin 30 cos 90, sin 30 sin 90, cos 30) =
-// (0, 0.5, 0.866); the pivot stands 200 mm along t above the tip.
+// (0, 0.5, 0.866); the pivot is 200 mm along t above the tip.
 TEST(Kinematics, ForkHeadOnPaper) {
     Kinematics k = machine_of(KinematicsType::head_head, "BC");
     k.tool_length = 200;
@@ -113,7 +113,7 @@ TEST(Kinematics, ThereAndBackOverRandomPoses) {
         const ToolPose pose = k.to_workpiece(linear, angles);
         ASSERT_LE((pose.tip - tip).norm(), 1e-9) << name_of(type);
         ASSERT_NEAR(pose.axis.norm(), 1, 1e-12);
-        // On a table-table machine, moving along the tool axis moves the tool's own axis alone.
+        // On a table-table machine, a move along the tool axis moves only the machine axis of the tool.
         if (type != KinematicsType::table_table) continue;
         const Vec3 lifted = k.to_axes(tip + 10 * pose.axis, angles);
         ASSERT_LE((lifted - linear - 10 * k.tool_axis).norm(), 1e-9);
@@ -182,14 +182,14 @@ TEST(Kinematics, AtThePoleTheRotationStays) {
         EXPECT_EQ(found.angles[0].rotation, 2.5);
         EXPECT_NEAR(std::abs(found.angles[0].tilt), axis.z() > 0 ? 0 : pi, 1e-9);
     }
-    // Just off it the angles are right to rounding, where 1 − cos² would have lost them.
+    // Close to it the angles are exact to rounding; 1 − cos² would have lost them.
     const RotarySolutions near = solve_rotary(k, k.axis_of({1e-7, 0.8}), {});
     EXPECT_FALSE(near.pole);
     EXPECT_NEAR(near.angles[0].tilt, 1e-7, 1e-16);
     EXPECT_NEAR(near.angles[0].rotation, 0.8, 1e-9);
 }
 
-// A nutating head of 45° reaches from the pole to 90° and no farther.
+// A nutating head of 45° reaches from the pole to 90°, not farther.
 TEST(Kinematics, WhatAnInclinedAxisCannotReach) {
     Kinematics k = machine_of(KinematicsType::head_head, "BC");
     k.tilt.direction = Vec3(0, 1, 1).normalized();
@@ -202,7 +202,7 @@ TEST(Kinematics, FollowingKeepsTurnsAndRanges) {
     const Kinematics k = machine_of(KinematicsType::table_table, "AC");
     const AngleRange free;
     const std::vector<Vec3> axes{k.axis_of({0.4, 0.2})};
-    // Three turns on: the same axis again leaves everything where it is.
+    // Three turns farther: the same tool axis again changes nothing.
     std::vector<RotaryAngles> found = follow_rotary(k, axes, {0.4, 0.2 + 6 * pi}, free, free);
     ASSERT_EQ(found.size(), 1U);
     EXPECT_NEAR(found[0].rotation, 0.2 + 6 * pi, 1e-12);
@@ -215,7 +215,7 @@ TEST(Kinematics, FollowingKeepsTurnsAndRanges) {
     EXPECT_TRUE(follow_rotary(k, axes, {0, 0}, {-0.3, 0.3}, free).empty());
 }
 
-// Through the pole: greedy choice turns C by half a turn, following the whole series goes on to
+// Through the pole: a greedy choice turns C by half a turn; following the whole series continues to
 // negative tilt. From tilt +0.5 to −0.5 in steps, C = 0.3 throughout.
 TEST(Kinematics, FollowingGoesThroughThePole) {
     const Kinematics k = machine_of(KinematicsType::table_table, "AC");
@@ -227,7 +227,7 @@ TEST(Kinematics, FollowingGoesThroughThePole) {
         EXPECT_NEAR(path[i].rotation, 0.3, 1e-9) << i;
         EXPECT_NEAR(path[i].tilt, 0.5 - 0.01 * static_cast<double>(i), 1e-9) << i;
     }
-    // Tilt held at 0 and above: C has to turn by π, and says so nowhere with a jump in the axis.
+    // Tilt limited to 0 and above: C has to turn by π, without a jump of the tool axis.
     const std::vector<RotaryAngles> other = follow_rotary(k, axes, {0.5, 0.3}, {0, pi}, {});
     ASSERT_EQ(other.size(), axes.size());
     EXPECT_NEAR(std::abs(other.back().rotation - 0.3), pi, 1e-9);

@@ -22,7 +22,7 @@ TEST(MachineEnsemble, IsTheSameAtEveryCall) {
     }
 }
 
-// The logarithms of 400 draws have the mean 0 and the stated standard deviation, each within four of its standard errors.
+// The logarithms of 400 draws have the mean 0 and the stated standard deviation, both within four standard errors.
 TEST(MachineEnsemble, DrawsHaveTheStatedError) {
     Machine machine;
     machine.uncertainty = {{.key = "max_jerk", .of = "z", .relative_error = 0.2}};
@@ -63,7 +63,7 @@ TEST(MachineEnsemble, AlternativesComeInTurn) {
     EXPECT_EQ(drawn[3].controller.lookahead_blocks, 20);
 }
 
-// Of more alternatives than machines the lowest ones alone would be no fair sample.
+// With more alternatives than machines, the lowest ones alone would not be a fair sample.
 TEST(MachineEnsemble, ManyAlternativesAreSpreadOverTheMachines) {
     Machine machine;
     machine.uncertainty = {
@@ -78,7 +78,7 @@ TEST(MachineEnsemble, ManyAlternativesAreSpreadOverTheMachines) {
     }
 }
 
-// Speeds that a simulation misses by 3 % make accelerations at least as uncertain.
+// If a simulation misses speeds by 3 %, accelerations are at least as uncertain.
 TEST(MachineEnsemble, FidelityAddsToTheErrorOfAccelerations) {
     Machine machine;
     machine.uncertainty = {{.key = "max_acceleration", .of = "x", .relative_error = 1e-6}};

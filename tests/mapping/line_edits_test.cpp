@@ -1,4 +1,4 @@
-// A program is edited at random after its run: the points keep the lines that they ran.
+// A program is edited at random after its run: points keep the lines that they ran.
 #include "mapping/line_edits.h"
 
 #include <map>
@@ -20,7 +20,7 @@ namespace {
 
 struct TextLine {
     std::string text;
-    LineNumber before = 0;  ///< number in the text that ran; 0: it is new
+    LineNumber before = 0;  ///< number in the text that was run; 0: the line is new
 };
 
 class EditedProgram {
@@ -32,12 +32,12 @@ public:
     void insert_comments(int count) {
         for (int k = 0; k < count; ++k) lines_.insert(lines_.begin() + place(), {"(another comment)", 0});
     }
-    /// Motions, a few in a row: the path changes there.
+    /// Deletes some consecutive motions, which changes the path there.
     void delete_lines(int count) {
         const auto at = lines_.begin() + place();
         lines_.erase(at, at + count);
     }
-    /// Two lines that follow each other, in the other order.
+    /// Swaps two consecutive lines.
     void swap_lines() {
         const std::ptrdiff_t at = place();
         std::swap(lines_[static_cast<std::size_t>(at)], lines_[static_cast<std::size_t>(at) + 1]);
@@ -57,7 +57,7 @@ public:
         for (const TextLine& line : lines_) all += line.text + line_end_;
         return all;
     }
-    /// By number in the text that ran; 0: deleted.
+    /// By number in the text that was run; 0: deleted.
     [[nodiscard]] std::vector<LineNumber> now() const {
         std::vector<LineNumber> numbers;
         for (std::size_t k = 0; k < lines_.size(); ++k) {
@@ -68,7 +68,7 @@ public:
     }
 
 private:
-    /// Between the first motions and the last ones.
+    /// A place between the first motions and the last ones.
     std::ptrdiff_t place() {
         constexpr std::ptrdiff_t margin = 30;
         return std::uniform_int_distribution<std::ptrdiff_t>(
@@ -85,7 +85,7 @@ struct Kept {
     [[nodiscard]] double share() const { return static_cast<double>(right) / static_cast<double>(all); }
 };
 
-/// Points whose line is still there, and those of them that have it.
+/// The points whose line still exists, and how many of them have that line.
 Kept map_edited(const Trajectory& path, const Log& log, const EditedProgram& edited, const LineMap& original) {
     const Program program = parse(edited.text(), "linuxcnc");
     Diagnostics diagnostics;

@@ -1,6 +1,6 @@
-// Logs whose line numbers come some records before or after the motion, of a program that was edited after the run: a
-// lead of records is no edit. Lines of 0.4 mm at 40 mm/s take 10 ms, so that a lead of that time looks like one line,
-// but where the tool slows down. Positions and lines are those of trapezoids worked out here.
+// Logs whose line numbers are some records ahead of or behind the motion, for a program that was edited after the run: a
+// lead of records is not an edit. Lines of 0.4 mm at 40 mm/s take 10 ms, so that a lead of that time looks like one line,
+// except where the tool slows down. Positions and lines are those of trapezoids computed here.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -35,7 +35,7 @@ Text zigzag_text() {
     return text;
 }
 
-/// A straight way from rest to rest.
+/// A straight line from rest to rest.
 struct Stretch {
     Vec3 from, along;
     double length = 0;
@@ -44,7 +44,7 @@ struct Stretch {
 
     [[nodiscard]] double peak() const { return std::min(feed, std::sqrt(acceleration * length)); }
     [[nodiscard]] double time() const { return peak() / acceleration + length / peak(); }
-    /// Arc length after a time; of a trapezoid.
+    /// Arc length after a time, for a trapezoidal profile.
     [[nodiscard]] double at(double t) const {
         const double ramp = peak() / acceleration;
         if (t <= ramp) return acceleration * t * t / 2;
@@ -84,7 +84,7 @@ ChannelView view_of(const std::vector<T>& values, ScalarType type) {
             0.0};
 }
 
-/// A record's line is that of the record `lead` later.
+/// A record has the line of the record `lead` later.
 std::shared_ptr<const MadeRun> run_of(double period, std::ptrdiff_t lead) {
     const auto run = std::make_shared<MadeRun>();
     double t = 0;
@@ -117,7 +117,7 @@ struct Edit {
     const char* name;
     const char* finding;  ///< beginning of the message
     LineNumber at;        ///< line of the old text …
-    int by;               ///< … from which on lines stand so much later
+    int by;               ///< … from which lines are later by this number
     std::function<void(Text&)> make;
 };
 
@@ -154,7 +154,7 @@ TEST_P(LeadOfLines, IsNoEdit) {
         PointIndex wrong = 0;
         for (PointIndex i = 0; i < path.count; ++i) {
             const LineNumber ran = run->line[static_cast<std::size_t>(i)];
-            if (edit.by < 0 && ran == edit.at - 1) continue;  // it is no longer there
+            if (edit.by < 0 && ran == edit.at - 1) continue;  // it was deleted
             wrong += map.line_at(i) != ran + static_cast<LineNumber>(ran >= edit.at ? edit.by : 0) ? 1 : 0;
         }
         EXPECT_EQ(wrong, 0) << edit.name << ": " << found;

@@ -1,6 +1,6 @@
-// Alignment without a line channel, judged by the kernel's own line numbers: a point's line is right
-// if it lies between the kernel's previous reported line and the reported one, one line more allowed
-// (a kernel reports the last line of what it merged, and changes the number where a blend begins).
+// Alignment without a line channel, compared with the kernel's own line numbers: a point's line is right
+// if it is between the kernel's previous reported line and the reported one, plus one line
+// (a kernel reports the last of the lines that it merged, and changes the number where a blend begins).
 #include "mapping/line_map.h"
 
 #include <cmath>
@@ -106,7 +106,7 @@ TEST(LineMap, FindsItsPlaceInALogThatBeginsInTheMiddle) {
     for (const PointIndex i : {0, 500, 5000}) { EXPECT_NEAR(ours.line_at(i), whole.line_at(i + cut), 2.0) << i; }
 }
 
-/// Ways in steps of 0.1 mm as a trajectory without lines.
+/// A path in steps of 0.1 mm as a trajectory without lines.
 struct Walked {
     std::vector<double> axis[3];
 
@@ -169,8 +169,8 @@ TEST(LineMap, GoesOnBehindAWayThatIsNoneOfTheProgramsOwn) {
     }
 }
 
-/// What follows the motions of a program sees of its events: tip control, feed mode, path mode, tool, one motion after
-/// the other.
+/// The events of a program as its motions are followed: tip control, feed mode, path mode, tool, one motion after
+/// another.
 std::vector<std::string> seen_of_events(const Program& program) {
     const auto motions = static_cast<std::size_t>(program.motions.size());
     const LineMap map(Column<std::uint32_t>(motions, 0), Column<std::uint8_t>(motions, 0), program);

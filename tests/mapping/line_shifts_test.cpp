@@ -1,4 +1,4 @@
-// Shifts of lines, from records that are counted out here.
+// Shifts of lines, with records that are counted out here.
 #include "mapping/line_shifts.h"
 
 #include <algorithm>
@@ -10,13 +10,13 @@
 namespace clsurf::line_shifts_test {
 namespace {
 
-/// Lines from 10 on, each of so many records; their numbers in the text that ran and in the text now.
+/// Lines from 10 on with a given number of records each; their numbers in the text that was run and in the present text.
 struct Recorded {
     std::vector<int> records;
     std::vector<LineNumber> ran, now;
     std::int64_t lead = 0;
 
-    /// Lines of `count` records each, appended. A smaller shift than before: comments were deleted in front of them.
+    /// Appends lines of `count` records each. If the shift is smaller than before, comments were deleted in front of them.
     void add(int lines, int count, std::int64_t shift) {
         for (int k = 0; k < lines; ++k) {
             const std::int64_t deleted =
@@ -49,7 +49,7 @@ Sections sections(const LineShifts& shifts) {
     return all;
 }
 
-// Thirty lines of one record each end within a lead of two records, and any shift of up to two lines would do there.
+// Thirty lines of one record each end within a lead of two records, and any shift of up to two lines would fit there.
 TEST(LineShifts, LinesShorterThanTheLeadAreNoEdit) {
     for (const std::int64_t lead : {-3, -2, -1, 0, 1, 2, 3, 6}) {
         Recorded log;
@@ -63,7 +63,7 @@ TEST(LineShifts, LinesShorterThanTheLeadAreNoEdit) {
     }
 }
 
-// A line inserted before the short ones is seen behind them only, and placed before the first long one at the latest.
+// A line inserted before the short ones is only visible after them, and placed at the first long one at the latest.
 TEST(LineShifts, AnEditAmongShortLinesIsFound) {
     for (const std::int64_t lead : {-1, 0, 1, 2, 3}) {
         Recorded log;
@@ -96,7 +96,7 @@ TEST(LineShifts, EachEditIsFoundAtItsLine) {
     }
 }
 
-// The numbers of another program agree with nothing.
+// The numbers of another program never agree.
 TEST(LineShifts, AnotherNumberingIsUnexplained) {
     Recorded log;
     log.add(60, 10, 0);

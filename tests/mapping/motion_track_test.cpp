@@ -1,4 +1,4 @@
-// Lines that run again and again, canned cycles and subprograms in other files: which motion a point is on.
+// Lines that run repeatedly, canned cycles and subprograms in other files: the motion of each point.
 #include "mapping/motion_track.h"
 
 #include <cmath>
@@ -21,13 +21,13 @@ namespace {
 
 constexpr double step = 0.4;  ///< [mm] from point to point
 
-/// A log that runs along motions of a program, with the truth beside it.
+/// A log along motions of a program, with the true motion of each point.
 struct Drive {
     std::vector<double> axis[3];
     std::vector<LineNumber> line;
     std::vector<std::int64_t> motion;
 
-    /// Along motions [first, last]; each reports the line of its own, or that of `merged(motion)` behind it.
+    /// Along motions [first, last]; each reports its own line, or that of `merged(motion)` after it.
     template <typename ReportedAs>
     void go(const Program& program, std::int64_t first, std::int64_t last, const ReportedAs& reported_as) {
         const Toolpath path(program.motions, Vec3::Zero());
@@ -91,7 +91,7 @@ std::string loop_of(int passes) {
         passes);
 }
 
-/// Part of the points that are on another motion than they should.
+/// The share of points on a wrong motion.
 double wrong_share(const Drive& run, const LineMap& lines) {
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < run.motion.size(); ++i) {
@@ -126,7 +126,7 @@ TEST(MotionTrack, ALogWithoutSomeRoundsOfALoopFindsTheNext) {
 }
 
 TEST(MotionTrack, ALineThatIsReportedForSeveralRoundsIsFollowedFromRoundToRound) {
-    // A kernel that merges: each motion reports the last line of its round.
+    // A kernel that merges: each motion reports the last line of its loop pass.
     const Program program = parse(loop_of(40));
     Drive run;
     run.go(program, 0, 6);

@@ -82,7 +82,7 @@ TEST(ProgramLines, AreThoseOfTheLogWhereItNamesOneProgram) {
     EXPECT_TRUE(own.known);
 }
 
-/// A program of 100 lines, 1 mm each, run at 1 mm per record from line `first` to line `last`.
+/// A program of 100 lines of 1 mm each, run at 1 mm per record from line `first` to line `last`.
 void run(Recorded& r, int first, int last) {
     for (int line = first; line <= last; ++line) {
         for (int k = 0; k < 4; ++k) {
@@ -144,7 +144,7 @@ TEST(UnknownLines, OfAnotherProgramByItsHashNeedFewerPoints) {
 TEST(UnknownLines, AtRestBehindTheProgramAreNoFinding) {
     Recorded r;
     run(r, 1, 100);
-    for (int i = 0; i < 900; ++i) {  // the tool stands still, on a line of a program that is loaded next
+    for (int i = 0; i < 900; ++i) {  // the tool does not move, on a line of the program that is loaded next
         r.x.push_back(100);
         r.line.push_back(500);
     }
@@ -215,7 +215,7 @@ TEST(ProgramCourse, FindsTwoRunsInOneLog) {
 TEST(ProgramCourse, FindsARunThatWentOnFromAnEarlierLine) {
     Recorded r;
     run(r, 1, 60);
-    for (int k = 0; k < 8; ++k) {  // up and back, with the number of the line that was stopped
+    for (int k = 0; k < 8; ++k) {  // up and back, with the number of the stopped line
         r.x.push_back(60 - (k + 1) * 31 / 8.0);
         r.line.push_back(60);
     }

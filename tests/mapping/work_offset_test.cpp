@@ -1,4 +1,4 @@
-// Recorded logs, displaced and turned by a known pose that the log does not tell.
+// Recorded logs, displaced and rotated by a known pose that the log does not state.
 #include "mapping/work_offset.h"
 
 #include <cmath>
@@ -19,12 +19,12 @@ struct Sample {
     const char *program, *log;
 };
 
-/// The positions lie where the trajectory's pose puts them; the identity is right.
+/// The positions are where the trajectory's pose puts them; the identity is right.
 const Vec3 displaced(312.5, -48.125, -101.3);
 
 Eigen::Isometry3d turned_by(double degrees) { return pose_of(displaced, degrees); }
 
-/// How far the found pose brings a point 100 mm from the zero from where it belongs [mm].
+/// The distance between the found and the true position of a point 100 mm from the zero [mm].
 double error_of(const Eigen::Isometry3d& found, const Eigen::Isometry3d& put) {
     const Eigen::Isometry3d left = found * put;
     return left.translation().norm() + 100 * (left.linear() - Eigen::Matrix3d::Identity()).norm();
@@ -40,7 +40,7 @@ struct Displaced {
           log(io::open_log(std::string(SAMPLE_LOGS "/") + sample.log, {})),
           put(turned_by(degrees)),
           path(reconstruct(log, Role::commanded, Eigen::Isometry3d(put.inverse()))) {}
-    /// Only the points from `first` on, `count` of them.
+    /// Keeps only `count` points from `first` on.
     void cut(PointIndex first, PointIndex count) {
         for (ChannelView& axis : path.axes) {
             axis.first += static_cast<std::size_t>(first) * axis.stride;
@@ -72,7 +72,7 @@ TEST_P(WorkOffset, IsFoundByGeometryAlone) {
 }
 
 TEST_P(WorkOffset, IsFoundFromAPartOfTheLog) {
-    // The middle half, in which neither end says where the program begins.
+    // The middle half, whose ends do not show where the program begins.
     Displaced made(GetParam(), 17.5);
     const LineMap map(made.log.find("line")->values, made.program, made.log.keep_alive);
     const Column<LineNumber> lines = [&] {
@@ -116,7 +116,7 @@ TEST(WorkOffsetRefused, ForAnotherProgram) {
 }
 
 TEST(WorkOffsetRefused, WhereNothingDeterminesIt) {
-    // Half of a log: without lines its box says nothing of where it belongs; with lines it does.
+    // Half of a log: without lines its box does not determine its position; with lines it is determined.
     Displaced made({"bottle_uneven.nc", "bottle_uneven.biip"});
     const LineMap map(made.log.find("line")->values, made.program, made.log.keep_alive);
     made.cut(0, made.path.count / 2);
@@ -126,14 +126,14 @@ TEST(WorkOffsetRefused, WhereNothingDeterminesIt) {
     const std::vector<Eigen::Isometry3d> seeing = find_poses(made.path, made.program, &map);
     ASSERT_EQ(seeing.size(), 1U);
     EXPECT_LT(error_of(seeing.front(), made.put), 1e-3);
-    // One straight line: nothing tells where along it.
+    // One straight line: the position along it is not determined.
     made = Displaced({"transition_g61.nc", "transition_g61.biip"});
     made.cut(5000, 120);
     EXPECT_NE(find_poses(made.path, made.program, nullptr).size(), 1U);
 }
 
 TEST(WorkOffsetAmbiguous, ACubesEdgesFitAtEveryQuarterTurn) {
-    // Squares round a centre, one below the other: four turns fit alike, and each is named.
+    // Squares around a centre, one below the other: four rotations fit equally well, and each is named.
     std::string text = "G21 G90\nG0 X10 Y10 Z0\nF1000\n";
     for (int level = 0; level < 5; ++level) text += fmt::format("G1 X10 Y10 Z-{0}\nX-10\nY-10\nX10\nY10\n", level);
     const Program program = parse(text + "M2\n", "linuxcnc");
@@ -166,7 +166,7 @@ TEST(WorkOffsetAmbiguous, ACubesEdgesFitAtEveryQuarterTurn) {
     ASSERT_EQ(diagnostics.kept().size(), 1u);
     EXPECT_NE(diagnostics.kept()[0].text.find("ambiguous"), std::string::npos);
     for (const Eigen::Isometry3d& pose : poses) {
-        // A quarter turn about the part's axis apart from the right one, each.
+        // Each differs from the right one by a quarter turn about the part's axis.
         const Eigen::Isometry3d left = pose * put;
         EXPECT_LT((left * Vec3::Zero()).head<2>().norm(), 0.05);
         const double quarters = std::atan2(left.linear()(1, 0), left.linear()(0, 0)) / (90 * rad_per_deg);

@@ -15,7 +15,7 @@ constexpr double radius = 3, apart = 0.3, length = 12;
 constexpr int passes = 30;
 constexpr double mark = 0.008;  ///< [mm] depth of pass 15
 
-/// A wavy part, or a plane; one pass may run too low. `bend`: of its profiles along Y, that grows with x.
+/// A wavy part, or a plane; one pass may be too low. `bend`: curvature of its profiles along Y, which increases with x.
 struct Cut {
     test::MadeSurface made;
     Signals signals;
@@ -56,7 +56,7 @@ struct Cut {
     }
 };
 
-/// A grid of points over a surface, as they read in axes whose pose on the part is `pose`.
+/// A grid of points on a surface, in axes whose pose on the part is `pose`.
 MeasuredData touched(const Cut& cut, const Pose& pose, double scatter) {
     MeasuredData data;
     data.kind = MeasuredKind::points;
@@ -72,7 +72,7 @@ MeasuredData touched(const Cut& cut, const Pose& pose, double scatter) {
     return data;
 }
 
-/// A profile across the passes from (x, y) on, heights over the first one.
+/// A profile across the passes from (x, y) on, with heights above the first one.
 MeasuredData traced(const Cut& cut, const Vec2& from, double scatter) {
     MeasuredData data;
     data.kind = MeasuredKind::profile;
@@ -95,7 +95,7 @@ TEST(Align, FindsThePoseOfTouchedPointsWithinItsErrors) {
     const Alignment found = align(touched(cut, planted, 1e-4), cut.surface);
     ASSERT_TRUE(found.determined()) << found.reasons.front();
     EXPECT_NEAR(found.rms, 1e-4, 2e-5);
-    // Where a point in the middle of the part comes to lie, and one at its border.
+    // The error at a point in the middle of the part, and at one at its border.
     for (const Vec3& place : {Vec3(6, 4, 0), Vec3(11, 1, 0)}) {
         const Vec3 point = planted.turn.transpose() * (place - planted.shift);
         EXPECT_NEAR((found.pose(point) - place).norm(), 0, 5e-4);
@@ -130,13 +130,13 @@ TEST(Align, TheStandardErrorIsTheScatterOfRepeatedMeasurements) {
 TEST(Align, AProfileThatBeginsElsewhereIsFound) {
     const Cut cut(0.4, mark);
     AlignRules rules;
-    rules.start = MeasuredPlace{Vec2(6, 1.5 - 0.63), 0.5 * M_PI};  // two step-overs off, and some more
+    rules.start = MeasuredPlace{Vec2(6, 1.5 - 0.63), 0.5 * M_PI};  // off by two step-overs and a little
     const Alignment found = align(traced(cut, {6, 1.5}, 5e-5), cut.surface, rules);
     ASSERT_TRUE(found.determined()) << found.reasons.front();
     EXPECT_NEAR(found.pose.shift.y(), 1.5, 5e-4);
 }
 
-// 0.2 mm beside its place a profile bends by 4 µm more over 4 mm, and no tilt makes up for that.
+// 0.2 mm from its place a profile bends by 4 µm more over 4 mm, which no tilt compensates.
 TEST(Align, AProfileThatLiesBesideItsPlaceIsFound) {
     const Cut cut(0.4, mark, 0.005);
     const MeasuredData data = traced(cut, {6, 1.5}, 5e-5);
@@ -198,7 +198,7 @@ TEST(Align, FewPointsDoNotTellAPoseOnScallops) {
         ASSERT_FALSE(found.determined()) << count;
         EXPECT_NE(found.reasons.front().find("are too few for 6 degrees of freedom"), std::string::npos);
     }
-    // Where nothing is shifted along the surface, fewer are enough.
+    // If nothing is shifted along the surface, fewer points are sufficient.
     AlignRules rules;
     rules.free = FreeAxes{false, false, true, true, true, false};
     EXPECT_TRUE(align(some(8), cut.surface, rules).determined());
@@ -209,7 +209,7 @@ TEST(Align, APlaneLeavesShiftsUndetermined) {
     const Alignment found = align(touched(plane, {}, 1e-4), plane.surface);
     ASSERT_FALSE(found.determined());
     EXPECT_NE(found.reasons.front().find("the shift along x"), std::string::npos) << found.reasons.front();
-    // What a plane does tell can be asked for.
+    // A plane determines some parameters, which can be requested.
     AlignRules rules;
     rules.free = FreeAxes{false, false, true, true, true, false};
     Pose planted;
@@ -226,7 +226,7 @@ TEST(Align, OnEvenScallopsEveryStepOverFitsAlike) {
     const Alignment even = align(traced(plane, {6, 2.1}, 5e-5), plane.surface, rules);
     ASSERT_FALSE(even.determined());
     EXPECT_NE(even.reasons.front().find("another pose"), std::string::npos) << even.reasons.front();
-    // A mark tells them apart.
+    // A mark distinguishes them.
     const Cut marked(0, mark);
     const Alignment found = align(traced(marked, {6, 2.1}, 5e-5), marked.surface, rules);
     EXPECT_TRUE(found.determined()) << found.reasons.front();

@@ -1,5 +1,5 @@
 #pragma once
-// A log of columns that a test makes.
+// A log made from columns.
 
 #include <memory>
 #include <string>

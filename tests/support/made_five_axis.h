@@ -1,5 +1,5 @@
 #pragma once
-// A five-axis log made from a program by interpolating it at a constant speed: under tool centre point
+// A five-axis log made by interpolating a program at constant speed: with tool centre point
 // control tip and angles, otherwise the axes themselves.
 
 #include <cmath>
@@ -25,7 +25,7 @@ inline Program parse_text(const std::string& text, const char* dialect = "fanuc"
     return parse_program(SourceText("made.nc", *kept, kept), options);
 }
 
-/// A trunnion whose axes do not cross, seen from a workpiece that stands off its centre.
+/// A trunnion whose axes do not intersect, with a workpiece off its centre.
 inline Kinematics trunnion() {
     Kinematics k;
     k.type = KinematicsType::table_table;
@@ -64,8 +64,8 @@ struct MadeLog {
     }
 };
 
-/// Interpolates with steps of `step` mm of the programmed arc length, of half a degree where only angles turn.
-/// `zero`: machine position of the program's zero [mm]. Where control of the tip has gone off, an axis stays
+/// Interpolates with steps of `step` mm of the programmed arc length, or of half a degree if only angles turn.
+/// `zero`: machine position of the program's zero [mm]. After tool centre point control is turned off, an axis stays
 /// where it is until a word moves it.
 inline MadeLog run(const Program& program, const Kinematics& kinematics, const Vec3& zero, double step) {
     MadeLog made;

@@ -1,5 +1,5 @@
 #pragma once
-// Programs from text, run on a machine; and how far the run is from what was programmed.
+// Programs from text, run on a machine; and the distance between run and program.
 
 #include <algorithm>
 #include <limits>
@@ -35,7 +35,7 @@ inline Recorded run_program(const Program& program, const Machine& machine) {
     return recorded;
 }
 
-/// The curves of a program's motions, from the origin; those without a way have length 0.
+/// The curves of a program's motions, from the origin; motions without movement have length 0.
 inline std::vector<PathElement> elements_of(const Program& program) {
     std::vector<PathElement> elements;
     Vec3 at = Vec3::Zero();
@@ -52,7 +52,7 @@ inline std::vector<PathElement> elements_of(const Program& program) {
     return elements;
 }
 
-/// How far a point is from a curve [mm]: places of it, then golden sections between the best place's neighbours.
+/// The distance of a point from a curve [mm]: samples, then golden section search between the neighbours of the best one.
 inline double distance_to(const PathElement& element, const Vec3& point) {
     if (!(element.length > 0)) return (element.begin - point).norm();
     if (element.straight())
@@ -76,8 +76,8 @@ inline double distance_to(const PathElement& element, const Vec3& point) {
     return std::min(least, distance(0.5 * (low + high)));
 }
 
-/// The greatest distance of every `step`-th point from the program [mm], looked for among the motions whose
-/// lines are at most `around` away from the point's.
+/// The largest distance of every `step`-th point from the program [mm]. Only motions whose lines
+/// are at most `around` away from the point's line are searched.
 inline double greatest_distance(const std::vector<PathElement>& path, const std::vector<SimulatedPoint>& points,
                                 std::size_t step, LineNumber around) {
     double greatest = 0;

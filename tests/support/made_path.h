@@ -14,7 +14,7 @@ inline void add(Positions& p, double x, double y, double z) {
     p.z.push_back(static_cast<float>(z));
 }
 
-/// A straight way in steps of `step`, its end excluded.
+/// A straight line in steps of `step`, its end excluded.
 inline void add_line(Positions& p, Vec3 from, Vec3 to, double step) {
     const auto n = static_cast<int>(std::ceil((to - from).norm() / step));
     for (int i = 0; i < n; ++i) {
@@ -23,7 +23,7 @@ inline void add_line(Positions& p, Vec3 from, Vec3 to, double step) {
     }
 }
 
-/// Zigzag along X over a plane, `passes` of them `apart` mm apart.
+/// A zigzag of `passes` passes along X over a plane, `apart` mm apart.
 inline Positions zigzag(int passes, double length, double apart, double step) {
     Positions p;
     for (int k = 0; k < passes; ++k) {
@@ -47,7 +47,7 @@ inline Positions spiral(double outer, int turns, double apart, double step) {
     return p;
 }
 
-/// Circles from radius `outer` inwards, each begun and ended on the X axis; from one a step inwards to the next.
+/// Circles from radius `outer` inwards, each beginning and ending on the X axis, joined by straight steps inwards.
 inline Positions loops(double outer, int count, double apart, double step) {
     Positions p;
     for (int k = 0; k < count; ++k) {

@@ -1,7 +1,7 @@
 #pragma once
-// Runs made for tests: a tool that follows a path of known arc length at a known speed, with pauses and with
-// measured positions where they are wanted; the way at every point is kept, so that an alignment can
-// be held against the truth.
+// Runs made for tests: a tool follows a path of known arc length at a known speed, optionally with pauses and
+// measured positions. The arc length of every point is stored, so that an alignment can
+// be compared with the truth.
 
 #include <cmath>
 #include <functional>
@@ -15,7 +15,7 @@
 
 namespace clsurf::test {
 
-/// A position by arc length [mm].
+/// A position as a function of arc length [mm].
 using PathOfArcLength = std::function<Vec3(double)>;
 
 struct RunRecipe {
@@ -23,7 +23,7 @@ struct RunRecipe {
     double begin = 0, end = 100;                                        ///< [mm] of arc length
     double period = 0.001;                                              ///< [s]
     std::function<double(double)> speed = [](double) { return 30.0; };  ///< [mm/s] by arc length
-    std::vector<std::pair<double, double>> pauses;                      ///< at a way [mm], for a time [s]
+    std::vector<std::pair<double, double>> pauses;                      ///< at an arc length [mm], for a time [s]
     std::function<Vec3(double)> off = [](double) -> Vec3 {
         return Vec3::Zero();
     };  ///< measured minus commanded, by arc length
@@ -47,7 +47,7 @@ struct MadeRun {
         run.truest = run.measured;
         return run;
     }
-    /// The way at a station.
+    /// The arc length at a path location.
     [[nodiscard]] double arc_length_at(const PathLocation& at) const {
         const auto i = static_cast<std::size_t>(at.point);
         return at.fraction == 0 ? arc_length[i] : arc_length[i] + at.fraction * (arc_length[i + 1] - arc_length[i]);
@@ -110,7 +110,7 @@ inline PathOfArcLength rounded_zigzag(double length) {
     };
 }
 
-/// The same circle again and again, then away from it.
+/// The same circle repeatedly, then away from it.
 inline PathOfArcLength circles(double radius, int turns) {
     return [radius, turns](double s) {
         const double whole = 2 * std::numbers::pi * radius * turns;
@@ -119,7 +119,7 @@ inline PathOfArcLength circles(double radius, int turns) {
     };
 }
 
-/// A curve that crosses itself many times. ArcLength is that of its parameter only roughly.
+/// A curve that crosses itself many times. The parameter is only roughly its arc length.
 inline PathOfArcLength crossing_curve() {
     return [](double s) { return Vec3(20 * std::sin(3 * s / 50), 20 * std::sin(2 * s / 50 + 0.4), std::sin(s / 17)); };
 }

@@ -25,13 +25,13 @@ struct MadeSurface {
     }
 };
 
-/// Measured position of a commanded one; empty: no measured positions.
+/// The measured position for a commanded one; empty: no measured positions.
 using Measure = std::function<Vec3(const Vec3& commanded, const Vec3& feed)>;
 
-/// Where the plane's points really lie: a rotation, a curved surface; empty: on the plane. Keeps distances.
+/// The true position of points of the plane: a rotation, a curved surface; empty: on the plane. Keeps distances.
 using Place = std::function<Vec3(const Vec3& flat)>;
 
-/// Of commanded and measured positions, one a millisecond, in passes `apart` mm from each other.
+/// A surface from commanded and measured positions, one per millisecond, in passes `apart` mm from each other.
 inline MadeSurface made_along(const std::vector<Vec3>& points, const std::vector<Vec3>& off, const Passes& passes,
                               double apart) {
     constexpr double period = 0.001;

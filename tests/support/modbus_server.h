@@ -1,6 +1,6 @@
 #pragma once
 // A Modbus device for tests: the server of libmodbus in a thread, over loopback TCP at a free port, or over a
-// pseudo-terminal. Holding and input register k hold 1000 + k; holding register 0 holds the number of the request.
+// pseudo-terminal. Holding and input register k have the value 1000 + k; holding register 0 has the number of the request.
 
 #include <modbus/modbus.h>
 #include <netinet/in.h>
@@ -20,7 +20,7 @@
 
 namespace clsurf::test {
 
-/// What the device does with a request.
+/// The reaction of the device to a request.
 struct Reaction {
     double delay = 0;     ///< [s]
     int exception = 0;    ///< instead of an answer
@@ -54,11 +54,11 @@ public:
         modbus_mapping_free(mapping_);
     }
 
-    /// Serves until stop(). Registers are set before.
+    /// Serves until stop(). Registers must be set before.
     void start() {
         thread_ = std::thread([this] { listener_ >= 0 ? serve_tcp() : serve_open_line(); });
     }
-    /// Hangs up and answers nobody any more.
+    /// Closes the connection and stops answering.
     void stop() {
         ends_ = true;
         if (thread_.joinable()) thread_.join();
@@ -74,7 +74,7 @@ public:
     [[nodiscard]] std::uint16_t* holding() { return mapping_->tab_registers; }
     [[nodiscard]] std::uint16_t* input() { return mapping_->tab_input_registers; }
     [[nodiscard]] int requests() const { return requests_; }
-    /// The codes of all functions that were asked for.
+    /// The codes of all requested functions.
     [[nodiscard]] std::set<int> functions() {
         const std::lock_guard lock(mutex_);
         return functions_;
@@ -125,7 +125,7 @@ private:
             if (size > 0 && !answer(query, size)) return;
         }
     }
-    /// False: it hangs up.
+    /// False: the connection is closed.
     bool answer(const std::uint8_t* query, int size) {
         {
             const std::lock_guard lock(mutex_);

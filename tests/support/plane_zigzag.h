@@ -1,5 +1,5 @@
 #pragma once
-// A zigzag over a plane, to plant speeds and heights in.
+// A zigzag over a plane, in which speeds and heights can be planted.
 
 #include <algorithm>
 #include <cstdint>
@@ -11,9 +11,9 @@
 namespace clsurf::test {
 
 inline constexpr double usual_step_over = 0.3;  // [mm] between passes of plane_zigzag …
-inline constexpr double pass_length = 24.0;     // [mm] … and what they are long
+inline constexpr double pass_length = 24.0;     // [mm] … and their length
 
-/// A zigzag of 24 passes over a plane. `speed`: [mm/s] on a pass at x, the way s [mm] from its beginning. `apart` [mm].
+/// A zigzag of 24 passes over a plane. `speed`: [mm/s] on a pass at x, at the arc length s [mm] of the pass. `apart` [mm].
 template <typename Speed>
 planted::PlantedLog plane_zigzag(Speed&& speed, double apart = usual_step_over) {
     constexpr int passes = 24;
@@ -48,7 +48,7 @@ planted::PlantedLog plane_zigzag(Speed&& speed, double apart = usual_step_over) 
     return log;
 }
 
-/// The measured positions of some passes lifted by `height` [mm] from x = `from` to `to`, with edges of 0.5 mm.
+/// Lifts the measured positions of some passes by `height` [mm] from x = `from` to `to`, with edges of 0.5 mm.
 template <typename Taken>
 void lift(planted::PlantedLog& log, double height, double from, double to, Taken&& taken) {
     for (std::size_t i = 0; i < log.pass.size(); ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// The roughness that scallops of a known height have, in closed form (ISO 4287 names): what measured roughness is compared with.
+// The roughness of scallops of a known height in closed form (ISO 4287 names), for comparison with measured roughness.
 
 #include <cmath>
 

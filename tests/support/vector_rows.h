@@ -1,5 +1,5 @@
 #pragma once
-// Vectors of independent computations in tests/ROOM/vectors: one case a row of words.
+// Vectors from independent computations in tests/ROOM/vectors: one case per row of words.
 
 #include <gtest/gtest.h>
 
