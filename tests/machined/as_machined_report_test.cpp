@@ -18,9 +18,9 @@
 namespace clsurf::as_machined_report_test {
 namespace {
 
-/// A planted log as far as its formed surface.
+/// A planted log with its as-machined surface.
 struct Planted {
-    /// `programmed`: the positions that the program has; those of the feedback where it is at fault itself.
+    /// `programmed`: the positions in the program, in case the program itself has the fault.
     explicit Planted(const planted::Recipe& recipe, Role programmed = Role::commanded)
         : made(planted::make_planted_log(recipe)), path(reconstruct(log, programmed, Vec3::Zero())) {}
 
@@ -55,7 +55,7 @@ planted::Recipe recipe_with(double amplitude, planted::Shape shape, planted::Sur
 }
 
 TEST(AsMachinedReport, APlantedPitOfFiveMicrometresShowsAsFive) {
-    // On the loops, the give of the axes makes the passes lie lower and lower across the pit.
+    // On the loops, the compliance of the axes makes the passes gradually lower across the pit.
     for (const planted::Shape shape : {planted::Shape::zigzag, planted::Shape::one_way, planted::Shape::loops}) {
         const Planted pit(recipe_with(-0.005, shape, planted::Surface::transition));
         ASSERT_GE(pit.report.defects.size(), 1U) << planted::name_of(shape);
@@ -69,14 +69,14 @@ TEST(AsMachinedReport, APlantedBulgeIsCutDownByItsNeighbours) {
     const double h = scallop_height(3, 0.3, std::numeric_limits<double>::infinity());
     const Planted bulge(recipe_with(0.006, planted::Shape::zigzag, planted::Surface::transition));
     ASSERT_EQ(bulge.report.defects.size(), 1U);
-    // Its cusps are h (1 + δ/4h)², those beside it h: less than half of the 6 µm are left over them.
+    // Its cusps are h (1 + δ/4h)², those next to it h: less than half of the 6 µm remain above them.
     const double cusp = h * (1 + 0.006 / (4 * h)) * (1 + 0.006 / (4 * h));
     EXPECT_NEAR(bulge.result.marks[0].depth, cusp - h, 0.0006);
 }
 
 TEST(AsMachinedReport, AMarkOfTheProgramIsOneOfTheSameDepthAsOneOfTheMachine) {
-    // The program has a pass 8 µm higher or lower, and the machine follows it; or the program is even, and the machine
-    // runs off: the part is the same.
+    // The program has a pass 8 µm higher or lower, and the machine follows it; or the program has no fault, and the machine
+    // deviates: the part is the same.
     const double h = scallop_height(3, 0.3, std::numeric_limits<double>::infinity());
     const double off = 0.008;
     const double bulge = h * (1 + off / (4 * h)) * (1 + off / (4 * h)) - h;
@@ -92,11 +92,11 @@ TEST(AsMachinedReport, AMarkOfTheProgramIsOneOfTheSameDepthAsOneOfTheMachine) {
         for (const Planted* each : {&of_machine, &of_program}) {
             ASSERT_EQ(each->report.defects.size(), 1U);
             EXPECT_EQ(each->report.defects[0].pit, amplitude < 0);
-            EXPECT_NEAR(each->result.marks[0].depth, expected, 0.0004);  // the form is a little round
+            EXPECT_NEAR(each->result.marks[0].depth, expected, 0.0004);  // the form is slightly curved
             EXPECT_EQ(each->result.marks[0].note, amplitude > 0 ? MarkNote::cut_away : MarkNote::none);
         }
         EXPECT_NEAR(of_machine.result.marks[0].depth, of_program.result.marks[0].depth, 0.0002);
-        // A section across the passes, over the form.
+        // A profile across the passes, above the form.
         const Vec2 middle = of_machine.surface.positions.absolute(of_machine.report.defects[0].point).head<2>();
         const Vec2 aside(0, 1.5);
         const AsMachinedProfile a = measure_profile(of_machine.as_machined, middle - aside, middle + aside);
@@ -124,14 +124,14 @@ TEST(AsMachinedReport, RoughnessOfACleanPartIsThatOfItsScallops) {
         }
         EXPECT_NEAR(mean, clean.result.roughness.rz, 1e-12);
         EXPECT_NEAR(clean.result.roughness.rz, h,
-                    0.15 * h);  // the surface's own roundness is 4 %, the log's micrometre the rest
+                    0.15 * h);  // the curvature of the surface adds 4 %, the log's resolution of 1 µm the rest
         EXPECT_NEAR(clean.result.roughness.ra, test::scallop_ra(h), 0.1 * test::scallop_ra(h));
         EXPECT_NEAR(clean.result.roughness.sa, test::scallop_ra(h), 0.1 * test::scallop_ra(h));
     }
 }
 
 TEST(AsMachinedReport, ScallopsFollowTheCurvatureAcrossTheFeed) {
-    // Tips on a sphere of radius r: the ball's centres lie on one as large, and it touches one of r − 3 mm.
+    // Tips on a sphere of radius r: the ball's centres are on an equal one, and it touches a sphere of r − 3 mm.
     planted::Recipe recipe = recipe_with(0, planted::Shape::one_way, planted::Surface::dome);
     recipe.noise = 0;
     recipe.give = 0;
@@ -153,7 +153,7 @@ TEST(AsMachinedReport, CreasesAreNoRoughness) {
     const Planted creased(recipe);
     const double h = scallop_height(3, 0.3, std::numeric_limits<double>::infinity());
     EXPECT_LT(creased.result.roughness.unknown, 0.001);
-    // A fit through a crease would leave some hundred micrometres.
+    // A fit across a crease would have an error of some hundred micrometres.
     EXPECT_LT(creased.result.roughness.sz, 2 * h);
     EXPECT_NEAR(creased.result.roughness.rz, h, 0.15 * h);
 }
@@ -180,7 +180,7 @@ TEST(AsMachinedReport, AMarkAmongPassesToAndFroIsReadAgainstItsOwnDirection) {
     std::vector<double> z;
     for (int k = 0; k < 1300; ++k) z.push_back((k / 100 % 2 == 0 ? -0.04 : 0) - (k / 100 == 6 ? 0.01 : 0));
     EXPECT_NEAR(mark_depth(z, 0.01, 1, true).depth, 0.01, 1e-12);
-    // Where all passes differ by more than the mark, there is no level to measure it from.
+    // If all passes differ by more than the mark, there is no level from which to measure it.
     const double off[] = {0, 0.03, -0.02, 0.05, -0.04, 0.01, 0, 0.06, 0.03, -0.05, 0.02, -0.01, 0.04};
     for (std::size_t k = 0; k < z.size(); ++k) z[k] = off[k / 100] - (k / 100 == 6 ? 0.01 : 0);
     const AsMachinedMark uneven = mark_depth(z, 0.01, 1, true);
@@ -189,7 +189,7 @@ TEST(AsMachinedReport, AMarkAmongPassesToAndFroIsReadAgainstItsOwnDirection) {
 }
 
 TEST(AsMachinedReport, AMarkIsReadAgainstTheUsualValleysAndCusps) {
-    // Eleven pieces of a parabola 4 high; in the middle one that is 3 lower, and one 2 higher at its edge.
+    // Eleven pieces of a parabola, 4 high; the middle one is 3 lower, and one at its edge 2 higher.
     std::vector<double> z;
     for (int k = 0; k <= 1100; ++k) {
         const double x = (k % 100) / 50.0 - 1;
@@ -203,10 +203,10 @@ TEST(AsMachinedReport, AMarkIsReadAgainstTheUsualValleysAndCusps) {
     z = clean;
     for (std::size_t k = 500; k < 600; ++k) z[k] += 2;
     EXPECT_NEAR(mark_depth(z, 0.01, 1, false).depth, 2, 1e-12);
-    // What changes evenly across the row is no part of it.
+    // A linear trend across the row is not part of it.
     for (std::size_t k = 0; k < z.size(); ++k) z[k] += 0.005 * static_cast<double>(k);
     EXPECT_NEAR(mark_depth(z, 0.01, 1, false).depth, 2, 0.5);
-    // Far from the middle, it is another mark.
+    // Far from the middle, it is a different mark.
     z = clean;
     for (std::size_t k = 100; k < 200; ++k) z[k] -= 3;
     EXPECT_NEAR(mark_depth(z, 0.01, 1, true).depth, 0, 1e-12);
@@ -225,9 +225,9 @@ TEST(Form, OnACurvedSurfaceItPassesThroughTheContacts) {
     }
     ASSERT_GT(off.size(), 1000U);
     std::sort(off.begin(), off.end());
-    EXPECT_LT(off[off.size() / 2], 0.0005);  // the log's positions are whole micrometres
+    EXPECT_LT(off[off.size() / 2], 0.0005);  // the log has a resolution of 1 µm
     EXPECT_LT(off[off.size() * 99 / 100], 0.0015);
-    EXPECT_TRUE(std::isnan(form.at(Vec2(12, -1)).z));  // beside the outermost pass
+    EXPECT_TRUE(std::isnan(form.at(Vec2(12, -1)).z));  // outside the outermost pass
 }
 
 }  // namespace

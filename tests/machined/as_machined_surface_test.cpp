@@ -20,7 +20,7 @@ namespace {
 
 using test::MadeSurface;
 
-/// A made surface, formed.
+/// A made surface and its as-machined surface.
 struct Made {
     MadeSurface made;
     Signals signals;
@@ -36,7 +36,7 @@ struct Made {
 
 CuttingTool ball(double radius) { return {ToolKind::ball, radius, radius}; }
 
-/// One row of heights over z = 0, `step` apart.
+/// One row of heights above z = 0, `step` apart.
 std::vector<double> profile(const AsMachinedSurface& as_machined, const Vec2& from, const Vec2& along, double step,
                             std::int64_t count) {
     std::vector<double> z;
@@ -102,7 +102,7 @@ struct Envelope {
     double ra, rq, rz;
 };
 
-// Sections of passes with height offsets, from an implementation of its own, tolerance 0.2 %.
+// Profiles across passes with height offsets, from an independent implementation, tolerance 0.2 %.
 const std::vector<Envelope> envelopes{
     {3.0,
      0.331,
@@ -180,11 +180,11 @@ TEST(AsMachinedSurface, APitGoesThroughAndABulgeVanishesAtFourScallops) {
 }
 
 TEST(AsMachinedSurface, SegmentsAreSweptAndNotStampedAtTheirEnds) {
-    // A point each 1 mm: a ball stamped there would leave cusps of 42 µm along the feed.
+    // One point per 1 mm: a ball that is only placed there would leave cusps of 42 µm along the feed.
     const Made made(test::flat_zigzag(9, 20, 0.3, 1000, {}));
     const std::vector<double> z = profile(made.as_machined(ball(3)), Vec2(5, 1.2), Vec2::UnitX(), 0.01, 1000);
     EXPECT_LT(rise(z), 1e-6);
-    // And down a slope along the feed.
+    // Also down a slope along the feed.
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.5, Vec3::UnitY()).toRotationMatrix();
     const Made slope(test::flat_zigzag(9, 20, 0.3, 1000, {}, [&](const Vec3& p) { return Vec3(turn * p); }));
     const Vec2 from = (turn * Vec3(8, 1.2, 0) + 3 * (Vec3::UnitZ() - turn * Vec3::UnitZ())).head<2>();
@@ -205,7 +205,7 @@ TEST(AsMachinedSurface, AFlatToolLeavesAPlaneAndABullCusps) {
         if (std::abs(std::abs(y - 8) - 3) < 0.06) continue;  // its wall
         EXPECT_NEAR(z[k], std::abs(y - 8) < 3 ? -0.005 : 0, 1e-7) << y;
     }
-    // Passes 4.4 mm apart of a tool of 2 mm flat half width: cusps of the corners 0.2 mm beside them.
+    // A tool with a flat of 2 mm half width in passes 4.4 mm apart: cusps of the corners 0.2 mm outside the flats.
     const Made wide(test::flat_zigzag(7, 30, 4.4, 100, {}));
     const std::vector<double> cusps =
         profile(wide.as_machined({ToolKind::bull, 3, 1}), Vec2(15, 8.8), Vec2::UnitY(), 0.01, 881);
@@ -213,7 +213,7 @@ TEST(AsMachinedSurface, AFlatToolLeavesAPlaneAndABullCusps) {
 }
 
 TEST(AsMachinedSurface, ABullOnASlopeLeavesWhatItsTorusDoes) {
-    // Passes along the slope's level lines: across them the tube's circle is what cuts.
+    // Passes along the level lines of the slope: across them the circle of the torus cuts.
     constexpr double apart = 0.2;
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.5, Vec3::UnitX()).toRotationMatrix();
     const Made made(test::flat_zigzag(15, 10, apart, 40, {}, [&](const Vec3& p) { return Vec3(turn * p); }));
@@ -231,14 +231,14 @@ TEST(AsMachinedSurface, ABullOnASlopeLeavesWhatItsTorusDoes) {
 TEST(AsMachinedSurface, WhatNoPassCutHasNoHeight) {
     const Made made(test::flat_zigzag(9, 6, 0.3, 40, {}));
     const AsMachinedSurface as_machined = made.as_machined(ball(3));
-    // The outermost pass lies at 2.4 mm. Beside it stands the tool's flank, which is not the part's …
+    // The outermost pass is at 2.4 mm. Beyond it is the flank of the tool, not the part …
     const std::vector<double> flank = profile(as_machined, Vec2(3, 2.5), Vec2::UnitY(), 0.1, 28);
     for (std::size_t k = 0; k < flank.size(); ++k) {
         const double off = 0.1 + 0.1 * static_cast<double>(k);
         EXPECT_NEAR(flank[k], 3 - std::sqrt(9 - off * off), 1e-5) << off;
     }
     for (const float z : deviations(as_machined, {Vec2(3, 2.8), Vec2::UnitY(), 0.1, 24, 1})) EXPECT_TRUE(std::isnan(z));
-    // … and beyond the tool's radius nothing.
+    // … and beyond the radius of the tool there is nothing.
     for (const double z : profile(as_machined, Vec2(3, 5.41), Vec2::UnitY(), 0.1, 20)) EXPECT_TRUE(std::isnan(z));
 }
 
@@ -277,13 +277,13 @@ TEST(AsMachinedSurface, AHighLinkLeavesNothing) {
         ASSERT_GE(high[k], with[k] - 1e-6F);
         most = std::max(most, static_cast<double>(high[k] - with[k]));
     }
-    // Where a link ran from pass to pass, the cusp between both stands without it.
+    // Where a link led from pass to pass, the cusp between them remains, as without the link.
     EXPECT_NEAR(most, scallop_height(3, 0.3, std::numeric_limits<double>::infinity()), 2e-4);
 }
 
-/// Tips on a tent of 30° flanks: at its ridge each flank's contacts reach R sin 30° beyond it, where the
-/// other flank's passes cut them away. What stays is the tent of both contact planes, R (1 − cos 30°)
-/// below the tips' normal to the flank.
+/// Tips on a tent of 30° flanks: at its ridge the contacts of each flank extend R sin 30° beyond it, where
+/// the passes of the other flank cut them away. The rest is the tent of both contact planes, R (1 − cos 30°)
+/// below the tips along the normal to the flank.
 Made tent() {
     constexpr double apart = 0.3;
     constexpr double middle = 25 * apart;
@@ -293,8 +293,8 @@ Made tent() {
 }
 
 TEST(UngougedContacts, AreThoseOfTheTentOnTheirOwnSideOfTheRidge) {
-    // A contact e beyond the ridge lies 2 e sin 30° = e inside the other flank's tools, and the nearest is 60 µm
-    // beyond; tips are looked at one in 0.25 mm, which misses up to 0.25²/8R = 3 µm. The pass along the ridge leaves nothing.
+    // A contact e beyond the ridge is 2 e sin 30° = e inside the tools of the other flank, and the closest is 60 µm
+    // beyond; one tip per 0.25 mm is tested, which misses up to 0.25²/8R = 3 µm. Of the pass along the ridge nothing remains.
     const Made made = tent();
     const AsMachinedSurface as_machined = made.as_machined(ball(3));
     const Box2 box(Vec2(2, -2.5), Vec2(10, 2.5));

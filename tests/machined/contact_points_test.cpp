@@ -1,5 +1,5 @@
-// Places on parts whose shape is known: contact points and normals come from formulas of the surface, the
-// tips from them by the tool's geometry, written down here once more. What is searched for must be found again.
+// Places on parts of known shape: contact points and normals come from formulas of the surface, and the
+// tips from them by the tool's geometry, written here independently. A search for them must find them.
 
 #include "machined/contact_points.h"
 
@@ -59,7 +59,7 @@ struct Milled {
     ToolAxes::Columns axes;
     std::vector<Vec3> contacts;
     std::vector<int> lines;
-    std::vector<bool> turns;  ///< near where the pass turns round: nobody asks there
+    std::vector<bool> turns;  ///< near a turn of the pass: not tested
     Trajectory path;
     std::optional<ToolAxes> tool_axes;
     ClSurface surface;
@@ -103,7 +103,7 @@ struct Milled {
 
 struct Score {
     int asked = 0, right = 0;
-    double worst = 0;  ///< [mm] from a contact point to where it is
+    double worst = 0;  ///< [mm] largest error of a contact point
     void add(const Score& other) {
         asked += other.asked;
         right += other.right;
@@ -111,7 +111,7 @@ struct Score {
     [[nodiscard]] double share() const { return static_cast<double>(right) / asked; }
 };
 
-/// Asks for every 23rd contact point that lies a step-over or more from where its pass turns round.
+/// Searches every 23rd contact point that is at least a step-over from the turn of its pass.
 Score ask(const Milled& milled, const CuttingTool& tool, bool leans) {
     const ContactPoints points(milled.surface, milled.path, leans ? milled.tool_axes : std::nullopt, tool);
     Score score;
@@ -145,7 +145,7 @@ SurfacePoint boss(double u, double v) {
     const Vec3 n(std::sin(slope) * std::cos(turn), std::sin(slope) * std::sin(turn), std::cos(slope));
     return {radius * n, n};
 }
-/// The side of a hollow of radius 25 that lies along x.
+/// The side of a hollow of radius 25 along x.
 SurfacePoint hollow(double u, double v) {
     constexpr double radius = 25;
     const double angle = v / radius + 0.25;
@@ -185,7 +185,7 @@ TEST(ContactPoints, ThePlaceOnThePartNamesItsLine) {
 
 TEST(ContactPoints, AToolThatTurnsTouchesWhereItsOwnAxisSays) {
     Score all;
-    // By some 20°, ahead and to one side, more or less from place to place.
+    // By some 20°, ahead and to one side, varying from place to place.
     const Lean lean = [](const SurfacePoint& p, const Vec3& along) {
         const double ahead = 0.3 + 0.005 * p.at.y();
         const double aside = 0.2 + 0.05 * std::cos(0.2 * p.at.x());
@@ -232,7 +232,7 @@ TEST(PlaceSearch, TheNearestPassesFollowEachOther) {
     EXPECT_NEAR(found[4].distance, 2 * step_over, 0.02);
 }
 
-/// A V-groove along x whose bottom the ball of one pass rounds: it touches both walls and forms all between them.
+/// A V-groove along x, whose bottom is rounded by the ball of one pass: it touches both walls and forms everything between.
 constexpr double groove_bottom = 3.0;                 ///< [mm] v of that pass
 constexpr double wall = 30 * std::numbers::pi / 180;  ///< slope of both walls
 
@@ -259,14 +259,14 @@ TEST(PlaceSearch, InAGrooveThePassAtItsBottomIsMeant) {
             ASSERT_FALSE(found.empty());
             EXPECT_NEAR(found.front().place.tip.y(), groove_bottom, 1e-9) << degrees;
             EXPECT_LT(std::abs(found.front().place.tip.x() - place.x()), spacing);
-            // The place itself is touched, not where some normal would have it.
+            // The result is the place itself, not an extrapolation along a normal.
             EXPECT_LT((found.front().place.position() - place).norm(), 0.6 * step_over) << degrees;
         }
     }
 }
 
 TEST(PlaceSearch, AContactThatIsCutAwayAgainIsFoundWhereItIsAskedFor) {
-    // The walls' own contacts go on below where the ball of the lowest pass ends them.
+    // The contacts of the walls would continue below the contacts of the lowest pass.
     const Milled milled(groove, ball, 6, 6);
     const ContactPoints points(milled.surface, milled.path, std::nullopt, ball);
     const PointIndex i = milled.path.count / 3;
@@ -283,7 +283,7 @@ TEST(PlaceSearch, FromAboveNothingIsFoundWhereNoCutterReaches) {
     EXPECT_TRUE(find_places(milled.path, milled.surface.passes, &points, step_over, {Vec3(40, 40, 0), true}).empty());
 }
 
-/// Under a flat tool on a level face all passes within its radius touch: the nearest is meant.
+/// Under a flat tool on a level face all passes within its radius touch: the closest one is meant.
 TEST(PlaceSearch, UnderAFlatBottomTheNearestPassIsMeant) {
     const Milled milled([](double u, double v) { return SurfacePoint{Vec3(u, v, 0), Vec3::UnitZ()}; }, flat, 6, 6);
     const ContactPoints points(milled.surface, milled.path, std::nullopt, flat);
@@ -296,7 +296,7 @@ TEST(PlaceSearch, UnderAFlatBottomTheNearestPassIsMeant) {
 }
 
 TEST(PlaceSearch, FromAboveTheTopmostLevelIsMeant) {
-    // Two level faces over each other, the lower one cut last; its passes lie half a step-over beside the others.
+    // Two level faces above each other, the lower one cut last, with passes half a step-over beside the others.
     Columns tips;
     Passes passes;
     for (const double z : {0.0, -2.0}) {

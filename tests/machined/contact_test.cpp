@@ -11,7 +11,7 @@ namespace {
 const CuttingTool ball{ToolKind::ball, 3, 3};
 const CuttingTool bull{ToolKind::bull, 5, 1};
 const CuttingTool flat{ToolKind::flat, 4, 0};
-/// A 3-4-5 triangle: the surface falls towards +x, the tool stands uphill of … its contact lies at −x.
+/// A 3-4-5 triangle: the surface falls towards +x, so the contact is at −x of the tool.
 const Vec3 tilted(0.6, 0, 0.8);
 
 void expect_near(const Vec3& a, const Vec3& b) {

@@ -1,5 +1,5 @@
-// Sections from an independent z-buffer (formed_oracle.py): heights of the as-machined surface, and its roughness against
-// the design, creases included.
+// Profiles from an independent z-buffer (formed_oracle.py): heights of the as-machined surface, and its roughness against
+// the design, including creases.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ struct OracleCase {
     double a = 0, b = 0;
     double error = 0;  ///< [µm] of the machine
     Vec2 from, to;
-    double apart = 0;                       ///< [mm] contacts of adjacent passes, seen from above
+    double apart = 0;                       ///< [mm] contacts of adjacent passes, in plan view
     double ra = 0, rz = 0, sa = 0, sz = 0;  ///< µm
     std::vector<double> z;
 };
@@ -84,18 +84,18 @@ double tip_of(const OracleCase& c, double x, double y) {
     return radius / std::cos(steepness) - tan_of(c.b) * off - radius;
 }
 
-/// Where the machine is [mm].
+/// The position of the machine [mm].
 Vec3 measured_of(const OracleCase& c, const Vec3& p) {
     constexpr double wave = 5, from_pass_to_pass = 2;
     const double phase = from_pass_to_pass * std::round(p.y() / step_over);
     return p + Vec3(0, 0, 1e-3 * c.error * std::sin(2 * M_PI * p.x() / wave + phase));
 }
 
-/// Whether the path has corners, in a valley without a fillet: the smoothing of positions rounds them by up to 7 µm, and
-/// the passes between are not those of the program there (docs/formed.md, limits).
+/// Whether the path has corners, in a valley without a fillet: smoothing rounds the positions by up to 7 µm, and
+/// the passes in between are not those of the program there (docs/formed.md, limits).
 bool has_corner(const OracleCase& c) { return c.part == "fillet" && c.b == 0; }
 
-/// A case's passes, and what the tool leaves.
+/// The passes of a case, and the as-machined surface.
 struct CutPart {
     test::MadeSurface made;
     Signals signals;
@@ -124,7 +124,7 @@ TEST(FormedOracle, HeightsAreThoseOfAnIndependentZBuffer) {
         if (has_corner(c)) continue;
         const CutPart part(c);
         const auto count = static_cast<std::int64_t>(c.z.size());
-        // Every sixteenth place of a section of steps of about 1.5 µm.
+        // Every sixteenth point of a profile with steps of about 1.5 µm.
         const Vec2 arc_length = c.to - c.from;
         const double step = 16 * arc_length.norm() / std::round(arc_length.norm() / 0.0015);
         double most = 0;
@@ -164,8 +164,8 @@ TEST(FormedOracle, ScallopsInClosedFormAreTheCuspsThatTheZBufferLeaves) {
     for (const OracleCase& c : read_cases()) {
         if (c.kind != "ball" || c.error > 0 || (c.part != "plane" && c.part != "cylinder")) continue;
         const CutPart part(c);
-        // The passes lie evenly apart seen from above: on the flanks of rod and groove by up to 4 % more than in the
-        // middle, where the square of Sz is. With the curvature left out it would be 25 % of them.
+        // The passes are evenly spaced in plan view: on the flanks of rod and groove they are up to 4 % farther apart than in
+        // the middle, where the square for Sz is. If the curvature were neglected the error would be 25 %.
         EXPECT_NEAR(1e3 * usual_scallop(part.as_machined, part.signals), c.sz, 0.045 * c.sz) << c.name;
         ++compared;
     }

@@ -22,7 +22,7 @@ constexpr double radius = 3, apart = 0.4;
 constexpr int passes = 30;
 constexpr double tilt = 0.5;  ///< [rad] of the plane about X
 
-/// A plane, tilted across the feed, whose every second pass is measured `lower` mm below the commanded one, along the normal.
+/// A plane, tilted across the feed, with every second pass measured `lower` mm below the commanded one, along the normal.
 MadeSurface alternating(double lower) {
     const Vec3 normal(0, -std::sin(tilt), std::cos(tilt));
     return test::made_zigzag(
@@ -50,7 +50,7 @@ struct Cut {
     }
 };
 
-/// Over the plane, in its own coordinates: the lowest of the circles about pass k at k · apart, `lower` where k is odd.
+/// The height above the plane, in its own coordinates: the lowest of the circles of pass k at k · apart, `lower` if k is odd.
 double envelope(double across, double lower) {
     double z = std::numeric_limits<double>::infinity();
     for (int k = -8; k <= 8; ++k) {
@@ -61,7 +61,7 @@ double envelope(double across, double lower) {
     return z;
 }
 
-/// Of envelope(lower) less `share` times that of passes that are alike.
+/// Heights of envelope(lower) minus `share` times those of equal passes.
 AreaHeights in_theory(double lower, double share) {
     std::vector<float> z;
     for (int k = 0; k < 20000; ++k) {
@@ -116,7 +116,7 @@ MadeSurface inclined(double step_over, double angle, double length) {
     });
 }
 
-/// Of one scallop from cusp to cusp, R − √(R² − y²).
+/// Heights of one scallop from cusp to cusp, R − √(R² − y²).
 AreaHeights scallop_of(double step_over) {
     constexpr int count = 20001;
     std::vector<float> z;
@@ -130,7 +130,7 @@ AreaHeights scallop_of(double step_over) {
 TEST(PartRoughness, IsThatOfWholeScallopsForAnyStepOverAndIncline) {
     struct Plane {
         double step_over = 0, angle = 0;
-        double ra = 0;  ///< [mm] of the scallops behind a Gaussian filter of 0.8 mm along the plane; NumPy
+        double ra = 0;  ///< [mm] of the scallops after a Gaussian filter of 0.8 mm along the plane; NumPy
     };
     for (const Plane& plane : {Plane{0.35, 0, 0.0012764}, Plane{0.25, 0.26, 0.0006679}, Plane{0.4, 0.785, 0.0016080}}) {
         const AreaHeights expected = scallop_of(plane.step_over);
@@ -172,13 +172,13 @@ TEST(PartRoughness, TheDistanceToTheCutOfACuspIsThatOfTheQuadraticForm) {
     EXPECT_EQ(cusp_before_contact(ball, Vec2(0, 0), 0.4), 0);
     EXPECT_EQ(cusp_before_contact(ball, Vec2(0, 1), 0.4), 0) << "along a contour line";
     EXPECT_EQ(cusp_before_contact(bull, Vec2(0.3, 0), 0.4), 0) << "along the fall line";
-    // A slope of 45°, half way between fall line and contour line: w² = 2, so that K = ((3, 1), (1, 3)) / 2 and 1/3 of 0.2 mm.
+    // A slope of 45°, halfway between fall line and contour line: w² = 2, so that K = ((3, 1), (1, 3)) / 2 and 1/3 of 0.2 mm.
     EXPECT_NEAR(cusp_before_contact(ball, Vec2(std::sqrt(0.5), std::sqrt(0.5)), 0.4), 0.2 / 3, 1e-12);
     // A slope with sin θ = 0.6, w² = 1/0.64: r / (R − r + r sin θ) · sin θ = 1.2 / 4.2.
     const double fall = 1 / 0.64, contour = 1.2 / 4.2;
     EXPECT_NEAR(cusp_before_contact(bull, 0.75 * Vec2(0.6, 0.8), 0.4),
                 0.2 * (fall - contour) * 0.48 / (0.36 * fall + 0.64 * contour), 1e-12);
-    // On a level place the tool is flat along the contour lines: no farther than √(R · apart).
+    // On a level place the tool is flat along the contour lines: at most √(R · apart).
     EXPECT_NEAR(cusp_before_contact(bull, Vec2(0.0001, 0.001), 0.4), std::sqrt(2), 1e-12);
 }
 
@@ -199,7 +199,7 @@ TEST(PartRoughness, CuspsOfABullNoseToolAreNoHigherBesideTheEndsOfPassesThatClim
     const double uv = (fall_bend - contour_bend) * fall.x() * fall.y();
     const double vv = fall_bend * fall.y() * fall.y() + contour_bend * fall.x() * fall.x();
     const double cusp = 0.5 * (vv - uv * uv / uu) * 0.25 * step_over * step_over;
-    // Contacts lie R − r + r sin θ up the fall line from the tips.
+    // Contacts are R − r + r sin θ up the fall line from the tips.
     const Vec2 contacts_end = Vec2(length, 0.5 * passes * step_over) + (3 + 2 * sine) * fall;
     for (const double from_end : {0.34, 0.6, 0.9}) {
         const Vec2 at = contacts_end - from_end * Vec2::UnitX();
@@ -210,7 +210,7 @@ TEST(PartRoughness, CuspsOfABullNoseToolAreNoHigherBesideTheEndsOfPassesThatClim
     }
 }
 
-/// A patch that is known, at a point, `um` rough.
+/// A patch with known roughness `um` at a point.
 RoughPatch patch_at(PointIndex point, double um) {
     RoughPatch patch;
     patch.point = point;

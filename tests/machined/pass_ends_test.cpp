@@ -1,5 +1,5 @@
-// Where passes end and the tool lifts, the form goes no lower than the passes, and what the tool leaves there is what it
-// leaves elsewhere.
+// Where passes end and the tool lifts, the form is no lower than the passes, and the as-machined surface is like that
+// elsewhere.
 
 #include <gtest/gtest.h>
 
@@ -19,13 +19,13 @@ constexpr double length = 8;
 constexpr int passes = 16;
 
 struct Lifted {
-    double apart = 0.45, degrees = 20;  ///< seen from above; of the plane, which rises across the feed
-    double shorter = 0;                 ///< [mm] by which every second pass ends earlier
-    double beside = 0;                  ///< [mm] along the feed by which a lift leads aside
+    double apart = 0.45, degrees = 20;  ///< in plan view; slope of the plane, which rises across the feed
+    double shorter = 0;                 ///< [mm] by which every second pass is shorter
+    double beside = 0;                  ///< [mm] along the feed by which a lift moves sideways
     bool zigzag = false;
 };
 
-/// Passes up a plane, from each of which the tool lifts by 3 mm, goes above the next one and plunges.
+/// Passes on a plane; after each the tool lifts by 3 mm, moves above the next one and plunges.
 test::MadeSurface lifted(const Lifted& of) {
     std::vector<Vec3> points;
     Passes found;
@@ -55,14 +55,14 @@ test::MadeSurface lifted(const Lifted& of) {
     return test::made_along(points, points, found, of.apart / std::cos(of.degrees * per_degree));
 }
 
-/// The highest and the lowest deviation [mm] about the ends of the passes in the middle.
+/// The largest and smallest deviation [mm] around the ends of the passes in the middle.
 std::pair<float, float> at_ends(const Lifted& of, const CuttingTool& tool) {
     const test::MadeSurface made = lifted(of);
     const Signals signals = made.signals();
     std::vector<PointRange> pieces;
     for (const Pass& pass : made.surface.passes) pieces.push_back({pass.first, pass.last});
     const AsMachinedSurface as_machined(made.surface, signals, Role::commanded, made.path, pieces, tool);
-    // From above, a contact lies as far from the tip as the tool is wide there.
+    // In plan view, a contact is as far from the tip as the tool is wide there.
     const double aside = (tool.radius - tool.corner) + tool.corner * std::sin(of.degrees * per_degree);
     const double low_end = 4 * of.apart + (of.degrees > 0 ? aside : 0);
     const Box2 box(Vec2(length - of.shorter - 2, low_end), Vec2(length - of.shorter, low_end + 6 * of.apart));
@@ -79,7 +79,7 @@ std::pair<float, float> at_ends(const Lifted& of, const CuttingTool& tool) {
     return {*low, *high};
 }
 
-/// Of a ball, or of the corner of a bull-nose tool, on a plane.
+/// The cusp of a ball, or of the corner of a bull-nose tool, on a plane.
 double cusp(const Lifted& of, double corner) {
     const double half = 0.5 * of.apart / std::cos(of.degrees * per_degree);
     return corner - std::sqrt(corner * corner - half * half);
@@ -91,7 +91,7 @@ TEST(PassEnds, ABallLeavesTheCuspsOfThePlaneUpToThem) {
              {Lifted{0.45, degrees}, Lifted{0.45, degrees, 0, 0, true}, Lifted{0.45, degrees, 0.7},
               Lifted{0.45, degrees, 0.1, 0, true}, Lifted{0.45, degrees, 0, 0.5}, Lifted{0.45, degrees, 0, -0.5}}) {
             const auto [low, high] = at_ends(of, {ToolKind::ball, 6, 6});
-            // Cells of a map meet the tip of a cusp within a tenth.
+            // The cells of a map reach the tip of a cusp within a tenth.
             EXPECT_LT(high, 1.02 * cusp(of, 6)) << degrees << " " << of.shorter << " " << of.beside;
             EXPECT_GT(high, 0.9 * cusp(of, 6)) << degrees << " " << of.shorter << " " << of.beside;
             EXPECT_NEAR(low, 0, 0.00002) << degrees << " " << of.shorter << " " << of.beside;
@@ -111,7 +111,7 @@ TEST(PassEnds, TheCornerOfABullNoseToolDoes) {
 TEST(PassEnds, TheEdgeOfAFlatToolLeavesItsSteps) {
     for (const Lifted& of : {Lifted{0.3, 20}, Lifted{0.3, 20, 0, 0, true}}) {
         const auto [low, high] = at_ends(of, {ToolKind::flat, 4, 0});
-        // Of a step `apart` wide, normal to the plane through its corners.
+        // The height of a step `apart` wide, normal to the plane through its corners.
         const double height = of.apart * std::sin(of.degrees * per_degree);
         EXPECT_NEAR(high - low, height, 0.05 * height) << of.degrees;
     }
@@ -124,7 +124,7 @@ TEST(PassEnds, WhatLiesBesideAnEndIsThePassNotTheLift) {
         if (pass.kind != PassKind::cut) continue;
         for (PointIndex i = pass.last - 3; i <= pass.last; ++i) {
             for (const Side side : {Side::left, Side::right}) {
-                // A feed that is off by the rounding of the positions.
+                // A feed direction with the rounding error of the positions.
                 const PathLocation at = beside(made.surface, {i, 0}, {1, 0, 1e-4F}, side);
                 if (!at.exists()) continue;
                 const Pass& beside_it = pieces[pass_of(pieces, at.point)];

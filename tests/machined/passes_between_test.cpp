@@ -1,5 +1,5 @@
-// Roughness over the programmed form where the path across the passes turns, changes its curvature, or ends. What is
-// expected is computed from the envelope of the circles that a ball leaves across straight passes, and from the design.
+// Roughness above the programmed form where the path across the passes turns, changes its curvature, or ends. Expected
+// values are computed from the envelope of the circles that a ball leaves across straight passes, and from the design.
 
 #include "machined/passes_between.h"
 
@@ -43,7 +43,7 @@ Vec2 hollow_at(double r, double slope, double y) {
     return {r - r * std::cos(slope) + (off - edge) * std::tan(slope), std::cos(slope)};
 }
 
-/// Passes along X whose tips lie on a line, evenly apart on it, and the surface that a ball leaves.
+/// Passes along X whose tips are evenly spaced on a line, and the surface that a ball leaves.
 struct Cut {
     test::MadeSurface made;
     Signals signals;
@@ -82,8 +82,8 @@ struct Cut {
     }
 };
 
-/// Of a hollow whose bottom lies at Y 0: Sa and Sz of windows about some places against the envelope less the design. The
-/// first pass lies `beside` of a step-over beside the bottom.
+/// For a hollow with its bottom at Y 0: compares Sa and Sz of windows at some places with the envelope minus the design. The
+/// first pass is `beside` step-overs from the bottom.
 void expect_envelope(double fillet, double slope, double apart, double beside, std::initializer_list<double> places) {
     const Cut cut([=](double along) { return hollow(fillet - radius, slope, along + beside * apart); }, apart);
     const double seen = apart * std::cos(slope);
@@ -115,7 +115,7 @@ TEST(PassesBetween, CornersAndEdgesOfFilletsAcrossThePassesAreNoRoughness) {
 }
 
 TEST(PassesBetween, FilletsThatFewPassesCrossAreNoRoughness) {
-    // The path across the passes turns by 0.13 to 0.3 rad from pass to pass, and three to seven of them lie on the fillet.
+    // The path across the passes turns by 0.13 to 0.3 rad per pass, and three to seven passes are on the fillet.
     struct Fillet {
         double radius, slope, apart;
     };
@@ -131,7 +131,7 @@ TEST(PassesBetween, WhatPassesLeaveInACornerIsRoughness) {
 }
 
 TEST(PassesBetween, WherePassesOfARodEndNothingIsHigherThanACusp) {
-    // Near a turn the search for neighbours misses the pass that the turn leads to: a chord over two passes is 26 µm too
+    // Near a turn the search for neighbours misses the pass after the turn: a chord over two passes is 26 µm too
     // low on this rod.
     constexpr double rod = 5, path = rod + radius, step_over = 0.64, angle = step_over / path;
     const Cut cut(

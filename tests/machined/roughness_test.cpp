@@ -24,7 +24,7 @@ TEST(Roughness, OfASineIsTwoOverPiOfItsAmplitude) {
     const Roughness r = roughness_of(sine(0.001, 0.08, 6, 0.001), 0.001, 0.8);
     EXPECT_EQ(r.sampling_lengths, 5);
     EXPECT_DOUBLE_EQ(r.length, 4.0);
-    EXPECT_NEAR(r.ra, 0.001 * 2 / pi, 1e-6);  // 80 values a wave
+    EXPECT_NEAR(r.ra, 0.001 * 2 / pi, 1e-6);  // 80 values per wave
     EXPECT_NEAR(r.rq, 0.001 / std::sqrt(2.0), 1e-7);
     EXPECT_NEAR(r.rz, 0.002, 1e-6);
 }
@@ -40,11 +40,11 @@ TEST(Roughness, TheFilterHalvesAWaveOfItsCutoff) {
 }
 
 TEST(Roughness, IsThatOfDistancesAlongTheProfile) {
-    // A sine along a profile that is steeper and steeper, seen in equal steps from above.
+    // A sine along a profile of increasing slope, in equal steps in plan view.
     std::vector<double> z;
     std::vector<double> along;
     for (double x = 0; x < 6; x += 0.001) {
-        along.push_back(x + 0.05 * x * x);  // a distance of 1 … 1.6 for a step of 1
+        along.push_back(x + 0.05 * x * x);  // arc length of 1 … 1.6 per step of 1
         z.push_back(0.001 * std::sin(2 * pi * along.back() / 0.8));
     }
     const Roughness r = roughness_of(z, along, 0.8);

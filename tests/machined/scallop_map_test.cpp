@@ -16,7 +16,7 @@ namespace {
 constexpr double length = 20, apart = 0.4;
 constexpr int passes = 20;
 
-/// Passes along X; `shape` says where the tip is over the plane.
+/// Passes along X; `shape` maps points of the plane to tips.
 ClSurface surface_of(const std::function<Vec3(const Vec3&)>& shape) {
     return test::made_zigzag(
                std::vector<double>(passes, 50), length, apart, [](const Vec3& tip, const Vec3&) { return tip; }, shape)
@@ -28,7 +28,7 @@ ClSurface plane(double tilt) {
         [=](const Vec3& flat) { return Vec3(flat.x(), flat.y() * std::cos(tilt), flat.y() * std::sin(tilt)); });
 }
 
-/// A cylinder along X, by a ball of radius `ball` whose contact points lie `chord` apart on it; rho < 0: from within.
+/// A cylinder along X, cut by a ball of radius `ball` with contact points `chord` apart; rho < 0: from inside.
 ClSurface cylinder(double ball, double rho, double chord) {
     const double per_pass = 2 * std::asin(chord / (2 * std::abs(rho)));
     return surface_of([=](const Vec3& flat) {
@@ -52,7 +52,7 @@ TEST(ScallopMap, OfPlanesIsThatOfTheChord) {
 }
 
 TEST(ScallopMap, OfCylindersIsThatOfTheCircles) {
-    // Heights of scallop_test.cpp, with 50 digits from the circles.
+    // Heights as in scallop_test.cpp, computed with 50 digits from the circles.
     EXPECT_NEAR(scallop_map(cylinder(2, 20, 0.336), ball_of(2)).median, 0.00777988785535, 2e-6);
     EXPECT_NEAR(scallop_map(cylinder(5, -30, 0.499), ball_of(5)).median, 0.00518940617738, 2e-6);
 }
@@ -65,7 +65,7 @@ TEST(ScallopMap, WhatIsWiderThanTheToolStaysUncut) {
 }
 
 TEST(ScallopMap, PercentilesAreOverTheLengthOfThePath) {
-    // The last two gaps are twice as wide: three of twenty passes stand beside one, 15 % of the length.
+    // The last two gaps are twice as wide: three of twenty passes are next to one, 15 % of the length.
     const ClSurface surface = surface_of([](const Vec3& flat) {
         const double beyond = std::max(0.0, flat.y() / apart - (passes - 3));
         return Vec3(flat.x(), flat.y() + apart * beyond, 0);

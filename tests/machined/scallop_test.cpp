@@ -39,7 +39,7 @@ TEST(Scallop, IsThatOfTheCircles) {
 }
 
 TEST(Scallop, OfAGentleCurveIsBetweenTheParabolas) {
-    // a²/8 (1/r ± 1/ρ), and (a/2)⁴ / 8r³ = 3e-8 that the parabola leaves out.
+    // a²/8 (1/r ± 1/ρ), and (a/2)⁴ / 8r³ = 3e-8 that the parabola neglects.
     EXPECT_NEAR(scallop_height(3, 0.1, 1e3), 0.01 / 8 * (1 / 3.0 + 1e-3), 5e-8);
     EXPECT_NEAR(scallop_height(3, 0.1, -1e3), 0.01 / 8 * (1 / 3.0 - 1e-3), 5e-8);
 }
@@ -47,7 +47,7 @@ TEST(Scallop, OfAGentleCurveIsBetweenTheParabolas) {
 TEST(Scallop, RefusesWhatCannotBeCut) {
     EXPECT_THROW((void)scallop_height(3, 6, flat), std::domain_error);     // passes do not meet
     EXPECT_THROW((void)scallop_height(3, 0.3, -2.9), std::domain_error);   // gouges
-    EXPECT_THROW((void)scallop_height(0.3, 0.5, 0.3), std::domain_error);  // too round to meet
+    EXPECT_THROW((void)scallop_height(0.3, 0.5, 0.3), std::domain_error);  // too convex to meet
     EXPECT_THROW((void)scallop_height(0, 0.3, flat), std::domain_error);
 }
 

@@ -1,4 +1,4 @@
-// Height maps of swept pieces against the outline's formula at many places along each of them.
+// Height maps of swept pieces compared with the outline's formula at many places along each of them.
 
 #include "machined/swept_pieces.h"
 
@@ -19,14 +19,14 @@ struct Motion {
     Vec3 from, to;
 };
 
-/// The tool's outline over its tip, `rho` from the axis: a corner of radius c about a flat bottom of radius R − c.
+/// The tool's outline above its tip, `rho` from the axis: a corner of radius c around a flat bottom of radius R − c.
 double outline(const CuttingTool& tool, double rho) {
     if (rho > tool.radius) return std::numeric_limits<double>::infinity();
     const double out = std::max(0.0, rho - (tool.radius - tool.corner));
     return tool.corner - std::sqrt(std::max(0.0, tool.corner * tool.corner - out * out));
 }
 
-/// The lowest outline over a place of tools at places along a motion, ends included: first coarsely, then about the lowest.
+/// The lowest outline above a place, of tools along a motion, ends included: first coarsely, then around the lowest.
 double lowest_over(const CuttingTool& tool, const Motion& motion, double x, double y) {
     const auto over = [&](double t) {
         const Vec3 tip = motion.from + t * (motion.to - motion.from);
@@ -50,7 +50,7 @@ double lowest_over(const CuttingTool& tool, const Motion& motion, double x, doub
     return lowest;
 }
 
-/// A path over a wavy surface, passes to and fro, with a few places where the tool plunges.
+/// A path on a wavy surface, passes back and forth, with a few plunges.
 std::vector<Motion> wavy_path(std::mt19937& random) {
     std::uniform_real_distribution<double> any(-1, 1);
     const double tilt_x = 0.4 * any(random), tilt_y = 0.4 * any(random), wave = 0.03 * any(random);

@@ -1,5 +1,5 @@
-// The curve against vectors that were computed independently, and what a spline through points must
-// hold whatever the points.
+// The curve compared with independently computed vectors, and properties of a spline through
+// any points.
 
 #include <gtest/gtest.h>
 
@@ -136,7 +136,7 @@ TEST(Akima, StreamGivesSpansTwoPointsBehind) {
     for (std::size_t i = 0; i < whole.size(); ++i) EXPECT_EQ(given[i].at(0.1), whole[i].at(0.1));
 }
 
-// The error on a circle falls with the fourth power of the spacing (inside, where no slope is extrapolated).
+// The error on a circle decreases with the fourth power of the spacing (inside, where no slope is extrapolated).
 TEST(Akima, ComesNearACircleWithTheFourthPower) {
     const auto error = [](int spans_of_quarter) {
         std::vector<Vec3> points;

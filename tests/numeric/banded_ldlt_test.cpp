@@ -1,4 +1,4 @@
-// Banded systems against Eigen's dense solution.
+// Banded systems compared with Eigen's dense solution.
 #include "numeric/banded_ldlt.h"
 
 #include <limits>
@@ -13,7 +13,7 @@
 namespace clsurf::banded_ldlt_test {
 namespace {
 
-/// A random positive definite matrix by its diagonals, and all of it.
+/// A random positive definite matrix, as diagonals and dense.
 template <std::size_t width>
 struct System {
     std::array<std::vector<double>, width + 1> diagonals;
@@ -30,7 +30,7 @@ struct System {
         }
         dense = factor * factor.transpose();
         for (std::size_t k = 0; k <= width; ++k) {
-            // What lies below the last row is not read.
+            // Values below the last row are not read.
             diagonals[k].assign(size, std::numeric_limits<double>::quiet_NaN());
             for (std::size_t i = 0; i + k < size; ++i)
                 diagonals[k][i] = dense(static_cast<Eigen::Index>(i + k), static_cast<Eigen::Index>(i));
@@ -59,7 +59,7 @@ void solve_as_eigen() {
         solve_banded<width>(system.spans(), std::span(right));
         solve_banded<width>(system.spans(), std::span(first));
         const Eigen::MatrixXd expected = system.dense.ldlt().solve(columns);
-        // Both are backward stable: they differ by rounding times the condition of the matrix.
+        // Both are backward stable: they differ by the rounding error times the condition number of the matrix.
         const Eigen::JacobiSVD<Eigen::MatrixXd> svd(system.dense);
         const double condition = svd.singularValues()(0) / svd.singularValues()(svd.singularValues().size() - 1);
         const double tolerance = 1e-14 * condition * expected.norm();

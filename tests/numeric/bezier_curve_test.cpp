@@ -1,4 +1,4 @@
-// Rational Bézier curves: shapes that are known on paper, and what holds for every curve.
+// Rational Bézier curves: shapes with known properties, and general properties.
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ TEST(BezierCurve, ACuspIsASharpTurn) {
 
 TEST(BezierCurve, RoundCurvesHaveNoSharpTurn) {
     EXPECT_FALSE(quarter().sharp_turn(0.001));
-    // A loop of some tenths of a millimetre turns as far, but not within a micrometre.
+    // A loop of some tenths of a millimetre turns as much, but not within a micrometre.
     EXPECT_FALSE(BezierCurve(std::vector<Vec3>{{0, 0, 0}, {11, 10, 0}, {-1, 10, 0}, {10, 0, 0}}).sharp_turn(0.001));
 }
 
@@ -113,7 +113,7 @@ TEST(BezierCurve, ArcLengthAndItsInverseAgreeAndChordsStayWithinTheirError) {
         }
         EXPECT_EQ(from, 1);
         EXPECT_NEAR(sum, curve.length(), 0.02 * curve.length());
-        // No place of a fine table is nearer than the nearest one.
+        // No point of a fine table is closer than the closest point.
         const Vec3 p(3, -4, 5);
         double least = 1e9;
         for (int i = 0; i <= 2000; ++i) least = std::min(least, (curve.at(i / 2000.0) - p).norm());
@@ -122,7 +122,7 @@ TEST(BezierCurve, ArcLengthAndItsInverseAgreeAndChordsStayWithinTheirError) {
 }
 
 TEST(BezierCurve, SpansOfTheTrident) {
-    // Lo Valvo and Drago 2014: seven points, uniform clamped knots. The spans as polynomials, worked out independently:
+    // Lo Valvo and Drago 2014: seven points, uniform clamped knots. The spans as polynomials, computed independently:
     // x = 10 + 30 p − 42 p² + 47/3 p³, y = 60 p − 78 p² + 31 p³ on the first, and so on.
     const Nurbs trident{3,
                         {{10, 0, 0}, {20, 20, 0}, {12, 8, 0}, {10, 20, 0}, {8, 8, 0}, {0, 20, 0}, {10, 0, 0}},
@@ -139,9 +139,9 @@ TEST(BezierCurve, SpansOfTheTrident) {
     }
     double length = 0;
     for (const NurbsSpan& span : spans) length += span.curve.length();
-    EXPECT_NEAR(length, 48.9956, 5e-5);  // as the programs of the curve say
+    EXPECT_NEAR(length, 48.9956, 5e-5);  // as stated with the programs of the curve
     EXPECT_EQ(spans[2].last_point, 5U);
-    // Curvature goes on from span to span.
+    // The curvature is continuous between spans.
     for (std::size_t i = 1; i < spans.size(); ++i)
         EXPECT_LE((spans[i].curve.jet(0).second - spans[i - 1].curve.jet(1).second).norm(), 1e-10);
 }

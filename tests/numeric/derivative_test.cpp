@@ -33,7 +33,7 @@ TEST(Derivative, OfAStepIsAtMostTheStepResponse) {
 }
 
 TEST(Derivative, OfAChangeOfSpeedIsAtMostTheSpeedStepResponse) {
-    // From rest to 1 mm/s at once: a speed of at most 1 mm/s. A parabola over the time T sees 1.875 / T of acceleration.
+    // From rest to 1 mm/s in one step: a speed of at most 1 mm/s. A parabola over the time T has 1.875 / T of acceleration.
     std::vector<double> ramp(200, 0.0);
     for (std::size_t i = 100; i < ramp.size(); ++i) ramp[i] = static_cast<double>(i - 100) * period;
     for (const int derivative : {1, 2}) {
@@ -104,7 +104,7 @@ TEST(Derivative, FitsShortPiecesWholeAndGivesNothingForTooFewPoints) {
 }
 
 TEST(Derivative, StatesItsBandwidth) {
-    // A sine of that frequency comes out 1/√2 as large.
+    // A sine of that frequency is attenuated to 1/√2.
     const DerivativeFilter filter = derivative_filter(1, period);
     const double f = filter.bandwidth();
     std::vector<double> samples(4000);
@@ -116,7 +116,7 @@ TEST(Derivative, StatesItsBandwidth) {
     EXPECT_NEAR(most / (2 * M_PI * f), std::sqrt(0.5), 0.01);
 }
 
-/// A line of savgol_reference.csv, which SciPy wrote.
+/// A line of savgol_reference.csv, written with SciPy.
 struct Reference {
     int window = 0, order = 0, derivative = 0;
     std::vector<double> values;

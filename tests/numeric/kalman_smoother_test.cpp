@@ -1,5 +1,5 @@
-// The smoother against a batch solution of the same problem, on polynomials, and against motions drawn from its model:
-// are its errors as large as it says?
+// The smoother compared with a batch solution of the same problem, with polynomials, and with motions drawn from its model,
+// for which its errors must have the stated size.
 
 #include "numeric/kalman_smoother.h"
 
@@ -23,7 +23,8 @@ Eigen::Matrix4d transition(double t) {
     return f;
 }
 
-/// ∫ g(τ) g(τ)ᵀ dτ over a period, g = (τ³/6, τ²/2, τ, 1), by Gauss's five points: exact for its order.
+/// ∫ g(τ) g(τ)ᵀ dτ over a period, g = (τ³/6, τ²/2, τ, 1), by Gauss quadrature with five points, which is exact for this
+/// order.
 Eigen::Matrix4d wandering(double t, double density) {
     constexpr std::array<double, 5> nodes{0, 0.5384693101056831, -0.5384693101056831, 0.9061798459386640,
                                           -0.9061798459386640};
@@ -53,7 +54,7 @@ struct Motion {
     std::array<std::vector<double>, 3> measured;
 };
 
-/// A motion drawn from the model, and what is measured of it.
+/// A motion drawn from the model, with its measurements.
 Motion draw(const SmootherModel& model, int count, std::mt19937& random) {
     std::normal_distribution<double> normal;
     const double density = model.wandering * model.position_sigma * model.position_sigma / std::pow(model.period, 7);
@@ -91,7 +92,7 @@ double sigma_at(const KalmanSmoother& smoother, int derivative, PointIndex at, P
     return sigma;
 }
 
-// All measurements and all steps as one weighted least-squares problem, solved at once: no recursion in it.
+// All measurements and all steps as one weighted least-squares problem, without recursion.
 TEST(KalmanSmoother, IsTheSolutionOfTheBatchProblem) {
     std::mt19937 random(3);
     constexpr int n = 40;
@@ -162,7 +163,7 @@ TEST(KalmanSmoother, IsExactOnCubics) {
     }
 }
 
-// Normalised estimation error squared: its mean over many motions is 1, within what chance allows (with N
+// Normalised estimation error squared: its mean over many motions is 1 within the expected scatter (with N
 // independent errors, ± 4 √(2/N)).
 TEST(KalmanSmoother, ErrsAsMuchAsItSays) {
     std::mt19937 random(4);

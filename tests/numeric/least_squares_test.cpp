@@ -1,4 +1,4 @@
-// Fits against vectors that were computed independently, and what a fit beside points must hold.
+// Fits compared with independently computed vectors, and properties of fits near points.
 
 #include <gtest/gtest.h>
 
@@ -85,7 +85,7 @@ TEST(LeastSquaresSpans, GoBesideThePointsOfACubicExactlyAndBackTheSame) {
             EXPECT_LT((forth[i].at(0.3 * forth[i].chord) - other.at(0.7 * other.chord)).norm(), 1e-8);
         }
     }
-    // What is a cubic of the path is met: a line with points wherever.
+    // A cubic of the path is reproduced exactly: a line with points at any spacing.
     std::vector<Vec3> line{Vec3::Zero()};
     for (int i = 0; i < 30; ++i) line.push_back(line.back() + step(random) * Vec3(0.6, 0, 0.8));
     for (const CubicSpan& span : least_squares_spans(line, 10))

@@ -1,4 +1,4 @@
-// Splines through points against scipy (point_spline_reference.py).
+// Splines through points compared with scipy (point_spline_reference.py).
 
 #include <gtest/gtest.h>
 
@@ -83,7 +83,7 @@ TEST(PointSpline, AFreeEndOfTwoSpansLeavesOneCubic) {
     const std::vector<BezierCurve> spans = cubic_spline(bent, natural, {});
     EXPECT_NEAR(spans[0].at(0.5).z(), a * 2.5 * 2.5 * 2.5 + b * 2.5, 1e-12);
     EXPECT_NEAR(spans[1].at(0.5).z(), a * 7.5 * 7.5 * 7.5 + b * 7.5, 1e-12);
-    // The other way round it is the same.
+    // In reverse order the result is the same.
     const std::vector<Vec3> back(bent.rbegin(), bent.rend());
     EXPECT_NEAR(cubic_spline(back, {}, natural)[1].at(0.5).z(), spans[0].at(0.5).z(), 1e-12);
 }

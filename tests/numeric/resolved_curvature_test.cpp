@@ -1,4 +1,4 @@
-// Curvatures of rounded points against curves whose curvature is known.
+// Curvatures of rounded points on curves with known curvature.
 
 #include "numeric/resolved_curvature.h"
 
@@ -33,7 +33,7 @@ TEST(ResolvedCurvature, OfRoundedCirclesIsRightWhereThreePointsAreNot) {
             double squares = 0;
             for (const double k : curvature) squares += (k * radius - 1) * (k * radius - 1);
             const double rms = std::sqrt(squares / static_cast<double>(curvature.size()));
-            EXPECT_LT(rms, 0.12) << radius << " " << spacing;  // a tenth, and what few points scatter
+            EXPECT_LT(rms, 0.12) << radius << " " << spacing;  // a tenth, plus the scatter of few points
         }
     }
     // 0.71 q/h² for h = 0.05 mm: three times the curvature of the circle.
@@ -47,7 +47,7 @@ double greatest_of(const std::vector<double>& curvature) {
     return *std::max_element(curvature.begin(), curvature.end());
 }
 
-// The greatest of thousands, which limits the speed, is no more wrong than the others.
+// The largest of thousands, which limits the speed, is as accurate as the others.
 TEST(ResolvedCurvature, OfRoundedCirclesHasTheRightGreatest) {
     for (const double radius : {2.0, 10.0, 50.0}) {
         for (const double spacing : {0.01, 0.02, 0.05, 0.1, 0.5}) {
@@ -83,7 +83,7 @@ TEST(ResolvedCurvature, OfExactPointsIsThatOfTheirCircle) {
     for (const double k : resolved_curvatures(circle(10, 0.5, 1e-9), 1e-9, least)) EXPECT_NEAR(k, 0.1, 1e-6);
 }
 
-// A bend of 30° in one point: 2 sin 15° over half of 0.05 mm … and nothing beside it.
+// A bend of 30° in one point: 2 sin 15° over half of 0.05 mm … and nothing next to it.
 TEST(ResolvedCurvature, KeepsACornerAndTheLinesBesideIt) {
     std::vector<Vec3> points;
     for (int i = -100; i <= 100; ++i) {

@@ -1,4 +1,4 @@
-// The smoothest way through a tube: what it must hold whatever the places are.
+// The smoothest path through a tube: properties for any places.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ struct Tube {
     std::vector<double> arc_lengths, radii;
 };
 
-/// Places on chords of a circle, `facets` to a quarter, seven to a facet.
+/// Places on chords of a circle, `facets` per quarter, seven per facet.
 Tube facetted(double r, int facets) {
     Tube tube;
     const auto corner = [&](int k) {
@@ -57,7 +57,7 @@ TEST(Tube, KeepsInsideAndItsEnds) {
     }
 }
 
-// A facet of 0.3 mm on a radius of 5 mm lies 2.2 µm inside the circle: a tube of 4 µm holds the circle itself, whose third
+// A facet of 0.3 mm on a radius of 5 mm is 2.2 µm inside the circle: a tube of 4 µm contains the circle itself, whose third
 // differences at a 7th of the facet are (0.3/7)³/5² = 3.1e-6 mm; those of the facets are up to 0.06 · 0.3/7 = 2.6e-3 mm.
 TEST(Tube, MakesFacetsRound) {
     const Tube tube = facetted(5, 26);
@@ -65,7 +65,7 @@ TEST(Tube, MakesFacetsRound) {
     EXPECT_LT(third_differences(smooth), 0.01 * third_differences(tube.places));
 }
 
-// A parabola has no third differences: nothing is to be gained, whatever the ways.
+// A parabola has no third differences: nothing can be improved, for any spacing.
 TEST(Tube, LeavesAParabolaAlone) {
     Tube tube;
     for (int i = 0; i < 40; ++i) {

@@ -1,5 +1,5 @@
-// Runs that are still being recorded: each defect once, with its pass, before the log is complete; and in the end the findings
-// of the complete log.
+// Runs that are still being recorded: each defect is reported once, with its pass, before the log is complete; at the end the
+// findings are those of the complete log.
 
 #include "pipeline/followed_run.h"
 
@@ -33,13 +33,13 @@ QualityReport complete_report(const std::string& name) {
     return judge(part, stitch(part)).report;
 }
 
-/// Reads a log that grows, `most` records at a time, and judges it each time.
+/// Reads a growing log, `most` records at a time, and judges it each time.
 class Listener {
 public:
     Listener(const std::string& name, const std::string& path, FollowRules rules = {})
         : rules_(std::move(rules)), log_(path, options_), program_(programmed(name)) {}
 
-    /// False: nothing came.
+    /// False: no new records.
     bool listen(PointIndex most) {
         const bool came = log_.read(most) > 0;
         if (!came || log_.end() < 1000) return came;
@@ -73,7 +73,7 @@ bool has_pass(const ProvisionalDefect& found, std::int64_t pass) {
     return false;
 }
 
-// What was planted: data/logs/README.md. Passes 12 and 13 lie too deep, 31 and 32 too high, 31 is slower too.
+// The planted defects are in data/logs/README.md. Passes 12 and 13 are too deep, 31 and 32 too high, 31 is also slower.
 TEST(FollowedRun, FindsEachPlantedDefectOnceAndBeforeTheLogIsComplete) {
     Listener listener("planted_zigzag", log_of("planted_zigzag"));
     while (listener.listen(250)) {}
@@ -91,7 +91,7 @@ TEST(FollowedRun, FindsEachPlantedDefectOnceAndBeforeTheLogIsComplete) {
         EXPECT_EQ(found.number, static_cast<std::int64_t>(k) + 1);
         EXPECT_LE(found.needed, found.recorded);
         EXPECT_LT(found.recorded, 30'774) << "the log has more records";
-        // Each is reported with the piece that holds the last point that is needed.
+        // Each is reported with the piece that contains the last point needed for it.
         EXPECT_LE(found.recorded - found.needed, 500);
     }
     const QualityReport complete = complete_report("planted_zigzag");
@@ -101,7 +101,7 @@ TEST(FollowedRun, FindsEachPlantedDefectOnceAndBeforeTheLogIsComplete) {
     EXPECT_EQ(resolved.defects[1], std::vector<std::size_t>{0}) << "the slow section is the first of the report";
 }
 
-// Loops 7 and 8 lie too deep, 14 and 16 are slower, 15 and 17 too.
+// Loops 7 and 8 are too deep, 14 and 16 are slower, 15 and 17, too.
 TEST(FollowedRun, FindsDefectsOfLoops) {
     Listener listener("planted_loops", log_of("planted_loops"));
     while (listener.listen(1000)) {}
@@ -119,7 +119,7 @@ TEST(FollowedRun, KeepsAWindowOfPasses) {
     rules.passes = 14;
     Listener listener("planted_zigzag", log_of("planted_zigzag"), rules);
     while (listener.listen(250)) {}
-    // A pass has some 770 records: 14 whole ones, the one that is cut, and the piece.
+    // A pass has some 770 records: 14 complete ones, the incomplete one, and the piece.
     EXPECT_LT(listener.longest_window(), 16 * 800);
     EXPECT_EQ(listener.found().size(), 3);
     EXPECT_EQ(listener.run().resolve(complete_report("planted_zigzag")).withdrawn(), 0);

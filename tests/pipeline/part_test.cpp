@@ -31,7 +31,7 @@ Machine slow_at_short_blocks() {
     return machine;
 }
 
-/// As programmed, each motion in its own work system.
+/// As programmed, each motion in its own work coordinate system.
 Program program_of(const std::string& text) {
     auto bytes = std::make_shared<std::string>(text);
     return parse_program(SourceText("part.nc", *bytes, bytes), {});
@@ -48,7 +48,7 @@ TEST(Pipeline, FindsTheLinesOfASimulatedRunThatLeaveAMark) {
     ASSERT_FALSE(quality.report.defects.empty());
     const DefectSection& section = quality.report.defects.front().sections.front();
     EXPECT_EQ(section.pass, 4);
-    // The line that the report names is one of those 0.02 mm apart.
+    // The reported line is one of those 0.02 mm apart.
     const std::int64_t motion = part.lines->motion_at(section.points.first + section.points.size() / 2);
     ASSERT_GT(motion, 0);
     const Vec3 step = part.program.motions.end[static_cast<std::size_t>(motion)].vec() -
@@ -68,7 +68,7 @@ TEST(Pipeline, FindsTheSameStepByStep) {
         EXPECT_EQ(report.defects[i].point, quality.report.defects[i].point);
 }
 
-// Values own what they hold: a part outlives the program, the log and the part that it was copied from.
+// Values own their data: a part outlives the program, the log and the part from which it was copied.
 TEST(Pipeline, PartsOwnWhatTheyHold) {
     std::optional<Part> copy;
     std::size_t defects = 0;

@@ -1,4 +1,4 @@
-// Parts of programs without logs: what the program says, where its points lie, and what a machine would do.
+// Parts of programs without logs: values of the program, positions of its points, and the motion of a machine.
 
 #include "pipeline/programmed_part.h"
 
@@ -46,7 +46,7 @@ TEST(ProgramFields, FeedAndLengthOfBlocks) {
 }
 
 TEST(ProgramFields, AnglesBetweenBlocksAreThoseOfTheirDirections) {
-    // A line along X, an arc that leaves it tangentially and turns by 90°, a line that bends off the arc by 10°.
+    // A line along X, a tangential arc that turns by 90°, and a line that leaves the arc at an angle of 10°.
     const std::string text = "G0 X0 Y0 Z0\nG1 X5 F1200\nG3 X6 Y1 I0 J1\nG1 X" +
                              std::to_string(6 - 2 * std::sin(10 * deg)) + " Y" +
                              std::to_string(1 + 2 * std::cos(10 * deg)) + "\n";
@@ -55,7 +55,7 @@ TEST(ProgramFields, AnglesBetweenBlocksAreThoseOfTheirDirections) {
     EXPECT_NEAR(value_at_line(text, "turning_angle", 4), 10 * deg, 1e-6);
 }
 
-/// Chords of a circle, with coordinates of so many digits; one corner of 90° behind them.
+/// Chords of a circle, with coordinates of a given number of digits, followed by one corner of 90°.
 std::string chords(double radius, double step, int digits) {
     std::string text = "G0 X" + std::to_string(radius) + " Y0 Z0\nG1 F1200\n";
     char line[80];
@@ -68,7 +68,7 @@ std::string chords(double radius, double step, int digits) {
 
 TEST(ProgramFields, CurvatureOfChordsIsThatOfTheCircle) {
     EXPECT_NEAR(value_at_line(chords(20, 0.5, 7), "programmed_curvature", 20), 1.0 / 20, 1e-5);
-    // Rounded to micrometres 0.05 mm apart three neighbours would have 0.3/mm on average, six times too much.
+    // Three neighbours rounded to micrometres and 0.05 mm apart would have 0.3/mm on average, six times too much.
     EXPECT_NEAR(value_at_line(chords(20, 0.05, 3), "programmed_curvature", 200), 1.0 / 20, 0.01);
     EXPECT_FLOAT_EQ(value_at_line("G0 X0 Y0 Z0\nG1 X5 F1200\nG3 X9 Y4 I0 J4\n", "programmed_curvature", 3), 0.25F);
 }

@@ -1,4 +1,4 @@
-// Which positions of a log are used for what.
+// Which positions of a log are used for which purpose.
 
 #include "pipeline/roles.h"
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double zeros[3]{};
 
-/// A log with these channels, all at zero.
+/// A log with these channels, all zero.
 Log log_with(const std::vector<std::string>& channels) {
     Log log;
     log.records = 3;
@@ -49,7 +49,7 @@ TEST(Roles, MeasureHeightsFromTheMostTruthfulPositions) {
     EXPECT_EQ(measured_role(one, reconstruct(one, Role::feedback, Vec3::Zero())), std::nullopt);
 }
 
-// Linear scales without encoders at the rotary axes do not say where the tip was.
+// Linear scales without encoders at the rotary axes do not determine the tip.
 TEST(Roles, LeaveOutPositionsThatLackTheRotaryAxesOfTheMachine) {
     auto kinematics = std::make_shared<Kinematics>();
     kinematics->type = KinematicsType::table_table;

@@ -1,4 +1,4 @@
-// A log that is judged in shards: the same verdict, and each shard reads its own part.
+// A log judged in shards: the verdict is the same, and each shard reads only its own part.
 
 #include "pipeline/shards.h"
 
@@ -26,7 +26,7 @@
 namespace clsurf::shards_test {
 namespace {
 
-/// Three hundred passes, some of them with sections of short blocks, and a machine that takes its time for these.
+/// Three hundred passes, some with sections of short blocks, and a machine that is slow on these.
 class Shards : public testing::Test {
 public:
     static const io::SurveyOrigin origin;
@@ -40,7 +40,7 @@ protected:
     }
     static void TearDownTestSuite() { delete folder; }
 
-    /// Writes a program of so many passes, and the log of its run.
+    /// Writes a program with this number of passes, and the log of its run.
     static std::pair<std::string, std::string> write_run(const char* program_name, const char* log_name, int passes) {
         const std::string text = wavy_zigzag(
             passes, 24, [](int pass, double x) { return pass % 40 == 3 && x > 6 && x < 8 ? 0.02 : 0.31; }, 0.8);
@@ -116,11 +116,11 @@ TEST_F(Shards, TogetherTheyGiveTheVerdictOnTheWholeLog) {
         Surveyed log_in_parts(log);
         std::vector<ShardFindings> found;
         for (int number = count; number >= 1; --number) {
-            // Each from the beginning, as processes of their own.
+            // Each from the beginning, as in separate processes.
             found.push_back(Surveyed(log).judge({number, count}));
         }
         QualityRules rules = rules_of_shards(found, log_in_parts.survey);
-        // The same, too, where what was read is forgotten whenever it may be, and derived again.
+        // The same if data are forgotten whenever possible, and derived again.
         const bool forgets = count > 1;
         if (forgets)
             rules.found->forget = forget_when_many(log_in_parts.surface.positions, log_in_parts.read.signals, 0);
@@ -141,7 +141,7 @@ TEST_F(Shards, HaveEveryPointOnce) {
         next = points.last + 1;
     }
     EXPECT_EQ(next, survey.points);
-    // More shards than passes: some are empty, and still none is missing.
+    // More shards than passes: some are empty, and nothing is lost.
     next = 0;
     for (int number = 1; number <= 5000; ++number) {
         const PointRange points = points_of_shard(survey.passes, survey.points, {number, 5000});
@@ -161,7 +161,7 @@ TEST_F(Shards, AShardThatIsMissingOrThereTwiceIsAnError) {
     EXPECT_THROW((void)rules_of_shards({first, second, second, third}, one.survey), UsageError);
 }
 
-/// Bytes of a file that a mapping of this process has touched.
+/// Bytes of a file that are resident through a mapping of this process.
 std::size_t resident_bytes(const std::string& file) {
     std::ifstream maps("/proc/self/smaps");
     std::string line;
@@ -182,7 +182,7 @@ TEST_F(Shards, AShardReadsItsOwnPartOfTheLogAndThePassesBesideIt) {
         const Surveyed fresh(log);
         const ShardFindings found = fresh.judge({number, 20});
         EXPECT_GT(found.compared.compared, 0);
-        // A twentieth and, in whole blocks on either side, the passes that it is compared with, and those beside them.
+        // A twentieth, plus in whole blocks on either side the passes with which it is compared, and those next to them.
         EXPECT_LE(fresh.surface.positions.fill->filled(), fresh.survey.points / 20 + 8 * block_points);
         const std::size_t touched = resident_bytes(log);
         EXPECT_GT(touched, bytes / 40);
@@ -193,7 +193,7 @@ TEST_F(Shards, AShardReadsItsOwnPartOfTheLogAndThePassesBesideIt) {
 TEST_F(Shards, WhatLiesElsewhereInTheLogDoesNotMatter) {
     const Surveyed good(log);
     const PointRange points = points_of_shard(good.survey.passes, good.survey.points, {10, 20});
-    // Every record that is more than four blocks away is overwritten.
+    // Every record more than four blocks away is overwritten.
     std::string bytes;
     {
         const io::Source source = io::map_file(log);
@@ -261,7 +261,7 @@ private:
     std::size_t at_;
 };
 
-/// Reads a survey, and what it has of every point.
+/// Reads a survey with all its values per point.
 void read_all_of(const std::string& file) {
     const Survey survey = io::read_survey(file, Shards::origin);
     for (PointIndex first = 0; first < survey.points; first += block_points) {
@@ -272,7 +272,7 @@ void read_all_of(const std::string& file) {
 }
 
 TEST_F(Shards, EveryDamagedByteOfASurveyIsFound) {
-    // A small log, since the file is read as often as it is damaged.
+    // A small log, because the file is read once per damage.
     const auto [small_program, small_log] = write_run("small.nc", "small.biip", 80);
     io::PartFiles files{small_program, small_log, {}, {}, true};
     PartRules by_geometry;
@@ -304,7 +304,7 @@ TEST_F(Shards, EveryDamagedByteOfASurveyIsFound) {
 
 TEST_F(Shards, AShardThatReadsADamagedBlockSaysSo) {
     const Surveyed good(log);
-    // The neighbours of a point in the middle of the second of three shards, wherever the file has them.
+    // The neighbours of a point in the middle of the second of three shards, at their place in the file.
     const PointRange points = points_of_shard(good.survey.passes, good.survey.points, {2, 3});
     const io::Source source = io::map_file(kept);
     const auto* const at =

@@ -1,4 +1,4 @@
-// Bends: which slow places the layout of the passes explains.
+// Bends: which slow places are explained by the layout of the passes.
 #include "predictor/bend.h"
 
 #include <cmath>
@@ -27,7 +27,7 @@ struct SlowPath {
     [[nodiscard]] double length() const { return static_cast<double>(points.size() - 1) * fine; }
 };
 
-/// Closed circles. Each is left on a slant of 2.4 mm, 7° inwards, to where the next one begins and ends.
+/// Closed circles. Each is left on a slanted link of 2.4 mm, 7° inwards, to the beginning of the next one.
 SlowPath circles_joined_on_a_slant() {
     constexpr double slant = 2.4;
     SlowPath path;
@@ -55,7 +55,7 @@ SlowPath spiral() {
     return path;
 }
 
-/// Whether a bend explains that the tool is slow there. It brakes and speeds up with the usual acceleration.
+/// Whether a bend explains that the tool is slow there. The tool brakes and accelerates as usual.
 bool explained(const SlowPath& path) {
     constexpr double period = 0.001;
     Positions positions;

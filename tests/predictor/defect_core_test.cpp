@@ -9,7 +9,7 @@ namespace {
 
 constexpr double joined = 1.0;  // [mm]
 
-/// Candidates every 0.2 mm of one straight pass, with these shares of the threshold of the speed.
+/// Candidates every 0.2 mm of one straight pass, with these multiples of the speed threshold.
 struct Group {
     Positions positions;
     std::vector<DefectCandidate> kept;
@@ -78,18 +78,18 @@ TEST(DefectCore, BridgesTheZerosOfAnOscillation) {
 }
 
 TEST(DefectCore, KeepsAPeakThatIsLessThanHalfOfAnotherOneBeyondADip) {
-    // A slow section, 1.4 mm of little, and an oscillation: 4 is less than half of 10.
+    // A slow section, 1.4 mm of small values, and an oscillation: 4 is less than half of 10.
     const Group group({10, 10, 10, 2, 0.5, 0.3, 0.2, 0.3, 0.5, 4, 1, 4, 1, 4});
     EXPECT_EQ(group.core(), (Points{0, 1, 2, 9, 10, 11, 12, 13}));
     EXPECT_TRUE(group.rest().empty());
     EXPECT_EQ(Group::points(group.sites(Quantity::lag).core), (Points{0, 1, 2})) << "heights swing";
-    // The other way round, too.
+    // In reverse order, too.
     const Group mirrored({4, 1, 4, 1, 4, 0.5, 0.3, 0.2, 0.3, 0.5, 2, 10, 10, 10});
     EXPECT_EQ(mirrored.core(), (Points{0, 1, 2, 3, 4, 11, 12, 13}));
 }
 
 TEST(DefectCore, ADipShorterThanWhatJoinsBelongsToThePeak) {
-    // Overshoot 0.6 mm behind a slow section: part of it.
+    // Overshoot 0.6 mm after a slow section: part of it.
     const Group group({10, 10, 10, 2, 0.5, 4, 4});
     EXPECT_EQ(group.core(), (Points{0, 1, 2}));
     EXPECT_TRUE(group.rest().empty());

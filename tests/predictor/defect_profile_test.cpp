@@ -12,7 +12,7 @@ namespace {
 constexpr double apart = 0.4;
 constexpr double length = 40;
 
-/// Lines are the numbers of passes.
+/// Lines are numbered like the passes.
 LineMap lines_of(const test::MadeSurface& made, std::vector<std::uint32_t>& columns) {
     columns.assign(static_cast<std::size_t>(made.path.count), 0);
     std::uint32_t line = 0;
@@ -52,7 +52,7 @@ Defect middle_of(const test::MadeSurface& made, std::size_t pass, double half) {
 TEST(DefectProfile, HasTheSpeedsOfFivePassesOverTheSamePath) {
     std::vector<double> speeds(11, 50);
     for (std::size_t k = 3; k <= 7; ++k)
-        speeds[k] = 40 + static_cast<double>(k);  // 43 … 47; the sixth pass is at fault
+        speeds[k] = 40 + static_cast<double>(k);  // 43 … 47; the sixth pass has the defect
     const test::MadeSurface made = test::zigzag_of_speeds(speeds, length, apart);
     const Signals signals = made.signals();
     std::vector<std::uint32_t> columns;
@@ -62,7 +62,7 @@ TEST(DefectProfile, HasTheSpeedsOfFivePassesOverTheSamePath) {
     ASSERT_FALSE(profile.along.empty());
     EXPECT_NEAR(profile.along.front(), -6, 0.1) << "three quarters of the section before it";
     EXPECT_NEAR(profile.along.back(), 14, 0.1);
-    // The sixth pass runs against X: its left is −Y, where the slower passes lie.
+    // The sixth pass runs along −X: its left is −Y, where the slower passes are.
     for (std::size_t i = 0; i < profile.along.size(); ++i) {
         for (std::size_t k = 0; k < DefectProfile::passes; ++k)
             EXPECT_NEAR(profile.speed[k][i], 43.0 + static_cast<double>(k), 0.1) << k << " of " << profile.along[i];
@@ -73,7 +73,7 @@ TEST(DefectProfile, HasTheSpeedsOfFivePassesOverTheSamePath) {
 }
 
 TEST(DefectProfile, ComparesWithPassesThatAreNotAtFault) {
-    // The middle five of eleven passes are slow, as where a feed drops over a feature.
+    // The middle five of eleven passes are slow, as if a feed is lower over a feature.
     const test::MadeSurface made = test::zigzag_of_speeds({50, 50, 50, 35, 35, 35, 35, 35, 50, 50, 50}, length, apart);
     const Signals signals = made.signals();
     std::vector<std::uint32_t> columns;
@@ -105,7 +105,7 @@ TEST(DefectProfile, ShowsAPassThatLiesLower) {
 }
 
 TEST(DefectProfile, OfAlternatingLagComparesPassesOfOneDirection) {
-    // Passes along X lie 6 µm higher than those against it, and the sixth, against it, 3 µm higher than the others.
+    // Passes along X are 6 µm higher than those along −X, and the sixth, along −X, 3 µm higher than the others.
     const auto alternating = [](const Vec3& p, const Vec3& feed) {
         const double fault = std::abs(p.y() - 5 * apart) < 0.01 ? 0.003 : 0.0;
         return Vec3(p.x(), p.y(), (feed.x() > 0 ? 0.006 : 0.0) + fault);
@@ -131,7 +131,8 @@ TEST(DefectProfile, OfAlternatingLagComparesPassesOfOneDirection) {
 }
 
 TEST(DefectProfile, ShowsThePassesOfAProgrammedMarkOverThoseThatAreNotOnIt) {
-    // Two passes are programmed 8 µm higher on a cylinder across the feed. The machine follows them, or nothing was measured.
+    // Two passes are programmed 8 µm higher on a cylinder across the feed. The machine follows them, or there is no
+    // measurement.
     const auto place = [](const Vec3& p) {
         const bool high = p.y() > 4.5 * apart && p.y() < 6.5 * apart;
         return Vec3(p.x(), p.y(), p.y() * p.y() / 100 + (high ? 0.008 : 0.0));
@@ -151,7 +152,7 @@ TEST(DefectProfile, ShowsThePassesOfAProgrammedMarkOverThoseThatAreNotOnIt) {
         const DefectProfile profile = profile_of(report.defects[0], made.surface, signals, lines, marks);
         EXPECT_EQ(profile.height_of, DefectProfile::HeightOf::programmed) << "a relief is one of the program";
         ASSERT_EQ(profile.across.size(), 11U);
-        // The sixth pass runs against X: the seventh is on its right, at +0.4 mm.
+        // The sixth pass runs along −X: the seventh is on its right, at +0.4 mm.
         for (std::size_t k = 0; k < profile.across.size(); ++k)
             EXPECT_NEAR(profile.across_height[k], k == 5 || k == 6 ? 0.008 : 0.0, 1e-4) << k << ' ' << measured;
         const std::size_t middle = profile.along.size() / 2;

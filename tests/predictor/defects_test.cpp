@@ -76,7 +76,7 @@ TEST(Defects, AreTheSameForAnyNumberOfThreads) {
 }
 
 TEST(Defects, DoNotDependOnWhereTheRecordBegins) {
-    // Places are judged where they lie, not where a count of records falls on them.
+    // Places are judged by position, independent of the number of records.
     const auto judged_without = [](PointIndex records) {
         planted::PlantedLog log = planted::make_planted_log(planted::random_recipe(5, Shape::zigzag, false, true));
         for (auto* columns : {&log.commanded, &log.measured}) {
@@ -103,7 +103,7 @@ TEST(Defects, AreNotJudgedOnDataThatCannotShowThem) {
     const auto reasons = [](const planted::PlantedLog& log) { return planted::judge(log).judgement.reasons; };
     planted::PlantedLog log = planted::make_planted_log(planted::random_recipe(5, Shape::zigzag, false, false));
     EXPECT_TRUE(reasons(log).empty());
-    // The same position stands for some that were not recorded.
+    // The same position is repeated for records that were lost.
     planted::PlantedLog with_placeholder = log;
     for (const std::size_t at : {1000, 2000, 3000}) {
         for (const std::size_t i : {at, at + 1}) {
@@ -115,14 +115,14 @@ TEST(Defects, AreNotJudgedOnDataThatCannotShowThem) {
     const std::vector<std::string> why = reasons(with_placeholder);
     ASSERT_EQ(why.size(), 1U);
     EXPECT_NE(why.front().find("jumps to X198 Y158"), std::string::npos) << why.front();
-    // A record every 100 ms.
+    // One record per 100 ms.
     log.recipe.period = 0.1;
     ASSERT_EQ(reasons(log).size(), 1U);
     EXPECT_EQ(reasons(log).front().find("A record comes every 100 ms."), 0U);
 }
 
 TEST(Defects, OfARecordedPartAreWhereTheProgramHasThem) {
-    // Five passes of the sample have a section of points 0.02 mm apart, where the kernel falls from
+    // Five passes of the sample have a section of points 0.02 mm apart, where the kernel slows down from
     // 3000 to some 600 mm/min (data/programs/README.md).
     const Program program = io::read_program(SAMPLE_DATA "/programs/bottle_uneven.nc");
     const Log log = io::open_log(SAMPLE_LOGS "/bottle_uneven.biip", {});
@@ -147,10 +147,10 @@ TEST(Defects, OfARecordedPartAreWhereTheProgramHasThem) {
     }
 }
 
-/// Speed after the way s with an acceleration [mm/s²] from 1 mm/s.
+/// Speed at the arc length s with an acceleration [mm/s²] from 1 mm/s.
 double reached(double acceleration, double s) { return std::sqrt(1 + 2 * acceleration * s); }
 
-/// On each pass the speed falls to half round a place that lies 0.3 mm farther on every pass: along an
+/// On each pass the speed halves around a place that is 0.3 mm farther on every pass: along an
 /// edge at 45° to the feed. `steady`: a pass that does not slow down; −1: none.
 planted::PlantedLog slow_along_an_edge(int steady) {
     return plane_zigzag([steady](int k, double x, double s) {
@@ -160,8 +160,8 @@ planted::PlantedLog slow_along_an_edge(int steady) {
     });
 }
 
-/// The tool speeds up over 7 mm and slows down over 2, so that the two ways differ near both ends; pass 12
-/// does by `share` more from x = 3 to 5, inside the ramp.
+/// The tool accelerates over 7 mm and brakes over 2, so that the two directions differ near both ends; pass 12
+/// differs by `share` more from x = 3 to 5, inside the ramp.
 planted::PlantedLog unlike_ramps(double share) {
     return plane_zigzag([share](int k, double x, double s) {
         const double planned = std::min({66.7, reached(300, s), reached(1100, pass_length - s)});
@@ -171,7 +171,7 @@ planted::PlantedLog unlike_ramps(double share) {
 
 TEST(Defects, AreNotWhatAllPassesDoOneAfterTheOther) {
     EXPECT_TRUE(planted::judge(slow_along_an_edge(-1)).defects.empty());
-    // A pass that does not slow down with the others is one, where they do.
+    // A pass that does not slow down where the others do is a defect.
     const QualityReport report = planted::judge(slow_along_an_edge(12));
     EXPECT_TRUE(std::any_of(report.defects.begin(), report.defects.end(), [](const Defect& d) {
         return std::abs(d.place.tip.y() - 3.6) < 1e-3 && std::abs(d.place.tip.x() - 11.6) < 1 && d.speed_jump > 5;
@@ -185,7 +185,7 @@ TEST(Defects, AreNotHowPassesBeginAndEnd) {
         ASSERT_EQ(report.defects.size(), 1U) << share;
         EXPECT_NEAR(report.defects[0].place.tip.y(), 12 * usual_step_over, 1e-3);
         EXPECT_NEAR(report.defects[0].place.tip.x(), 4, 1.5);
-        // Against its own way: 50 mm/s at x = 4. The other one is still at 66.7.
+        // Compared with its own direction: 50 mm/s at x = 4. The other direction still has 66.7.
         EXPECT_NEAR(report.defects[0].speed_jump, 50 * share, 1);
     }
 }
@@ -212,7 +212,7 @@ TEST(Defects, OfFastPassesAreSeenByTheirLength) {
     EXPECT_EQ(score.right, score.reported);
 }
 
-/// A zigzag whose axes run 10 µm above the path on the way forward and as much below it on the way back, for x = 4 to 20.
+/// A zigzag whose axes run 10 µm above the path in one direction and 10 µm below it in the other, for x = 4 to 20.
 planted::PlantedLog alternating_zigzag() {
     planted::PlantedLog log = plane_zigzag([](int, double, double) { return 50.0; });
     lift(log, 0.010, 4, 20, [](int pass) { return pass % 2 == 0; });
@@ -226,7 +226,7 @@ TEST(SystematicLag, IsOneDefectOfTheWhole) {
     const Defect& lag = report.defects.front();
     EXPECT_TRUE(lag.systematic);
     EXPECT_EQ(lag.cause, Cause::lag_step);
-    EXPECT_NEAR(lag.depth, 0.020, 0.002);  // from one way to the other
+    EXPECT_NEAR(lag.depth, 0.020, 0.002);  // between the directions
     EXPECT_NEAR(lag.share, 16.0 / 24.0, 0.05);
     EXPECT_NEAR(lag.bounds.min().x(), 4, 0.5);
     EXPECT_NEAR(lag.bounds.max().x(), 20, 0.5);
@@ -252,7 +252,7 @@ TEST(SystematicLag, LeavesALocalFaultInsideItToItself) {
 }
 
 TEST(SystematicLag, IsNoFaultOfAFewPasses) {
-    // Four passes of the same way, in a clean part: a defect like others.
+    // Four passes of the same direction, in a part without defects: an ordinary defect.
     planted::PlantedLog log = plane_zigzag([](int, double, double) { return 50.0; });
     lift(log, 0.010, 4, 20, [](int p) { return p >= 8 && p <= 14 && p % 2 == 0; });
     const QualityReport report = planted::judge(log);
@@ -261,7 +261,8 @@ TEST(SystematicLag, IsNoFaultOfAFewPasses) {
 }
 
 TEST(SystematicLag, NamesTheAxesThatDiffer) {
-    // A zigzag over a slope: X trails by 0.4 ms, Z by 1.8 ms. Speeds are even, so that an axis is where it was to be before.
+    // A zigzag over a slope: X lags by 0.4 ms, Z by 1.8 ms. Speeds are constant, so that an axis is where it was commanded
+    // earlier.
     planted::Recipe recipe = planted::random_recipe(3, Shape::zigzag, true, false);
     recipe.noise = 0;
     planted::PlantedLog planted = planted::make_planted_log(recipe);
@@ -311,7 +312,7 @@ TEST(Severity, ComesFromDepthAndFromHowFarItStandsOut) {
 }
 
 TEST(Defects, AreListedByHowFarTheyStandOut) {
-    // A pass 40 % slower leaves next to no depth here, one 6 µm too deep does: the first stands out thirteen thresholds, the
+    // A pass 40 % slower has almost no depth here, one 6 µm too deep has: the first exceeds thirteen thresholds, the
     // other four.
     planted::PlantedLog log =
         plane_zigzag([](int k, double x, double) { return k == 8 && x > 8 && x < 12 ? 30.0 : 50.0; });
@@ -343,7 +344,7 @@ TEST(Defects, NearTheBorderAreOfThePassesAtFault) {
 }
 
 TEST(Defects, OfASmallDipOfSpeedAreAsSevereHoweverCleanTheLogIs) {
-    // 5 % slower: 1.67 times the threshold. Positions to a nanometre and to a micrometre.
+    // 5 % slower: 1.67 times the threshold. Positions with a resolution of a nanometre and of a micrometre.
     for (const double step : {1e-6, 1e-3}) {
         planted::PlantedLog log =
             plane_zigzag([](int k, double x, double) { return k == 11 && x > 8 && x < 12 ? 47.5 : 50.0; });
@@ -374,7 +375,7 @@ TEST(Defects, LoseAtMostAllOfTheirSpeed) {
 }
 
 TEST(Defects, AreNotJudgedWherePassesHaveNoNeighbours) {
-    // The passes lie in pairs, far from each other: each has a neighbour on one side only.
+    // The passes are in pairs, far from each other: each has a neighbour on one side only.
     planted::PlantedLog log = plane_zigzag([](int, double, double) { return 50.0; });
     EXPECT_TRUE(planted::judge(log).judgement.judged());
     for (std::size_t i = 0; i < log.pass.size(); ++i) {
@@ -383,7 +384,8 @@ TEST(Defects, AreNotJudgedWherePassesHaveNoNeighbours) {
     const QualityReport report = planted::judge(log);
     EXPECT_LT(report.coverage(), least_coverage);
     EXPECT_FALSE(report.judgement.judged());
-    // Of the 480 records of a pass 20 lie within 1 mm of one end and 19 of the other. The rest has a neighbour on one side only.
+    // Of the 480 records of a pass, 20 are within 1 mm of one end and 19 of the other. The rest has a neighbour on one side
+    // only.
     ASSERT_EQ(report.judgement.reasons.size(), 1U);
     const std::string& reason = report.judgement.reasons.front();
     EXPECT_NE(reason.find("8.1 % lie near the ends of passes"), std::string::npos) << reason;

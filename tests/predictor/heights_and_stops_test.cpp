@@ -1,4 +1,4 @@
-// What a report says of heights and stops on one pass of a plane.
+// Reports on heights and stops on one pass of a plane.
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ using test::plane_zigzag;
 
 constexpr std::uint32_t programmed_pass = 12;
 
-/// Replaces the line of pass 12 by lines that end at `ends` before the last one.
+/// Replaces the line of pass 12 by lines that end at `ends`, followed by its last point.
 void program_pass(planted::PlantedLog& log, std::string_view lines, const std::vector<double>& ends) {
     constexpr std::uint32_t line_of_pass = 2 * programmed_pass + 2;
     std::size_t at = 0;
@@ -34,7 +34,7 @@ void program_pass(planted::PlantedLog& log, std::string_view lines, const std::v
     }
 }
 
-/// A zigzag whose tool runs 8 µm above the plane on pass 12 from x = 10 to 14, as its program says or not, at `speed` [mm/s].
+/// A zigzag with the tool 8 µm above the plane on pass 12 from x = 10 to 14, as programmed or not, at `speed` [mm/s].
 planted::PlantedLog raised_pass(bool programmed, double speed = 50) {
     planted::PlantedLog log = plane_zigzag(
         [speed](int k, double x, double) { return k == programmed_pass && x > 10 && x < 14 ? speed : 50.0; });
@@ -57,8 +57,8 @@ planted::PlantedLog rounded_peak() {
     return log;
 }
 
-// A control may leave the programmed path inside its tolerance, where it merges lines or rounds corners. Points that are
-// spaced differently would be looked for in vain.
+// A control may deviate from the programmed path within its tolerance if it merges lines or rounds corners. A search for
+// uneven point spacing in the program would be in vain.
 TEST(Defects, OffTheirProgramAreTheControls) {
     for (const bool programmed : {false, true}) {
         const QualityReport report = planted::judge(raised_pass(programmed));
@@ -81,11 +81,12 @@ TEST(Defects, OfAPointThatTheControllerRoundsOffAreThePrograms) {
     EXPECT_NEAR(report.defects.front().depth, 0.018, 0.0015);
 }
 
-// A controller slows down for a point that is programmed too high. The height is no effect of that: the report must have it.
+// A controller slows down for a point that is programmed too high. This does not cause the height, so the report must include
+// it.
 TEST(Defects, OfAProgrammedHeightHaveItsDepthWhateverTheSpeedDoes) {
     for (const double speed : {49.0, 36.0, 10.0}) {
         const QualityReport report = planted::judge(raised_pass(true, speed));
-        // 80 % slower is a finding of its own, which the height does not explain.
+        // 80 % slower is a separate finding, which the height does not explain.
         ASSERT_EQ(report.defects.size(), speed < 20 ? 2U : 1U) << speed;
         if (speed < 20) { EXPECT_EQ(report.defects.front().quantity, Quantity::speed); }
         const Defect& defect = report.defects.back();

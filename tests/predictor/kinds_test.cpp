@@ -1,5 +1,5 @@
-// The predictor on logs of kinds that it was not developed on (data/tools/kinds.h): a log with faults and a clean one of
-// each. `clsurf_planted kinds` runs as many as one likes.
+// The predictor on kinds of logs that it was not developed on (data/tools/kinds.h): one log with faults and one without
+// of each. `clsurf_planted kinds` runs any number.
 #include "kinds.h"
 
 #include <string_view>
@@ -37,13 +37,13 @@ TEST(Kinds, CleanLogsAreClean) {
     for (const planted::LogKind& kind : planted::log_kinds()) {
         double coverage = 0;
         const planted::Score one = score_of(kind, 4, true, coverage);
-        // Still listed: a pass that begins in a crease, and links of which the planner's own speeds differ.
+        // Known false findings: a pass that begins in a crease, and links whose planned speeds differ.
         const bool known = kind.layout == planted::Layout::islands || kind.layout == planted::Layout::staggered;
         EXPECT_LE(one.reported - one.natural, known ? 1 : 0) << kind.name;
     }
 }
 
-/// Where loops round islands meet, their tips turn sharply beside passes that run straight on, and begin beside passes that go on.
+/// Where loops around islands meet, their tips turn sharply next to straight passes, and begin next to continuing passes.
 TEST(Kinds, BendsOfLoopsRoundIslandsAreExpected) {
     for (const planted::LogKind& kind : planted::log_kinds()) {
         if (kind.layout != planted::Layout::islands) continue;
@@ -55,8 +55,8 @@ TEST(Kinds, BendsOfLoopsRoundIslandsAreExpected) {
     }
 }
 
-/// Links that slant by 5° begin before their loop closes and lead over its beginning. Their corners and the lag there belong to
-/// the layout of the passes: of some 200 links one is listed, a lag of 1 µm beside the last one, where passes end.
+/// Links with a slant of 5° begin before their loop closes and pass its beginning. Their corners and the lag there belong to
+/// the layout of the passes: of some 200 links one is listed, a lag of 1 µm next to the last one, where passes end.
 TEST(Kinds, CornersOfLongLinksAreExpected) {
     int reported = 0;
     for (const planted::LogKind& kind : planted::log_kinds()) {
@@ -69,8 +69,8 @@ TEST(Kinds, CornersOfLongLinksAreExpected) {
     EXPECT_LE(reported, 1);
 }
 
-/// The levels of a steep wall lie above each other within 8°, as the turns of a helix into the material do, but each is level
-/// all round and goes down in one place.
+/// The levels of a steep wall are above each other within 8°, like the turns of a helix into the material, but each is level
+/// all around and descends in one place.
 TEST(Kinds, LevelsOfANarrowSteepWallAreFinishingPasses) {
     for (const planted::LogKind& kind : planted::log_kinds()) {
         if (kind.layout != planted::Layout::waterline) continue;
@@ -83,7 +83,7 @@ TEST(Kinds, LevelsOfANarrowSteepWallAreFinishingPasses) {
     }
 }
 
-/// A slow section that begins in a crease is more than the flank of what is expected there.
+/// A slow section that begins in a crease is more than the flank of the expected difference there.
 TEST(Kinds, WhatIsExpectedInACreaseEndsThere) {
     planted::Score all;
     for (const planted::LogKind& kind : planted::log_kinds()) {
@@ -97,8 +97,8 @@ TEST(Kinds, WhatIsExpectedInACreaseEndsThere) {
     EXPECT_EQ(all.right + all.natural, all.reported);
 }
 
-/// A pass that lies off its neighbours round a corner and along 4 mm before it: the height does not fall with the distance from
-/// the corner, as a flank does.
+/// A pass that is off its neighbours around a corner and along 4 mm before it: the height does not decrease with the distance
+/// from the corner, as a flank does.
 TEST(Kinds, AHeightThatLastsBesideACornerIsNoFlank) {
     for (const planted::LogKind& kind : planted::log_kinds()) {
         if (kind.name != std::string_view("triangles F5000 2 ms")) continue;

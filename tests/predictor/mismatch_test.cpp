@@ -1,4 +1,4 @@
-// Mismatch: what of a relief is a mark, and what is the part's own shape.
+// Mismatch: which part of a relief is a mark, and which is the shape of the part.
 #include "predictor/mismatch.h"
 
 #include <cmath>
@@ -14,7 +14,7 @@ constexpr double apart = 0.4;
 constexpr int passes = 21;
 constexpr double length = 40;
 
-/// A surface z(x, y) under passes along X; what its reliefs have that those around have not, at every fifth point [mm].
+/// A surface z(x, y) under passes along X; the reliefs that differ from those around them, at every fifth point [mm].
 template <typename Height>
 std::vector<float> own_reliefs(const Height& height, double low, double high) {
     const test::MadeSurface made = test::flat_zigzag(passes, length, apart, 50, {}, [&](const Vec3& flat) {
@@ -28,7 +28,7 @@ std::vector<float> own_reliefs(const Height& height, double low, double high) {
         if (p.x() < 5 || p.x() > length - 5 || p.y() < low || p.y() > high) continue;
         const Comparison c = comparer.compare({i, 0});
         const float residual = c.residual[index_of(Quantity::relief)];
-        if (c.left >= 2 && c.right >= 2 && residual == residual) own.push_back(residual);  // none where chords lean
+        if (c.left >= 2 && c.right >= 2 && residual == residual) own.push_back(residual);  // none at tilted chords
     }
     EXPECT_GT(own.size(), 100U);
     return own;
@@ -39,7 +39,7 @@ TEST(Relief, OfAPassThatLiesOffIsAMark) {
     for (const double to : {4.1, 4.5}) {
         for (const double off : {0.01, -0.01}) {
             const auto height = [&](double, double y) { return y > 3.9 && y < to ? off : 0.0; };
-            // A band stands out over the chord from a pass of it to one beside it.
+            // A band rises above the chord between a pass of it and one next to it.
             const double seen = to < 4.2 ? off : 0.5 * off;
             for (const float own : own_reliefs(height, 3.9, to)) EXPECT_NEAR(own, seen, 1e-5);
         }
@@ -48,7 +48,7 @@ TEST(Relief, OfAPassThatLiesOffIsAMark) {
 
 TEST(Relief, OfEverySecondPassIsAMark) {
     const auto height = [](double, double y) { return std::lround(y / apart) % 2 == 0 ? 0.01 : 0.0; };
-    // Against the passes between, that lie lower by twice as much as the chords do.
+    // Compared with the passes between, which are lower by twice as much as the chords.
     for (const float own : own_reliefs(height, 3.9, 4.1)) EXPECT_NEAR(own, 0.02, 1e-5);
 }
 
@@ -64,7 +64,7 @@ TEST(Relief, OfAnEdgeOfThePartIsNone) {
 }
 
 TEST(Relief, OfANarrowFilletIsNone) {
-    // A floor and a wall of 45° with a radius of 0.9 mm between: two passes run in it.
+    // A floor and a wall of 45° with a radius of 0.9 mm between them, on which there are two passes.
     const auto height = [](double, double y) {
         constexpr double radius = 0.9;
         const double along = y - 4;
@@ -77,8 +77,8 @@ TEST(Relief, OfANarrowFilletIsNone) {
 }
 
 TEST(Relief, OfACreaseBesideACapIsNone) {
-    // A cap of radius 3.7 mm that meets a floor of 7° where it falls by 70° to 73°: a pass beside the crease lies 0.1 mm below the
-    // chord over it, the adjacent one as much above its own, as far as the cap goes.
+    // A cap of radius 3.7 mm that meets a floor of 7° where its slope is 70° to 73°: a pass next to the crease is 0.1 mm
+    // below the chord over it, the adjacent one as much above its own, along the whole cap.
     constexpr double radius = 3.7;
     for (const double crease : {0.94, 0.945, 0.95, 0.955}) {
         const auto height = [&](double, double y) {
@@ -91,8 +91,8 @@ TEST(Relief, OfACreaseBesideACapIsNone) {
 }
 
 TEST(Relief, OfAWideFilletIsNone) {
-    // A floor that goes over into a fillet of 4 mm, straight or oblique to the passes: the curvature steps from 0 to 1/4 mm⁻¹,
-    // the reliefs from 0 to 20 µm, with one or two values between.
+    // A floor that continues into a fillet of 4 mm, straight or oblique to the passes: the curvature steps from 0 to 1/4
+    // mm⁻¹, the reliefs from 0 to 20 µm, with one or two values in between.
     for (const double slope : {0.0, 0.02}) {
         const auto height = [&](double x, double y) {
             const double along = y - 4 - slope * (x - 0.5 * length);
@@ -103,7 +103,7 @@ TEST(Relief, OfAWideFilletIsNone) {
 }
 
 TEST(Thresholds, OfTheAccelerationIsWhatAChangeOfSpeedByItsThresholdShows) {
-    // Passes at an even 50 mm/s accelerate by nothing. 3 % of that at once are 1.5 mm/s · 1.875 / 21 ms.
+    // Passes at a constant 50 mm/s have no acceleration. 3 % of the speed in one step are 1.5 mm/s · 1.875 / 21 ms.
     const test::MadeSurface made = test::flat_zigzag(9, length, apart, 50, {});
     const Thresholds thresholds = measure_thresholds(made.surface, made.signals(), ThresholdRule{});
     EXPECT_NEAR(thresholds.of[index_of(Quantity::speed)], 0.03F, 1e-4F);

@@ -1,4 +1,4 @@
-// Comparison along a obliquity: passes that slow down one after the other, along an edge that runs slantwise over them.
+// Comparison along an obliquity: passes slow down one after another, along an edge that is oblique to them.
 #include "predictor/oblique_alignment.h"
 
 #include <cmath>
@@ -13,10 +13,10 @@ namespace {
 
 constexpr double apart = 0.4, length = 40;
 constexpr int passes = 21;
-constexpr double dip = 0.5;   ///< of the speed that is lost where a pass is slowest
+constexpr double dip = 0.5;   ///< share of the speed lost at the slowest place
 constexpr double wide = 1.5;  ///< [mm] of arc length
 
-/// Passes along X at 50 mm/s. Each is slow about x = 20 + slope (y − 4), and the middle one again at x = 30.
+/// Passes along X at 50 mm/s. Each is slow around x = 20 + slope (y − 4), and the middle one again at x = 30.
 test::MadeSurface made(double slope, bool fault) {
     return test::flat_zigzag(passes, length, apart, 50, {}, [=](const Vec3& flat) {
         double x = flat.x() - dip * wide * std::tanh((flat.x() - 20 - slope * (flat.y() - 4)) / wide);
@@ -26,7 +26,7 @@ test::MadeSurface made(double slope, bool fault) {
 }
 
 struct Seen {
-    float straight = 0, oblique = 0;  ///< greatest steps of the speed
+    float straight = 0, oblique = 0;  ///< largest steps of the speed
 };
 
 /// Over the cut points of the inner passes with `low` ≤ x ≤ `high`.
@@ -74,7 +74,7 @@ TEST(ObliqueComparison, IsNotLookedForWherePassesAgreeStraightAcross) {
         places.push_back({{middle, 0}, aside});
         places.push_back({{middle, 0}, -aside});
     }
-    // All places are the same one: they agree whatever the obliquity.
+    // All places are the same one: they agree with any obliquity.
     EXPECT_FALSE(compare_obliquely(of.surface, signals, {middle, 0}, places).has_value());
     EXPECT_FALSE(compare_obliquely(of.surface, signals, {middle, 0}, std::span(places).first(3)).has_value())
         << "too few";

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double apart = 0.4;  ///< [mm] between passes
 constexpr double length = 30;  ///< [mm] of a pass
-constexpr double from = 10;    ///< [mm]: the defect's part of every pass …
+constexpr double from = 10;    ///< [mm]: the defect's section of every pass …
 constexpr double to = 20;      ///< … along X
 
 /// A flat zigzag, and a defect on some of its passes.

@@ -1,4 +1,4 @@
-// The scatter of positions along the feed, against errors of a known size.
+// The scatter of positions along the feed, for errors of a known size.
 #include "predictor/position_noise.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ std::vector<PointRange> pieces_of(const test::MadeSurface& made) {
     return pieces;
 }
 
-/// Moves each commanded position by an error of its own along x, the feed.
+/// Moves each commanded position by an independent error along x, the feed.
 void scatter(test::MadeSurface& made, double deviation) {
     std::mt19937_64 generator(7);
     std::normal_distribution<double> error(0, deviation);

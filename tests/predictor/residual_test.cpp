@@ -1,4 +1,4 @@
-// Residuals near a border, where passes are few on one side: which pass is at fault, by numbers on paper.
+// Residuals near a border, with few passes on one side: which pass has the fault, with numbers computed by hand.
 #include "predictor/residual.h"
 
 #include <algorithm>
@@ -13,7 +13,8 @@ namespace {
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 
-/// Values beside pass `k` of all, the adjacent one first, as many as the predictor takes: five on each side, or nine in all.
+/// Values on the passes next to pass `k`, the adjacent one first, as many as the predictor uses: five on each side, or nine
+/// in all.
 struct Beside {
     std::vector<float> left, right;
 };
@@ -35,7 +36,7 @@ std::vector<float> residuals_of(const std::vector<float>& all) {
     return result;
 }
 
-/// The reliefs of passes at these heights on an even surface: above the chord between both neighbours.
+/// The reliefs of passes with these heights on a plane: above the chord between both neighbours.
 std::vector<float> reliefs_of(const std::vector<float>& heights) {
     std::vector<float> result(heights.size(), none);
     for (std::size_t k = 1; k + 1 < heights.size(); ++k)
@@ -43,7 +44,7 @@ std::vector<float> reliefs_of(const std::vector<float>& heights) {
     return result;
 }
 
-/// What each pass has of its own; 0 where nothing is known.
+/// The residual of each pass; 0 if unknown.
 std::vector<float> marks_of(const std::vector<float>& heights) {
     const std::vector<float> reliefs = reliefs_of(heights);
     std::vector<float> result;
@@ -55,7 +56,7 @@ std::vector<float> marks_of(const std::vector<float>& heights) {
     return result;
 }
 
-/// 16 passes, of which those from `first` to `last` differ by −30.
+/// 16 passes; those from `first` to `last` differ by −30.
 std::vector<float> with_band(std::size_t first, std::size_t last, std::size_t count = 16, float each = 0) {
     std::vector<float> all;
     for (std::size_t k = 0; k < count; ++k)
@@ -70,13 +71,13 @@ void expect_near(const std::vector<float>& found, const std::vector<float>& expe
 }
 
 TEST(Residual, OfOneToFourPassesIsTheirsWhereverTheyLie) {
-    for (const float each : {0.0F, 2.0F}) {  // all alike; an even change from pass to pass
+    for (const float each : {0.0F, 2.0F}) {  // all equal; a constant change from pass to pass
         for (std::size_t width = 1; width <= (each > 0 ? 2U : 4U); ++width) {
             for (std::size_t first = 0; first + width <= 16; ++first) {
                 const std::size_t last = first + width - 1;
                 std::vector<float> truth(16, 0.0F);
                 for (std::size_t k = first; k <= last; ++k) truth[k] = -30;
-                // The median of an even number lies up to three changes away.
+                // The median of an even number of values is up to three changes away.
                 expect_near(residuals_of(with_band(first, last, 16, each)), truth, 3 * each, first, last);
             }
         }
@@ -103,7 +104,7 @@ TEST(Residual, OfAnEvenChangeIsNothing) {
 }
 
 TEST(Residual, OfPassesThatScatterIsNothingWithinTheirScatter) {
-    // Pass 2 beside eight others; the median of these is 100, of their distances from it 1.
+    // Pass 2 next to eight others, whose median is 100 and median absolute deviation 1.
     const std::vector<float> left{101}, right{99, 102, 98, 100, 101, 99, 100, 100};
     EXPECT_EQ(usual_beside(97.1F, left, right, 3), 97.1F);
     EXPECT_EQ(usual_beside(96.9F, left, right, 3), 100);
@@ -139,7 +140,7 @@ TEST(ReliefMark, OfAPassThatLiesOffOnABarrelIsItsHeight) {
 }
 
 TEST(ReliefMark, OfTheOutermostPassIsUnknown) {
-    // It may as well be where the surface turns: pass 2 and those beyond lie on it.
+    // The surface may turn there: pass 2 and those beyond may be on it.
     for (const std::size_t k : {0U, 15U}) {
         std::vector<float> heights(16, 0.0F);
         heights[k] = 6;
@@ -148,7 +149,7 @@ TEST(ReliefMark, OfTheOutermostPassIsUnknown) {
 }
 
 TEST(ReliefMark, OfThePassesBesideAPairIsNothingAtTheBorder) {
-    // A pair stands out over the chord from one of its passes to the one beside it: by half its height.
+    // A pair rises above the chord from one of its passes to the adjacent one by half its height.
     for (const bool mirrored : {false, true}) {
         for (const std::size_t first : {0U, 1U}) {
             std::vector<float> heights(16, 0.0F);

@@ -14,7 +14,7 @@ namespace {
 
 using test::MadeSurface;
 
-/// Points on passes, away from their ends, where the tool does not speed up or slow down.
+/// Points on passes, away from their ends, at constant speed.
 template <typename F>
 void for_each_inner(const Signals& s, F&& f) {
     std::int64_t seen = 0;
@@ -27,7 +27,7 @@ void for_each_inner(const Signals& s, F&& f) {
 }
 
 TEST(Signals, ALagAlongThePathIsNoHeight) {
-    // 20 ms at 50 mm/s: one millimetre behind, exactly on the way.
+    // 20 ms at 50 mm/s: one millimetre behind, exactly on the path.
     const MadeSurface made =
         test::flat_zigzag(9, 30, 0.4, 50, [](const Vec3& p, const Vec3& feed) { return Vec3(p - 1.0 * feed); });
     const Signals s = made.signals();
@@ -44,14 +44,14 @@ TEST(Signals, AnOffsetAlongTheNormalIsTheHeight) {
     std::int64_t with = 0;
     for_each_inner(s, [&](PointIndex i) {
         const float lag = s[i].lag;
-        if (!(lag == lag)) return;  // the outermost passes have a normal by one side only, but have one
+        if (!(lag == lag)) return;  // the outermost passes have a normal from one side only, but they have one
         EXPECT_NEAR(lag, 0.005F, 1e-6F) << i;
         ++with;
     });
     EXPECT_GT(with, 3000);
 }
 
-// Bit by bit, in whichever order they are read, and again after they were forgotten.
+// Equal bit by bit, in any order of reading, and again after they were forgotten.
 TEST(Signals, AreTheSameWhenTheyAreDerivedWhereTheyAreRead) {
     MadeSurface made = test::flat_zigzag(200, 30, 0.4, 50, [](const Vec3& p, const Vec3& feed) {
         return Vec3(p - 0.3 * feed + Vec3(0, 0, 0.005 * std::sin(p.x())));
@@ -142,7 +142,7 @@ TEST(Mismatch, OfASlowerPassIsWhatItIsSlower) {
             ++seen[0];
         } else if (pass == 3 || pass == 5) {
             EXPECT_NEAR(step, 0.10F, 1e-3F);     // the step is on both sides of it …
-            EXPECT_NEAR(residual, 0.0F, 1e-3F);  // … and the fault is not theirs
+            EXPECT_NEAR(residual, 0.0F, 1e-3F);  // … and the fault is not on these passes
             ++seen[1];
         } else if (pass == 2 || pass == 6) {
             EXPECT_NEAR(step, 0.0F, 1e-3F);

@@ -9,7 +9,7 @@
 namespace clsurf::sites_test {
 namespace {
 
-/// A straight pass along a unit vector, from a place on, a point a millisecond.
+/// A straight pass along a unit vector, from a start point on, with one point per millisecond.
 struct StraightPass {
     ClSurface surface;
     Signals signals;
@@ -65,11 +65,11 @@ TEST(Sites, BackwardsAreThoseOfTheArcLengthForth) {
 }
 
 TEST(Sites, AreCloserWhereTheToolIsSlow) {
-    // At 10 mm/s two halvings; a third would be less than a tenth of the step-over.
+    // At 10 mm/s the spacing is halved twice; a third time it would be less than a tenth of the step-over.
     const std::vector<double> slow = StraightPass(Vec3(0.01, 0, 0), Vec3(1, 0, 0), 10, 201).places(0);
     EXPECT_EQ(slow.size(), 40U);  // 0.05 mm apart, of 2 mm
     for (const double place : slow) EXPECT_NEAR(place, std::round(20 * place) / 20, 1e-5);
-    // No closer, however slow.
+    // Never closer, however slow the pass.
     const std::vector<double> slowest = StraightPass(Vec3(0.01, 0, 0), Vec3(1, 0, 0), 1, 2001).places(0);
     EXPECT_EQ(slowest, slow);
 }
@@ -90,7 +90,7 @@ TEST(Sites, AreNoneOutsideOfPassesAndWhereTheToolStands) {
         EXPECT_LT(place, 7.6);
     }
     const Sites sites(pass.surface, pass.signals);
-    EXPECT_EQ(sites.nearest(40), 100);  // behind x = 5, the first of all
+    EXPECT_EQ(sites.nearest(40), 100);  // after x = 5, the first of all
     EXPECT_FALSE(sites.at(40));
 }
 

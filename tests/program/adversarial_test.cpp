@@ -1,4 +1,4 @@
-// Programs that nobody means well with: a clear error or the right result, in bounded time and memory.
+// Malicious programs: a clear error or the right result, in bounded time and memory.
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::size_t megabytes = 1'000'000;
 
-/// To motions or an InputError, without a crash. What takes steps by the square of these texts' lengths does not end while the test
-/// runner waits.
+/// Reads to motions or an InputError, without a crash. An algorithm with quadratic time on these texts would exceed the
+/// timeout of the test runner.
 void read_in_every_dialect(const std::string& text) {
     for (const Dialect& dialect : dialects()) (void)error_of(text, dialect.name.data());
 }

@@ -20,7 +20,7 @@ ArcWords from_to(Vec3 begin, Vec3 end, bool clockwise) {
 }
 
 TEST(Arc, ShortArcByRadiusHasItsCentreBesideTheChord) {
-    // (0,0) → (10,0), R 10, counter-clockwise and short: the centre is left of the chord,
+    // (0,0) → (10,0), R 10, counter-clockwise and short: the centre is to the left of the chord,
     // at height √(100 − 25).
     ArcWords words = from_to({0, 0, 0}, {10, 0, 0}, false);
     words.has_radius = true;
@@ -62,7 +62,7 @@ TEST(Arc, NamesBothRadiiWhereTheyDiffer) {
     EXPECT_EQ(error, "arc radius differs: 5.0000 at the start, 5.2000 at the end");
 }
 
-/// The error of a quarter circle about 0 from a radius to another, "" where there is none.
+/// The error of a quarter circle around 0 from one radius to another; "" if there is none.
 std::string error_of_radii(double first, double second, const ArcTolerance& tolerance) {
     ArcWords words = from_to({first, 0, 0}, {0, second, 0}, false);
     words.centre = {0, 0, 0};
@@ -72,7 +72,7 @@ std::string error_of_radii(double first, double second, const ArcTolerance& tole
 }
 
 TEST(Arc, RadiiMayDifferAsMuchAsTheControlTakes) {
-    // LinuxCNC: 2·√2 hundredths of a millimetre or thousandths of an inch; more up to a hundredfold of that within 0.1 %.
+    // LinuxCNC: 2·√2 hundredths of a millimetre or thousandths of an inch; up to a hundred times more within 0.1 %.
     const ArcTolerance metric = linuxcnc_rules.arc_tolerance_in(1);
     EXPECT_EQ(error_of_radii(5, 5.028, metric), "");
     EXPECT_NE(error_of_radii(5, 5.029, metric), "");
@@ -114,7 +114,7 @@ TEST(Arc, RefusesARadiusThatCannotReach) {
 }
 
 TEST(ArcChords, ASpiralOfSeveralTurnsStaysWithinTheError) {
-    // Archimedes: the radius grows from 10 to 14 over two turns and a half, and z by 5.
+    // Archimedes: the radius increases from 10 to 14 over two and a half turns, and z by 5.
     Arc arc;
     arc.turns = 3;
     const Vec3 begin(10, 0, 0);
@@ -136,7 +136,7 @@ TEST(ArcChords, ASpiralOfSeveralTurnsStaysWithinTheError) {
             from = chords[k];
         }
         EXPECT_LT(worst, error);
-        EXPECT_GT(worst, 0.5 * error);  // and no more chords than that takes
+        EXPECT_GT(worst, 0.5 * error);  // and not more chords than necessary
     }
 }
 

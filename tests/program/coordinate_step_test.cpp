@@ -1,4 +1,4 @@
-// The step of coordinates, of texts whose decimals are known.
+// The step of coordinates, for texts with known decimals.
 
 #include "program/coordinate_step.h"
 
@@ -24,7 +24,7 @@ double step_of(const std::string& text) {
 TEST(CoordinateStep, IsThatOfTheFinestAxis) {
     EXPECT_NEAR(step_of("G21\nG1 X0.1 Y2.25 Z1.123 F100\nX0.2 Y2.5 Z1.378\nX0.3 Y3.75 Z1.001\n"), 0.001, 1e-12);
     EXPECT_NEAR(step_of("G21\nG1 X0.1 Y2.25 F100\nX0.2 Y2.51\n"), 0.01, 1e-12);
-    EXPECT_NEAR(step_of("G21\nG1 X1 F100\nX2\n"), 0.1, 1e-12);  // the largest that is looked for
+    EXPECT_NEAR(step_of("G21\nG1 X1 F100\nX2\n"), 0.1, 1e-12);  // the largest step that is tested
 }
 
 TEST(CoordinateStep, IsInInchesWhereTheyAre) {

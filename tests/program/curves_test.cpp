@@ -1,5 +1,5 @@
-// Splines: which curve each dialect's words make, where they stand, and what is refused. Expected values come from the
-// definition of each curve, worked out here, not from the code that reads them.
+// Splines: the curves of each dialect's words, their lines, and what is refused. Expected values come from the
+// definition of each curve, evaluated here, not from the code that reads them.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ void expect_at(const Program& program, std::size_t curve, double t, const Vec3& 
     EXPECT_LE((at(program, curve, t) - expected).norm(), 5e-10) << "curve " << curve << " at " << t;
 }
 
-/// The program with an error: its line and a part of the message.
+/// Expects a program to be refused: the line and a part of the message.
 void expect_refused(const std::string& text, const char* dialect, const std::string& begin, const std::string& part) {
     const std::string error = error_of(text, dialect);
     EXPECT_TRUE(error.starts_with("test.nc:" + begin)) << error;
@@ -36,7 +36,7 @@ TEST(Curves, ABlockIsOneMotionThatOwnsItsCurve) {
     const Program p = parse("G21\nF60\nG5 X3 Y0 I1 J2 P-1 Q2\nX6 Y0 P-1 Q2\nG5.1 X8 I1 J-2\n", "linuxcnc");
     EXPECT_EQ(motions(p), (Rows{"spline 3 0 0", "spline 6 0 0", "spline 8 0 0"}));
     ASSERT_EQ(p.motions.curves.size(), 3U);
-    // Bézier points (0,0) (1,2) (2,2) (3,0); then the direction goes on: (3,0) (4,-2) (5,2) (6,0); then (6,0) (7,-2) (8,0).
+    // Bézier points (0,0) (1,2) (2,2) (3,0); then in the same direction: (3,0) (4,-2) (5,2) (6,0); then (6,0) (7,-2) (8,0).
     expect_at(p, 0, 0.5, {1.5, 1.5, 0});
     expect_at(p, 1, 0.25, {3 + 0.75, (3 * 0.5625 * 0.25 * -2) + (3 * 0.75 * 0.0625 * 2), 0});
     expect_at(p, 2, 0.5, {7, -1, 0});
@@ -50,7 +50,7 @@ TEST(Curves, ClampedEvenKnotsOfLinuxCnc) {
     EXPECT_EQ(motions(p), (Rows{"spline 4 4 0", "spline 8 0 0", "feed 9 0 0"}));
     expect_at(p, 0, 0.5, {(2 * 2 + 4) / 4.0, (2 * 4 + 4) / 4.0, 0});
     expect_at(p, 1, 0.5, {(4 + 2 * 6 + 8) / 4.0, (4 + 2 * 4) / 4.0, 0});
-    // They stand in the block that makes them, as its kernel reports them.
+    // Their line is that of the block that makes them, as its kernel reports it.
     EXPECT_EQ(p.motions.line[0], 6U);
 }
 
@@ -61,9 +61,9 @@ TEST(Curves, KnotsAndWeightsOfFanuc) {
     const Program p = parse(text, "fanuc");
     EXPECT_EQ(motions(p), (Rows{"rapid 10 0 0", "spline 0 10 0", "feed -5 10 0"}));
     for (int k = 0; k <= 10; ++k) EXPECT_NEAR(at(p, 0, k / 10.0).norm(), 10, 1e-12);
-    EXPECT_EQ(p.motions.line[1], 5U);  // the last point that shapes the span
+    EXPECT_EQ(p.motions.line[1], 5U);  // the last point that affects the span
     EXPECT_FLOAT_EQ(p.motions.feed[1], 10);
-    // The first block without a point or a knot: where the tool stands, and the knot of the second.
+    // The first block without a point or a knot: the position of the tool, and the knot of the second.
     const Program short_form = parse(
         "G21 G90\nG0 X10 Y0 Z0\nG06.2 P3 K0 F600\nK0 X10 Y10 R0.70710678118654752\nK0 X0 Y10\nK1\nK1\nK1\n", "fanuc");
     for (int k = 0; k <= 10; ++k) EXPECT_NEAR(at(short_form, 0, k / 10.0).norm(), 10, 1e-12);
@@ -81,7 +81,7 @@ TEST(Curves, KnottedSplinesRefuseWhatTheControlRefuses) {
     expect_refused(begin + "K1\nK1\nG1 X5\n", "fanuc", "7:", "ends with 3 blocks of K alone, here are 2");
     expect_refused(begin + "K1\nK1\n", "fanuc", "", "ends with 3 blocks of K alone, here are 2");
     expect_refused(begin + "X3 Y3\n", "fanuc", "5:", "needs its knot (K)");
-    // In the block of the knot that falls, whether or not it has a point.
+    // In the block of the decreasing knot, with or without a point.
     expect_refused(begin + "K-1\nK1\nK1\n", "fanuc", "5:1:", "may not fall: -1 after 0");
     expect_refused(begin + "K2\nN1 K1\nK2\n", "linuxcnc", "6:4:", "may not fall: 1 after 2");
     expect_refused(begin + "X3 Y0 K-1\nK1\nK1\nK1\n", "fanuc", "5:7:", "may not fall: -1 after 0");
@@ -112,7 +112,7 @@ TEST(Curves, PolynomialsOfSinumerik) {
 }
 
 TEST(Curves, ADenominatorMakesACircle) {
-    // x = (1 − p²)/(1 + p²), y = 2 p/(1 + p²) times 10; z rises evenly beside it.
+    // x = (1 − p²)/(1 + p²), y = 2 p/(1 + p²) times 10; z increases linearly with p.
     const Program p =
         parse("G71 G90\nG0 X10 Y0 Z0\nG1 F1000\nPOLY PO[X]=(0,-10) PO[Y]=(10,0) PO[]=(2,1) Z3\nG1 X5\n", "siemens");
     for (int k = 0; k <= 10; ++k) {
@@ -127,8 +127,8 @@ TEST(Curves, ADenominatorMakesACircle) {
 }
 
 TEST(Curves, TheExampleOfTheManualIsACircle) {
-    // SINUMERIK, 5-axis machining, reference section: from the zero to (1/4, √3/4), about (1/4, √3/12). Its numbers have
-    // three decimals.
+    // SINUMERIK, 5-axis machining, reference section: from the zero to (1/4, √3/4), about (1/4, √3/12). The published numbers
+    // have three decimals.
     const Program p = parse(
         "G71 G90\nG0 X0 Y0 Z0\nG1 F1000\nPOLY PO[X]=(0.25,0.5,0) PO[Y]=(0.433,0,0) PO[]=(1,1,0)\nG1 X5\n", "siemens");
     for (int k = 0; k <= 10; ++k)
@@ -136,7 +136,7 @@ TEST(Curves, TheExampleOfTheManualIsACircle) {
 }
 
 TEST(Curves, SplinesThroughPointsEndWithTheMotionsBesideThem) {
-    // BTAN and ETAN are the default: the direction of the blocks beside the spline.
+    // BTAN and ETAN are the default: the direction of the adjacent blocks.
     const std::string points = "CSPLINE X20 Y0\nX30 Y10\nX30 Y20\n";
     const Program p = parse("G71 G90\nG0 X0 Y0 Z0\nG1 X10 F1000\n" + points + "G1 X30 Y30\n", "siemens");
     EXPECT_EQ(motions(p), (Rows{"rapid 0 0 0", "feed 10 0 0", "spline 20 0 0", "spline 30 10 0", "spline 30 20 0",
@@ -153,7 +153,7 @@ TEST(Curves, SplinesThroughPointsEndWithTheMotionsBesideThem) {
     const Program natural = parse("G71 G90\nG0 X0 Y0 Z0\nG1 X10 F1000\nBNAT ENAT " + points + "M30\n", "siemens");
     EXPECT_LE(natural.motions.curves[0].span->jet(0).second.norm(), 1e-9);
     EXPECT_LE(natural.motions.curves[2].span->jet(1).second.norm(), 1e-9);
-    // Events keep their place.
+    // Events keep their position.
     const Program events =
         parse("G71 G90\nG0 X0 Y0 Z0\nG1 X10 F1000\nCSPLINE X20 Y0\nM8\nX30 Y10\nX30 Y20\nM9\nG1 X30 Y30\n", "siemens");
     std::vector<std::int64_t> places;
@@ -170,7 +170,7 @@ Program cubic(const std::string& ends, const std::string& points, const std::str
     return parse("G71 G90\nG0 X0 Y0 Z0\nG1 X4 Y1 F1000\n" + ends + " CSPLINE\n" + points + behind, "siemens");
 }
 
-/// What is between the points, and that the curvature goes on at each of them.
+/// Checks points between the given ones, and that the curvature is continuous at each of these.
 void expect_cubic(const Program& program, const std::vector<Vec3>& middles) {
     ASSERT_EQ(program.motions.curves.size(), middles.size());
     CurveJet before;
@@ -189,9 +189,9 @@ void expect_cubic(const Program& program, const std::vector<Vec3>& middles) {
     }
 }
 
-// What is expected of five points: cubic polynomials over the lengths of the chords. numpy.linalg.solve gives the 16
-// coefficients of each coordinate from points, slopes, second derivatives and ends; SciPy (interpolate, cubic spline) says the
-// same to 1e-13.
+// Expected values for five points: cubic polynomials over the lengths of the chords. numpy.linalg.solve gives the 16
+// coefficients of each coordinate from points, slopes, second derivatives and ends; SciPy (interpolate, cubic spline) gives
+// the same to 1e-13.
 std::vector<Vec3> natural_middles() {
     return {{6.891398592434, 6.228999026127, 0.405462707420},
             {12.923136995222, 5.421233588086, 1.672097044180},
@@ -217,12 +217,12 @@ TEST(CubicSplines, GoThroughAllPointsWithOneCurvature) {
                                   {20.679461487359, 5.575116566502, 1.270815035474},
                                   {28.334661241728, 11.543357780456, -0.390399657449}};
     expect_cubic(cubic("BNAT EAUTO", five_points, line), mixed);
-    // Without a motion behind it, ETAN is EAUTO.
+    // Without a motion after it, ETAN is EAUTO.
     expect_cubic(cubic("BNAT ETAN", five_points, "M30\n"), mixed);
 }
 
 TEST(CubicSplines, OfFewPoints) {
-    // Two ends that say the same of two spans: a parabola; of one span: a line.
+    // Two ends with the same condition on two spans: a parabola; on one span: a line.
     expect_cubic(cubic("BAUTO EAUTO", "X10 Y8 Z1\nX16 Y3 Z2\n", "M30\n"),
                  {{6.855805778217, 6.242593719722, 0.475967629703}, {12.896046026156, 6.756288495613, 1.482674337693}});
     expect_cubic(cubic("BAUTO EAUTO", "X10 Y9\n", "M30\n"), {{7, 5, 0}});
@@ -232,7 +232,7 @@ TEST(CubicSplines, OfFewPoints) {
     expect_cubic(cubic("BTAN ETAN", "X10 Y9\n", "G1 Y20\n"), {{7 + 5 / root, 5 + 1.25 * (1 / root - 1), 0}});
 }
 
-// A spline ends where another one begins, with the words that are in force in its own blocks.
+// A spline ends where another one begins, with the words that are active in its own blocks.
 TEST(CubicSplines, KeepTheirEndsBeforeAnotherSpline) {
     for (const std::string next :
          {"BTAN ETAN ASPLINE X40 Y0\n", "BTAN ETAN BSPLINE X40 Y0\n", "G1\nBAUTO EAUTO CSPLINE X40 Y0\n",
@@ -242,7 +242,7 @@ TEST(CubicSplines, KeepTheirEndsBeforeAnotherSpline) {
         p.motions.curves.resize(4);
         expect_cubic(p, natural_middles());
     }
-    // The word ENAT of a block of its own, before the spline is left, is still one of the spline.
+    // The word ENAT in a separate block before the end of the spline still belongs to it.
     expect_cubic(cubic("BNAT", std::string(five_points) + "ENAT\n", "G1 X40 Y0\n"), natural_middles());
 }
 
@@ -254,7 +254,7 @@ TEST(Curves, ControlPointsOfBspline) {
     const Program uneven =
         parse("G71 G90\nG0 X0 Y0 Z0\nG1 F1000\nBSPLINE SD=2 X0 Y4 PL=1\nX4 Y4 PL=3\nX4 Y0 PL=0\nG1 X9\n", "siemens");
     expect_at(uneven, 0, 1, {1, 4, 0});
-    // Writers that give each leg its interval begin and end with 0.
+    // Programs that give each leg its own interval begin and end with 0.
     const Program by_leg = parse(
         "G71 G90\nG0 X0 Y0 Z0\nG1 F1000\nBSPLINE X0 Y4 PL=0\nX4 Y4 PL=1\nX4 Y0 PL=3\nX8 Y0 PL=0\nG1 X9\n", "siemens");
     ASSERT_EQ(by_leg.motions.curves.size(), 2U);
@@ -265,7 +265,7 @@ TEST(Curves, ControlPointsOfBspline) {
     expect_refused("G71 G90\nG0 X0 Y0 Z0\nG1 F1000\nBSPLINE X1 A5\n", "siemens", "4:", "rotary axes");
 }
 
-// G1 without a motion ends a spline: the next point begins another one, of one span each, where the tool stands.
+// G1 without a motion ends a spline: the next point begins another one at the position of the tool, of one span each.
 TEST(Curves, G1BetweenSplinesPartsThem) {
     const Program two = parse(
         "G71 G90\nG0 X0 Y0 Z0\nG1 F1000\nBSPLINE SD=3 X1 Y2 PL=3\nX2 Y2\nX3 Y0\nG1\nBSPLINE SD=3 X4 Y-2 PL=2\nX5 Y-2\n"
@@ -277,7 +277,7 @@ TEST(Curves, G1BetweenSplinesPartsThem) {
     expect_at(two, 0, 1, {3, 0, 0});
     expect_at(two, 1, 0.5, {4.5, -1.5, 0});
     expect_at(two, 1, 1, {6, 0, 0});
-    // The same of points that a spline goes through: two lines are two splines, with a corner where they meet.
+    // The same for interpolated points: two lines are two splines, with a corner between them.
     const Program points =
         parse("G71 G90\nG0 X0 Y0 Z0\nG1 F1000\nASPLINE X1 Y1\nG1\nASPLINE X2 Y0\nG1\nM30\n", "siemens");
     ASSERT_EQ(points.motions.curves.size(), 2U);
@@ -286,7 +286,7 @@ TEST(Curves, G1BetweenSplinesPartsThem) {
 TEST(Curves, FramesTakeCurvesAlong) {
     const Program p =
         parse("G71 G90\nTRANS X100\nAROT Z90\nG0 X0 Y0 Z0\nG1 F1000\nPOLY PO[X]=(4,2) Y2\nG1 X0\n", "siemens");
-    // In programmed coordinates x = 2 p + 2 p², y = 2 p; turned by 90° and moved.
+    // In programmed coordinates x = 2 p + 2 p², y = 2 p; rotated by 90° and shifted.
     expect_at(p, 0, 0.5, {100 - 1, 1.5, 0});
     const Program inch = parse("G70 G90\nG0 X0 Y0 Z0\nG1 F10\nPOLY PO[X]=(4,2) Y2\nG1 X0\n", "siemens");
     expect_at(inch, 0, 0.5, {1.5 * 25.4, 25.4, 0});
@@ -300,7 +300,7 @@ TEST(Curves, SplOfKlartextRunsFromOneToZero) {
     const Program p = parse(head + block + "3 L X0\n4 END PGM A MM\n", "klartext");
     EXPECT_EQ(motions(p), (Rows{"rapid 28.338 19.385 -0.5", "spline 24.875 15.924 -0.5", "feed 0 15.924 -0.5"}));
     EXPECT_EQ(p.motions.line[1], 3U);
-    // Half way, t = ½; the begin is the tool's, 0.71 µm and 1.08 µm aside, of which an eighth is left there.
+    // At t = ½; the beginning is the tool's position, off by 0.71 µm and 1.08 µm, of which an eighth remains there.
     const double x =
         24.875 + (-4.688e-2 / 8 + 2.459e-2 / 4 + 3.486 / 2) - (24.875 - 4.688e-2 + 2.459e-2 + 3.486 - 28.338) / 8;
     EXPECT_NEAR(at(p, 0, 0.5).x(), x, 1e-12);
@@ -319,7 +319,7 @@ TEST(Curves, ThePublishedCurvesAreTheSameInAllFourForms) {
             ASSERT_EQ(form.motions.curves.size(), spans) << name;
             for (std::size_t i = 0; i < spans; ++i) {
                 for (int k = 0; k <= 8; ++k) {
-                    // The forms are not parametrised alike, so the nearest point is compared.
+                    // The forms have different parametrisations, so the nearest point is compared.
                     const Vec3 p = form.motions.curves[i].span->at(k / 8.0);
                     EXPECT_LE(forms[2].motions.curves[i].span->nearest(p).distance, 5e-10) << name << " span " << i;
                 }

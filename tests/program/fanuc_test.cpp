@@ -1,4 +1,4 @@
-// Fanuc and HNC; the answers are worked out on paper beside each program.
+// Fanuc and HNC; the expected values are computed by hand next to each program.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ Program parse_with_tool(const std::string& text, const char* dialect) {
 }
 
 TEST(FanucFrame, TurnsAboutItsCentre) {
-    // About (10, 0) by 90°: (20, 0) → (10, 10), (20, 5) → (5, 10). Increments turn too.
+    // About (10, 0) by 90°: (20, 0) → (10, 10), (20, 5) → (5, 10). Increments are rotated, too.
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nG68 X10 Y0 R90\nG1 F60 X20 Y0\nG91 Y5\nG90 G69 X1 Y1\n"),
               (Rows{"rapid 0 0 0", "feed 10 10 0", "feed 5 10 0", "feed 1 1 0"}));
     // Without a centre: about the present position.
@@ -34,11 +34,11 @@ TEST(FanucFrame, TurnsArcsWithTheirCentres) {
 }
 
 TEST(FanucFrame, TurnsAboutAnyAxisInSpace) {
-    // About Y by 90°: X → −Z, Z → X. Half a circle in XY stands in YZ: G19, turned the same way.
+    // About Y by 90°: X → −Z, Z → X. Half a circle in XY becomes one in YZ: G19, same direction of rotation.
     const Program p = parse("G0 X0 Y0 Z0\nG68 X0 Y0 Z0 I0 J1 K0 R90\nG1 F60 X10\nG3 X-10 Y0 I-10 J0\n", "fanuc");
     EXPECT_EQ(motions(p), (Rows{"rapid 0 0 0", "feed 0 0 -10", "ccw 0 0 10"}));
     EXPECT_EQ(p.motions.arcs.at(0).axis, 0);
-    // Tilted by 45° it lies in no principal plane: chords.
+    // Tilted by 45° it is in no principal plane: chords.
     const Program tilted = parse("G0 X0 Y0 Z0\nG68 X0 Y0 Z0 I0 J1 K0 R45\nG1 F60 X10\nG3 X-10 Y0 I-10 J0\n", "fanuc");
     const Motions& m = tilted.motions;
     EXPECT_TRUE(m.arcs.empty());
@@ -53,7 +53,7 @@ TEST(FanucFrame, ScalesAndMirrors) {
     // About (10, 10) by 2 (P2000): (20, 10) → (30, 10). G50 ends it.
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nG51 X10 Y10 Z0 P2000\nG1 F60 X20 Y10\nG50 X20\n"),
               (Rows{"rapid 0 0 0", "feed 30 10 0", "feed 20 10 0"}));
-    // I −1: mirrored about X 5; a clockwise arc comes out counter-clockwise.
+    // I −1: mirrored about X 5; a clockwise arc becomes counter-clockwise.
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nG51 X5 Y0 I-1000 J1000\nG1 F60 X0\nG2 X2 I1\n"),
               (Rows{"rapid 0 0 0", "feed 10 0 0", "ccw 8 0 0"}));
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nG51.1 X0\nG1 F60 X3\nG50.1 X0\nX3\n"),
@@ -62,7 +62,7 @@ TEST(FanucFrame, ScalesAndMirrors) {
 }
 
 TEST(FanucFrame, UnevenFactorsMakeAnEllipseOfChordsWithinAMicrometre) {
-    // x = 2 · 500 cos t, y = 500 sin t: a hundred chords would leave it by 0.1 mm.
+    // x = 2 · 500 cos t, y = 500 sin t: a hundred chords would deviate by 0.1 mm.
     const Program p = parse("G0 X0 Y0 Z0\nG51 X0 Y0 I2000 J1000\nG1 F600 X500 Y0\nG3 X-500 I-500\n", "fanuc");
     const Motions& m = p.motions;
     ASSERT_GT(m.size(), 500);
@@ -71,7 +71,7 @@ TEST(FanucFrame, UnevenFactorsMakeAnEllipseOfChordsWithinAMicrometre) {
         const Vec3 a = m.begin_of(i).vec();
         const Vec3 b = m.end[static_cast<std::size_t>(i)].vec();
         EXPECT_NEAR(std::hypot(b.x() / 2, b.y()), 500, 1e-9);
-        // The ellipse's point half-way between the ends' angles, against the chord.
+        // The ellipse's point halfway between the angles of the ends, compared with the chord.
         const double t = 0.5 * (std::atan2(a.y(), a.x() / 2) + std::atan2(b.y(), b.x() / 2));
         const Vec3 displacement = (b - a).normalized();
         const Vec3 off = Vec3(1000 * std::cos(t), 500 * std::sin(t), 0) - a;
@@ -88,10 +88,10 @@ TEST(FanucFrame, MirrorsThenScalesThenTurnsInItsLocalZero) {
 }
 
 TEST(FanucPolar, CountsFromTheZeroOrFromThePosition) {
-    // Bolt circle of 100 mm: 30°, 150° (the radius stays), 270°.
+    // Bolt circle of 100 mm: 30°, 150° (the radius is modal), 270°.
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nG90 G16\nG0 X100 Y30\nY150\nY270\nG15 X0 Y0\n"),
               (Rows{"rapid 0 0 0", "rapid 86.6025 50 0", "rapid -86.6025 50 0", "rapid 0 -100 0", "rapid 0 0 0"}));
-    // G91: 10 from where the tool is, each angle added to the one before.
+    // G91: 10 from the position of the tool, each angle added to the previous one.
     EXPECT_EQ(rows("G0 X5 Y0 Z0\nG16 G91\nG1 F60 X10 Y0\nX10 Y90\n"),
               (Rows{"rapid 5 0 0", "feed 15 0 0", "feed 15 10 0"}));
     // G18: Z is the radius, X the angle.
@@ -99,7 +99,7 @@ TEST(FanucPolar, CountsFromTheZeroOrFromThePosition) {
 }
 
 TEST(FanucMacro, PassesArgumentsAndKnowsVacantOnes) {
-    // B is not given: vacant, so Y#2 is not there. M is #13.
+    // B is not given: vacant, so Y#2 has no effect. M is #13.
     EXPECT_EQ(rows("G0 X0 Y7 Z0\nG1 F60\nG65 P9 A3 M5\nM30\nO9\nIF [#2 NE #0] GOTO 5\nX#1 Y#2 Z#13\nN5 M99\n"),
               (Rows{"rapid 0 7 0", "feed 3 7 5"}));
     // Specification II: the second I is #7, its K #9.
@@ -109,7 +109,7 @@ TEST(FanucMacro, PassesArgumentsAndKnowsVacantOnes) {
     // I twice and thrice: #4, #7 and #10.
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nG65 P9 I1. I2. I3.\nM30\nO9\nX#4 Y#7 Z#10\nM99\n"),
               (Rows{"rapid 0 0 0", "rapid 1 2 3"}));
-    // The manual's own example: I4. and D5. are both #7, the later one holds.
+    // The manual's own example: I4. and D5. are both #7, the later one counts.
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nG65 A1. B2. I-3. I4. D5. P9\nM30\nO9\nX#2 Y#4 Z#7\nM99\n"),
               (Rows{"rapid 0 0 0", "rapid 2 -3 5"}));
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nG65 A1. B2. D5. I-3. I4. P9\nM30\nO9\nX#2 Y#4 Z#7\nM99\n"),
@@ -128,12 +128,12 @@ TEST(FanucMacro, CountsAsTheManualHasIt) {
     // AND, OR and XOR work bit by bit: 5 is 101, 3 is 011.
     EXPECT_EQ(rows("G0 X[5 AND 3] Y[5 OR 3] Z[5 XOR 3]\n"), (Rows{"rapid 1 7 6"}));
     EXPECT_EQ(rows("#1=4\nIF[[#1 GT 3] AND [#1 LE 5]]GOTO 1\nG0 X9 Y9 Z9\nN1 G0 X1 Y1 Z1\n"), (Rows{"rapid 1 1 1"}));
-    // FIX cuts, FUP rounds up, both by magnitude.
+    // FIX truncates, FUP rounds up, both by magnitude.
     EXPECT_EQ(rows("#1=FIX[-1.2]\n#2=FUP[-1.2]\n#3=FUP[1.2]\nG0 X#1 Y#2 Z#3\n"), (Rows{"rapid -1 -2 2"}));
     // ROUND rounds to whole numbers; in a word to the least increment: 0.001 mm, 0.0001 in.
     EXPECT_EQ(rows("#1=ROUND[2.5]\nG0 X#1 Y[ROUND[1.2345]+ROUND[2.3456]] Z0\n"), (Rows{"rapid 3 3.581 0"}));
     EXPECT_EQ(rows("G20\nG0 X0 Y0 Z[ROUND[1.00004]]\n"), (Rows{"rapid 0 0 25.4"}));
-    // Digits in four bits each: 12 is 0001'0010, which is 18. 2 to the third.
+    // Digits of four bits each: 12 is 0001'0010, which is 18. 2 to the power of 3.
     EXPECT_EQ(rows("G0 X[BCD[12]] Y[BIN[18]] Z[POW[2,3]]\n"), (Rows{"rapid 18 12 8"}));
     EXPECT_NE(error_of("#1=BIN[-1]\n", "fanuc").find("BIN of -1"), std::string::npos);
 }
@@ -161,7 +161,7 @@ TEST(FanucMacro, EndsAtItsAlarmAndReportsUnknownVariables) {
 }
 
 TEST(FanucOffsets, AreSetByG10AndByVariables) {
-    // G55 lies 5 to the right of G54 (both ways), G54.1 P1 10 up; the machine stays.
+    // G55 is 5 to the right of G54 (set in both ways), G54.1 P1 10 up; the machine does not move.
     EXPECT_EQ(rows("G54 G0 X0 Y0 Z0\nG10 L2 P2 X5\nG55\nG53 X7\nG10 L20 P1 X5 Y10\nG54.1 P1\nG53 Y12\nG54 P1 X1 Y1\n"),
               (Rows{"rapid 0 0 0", "rapid 2 0 0", "rapid 2 2 0", "rapid 1 1 0"}));
     EXPECT_EQ(rows("G54 G0 X0 Y0 Z0\n#5241=5\nG55 X#5241\nG91 G10 L2 P2 X1\nG90 G53 X0\n"),
@@ -175,14 +175,14 @@ TEST(FanucCycles, CrossAtTheLevelWhereTheyAre) {
                     "rapid 2 0 2", "rapid 3 0 2", "rapid 3 0 2", "feed 3 0 -1", "rapid 3 0 10"}));
 }
 
-/// What cuts.
+/// The cutting motions.
 Rows cuts(const std::string& text) {
     Rows all = rows(text);
     std::erase_if(all, [](const std::string& row) { return !row.starts_with("feed"); });
     return all;
 }
 
-// A row of holes: R and Z stay at the heights that were given.
+// A row of holes: R and Z keep the given heights.
 TEST(FanucCycles, KeepTheirHeightsFromG90ToG91AndBack) {
     EXPECT_EQ(cuts("G90 G0 X0 Y0 Z10\nG99 G81 X0 Y0 Z-10. R2. F100\nG91 X10. K2\nG80\n"),
               (Rows{"feed 0 0 -10", "feed 10 0 -10", "feed 20 0 -10"}));
@@ -214,7 +214,7 @@ TEST(FanucCycles, KeepTheirWordsUntilTheyEnd) {
 }
 
 TEST(FanucCycles, BoreFineAndFromBehind) {
-    // G76: aside by Q along X, out, back. G87: aside, to R below, back, up to Z.
+    // G76: sideways by Q along X, out, back. G87: sideways, to R below, back, up to Z.
     EXPECT_EQ(rows("G0 X0 Y0 Z10\nG98 G76 X1 R2 Z-5 Q0.5 F60\n"),
               (Rows{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 2", "feed 1 0 -5", "rapid 1.5 0 -5", "rapid 1.5 0 10",
                     "rapid 1 0 10"}));
@@ -231,10 +231,10 @@ TEST(FanucCycles, TapWithDwellInMilliseconds) {
 }
 
 TEST(FanucTools, GiveLengthsAndRadii) {
-    // The tool's end goes where Z says; where nothing has said it, the length shows.
+    // The end of the tool moves to Z; until a Z word comes, the length shows.
     EXPECT_EQ(motions(parse_with_tool("G54 G0 X0 Y0 Z100\nG43 H1\nX1\nZ20\nG49 X2\n", "fanuc")),
               (Rows{"rapid 0 0 100", "rapid 1 0 50", "rapid 1 0 20", "rapid 2 0 70"}));
-    // Radius 2 on the left of +Y: the entry ends at X 8 beside the begin of the cut, not beside its own way.
+    // Radius 2 to the left of +Y: the entry ends at X 8, offset from the beginning of the cut, not from its own path.
     EXPECT_EQ(motions(parse_with_tool("G0 X0 Y0 Z0\nG41 D1 G1 X10 F60\nY20\nX30\nG40 X40\n", "fanuc")),
               (Rows{"rapid 0 0 0", "feed 8 0 0", "feed 8 20 0", "cw 10 22 0", "feed 30 22 0", "feed 40 20 0"}));
     const Program none = parse("G41 D1 G1 X10 F60\n", "fanuc");
@@ -242,7 +242,7 @@ TEST(FanucTools, GiveLengthsAndRadii) {
 }
 
 TEST(FanucBlocks, NameWordsThatAStraightMotionDoesNotUse) {
-    // A corner without its comma, a centre without its G2; M and H words are the machine's own.
+    // A corner without its comma, a centre without its G2; M and H words are specific to the machine.
     const Program p =
         parse("G0 X0 Y0 Z0\nG1 X10 R5 F60\nX20 I5\nX30 M3 P2\nX40 H1\nM98 P9 L2\nM30\nO9\nX50\nM99\n", "fanuc");
     ASSERT_EQ(p.diagnostics.count("program.unused-word"), 2u);
@@ -259,7 +259,7 @@ TEST(FanucModes, AreNotedAndTheRestReported) {
     EXPECT_EQ(p.diagnostics.kept()[0].where.text(), "test.nc:4:1");
 }
 
-/// The tool axis of a motion, as far as the program gives it: "x y z".
+/// The tool axis of a motion, if the program determines it: "x y z".
 std::string axis_of(const Program& p, std::size_t motion) {
     if (p.motions.tool_axis.empty()) return "none";
     const Vec3 a = p.motions.tool_axis[motion].vec();
@@ -268,7 +268,7 @@ std::string axis_of(const Program& p, std::size_t motion) {
 }
 
 TEST(FanucTiltedPlanes, AreEulerAnglesOrTurnsAboutTheWorkAxes) {
-    // I 90: x' = y. J 90 about x': z' = x. So (1, 2, 3) of the plane is y 1, z 2, x 3, moved by (10, 20, 30).
+    // I 90: x' = y. J 90 about x': z' = x. So (1, 2, 3) of the plane is y 1, z 2, x 3, shifted by (10, 20, 30).
     Program p = parse("G0 X0 Y0 Z0\nG68.2 X10 Y20 Z30 I90 J90 K0\nG53.1\nG1 X1 Y2 Z3 F60\nG69\nG0 X0 Y0 Z0\n", "fanuc");
     EXPECT_EQ(p.diagnostics.count("program.rotation"), 0u);
     EXPECT_EQ(motions(p), (Rows{"rapid 0 0 0", "rapid 0 0 0", "feed 13 21 32", "rapid 0 0 0"}));
@@ -276,15 +276,15 @@ TEST(FanucTiltedPlanes, AreEulerAnglesOrTurnsAboutTheWorkAxes) {
     EXPECT_EQ(axis_of(p, 1), "1.0000 0.0000 0.0000");
     EXPECT_EQ(axis_of(p, 2), "1.0000 0.0000 0.0000");
     EXPECT_EQ(axis_of(p, 3), "none");
-    // K turns in the plane: the same normal.
+    // K rotates in the plane: the same normal.
     EXPECT_EQ(axis_of(parse("G0 X0 Y0 Z0\nG68.2 X0 Y0 Z0 I90 J90 K37\nG53.1\n", "fanuc"), 1), "1.0000 0.0000 0.0000");
     // P1: about the work axes, X first: by 90° (y → z, z → −y), then Y by 90° (x → −z, z → x): normal −y stays −y. Y
-    // first: z → x, which X leaves.
+    // first: z → x, which X does not change.
     EXPECT_EQ(axis_of(parse("G0 X0 Y0 Z0\nG68.2 P1 Q123 X0 Y0 Z0 I90 J90 K0\nG53.1\n", "fanuc"), 1),
               "0.0000 -1.0000 0.0000");
     EXPECT_EQ(axis_of(parse("G0 X0 Y0 Z0\nG68.2 P1 Q213 X0 Y0 Z0 I90 J90 K0\nG53.1\n", "fanuc"), 1),
               "1.0000 0.0000 0.0000");
-    // Inches; arcs in a plane that stands on edge are arcs about its normal.
+    // Inches; arcs in a vertical plane are arcs about its normal.
     p = parse("G20 G0 X0 Y0 Z0\nG68.2 X1 Y0 Z0 I0 J90 K0\nG53.1\nG1 X0 Y0 Z0 F60\nG2 X1 Y0 R0.5\n", "fanuc");
     EXPECT_EQ(p.motions.arcs.at(0).axis, 1);
 }
@@ -313,7 +313,7 @@ TEST(Programs, TellOfMissingFeedsEndsAndAxes) {
     EXPECT_EQ(p.diagnostics.count("program.no-feed"), 1u);
     EXPECT_EQ(p.diagnostics.count("program.no-end"), 1u);
     EXPECT_EQ(p.diagnostics.kept()[0].where.text(), "test.nc:1");
-    // An axis beside X Y Z: where it stays at 0 all is known, moved it takes the tool elsewhere.
+    // An axis other than X Y Z: while it stays at 0 everything is known; if it moves, the tool is elsewhere.
     EXPECT_EQ(p.diagnostics.count("program.axis"), 0u);
     for (const char* dialect : {"fanuc", "siemens"}) {
         EXPECT_TRUE(

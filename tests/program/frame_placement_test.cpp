@@ -1,4 +1,4 @@
-// Work frames put together: every position is worked out on paper as machine = tool + offset + turned (word + G92).
+// Combined work frames: every position is computed by hand as machine = tool + offset + rotated (word + G92).
 
 #include <gtest/gtest.h>
 
@@ -39,14 +39,14 @@ TEST(WorkFrames, AnotherSystemLiesWhereItsOffsetPutsIt) {
 }
 
 TEST(WorkFrames, AShiftOfThePositionMovesNothing) {
-    // At X 82 Y 10 these become zero: the plunge is 5 mm long, and the workpiece's zero lies there.
+    // X 82 Y 10 becomes zero: the plunge is 5 mm long, and the workpiece's zero is there.
     const char* text = "G21 G90\nG0 X82 Y10 Z5\nG92 X0 Y0\nG1 Z0 F100\nX10\nM2\n";
     EXPECT_EQ(on_machine(text), (Rows{"rapid 82 10 5", "feed 82 10 0", "feed 92 10 0"}));
     EXPECT_EQ(on_workpiece(text), (Rows{"rapid 0 0 5", "feed 0 0 0", "feed 10 0 0"}));
 }
 
 TEST(WorkFrames, ASystemIsTurnedAboutItsZero) {
-    // R 90: X 5 of the work system is Y 5 of the machine. An arc in the plane stays one.
+    // R 90: X 5 of the work system is Y 5 of the machine. An arc in the plane remains an arc.
     const char* text = "G21 G90\nG10 L2 P1 X10 Y0 Z0 R90\nG54 G0 X0 Y0 Z0\nG1 X5 F600\nG2 X10 I2.5\nM2\n";
     EXPECT_EQ(on_machine(text), (Rows{"rapid 10 0 0", "feed 10 5 0", "cw 10 10 0"}));
     EXPECT_EQ(on_workpiece(text), (Rows{"rapid 0 0 0", "feed 5 0 0", "cw 10 0 0"}));
@@ -64,7 +64,7 @@ TEST(WorkFrames, MotionsAreNotPlacedTwice) {
 }
 
 TEST(WorkFrames, SystemsShiftsAndRotationsTogether) {
-    // machine = G55 + turned by 30° (word + G92): cos 30° = 0.866025.
+    // machine = G55 + rotated by 30° (word + G92): cos 30° = 0.866025.
     const char* text =
         "G21 G90 G17\nG10 L2 P1 X5 Y-3 Z2\nG10 L2 P2 X120 Y30 Z-4 R30\nG54 F2500\nG1 X20 Y0 Z0\nG55\nG1 X20 Y5 Z0\n"
         "X0 Y0\nG92 X3 Y4\nX10 Y10\nM2\n";
@@ -84,7 +84,7 @@ TEST(WorkFrames, ATurnedArcOfG18BecomesChordsOnItsCircle) {
     ASSERT_GT(m.size(), before + 10);
     EXPECT_TRUE(m.arcs.empty());
     EXPECT_EQ(program.events.size(), events);
-    // Centre (5, 0, 0), turned by 30°.
+    // Centre (5, 0, 0), rotated by 30°.
     const Vec3 centre(5 * std::cos(30 * rad_per_deg), 2.5, 0);
     for (std::int64_t i = 1; i + 1 < m.size(); ++i) {
         const auto at = static_cast<std::size_t>(i);
@@ -98,7 +98,7 @@ TEST(WorkFrames, ATurnedArcOfG18BecomesChordsOnItsCircle) {
 }
 
 TEST(WorkFrames, FanucAndSiemensFramesAreInsideTheirWorkSystem) {
-    // G55 at Y 50 by G10; G68 turns by 90° about the work zero; G52 shifts.
+    // G55 at Y 50 by G10; G68 rotates by 90° about the work zero; G52 shifts.
     EXPECT_EQ(
         on_machine(
             "G21 G90\nG10 L2 P2 X0 Y50 Z0\nG55 G0 X0 Y0 Z0\nG68 X0 Y0 R90\nG1 X5 F600\nG69\nG52 X1\nG1 X0 Y0\nM30\n",
@@ -110,7 +110,7 @@ TEST(WorkFrames, FanucAndSiemensFramesAreInsideTheirWorkSystem) {
 }
 
 TEST(WorkFrames, APoseFromOutsideMovesOnlyWhatTheProgramLeavesOpen) {
-    // G54 lies at X −300 Z −400 on the machine; G55 is set to X 100 of the machine, Y and Z to 0: 400 away from it.
+    // G54 is at X −300 Z −400 of the machine; G55 is set to X 100 of the machine, Y and Z to 0: 400 away from it.
     FramePoses poses;
     poses.zero = pose_of(Vec3(-300, 0, -400), 0);
     EXPECT_EQ(on_workpiece("G21 G90\nG10 L2 P2 X100 Y0 Z0\nG54 G0 X0 Y0 Z5\nG1 X20 F300\nG55 G1 X0 Y0 Z-400\nM2\n",
@@ -132,7 +132,7 @@ TEST(WorkFrames, ASystemOfItsOwnPoseIsNamed) {
     FramePoses poses;
     poses.zero = pose_of(Vec3(10, 0, 0), 0);
     const char* text = "G21 G90\nG54 G0 X0 Y0 Z5\nG1 X20 F300\nG55 G1 X0 Y0\nM2\n";
-    // Not named, G55 lies where G54 lies.
+    // If it is not named, G55 is at the position of G54.
     EXPECT_EQ(on_workpiece(text, "linuxcnc", poses), (Rows{"rapid 0 0 5", "feed 20 0 5", "feed 0 0 5"}));
     poses.systems[2] = pose_of(Vec3(110, 0, 0), 90);
     EXPECT_EQ(on_workpiece(text, "linuxcnc", poses), (Rows{"rapid 0 0 5", "feed 20 0 5", "feed 100 0 5"}));

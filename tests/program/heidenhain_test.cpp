@@ -1,4 +1,4 @@
-// Heidenhain DIN/ISO; the answers are worked out on paper beside each program.
+// Heidenhain DIN/ISO; the expected values are computed by hand next to each program.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ TEST(Heidenhain, MirrorsAxesThatStandWithoutANumber) {
 }
 
 TEST(Heidenhain, TakesTheCentreAsAPointThatStays) {
-    // I and J are absolute and may stand in a block before the arc.
+    // I and J are absolute and may be in a block before the arc.
     const Program p = parse(
         "%PART G71 *\nN10 G00 G90 X+0 Y+0 Z+5 *\nN20 I+10 J+0 *\nN30 G02 X+20 Y+0 F60 *\nN40 G03 X+0 *\nN50 G91 G02 X+8 I+4 J+0*\n",
         "heidenhain-iso");
@@ -40,7 +40,7 @@ TEST(Heidenhain, ArcsByRadiusAndTangent) {
 }
 
 TEST(Heidenhain, ShiftsTurnsMirrorsAndScalesByCycle) {
-    // (1, 0) turned by 90° in the shifted frame: (10, 1).
+    // (1, 0) rotated by 90° in the shifted frame: (10, 1).
     EXPECT_EQ(rows("G00 G90 X0 Y0 Z0*\nG54 X+10 Y+0*\nG73 H+90*\nG01 X1 Y0 F60*\nG73 H+0*\nG54 X0 Y0*\nX1*\n"),
               (Rows{"rapid 0 0 0", "feed 10 1 0", "feed 1 1 0"}));
     EXPECT_EQ(rows("G00 G90 X0 Y0 Z0*\nG28 X*\nG01 X1 F60*\nG28*\nG72 F2*\nX3*\n"),
@@ -49,7 +49,7 @@ TEST(Heidenhain, ShiftsTurnsMirrorsAndScalesByCycle) {
 }
 
 TEST(Heidenhain, CallsAndRepeatsLabels) {
-    // Label 1 as a subprogram; the section from label 2 on runs once and twice more.
+    // Label 1 as a subprogram; the section from label 2 on runs once and two more times.
     EXPECT_EQ(rows("G00 G90 X0 Y0 Z0*\nL1,0*\nG98 L2*\nG91 Y1*\nL2,2*\nG90 Z1*\nM30*\nG98 L1*\nX5*\nG98 L0*\n"),
               (Rows{"rapid 0 0 0", "rapid 5 0 0", "rapid 5 1 0", "rapid 5 2 0", "rapid 5 3 0", "rapid 5 3 1"}));
     EXPECT_NE(error_of("L7,2*\n", "heidenhain-iso").find("no label to repeat"), std::string::npos);
@@ -64,7 +64,7 @@ TEST(Heidenhain, CountsWithQFunctions) {
 }
 
 TEST(Heidenhain, BeginsAndEndsWithItsNameAndUnit) {
-    // G70: inches, and tenths of an inch a minute: F100 is 254 mm/min. Behind the closing title nothing runs.
+    // G70: inches, and tenths of an inch per minute: F100 is 254 mm/min. Nothing after the closing title runs.
     const Program p =
         parse("%PART G70 *\nN10 G00 G90 X+1 Y+0 Z+0 *\nN20 G01 X+2 F100 *\nN99999999 %PART G70 *\nN10 X+9 *\n",
               "heidenhain-iso");

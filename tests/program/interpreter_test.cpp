@@ -22,8 +22,8 @@ TEST(Interpreter, ConvertsInchesAndFeeds) {
     EXPECT_NEAR(p.motions.feed[0], 254.0 / 60, 1e-4);
 }
 
-// A line that only turns counts degrees, in inches, too. Under G93 it takes 1/F minutes: 3 and 4 degrees are 5, and at F2
-// 10 deg/min. A line that moves nothing has a feed all the same, or it could not be simulated.
+// For a line that only turns, F counts degrees, with inches, too. Under G93 it takes 1/F minutes: 3 and 4 degrees are 5, and
+// at F2 10 deg/min. A line without movement has a feed, too, because it could not be simulated otherwise.
 TEST(Interpreter, CountsDegreesWhereOnlyRotaryAxesMove) {
     const Program p = parse("G20 G0 X1 Y0 Z0 A0 C0\nG1 A30 F120\nG93 A33 C4 F2\nX1 F2\nG95 M3 S60 C5 F2\n", "linuxcnc");
     ASSERT_EQ(p.motions.size(), 5);
@@ -68,14 +68,14 @@ TEST(Interpreter, MakesAWrongArcAnErrorWithBothRadii) {
 }
 
 TEST(Interpreter, ShiftsWithG92AndWorkOffsets) {
-    // G92 makes the present position read 10; G10 L2 moves the zero of G55 to machine X 5.
+    // G92 sets the present position to 10; G10 L2 moves the zero of G55 to machine X 5.
     EXPECT_EQ(
         motions(parse("G0 X1 Y0 Z0\nG92 X10\nG0 X11\nG92.1\nG0 X0\nG10 L2 P2 X5\nG55 G0 X0\nG53 G0 X0\n", "linuxcnc")),
         (Rows{"rapid 1 0 0", "rapid 11 0 0", "rapid 0 0 0", "rapid 0 0 0", "rapid -5 0 0"}));
 }
 
 TEST(Interpreter, RunsCannedCyclesAsMotions) {
-    // G83, Q 2 from R 1 to Z −3: pecks at −1 and −3, out to R between, 0.254 mm above the last depth.
+    // G83, Q 2 from R 1 to Z −3: pecks at −1 and −3, retraction to R in between, then to 0.254 mm above the last depth.
     EXPECT_EQ(motions(parse("G0 X0 Y0 Z5\nG98 G83 X1 Y2 Z-3 R1 Q2 F60\nG80\n", "linuxcnc")),
               (Rows{"rapid 0 0 5", "rapid 1 2 5", "rapid 1 2 1", "feed 1 2 -1", "rapid 1 2 1", "rapid 1 2 -0.746",
                     "feed 1 2 -3", "rapid 1 2 5"}));
@@ -89,7 +89,7 @@ TEST(Interpreter, ReturnsToTheLevelWhereACycleBegan) {
 }
 
 TEST(Interpreter, SetsTheZeroOfATurnedSystem) {
-    // Turned by 90°: X 10 of the program is machine Y 10. There L20 makes the position read (3, 4).
+    // Rotated by 90°: X 10 of the program is machine Y 10. There L20 sets the position to (3, 4).
     EXPECT_EQ(motions(parse("G10 L2 P1 R90\nG0 X10 Y0\nG10 L20 P1 X3 Y4\nG0 X4 Y4\nG53 G0 X0 Y11\n", "linuxcnc")),
               (Rows{"rapid 10 0 0", "rapid 4 4 0", "rapid 4 4 0"}));
 }
@@ -169,7 +169,7 @@ TEST(Interpreter, SurvivesBrokenBlocks) {
         for (const Dialect& dialect : dialects()) {
             try {
                 (void)parse(text, dialect.name.data());
-            } catch (const InputError&) {  // a clear error is as good an answer as any
+            } catch (const InputError&) {  // a clear error is a valid answer, too
             }
         }
     }

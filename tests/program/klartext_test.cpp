@@ -1,4 +1,4 @@
-// HEIDENHAIN Klartext; the answers are worked out on paper beside each program.
+// HEIDENHAIN Klartext; the expected values are computed by hand next to each program.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ TEST(Klartext, ReadsLinesWithFeedsThatStay) {
     EXPECT_FLOAT_EQ(p.motions.feed[4], 500 / 60.F);
     EXPECT_EQ(p.motions.line[4], 10U);
     EXPECT_TRUE(p.diagnostics.summary().empty());
-    // A block of one axis needs no L.
+    // A block with one axis needs no L.
     EXPECT_EQ(rows("L X+1 Y+1 Z+1 R0 FMAX\nZ+50 R0 F100\n"), (Rows{"rapid 1 1 1", "feed 1 1 50"}));
 }
 
@@ -113,7 +113,7 @@ TEST(Klartext, CalculatesWithQParameters) {
 }
 
 TEST(Klartext, CallsAndRepeatsLabels) {
-    // Label 1 as a subprogram; the section from label 2 on runs once and twice more.
+    // Label 1 as a subprogram; the section from label 2 on runs once and two more times.
     EXPECT_EQ(rows("L X+0 Y+0 Z+0 FMAX\nCALL LBL 1\nLBL 2\nL IY+1 FMAX\nCALL LBL 2 REP 2\nCALL LBL \"TOP\"\nM30\n"
                    "LBL 1\nL X+5 FMAX\nLBL 0\nLBL \"TOP\"\nL Z+1 FMAX\nLBL 0\n"),
               (Rows{"rapid 0 0 0", "rapid 5 0 0", "rapid 5 1 0", "rapid 5 2 0", "rapid 5 3 0", "rapid 5 3 1"}));
@@ -122,19 +122,19 @@ TEST(Klartext, CallsAndRepeatsLabels) {
 }
 
 TEST(Klartext, ShiftsTurnsMirrorsAndScalesByCycle) {
-    // (1, 0) turned by 90° in the shifted frame: (10, 1).
+    // (1, 0) rotated by 90° in the shifted frame: (10, 1).
     EXPECT_EQ(rows("L X+0 Y+0 Z+0 FMAX\nCYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+10\nCYCL DEF 7.2 Y+0\n"
                    "CYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+90\nL X+1 Y+0 FMAX\nCYCL DEF 10.1 ROT+0\n"
                    "CYCL DEF 7.1 X+0\nL X+1 FMAX\n"),
               (Rows{"rapid 0 0 0", "rapid 10 1 0", "rapid 1 1 0"}));
-    // 30° and 60° more are 90°, and 180° less of them −90°; ROT begins anew.
+    // 30° and 60° more are 90°, and minus 180° is −90°; ROT without increment starts from zero.
     EXPECT_EQ(rows("L X+0 Y+0 Z+0 FMAX\nCYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+30\nCYCL DEF 10.1 IROT+60\n"
                    "L X+2 Y+0 FMAX\nCYCL DEF 10.1 IROT-180\nL X+2 Y+0 FMAX\nCYCL DEF 10.1 ROT+180\nL X+2 Y+0 FMAX\n"),
               (Rows{"rapid 0 0 0", "rapid 0 2 0", "rapid 0 -2 0", "rapid -2 0 0"}));
     EXPECT_NE(error("CYCL DEF 10.1 +30\n").find("expected ROT or IROT"), std::string::npos);
     EXPECT_EQ(rows("L X+0 Y+0 Z+0 FMAX\nCYCL DEF 8.1 X\nL X+1 FMAX\nCYCL DEF 8.1\nCYCL DEF 11.1 SCL 2\nL X+3 FMAX\n"),
               (Rows{"rapid 0 0 0", "rapid -1 0 0", "rapid 6 0 0"}));
-    // Twice as long from X10: 12 becomes 14.
+    // Scaled by two about X10: 12 becomes 14.
     EXPECT_EQ(rows("CYCL DEF 26.1 X2 Y1 CCX+10 CCY+0\nL X+12 Y+3 Z+0 FMAX\n"), (Rows{"rapid 14 3 0"}));
     EXPECT_EQ(rows("TRANS DATUM AXIS X+5\nL X+1 Y+0 Z+0 FMAX\nTRANS DATUM RESET\nL X+1 FMAX\n"),
               (Rows{"rapid 6 0 0", "rapid 1 0 0"}));
@@ -162,13 +162,13 @@ TEST(Klartext, TakesTheToleranceOfCycle32) {
 }
 
 TEST(Klartext, TiltsThePlaneAboutTheFixedAxes) {
-    // 90° about X: (x, y, z) lies at (x, −z, y).
+    // 90° about X: (x, y, z) is at (x, −z, y).
     EXPECT_EQ(rows("PLANE SPATIAL SPA+90 SPB+0 SPC+0 STAY\nL X+1 Y+2 Z+3 FMAX\nPLANE RESET STAY\nL X+1 FMAX\n"),
               (Rows{"rapid 1 -3 2", "rapid 1 -3 2"}));
-    // About X first, then about the fixed Z: (1, −3, 2) lies at (3, 1, 2).
+    // About X first, then about the fixed Z: (1, −3, 2) is at (3, 1, 2).
     EXPECT_EQ(rows("PLANE SPATIAL SPA+90 SPB+0 SPC+90 STAY\nL X+1 Y+2 Z+3 FMAX\n"), (Rows{"rapid 3 1 2"}));
     EXPECT_EQ(rows("PLANE VECTOR BX+1 BY+0 BZ+0 NX+0 NY-1 NZ+0 STAY\nL X+1 Y+2 Z+3 FMAX\n"), (Rows{"rapid 1 -3 2"}));
-    // TURN brings the tool onto the normal of the plane, −Y.
+    // TURN orients the tool along the normal of the plane, −Y.
     const Program p =
         program_of("L X+0 Y+0 Z+9 FMAX\nPLANE SPATIAL SPA+90 SPB+0 SPC+0 TURN FMAX\nL X+1 Y+2 Z+3 FMAX\n");
     EXPECT_EQ(motions(p), (Rows{"rapid 0 0 9", "rapid 0 0 9", "rapid 1 -3 2"}));
@@ -185,7 +185,7 @@ TEST(Klartext, FollowsTheTipWithM128) {
     EXPECT_NEAR(p.motions.tool_axis[0].z, 0.8, 1e-12);
     EXPECT_EQ(p.events.at(0).value, "M128");
     EXPECT_NE(error("LN X+1 Y+2 Z+3 TX+0 TY+0 TZ+1 F500\n").find("need M128"), std::string::npos);
-    // M128 with a feed of its own, M91 in its block.
+    // M128 with its own feed, M91 in its block.
     EXPECT_EQ(rows("L X+0 Y+0 Z+0 FMAX\nL X+1 F100 M128 F500\nL X+2\n"),
               (Rows{"rapid 0 0 0", "feed 1 0 0", "feed 2 0 0"}));
 }

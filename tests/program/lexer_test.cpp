@@ -31,7 +31,7 @@ TEST(Decimal, StopsBeforeAnExponentAndRefusesAnEmptyNumber) {
 }
 
 TEST(Decimal, IsCorrectlyRounded) {
-    // Against the library's reader, 10^5 random texts of up to 22 digits.
+    // Compared with the standard library's reader on 10^5 random texts of up to 22 digits.
     std::mt19937_64 random(1);
     for (int i = 0; i < 100'000; ++i) {
         std::string text;

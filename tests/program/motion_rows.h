@@ -1,5 +1,5 @@
 #pragma once
-// Programs in tests: from a text to rows of motions, or to its error.
+// Converts programs in tests to rows of motions, or to their error.
 
 #include <cmath>
 #include <memory>

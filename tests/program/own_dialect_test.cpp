@@ -1,4 +1,4 @@
-// A dialect of one's own, defined outside of the library: its rules are one value, and the interpreter asks nothing else.
+// A dialect that is defined outside of the library: its rules are one value, and the interpreter needs nothing else.
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 namespace clsurf::own_dialect_test {
 namespace {
 
-// A drilling machine's language: G77 moves at half the feed, M41 doubles it, "TURN" rotates what follows by 90°,
-// "; …" is a comment, "AGAIN" jumps to the label "BEGIN:" while #1 is less than 2.
+// The language of a drilling machine: G77 moves at half the feed, M41 doubles it, "TURN" rotates the following positions by
+// 90°, "; …" is a comment, "AGAIN" jumps to the label "BEGIN:" while #1 is less than 2.
 constexpr auto codes = std::to_array<CodeRule>({
     {77_g,
      [](Interpreter& in, const CodeWord& word) {
@@ -55,7 +55,7 @@ TEST(OwnDialect, MeansWhatItsRulesSay) {
         "G0 X0 Y0 Z0 ; (home\nG77 X10 F600\nM41 Y5\n#1=0\nBEGIN:\n#1=[#1+1]\nZ[#1]\n"
         "AGAIN [#1 LT 2]\nTURN\nG1 X20 Y0\nM30\n";
     const Program program = parse_program(SourceText("part.drl", text, nullptr), options);
-    // X20 turned by 90° is Y20; 600 mm/min halved is 5 mm/s, doubled again 10 mm/s.
+    // X20 rotated by 90° is Y20; 600 mm/min halved is 5 mm/s, doubled again 10 mm/s.
     EXPECT_EQ(motions(program),
               (Rows{"rapid 0 0 0", "feed 10 0 0", "feed 10 5 0", "feed 10 5 1", "feed 10 5 2", "feed 0 20 2"}));
     EXPECT_EQ(program.motions.feed[1], 5);

@@ -1,4 +1,4 @@
-// Exact stops and tolerances of corners, as each dialect writes them.
+// Exact stops and corner tolerances in each dialect.
 
 #include <cmath>
 #include <limits>
@@ -57,7 +57,8 @@ TEST(PathModes, Cycle832TakesVariablesExpressionsAndNames) {
     EXPECT_EQ(modes(program, "siemens"),
               (Rows{"0 rounded 20000", "0 rounded 40000", "0 rounded 10000", "0 stop -", "0 rounded own",
                     "0 rounded 50000", "0 rounded 50000", "0 rounded own"}));
-    // A variable of the control: with a value from the program it is one, without it the machine's own tolerance counts.
+    // A variable of the control: if the program gives it a value, that is the tolerance, otherwise the machine's own
+    // tolerance counts.
     EXPECT_EQ(modes("_CAMTOL=0.03\nCYCLE832(_CAMTOL,1)\nCYCLE832(_NOWHERE,1)\n", "siemens"),
               (Rows{"0 rounded 30000", "0 rounded own"}));
     const Program unknown = parse("G0 X1\nCYCLE832(_NOWHERE,1)\n", "siemens");

@@ -1,4 +1,4 @@
-// A program read in pieces is the program read at once.
+// A program read in pieces equals the program read at once.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ bool same(const Xyz& a, const Xyz& b) {
     return equal(a.x, b.x) && equal(a.y, b.y) && equal(a.z, b.z);
 }
 
-/// Motions of a piece against those of the whole program from `first` on.
+/// Compares the motions of a piece with those of the whole program from `first` on.
 void expect_piece(const Program& piece, std::int64_t size, const Program& whole, std::int64_t first) {
     const Motions &m = piece.motions, &w = whole.motions;
     ASSERT_LE(first + size, w.size());
@@ -88,16 +88,16 @@ TEST(ProgramReader, SamplePrograms) {
 }
 
 TEST(ProgramReader, WhatLooksBackAtMotionsThatAreForgotten) {
-    // A tangential arc behind a plunge and waits: the last way in its plane is that along X.
+    // A tangential arc after a plunge and dwells: the last motion in its plane is that along X.
     expect_same("G00 G90 X0 Y0 Z0*\nG01 X10 F60*\nG01 Z-1*\nG04 F1*\nG04 F1*\nZ-2*\nG06 X10 Y10*\nG06 X20 Y20*\n",
                 "heidenhain-iso");
-    // An inside corner of cutter compensation moves the end of the motion before; motions of a depth between keep to it.
+    // An inside corner of cutter compensation moves the end of the previous motion; plunges in between follow it.
     expect_same("G0 X0 Y0 Z0\nG41.1 D2 G1 X10 Y0 F60\nX20\nZ-1\nZ-2\nY10\nX5\nG40 X0 Y20\nX1\nM2\n", "linuxcnc");
     expect_same("G21 G90 G0 X0 Y0 Z0\nG10 L12 P1 R1\nG41 D1 G1 X10 Y0 F60\nZ-1\nX20\nY10\nX5\nG40 X0 Y20\nX1\nM30\n",
                 "fanuc");
-    // A length that was taken off since the last motion is read again at the tool change.
+    // A length that was changed since the last motion is read again at the tool change.
     expect_same("G0 X1 Y1 Z1\nT1 M6 G43\nG1 X2 F60\nT2 M6 G43\nG0 Z5\nM2\n", "linuxcnc");
-    // Subprograms, loops, rotary axes that begin late, a second program number behind the first program.
+    // Subprograms, loops, rotary axes that begin late, a second program number after the first program.
     expect_same(
         "o100 sub\nG1 X#1 F60\nG2 X[#1+2] I1 J0\no100 endsub\n#2=0\no1 repeat [5]\n#2=[#2+10]\no100 call [#2]\nG64 P[0.001*#2]\no1 endrepeat\nG1 A90\nX0\nM2\n",
         "linuxcnc");

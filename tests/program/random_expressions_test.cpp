@@ -1,5 +1,5 @@
-// The reader of expressions against trees that are evaluated without it: random expressions with no more brackets than
-// the order of operators asks for, in the notation of RS274 and in that of Fanuc's macros.
+// Compares the reader of expressions with independently evaluated trees: random expressions with no more brackets than
+// operator precedence requires, in the notation of RS274 and in that of Fanuc's macros.
 #include <cmath>
 #include <memory>
 #include <random>
@@ -56,7 +56,7 @@ private:
         const Tree b{fmt::format("{}", exponent), static_cast<double>(exponent), 4};
         return join(a, "**", b, 3, std::pow(a.value, exponent));
     }
-    /// All operators group from the left: an equal one on the right needs brackets.
+    /// All operators are left-associative: an equal one on the right needs brackets.
     static Tree join(const Tree& a, const char* op, const Tree& b, int binding, double value) {
         const auto bracketed = [](const Tree& t, bool needed) { return needed ? "[" + t.text + "]" : t.text; };
         return {bracketed(a, a.binding < binding) + " " + op + " " + bracketed(b, b.binding <= binding), value,
@@ -77,7 +77,7 @@ TEST(RandomExpressions, AreWhatTheirTreesAre) {
         std::vector<Tree> trees;
         while (trees.size() < count) {
             Tree tree = grower.grow(4);
-            // What fits an axis: positions in mm.
+            // Values in the range of an axis: positions in mm.
             if (!(std::abs(tree.value) < 9000) || tree.text.size() > 200) continue;
             text += "G1 F600 X[" + tree.text + "]\n";
             trees.push_back(std::move(tree));
@@ -89,7 +89,7 @@ TEST(RandomExpressions, AreWhatTheirTreesAre) {
         const Program program = parse_program(SourceText("made.nc", *kept, kept), options);
         const LineNumber first = std::string(dialect) == "fanuc" ? 4 : 2;
         ASSERT_FALSE(program.diagnostics.has_errors()) << dialect;
-        // A motion without way may be left out: each is looked up by its line.
+        // A motion of zero length may be omitted: each is looked up by its line.
         std::size_t found = 0;
         for (std::size_t m = 0; m < program.motions.kind.size(); ++m) {
             const auto k = static_cast<std::size_t>(program.motions.line[m] - first);

@@ -1,4 +1,4 @@
-// Words that move axes and that are not understood end the reading: a path beside the true one is worse than none.
+// Words that move axes and are not understood end the reading: a path next to the true one is worse than none.
 
 #include <gtest/gtest.h>
 
@@ -59,7 +59,7 @@ TEST(RefusedWords, AxesWithoutAValue) {
         expect_error("G0 X0 Y0\nG1 X1 YF100\n", dialect, "2:7: error: Y has no value", "");
     }
     expect_error("G0 X0 Y0\nG1 X1 Y F100\n", "siemens", "2:7: error: Y has no value", "");
-    // Fanuc's vacant variable takes its word away.
+    // Fanuc's vacant variable removes its word.
     EXPECT_EQ(motions(parse("G0 X0 Y0 Z0\nG1 X1 Y#100 F100\n", "fanuc")), (Rows{"rapid 0 0 0", "feed 1 0 0"}));
 }
 
@@ -71,11 +71,11 @@ TEST(RefusedWords, TurnsOfArcsOfOtherDialects) {
 }
 
 TEST(RefusedWords, PositioningCodesOfFanucAreCarriedOut) {
-    // G27 and G29 end where they say, G60 comes from one side, G31 is taken to touch at its end.
+    // G27 and G29 end at their positions, G60 approaches from one side, G31 is assumed to touch at its end.
     const Program p = parse("G0 X0 Y0 Z0\nG27 X5\nG60 Y5\nG29 X1 Y1\nG1 Z-1 F60\nG31 P1 Z-9 F120\nX3\n", "fanuc");
     EXPECT_EQ(motions(p), (Rows{"rapid 0 0 0", "rapid 5 0 0", "rapid 5 5 0", "rapid 1 1 0", "feed 1 1 -1",
                                 "feed 1 1 -9", "feed 3 1 -9"}));
-    // Its F stays.
+    // Its F is modal.
     EXPECT_FLOAT_EQ(p.motions.feed[5], 2);
     EXPECT_FLOAT_EQ(p.motions.feed[6], 2);
 }

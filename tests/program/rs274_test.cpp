@@ -1,4 +1,4 @@
-// Rules of RS274 as LinuxCNC has them; the answers are worked out on paper beside each program.
+// Rules of RS274 as in LinuxCNC; the expected values are computed by hand next to each program.
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 std::string inside_comp(const std::string& path) { return "G41.1 D4\nG1 F60 X10\nX20\n" + path + "G40\nG1 X50\n"; }
 
 TEST(CutterCompensation, GoesAroundAnOutsideCornerAndComesBackToTheProgrammedPath) {
-    // Radius 2 on the right: below the first line, then a quarter circle about (20, 0), then beside X 20.
+    // Radius 2 on the right: below the first line, then a quarter circle about (20, 0), then offset from X 20.
     const Program p = parse("G42.1 D4\nG1 F60 X10\nX20\nY10\nG40\nG1 X50\n", "linuxcnc");
     EXPECT_EQ(motions(p), (Rows{"feed 10 -2 0", "feed 20 -2 0", "ccw 22 0 0", "feed 22 10 0", "feed 50 10 0"}));
     ASSERT_EQ(p.motions.arcs.size(), 1u);
@@ -18,7 +18,7 @@ TEST(CutterCompensation, GoesAroundAnOutsideCornerAndComesBackToTheProgrammedPat
 }
 
 TEST(CutterCompensation, CutsAnInsideCornerShort) {
-    // A right angle to the left: both lines end and begin at (18, 2). A plunge in the corner goes along.
+    // A right angle to the left: both lines end and begin at (18, 2). A plunge in the corner moves with it.
     EXPECT_EQ(motions(parse(inside_comp("Z-1\nY10\n"), "linuxcnc")),
               (Rows{"feed 10 2 0", "feed 18 2 0", "feed 18 2 -1", "feed 18 10 -1", "feed 50 10 -1"}));
 }
@@ -34,20 +34,20 @@ TEST(CutterCompensation, KeepsBesideArcs) {
 }
 
 TEST(CutterCompensation, JoinsArcsWhereTheirTracksCross) {
-    // Radii 3 and 7 grow to 5 and 9 about (23, 0) and (33, 0): 10 apart, they cross 2.2 on, √20.16 up.
+    // Radii 3 and 7 become 5 and 9 about (23, 0) and (33, 0): 10 apart, they intersect 2.2 on, √20.16 up.
     EXPECT_EQ(motions(parse(inside_comp("G2 X26 I3\nG2 X40 I7\nG1 Y-5\n"), "linuxcnc")),
               (Rows{"feed 10 2 0", "feed 18.4174 2 0", "cw 25.2 4.49 0", "cw 42 0 0", "feed 42 -5 0", "feed 50 -5 0"}));
 }
 
 TEST(CutterCompensation, EntersByAnArcThatEndsTangent) {
-    // To (8, 10) beside the end, with its centre on Y 10 as far from the origin: −2.25.
+    // To (8, 10), offset from the end, with its centre on Y 10 at the same distance from the origin: −2.25.
     const Program p = parse("G41.1 D4\nG3 F60 X10 Y10 J10\nG1 Y20\nG40\n", "linuxcnc");
     EXPECT_EQ(motions(p), (Rows{"ccw 8 10 0", "feed 8 20 0"}));
     EXPECT_DOUBLE_EQ(p.motions.arcs[0].centre.x, -2.25);
 }
 
 TEST(CutterCompensation, WorksInTheLathesPlane) {
-    // G18 turns from Z to X: right of +X is +Z.
+    // G18 rotates from Z to X: right of +X is +Z.
     EXPECT_EQ(motions(parse("G18 G42.1 D4\nG1 F60 X10\nX20\n", "linuxcnc")), (Rows{"feed 10 0 2", "feed 20 0 2"}));
 }
 
@@ -67,13 +67,13 @@ TEST(CutterCompensation, SaysWhyATooLargeToolCannotGoThere) {
 }
 
 TEST(ToolTable, IsThatOfTheStandAloneInterpreter) {
-    // T1: 0.511 inch long, 0.125 inch wide. Its length is taken off where nothing says Z.
+    // T1: 0.511 inch long, 0.125 inch wide. Its length is subtracted if no word sets Z.
     EXPECT_EQ(motions(parse("T1 M6\nG43\nG0 X1\nG41\nG1 F60 X10\n", "linuxcnc")),
               (Rows{"rapid 1 0 -12.9794", "feed 10 1.5875 -12.9794"}));
-    // In the block of the change the position stays; G43.2 adds, G43.1 gives, G49 ends.
+    // In the block of the change the position does not change; G43.2 adds, G43.1 sets, G49 ends.
     EXPECT_EQ(motions(parse("T2 M6 G43\nG0 X1\nG43.2 H1\nG0 X2\nG43.1 Z1\nG0 X3\nG49\nG0 X4\n", "linuxcnc")),
               (Rows{"rapid 1 0 0", "rapid 2 0 -12.9794", "rapid 3 0 1.54", "rapid 4 0 2.54"}));
-    // G10 L1 sets, L10 makes the position read: 5 with offset −5.
+    // G10 L1 sets, L10 sets the present position: 5 with offset −5.
     EXPECT_EQ(motions(parse("T1 M6\nG10 L1 P1 Z2\nG43 G0 X1\nG10 L10 P1 Z5\nG43 G0 X[#5403*25.4]\n", "linuxcnc")),
               (Rows{"rapid 1 0 -2", "rapid -5 0 5"}));
 }
@@ -90,7 +90,7 @@ TEST(ToolTable, OfTheUserComesFirst) {
 }
 
 TEST(Cycles, CountIncrementsFromWhereTheyBegan) {
-    // Begun at 10: R 8, bottom 7; after two holes R -3 is still from 10.
+    // From 10: R 8, bottom 7; after two holes R -3 still counts from 10.
     EXPECT_EQ(
         motions(parse("G0 Z10\nG91 G99 G81 X1 Z-1 R-2 F60 L2\nX2 R-3\n", "linuxcnc")),
         (Rows{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 8", "feed 1 0 7", "rapid 1 0 8", "rapid 2 0 8", "rapid 2 0 8",
@@ -110,12 +110,12 @@ TEST(Cycles, LeaveABoreWithFeedToR) {
 }
 
 TEST(Cycles, CutThreadsInPasses) {
-    // Crest at X 9, cuts at 8.4 and 8; clear of them by crest and depth, 2; both tapers rise by 1 over 0.5.
+    // Crest at X 9, cuts at 8.4 and 8; retracted to crest plus depth, 2; both tapers rise by 1 over 0.5.
     EXPECT_EQ(motions(parse("G18 G0 X10 Z5\nS100 M3\nG76 P1 Z-10 I-1 J0.6 K1 E0.5 L3\n", "linuxcnc")),
               (Rows{"rapid 10 0 5", "rapid 10.4 0 5", "feed 9.4 0 5", "feed 8.4 0 4.5", "feed 8.4 0 -9.5",
                     "feed 9.4 0 -10", "rapid 10.4 0 -10", "rapid 10 0 5", "feed 9 0 5", "feed 8 0 4.5", "feed 8 0 -9.5",
                     "feed 9 0 -10", "rapid 10 0 -10", "rapid 10 0 -10"}));
-    // R 2 keeps the area: J·√n; Q 45 slides by the depth.
+    // R 2 keeps the chip area constant: J·√n; Q 45 shifts by the depth.
     EXPECT_EQ(motions(parse("G18 G0 X10 Z5\nS100 M3\nG76 P1 Z-10 I-1 J1 K1.2 R2 Q45\n", "linuxcnc"))[1],
               "rapid 10.2 0 4");
     EXPECT_NE(error_of("G18 G0 X10 Z5\nG76 P1 Z-10 I-1 K1\n", "linuxcnc").find("J is missing"), std::string::npos);
@@ -124,7 +124,7 @@ TEST(Cycles, CutThreadsInPasses) {
 const std::string turned = "G18 G0 X50 Z6\nF60\no100 sub\nG0 X20 Z0\nG1 Z-5\nX24\nX30 Z-10\no100 endsub\n";
 
 TEST(LatheCycles, RoughAlongZFromTheStartToTheProfile) {
-    // Cuts at X 32, 28, 24, each from the line between the start and the profile's begin, back out by R
+    // Cuts at X 32, 28, 24, each from the line between the start and the beginning of the profile, retracted by R
     // at 45°; then the profile, and out to X 32.
     EXPECT_EQ(motions(parse(turned + "G71 Q100 X32 Z3 I4 R1\n", "linuxcnc")),
               (Rows{"rapid 50 0 6",       "rapid 32 0 3",  "rapid 32 0 3", "rapid 32 0 3", "feed 32 0 -10",
@@ -143,7 +143,7 @@ TEST(LatheCycles, FinishInPassesBesideTheProfile) {
     EXPECT_EQ(Rows(all.end() - 4, all.end()), (Rows{"rapid 20 0 0", "feed 20 0 -5", "feed 24 0 -5", "feed 30 0 -10"}));
 }
 
-// The motions of the profile are taken away again, with their frames.
+// The motions of the profile are removed again, with their frames.
 TEST(LatheCycles, MotionsAfterACycleHaveTheirOwnFrame) {
     const Program p =
         parse(turned + "G54 G0 X50 Z6\nG55 G0 X40 Z6\nG71 Q100 X32 Z3 I4 R1\nG54 G0 X50 Z6\nG55 G0 X40\n", "linuxcnc");
@@ -166,12 +166,12 @@ TEST(LatheCycles, SayWhatTheyDoNotCut) {
 }
 
 TEST(Probing, IsAMotionToTheProgrammedPoint) {
-    // It touches there, as 5061 … tell: the next motion begins there and is level.
+    // It touches there, as 5061 … show: the next motion begins there and is level.
     const Program p = parse("G64 P0.1\nG38.2 Z-2 F120\nG0 X#5063\nG0 Z#5070\n", "linuxcnc");
     EXPECT_EQ(motions(p), (Rows{"feed 0 0 -2", "rapid -2 0 -2", "rapid -2 0 0"}));
     EXPECT_FLOAT_EQ(p.motions.feed[0], 2);
     EXPECT_EQ(p.motions.line[0], 2U);
-    // It comes to rest; then corners are rounded again.
+    // It stops; after that corners are rounded again.
     std::vector<std::pair<std::int64_t, BlockEnd>> modes;
     for (const ProgramEvent& e : p.events) {
         if (e.path_mode()) modes.emplace_back(e.motion, e.path_mode()->block_end);
@@ -179,7 +179,7 @@ TEST(Probing, IsAMotionToTheProgrammedPoint) {
     EXPECT_EQ(modes, (decltype(modes){{0, BlockEnd::rounded}, {0, BlockEnd::exact_stop}, {1, BlockEnd::rounded}}));
 }
 
-// rs274 gives no new rate where the unit changes: 100 in/min stay 2540 mm/min.
+// rs274 does not change the rate if the unit changes: 100 in/min remain 2540 mm/min.
 TEST(Feeds, KeepTheUnitThatTheyWereReadIn) {
     const Program p = parse("G20 G0 X0 Y0 Z0\nF100\nG1 X1\nG21\nX0\nM70\nF100\nX10\nG20 X1\nM72\nG1 X0\n", "linuxcnc");
     ASSERT_EQ(p.motions.size(), 6);
@@ -188,7 +188,7 @@ TEST(Feeds, KeepTheUnitThatTheyWereReadIn) {
     EXPECT_NEAR(p.motions.feed[3] * 60, 100, 1e-4);
     EXPECT_NEAR(p.motions.feed[4] * 60, 100, 1e-4);
     EXPECT_NEAR(p.motions.feed[5] * 60, 2540, 1e-3);
-    // Fanuc counts the F in force in the new unit.
+    // Fanuc interprets the active F in the new unit.
     EXPECT_NEAR(parse("G20 G0 X0 Y0 Z0\nF100\nG1 X1\nG21\nX0\n", "fanuc").motions.feed[2] * 60, 100, 1e-4);
 }
 
@@ -221,7 +221,7 @@ TEST(PolarWords, NeedAnAngleAndTheirPlane) {
 }
 
 TEST(Rs274, M98CallsAProgramNumberAsOftenAsLSays) {
-    // As rs274 reads it: L0 calls nothing, five digits are a number like others.
+    // As in rs274: L0 calls nothing, five digits are an ordinary number.
     EXPECT_EQ(
         motions(parse("G91\nM98 P1 L2\nM98 P1 L0\nM98 P12345\nM30\nO1\nG0 X1\nM99\nO12345\nG0 Y1\nM99\n", "linuxcnc")),
         (Rows{"rapid 1 0 0", "rapid 2 0 0", "rapid 2 1 0"}));
@@ -252,7 +252,7 @@ TEST(Rs274, TappingOutsideTheXYPlaneGoesWhereLinuxCncTakesIt) {
 }
 
 TEST(CutterCompensation, CountsWithTheRadiusAtTheEndOfAnArc) {
-    // A corner flatter than 0.05 rad between arcs, read with four digits, moves by 0.0003 in with the other radius.
+    // A corner flatter than 0.05 rad between arcs, given with four digits, moves by 0.0003 in if the other radius is used.
     // rs274 2.9 ends the arc at 0.4443 0.8405.
     const Program p = parse(
         "G20\nG41.1 D-0.15\nG1 X0.6767 Y0.2334 F8\nX0.3359 Y0.4419\nG3 X1.2281 Y1.3456 I0.2921 J0.6039\n"
@@ -265,8 +265,8 @@ TEST(CutterCompensation, CountsWithTheRadiusAtTheEndOfAnArc) {
 
 TEST(Rs274, EachPointOfASplineHasItsOwnWeight) {
     // Order 3 with three points is a rational parabola: ((1−t)² w0 P0 + 2 t (1−t) w1 P1 + t² w2 P2) / (the weights alone).
-    // At t = 0.2 with weights 1, 2, 1: (0.64 + 0.08, 0.64) / 1.32. P in the block of the first point given is its own,
-    // the first of all is where the tool stands.
+    // At t = 0.2 with weights 1, 2, 1: (0.64 + 0.08, 0.64) / 1.32. P in the block of the first given point is the weight of
+    // that point; the first control point is the position of the tool.
     const Rows second = motions(parse("F60\nG5.2 X1 Y1 P2 L3\nX2 Y0 P1\nG5.3\n", "linuxcnc"));
     EXPECT_EQ(second, (Rows{"spline 2 0 0"}));
     const auto expect_near = [](const std::string& text, double x, double y) {

@@ -1,4 +1,4 @@
-// SINUMERIK; the answers are worked out on paper beside each program.
+// SINUMERIK; the expected values are computed by hand next to each program.
 
 #include <map>
 
@@ -16,12 +16,12 @@ TEST(SiemensFrames, ReplaceOrAdd) {
     // TRANS replaces, ATRANS adds; TRANS alone ends all.
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nTRANS X10 Y5\nX1 Y0\nATRANS Z3\nX2 Z0\nTRANS X1\nX0 Y0 Z0\nTRANS\nX0\n"),
               (Rows{"rapid 0 0 0", "rapid 11 5 0", "rapid 12 5 3", "rapid 1 0 0", "rapid 0 0 0"}));
-    // Turned by 90° in the moved frame: (2, 0) → (10, 2). Then the axes of the turned frame: +1 in its X.
+    // Rotated by 90° in the shifted frame: (2, 0) → (10, 2). Then the axes of the rotated frame: +1 in its X.
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nTRANS X10\nAROT RPL=90\nX2 Y0\nATRANS X1\nX2 Y0\n"),
               (Rows{"rapid 0 0 0", "rapid 10 2 0", "rapid 10 3 0"}));
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nMIRROR X0\nX2 Y1\nASCALE X3\nX2\n"),
               (Rows{"rapid 0 0 0", "rapid -2 1 0", "rapid -6 1 0"}));
-    // ROT X90: Y → Z; an arc of G17 is one of G18, Y down: turned the same way about −Y, so the other way about +Y.
+    // ROT X90: Y → Z; an arc of G17 becomes one of G18, Y down: the same rotation about −Y, so the opposite one about +Y.
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nROT X90\nG1 F60 Y5\nG3 X0 Y-5 I0 J-5\n"),
               (Rows{"rapid 0 0 0", "feed 0 0 5", "cw 0 0 -5"}));
     EXPECT_NE(error_of("SCALE X0\n", "siemens").find("a factor of 0"), std::string::npos);
@@ -29,7 +29,7 @@ TEST(SiemensFrames, ReplaceOrAdd) {
 
 TEST(SiemensSwivel, TurnsAxisByAxisAndMoves) {
     const auto axis = [](const Program& p, std::size_t i) { return Vec3(p.motions.tool_axis[i].vec()); };
-    // Mode 57: X, Y, Z. About X by 90°: (1, 2, 3) → (1, −3, 2); moved by (10, 20, 30) before, by (0, 0, 5) after it.
+    // Mode 57: X, Y, Z. About X by 90°: (1, 2, 3) → (1, −3, 2); shifted by (10, 20, 30) before, by (0, 0, 5) after it.
     Program p = parse(
         "G0 X0 Y0 Z0\nCYCLE800(0,\"TC\",100000,57,10,20,30,90,0,0,0,0,5,1)\nG1 X1 Y2 Z3 F60\nTRANS X1\nX1 Y2 Z3\nCYCLE800()\nG0 X0 Y0 Z0\n",
         "siemens");
@@ -40,12 +40,12 @@ TEST(SiemensSwivel, TurnsAxisByAxisAndMoves) {
     // Mode 27: Z, Y, X. Z by 90° first, then the new Y, which is −x, by 90°: the normal is +y.
     p = parse("G0 X0 Y0 Z0\nCYCLE800(1,\"TC\",200000,27,0,0,0,90,90,0,0,0,0,-1,100,1)\n", "siemens");
     EXPECT_LE((axis(p, 1) - Vec3(0, 1, 0)).norm(), 1e-12) << axis(p, 1).transpose();
-    // Added to it: by 90° about the X of that plane, which points down now: x' = −z, the normal goes from y to x.
+    // Added to it: by 90° about the X of that plane, which points down now: x' = −z, the normal moves from y to x.
     p = parse(
         "G0 X0 Y0 Z0\nCYCLE800(1,\"TC\",200000,27,0,0,0,90,90,0,0,0,0,-1)\nCYCLE800(1,\"TC\",200001,57,0,0,0,90,0,0,0,0,0,-1)\n",
         "siemens");
     EXPECT_LE((axis(p, 2) - Vec3(1, 0, 0)).norm(), 1e-12) << axis(p, 2).transpose();
-    // Direction 0: the frame alone, the program turns the axes.
+    // Direction 0: only the frame, the program turns the axes.
     p = parse("G0 X0 Y0 Z0\nCYCLE800(0,\"TC\",100000,57,0,0,0,90,0,0,0,0,0,0)\nG1 X1 Y2 Z3 A-90 F60\n", "siemens");
     EXPECT_EQ(motions(p), (Rows{"rapid 0 0 0", "feed 1 -3 2"}));
     EXPECT_TRUE(p.motions.tool_axis.empty());
@@ -78,20 +78,20 @@ void expect_turned(const std::string& text, const std::vector<double>& expected)
 }
 
 TEST(SiemensRotaryAxes, TurnTheShortWayOrInTheGivenDirection) {
-    // 350° to 10°: 20° forward, and 20° back again; from 10° to 190° both ways are 180°: forward.
+    // 350° to 10°: 20° forward, and 20° back; from 10° to 190° both directions are 180°: forward.
     expect_turned("G0 C350\nC=DC(10)\nC=DC(350)\nC=DC(10)\nC=DC(190)\nC=DC(190)\n", {350, 370, 350, 370, 550, 550});
     // From 10°: to 350° forward by 340°, to 10° back by 340°, to 350° back by 20°, to 10° forward by 20°.
     expect_turned("G0 C10\nC=ACP(350)\nC=ACN(10)\nC=ACN(350)\nC=ACP(10)\nC=ACP(10)\nC=ACN(10)\n",
                   {10, 350, 10, -10, 10, 10, 10});
-    // A position is one within the turn, also beyond it; decimals make no turn: 359.999° to 0° is 0.001°.
+    // A position is reduced to one turn, also beyond it; rounding adds no turn: 359.999° to 0° is 0.001°.
     expect_turned("G0 C359.999\nC=DC(360)\nC=ACP(0)\nC=ACN(0)\nC=DC(-90)\n", {359.999, 360, 360, 360, 270});
     expect_turned("G0 C0.1\nG91 C=DC(0.3)\nC=ACN(0.1)\nC5\n", {0.1, 0.3, 0.1, 5.1});
 }
 
 TEST(SiemensRotaryAxes, AModuloAxisStaysInItsTurn) {
-    // 10° of the second turn. 20° and AC(30) are in that turn; IC(350) leads into the third, where 5° is 15° behind.
+    // 10° of the second turn. 20° and AC(30) are in that turn; IC(350) leads to the third, where 5° is 15° back.
     expect_turned("G0 C350\nC=DC(10)\nC20\nC=AC(30)\nC=IC(350)\nC5\n", {350, 370, 380, 390, 740, 725});
-    // An axis that has none of these words counts on.
+    // An axis without any of these words is not reduced to a turn.
     expect_turned("G0 C370\nC10\nC-350\n", {370, 10, -350});
     // Each axis by itself.
     const Program p = parse("G0 A350 C350\nA=ACP(10) C10\n", "siemens");
@@ -108,7 +108,7 @@ TEST(SiemensRotaryAxes, CountTheFeedOfTheWayThatTheyTurn) {
 }
 
 TEST(SiemensPoles, AreAtTheToolTheZeroOrTheLastPole) {
-    // Poles (10, 10), one right of the tool (11, 15), three above that one (11, 18).
+    // Poles (10, 10), one to the right of the tool (11, 15), three above that one (11, 18).
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nG111 X10 Y10\nG1 F60 RP=5 AP=0\nAP=90\nG110 X1\nRP=2 AP=180\nG112 Y3\nRP=2 AP=90\n"),
               (Rows{"rapid 0 0 0", "feed 15 10 0", "feed 10 15 0", "feed 9 15 0", "feed 11 20 0"}));
     // Increments of angle and radius.
@@ -130,7 +130,7 @@ TEST(SiemensArcs, ByAngleByPointsAndByRadius) {
     EXPECT_EQ(motions(p), (Rows{"rapid 0 0 0", "cw 10 0 0", "ccw 10 10 0", "feed 0 10 0"}));
     EXPECT_NEAR(p.motions.arcs.at(0).centre.x, 5, 1e-9);
     EXPECT_NE(error_of("G0 X0 Y0 Z0\nCIP X10 I1=5 F60\n", "siemens").find("on a line"), std::string::npos);
-    // CR negative: the long way; TURN: a full circle more.
+    // CR negative: the long arc; TURN: one more full circle.
     p = parse("G0 X0 Y0 Z0\nG2 X10 Y0 CR=-10 F60\nG3 X0 Y0 Z-6 I-5 J0 TURN=2\n", "siemens");
     EXPECT_GT(p.motions.arcs.at(0).centre.y, 0);
     EXPECT_EQ(p.motions.arcs.at(1).turns, 3);
@@ -167,7 +167,7 @@ TEST(SiemensCycles, TapByPitchAndSpeed) {
         EXPECT_EQ(motions(tapped), ways) << text;
         return std::pair(std::round(tapped.motions.feed[2] * 60), std::round(tapped.motions.feed[3] * 60));
     };
-    // Pitch 1.25 at 500 rpm, out at 800: 625 and 1000 mm/min; left-handed the same.
+    // Pitch 1.25 at 500 rpm, out at 800: 625 and 1000 mm/min; the same for a left-hand thread.
     EXPECT_EQ(feeds("CYCLE84(10,0,2,-6,,0,3,,1.25,0,500,800)"), std::pair(625.F, 1000.F));
     EXPECT_EQ(feeds("CYCLE84(10,0,2,-6,,0,3,,-1.25,0,500,0)"), std::pair(625.F, 625.F));
     // M10: 1.5 mm. 20 threads per inch: 1.27 mm. Without SST the speed of the program, as in CYCLE840.
@@ -175,7 +175,7 @@ TEST(SiemensCycles, TapByPitchAndSpeed) {
     EXPECT_EQ(feeds("CYCLE84(10,0,2,-6,,0,3,,20,0,1000,0,3,2)"), std::pair(1270.F, 1270.F));
     EXPECT_EQ(feeds("CYCLE84(10,0,2,-6,,0,3,,1.25)"), std::pair(125.F, 125.F));
     EXPECT_EQ(feeds("CYCLE840(10,0,2,-6,,0,4,3,0,,1.5)"), std::pair(150.F, 150.F));
-    // Without a pitch the feed in force, 7 mm per turn.
+    // Without a pitch the active feed, 7 mm per turn.
     EXPECT_EQ(feeds("CYCLE840(10,0,2,-6,,0,4,3,1)"), std::pair(700.F, 700.F));
 }
 
@@ -186,7 +186,7 @@ TEST(SiemensCycles, DrillOnceOrAfterEveryMotion) {
     EXPECT_EQ(rows("G0 X0 Y0 Z10 F60\nMCALL CYCLE82(10,0,2,,4,0.5)\nX1\nX2\nMCALL\nX3\n"),
               (Rows{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 2", "feed 1 0 -4", "dwell 1 0 -4", "rapid 1 0 10",
                     "rapid 2 0 10", "rapid 2 0 2", "feed 2 0 -4", "dwell 2 0 -4", "rapid 2 0 10", "rapid 3 0 10"}));
-    // Tapping goes out with feed, boring with CYCLE85 too.
+    // Tapping retracts with feed, boring with CYCLE85, too.
     EXPECT_EQ(rows("G0 X1 Y1 Z10 F60\nCYCLE84(10,0,2,-5,,,,,1)\n"),
               (Rows{"rapid 1 1 10", "rapid 1 1 2", "feed 1 1 -5", "feed 1 1 2", "rapid 1 1 10"}));
     const Program p = parse("G0 X1 Y1 Z10 F60\nCYCLE85(10,0,2,-5,,0,120,240)\n", "siemens");
@@ -199,11 +199,11 @@ TEST(SiemensCycles, DrillOnceOrAfterEveryMotion) {
 }
 
 TEST(SiemensCycles, PeckByDegression) {
-    // 20 deep, 8 first, 3 less each: 8, 5, then 3; 4 are left, so 3 no more but 2 and 2 (ends 8, 13, 16, 18, 20).
+    // 20 deep, 8 first, then 3 less each: 8, 5, then 3; 4 remain, so not 3 but 2 and 2 (ends 8, 13, 16, 18, 20).
     EXPECT_EQ(rows("G0 X0 Y0 Z5 F60\nCYCLE83(5,0,1,-20,,-8,,3,0,0,1,0)\n"),
               (Rows{"rapid 0 0 5", "rapid 0 0 1", "feed 0 0 -8", "feed 0 0 -7", "feed 0 0 -13", "feed 0 0 -12",
                     "feed 0 0 -16", "feed 0 0 -15", "feed 0 0 -18", "feed 0 0 -17", "feed 0 0 -20", "rapid 0 0 5"}));
-    // Chips taken out: to R and back to 0.6 above.
+    // Chip removal: to R and back to 0.6 above.
     EXPECT_EQ(rows("G0 X0 Y0 Z5 F60\nCYCLE83(5,0,1,-4,,,2,0,0,0,1,1)\n"),
               (Rows{"rapid 0 0 5", "rapid 0 0 1", "feed 0 0 -2", "rapid 0 0 1", "rapid 0 0 -1.4", "feed 0 0 -4",
                     "rapid 0 0 5"}));
@@ -242,13 +242,13 @@ TEST(SiemensFlow, JumpsAndLoops) {
             "LOOP\nR1=R1+1\nIF R1==8\nGOTOF OUT\nENDIF\nENDLOOP\nOUT: X=R1\nREPEAT\nR1=R1+1\nUNTIL R1>=10\nY=R1\nM30\n"),
         (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 2 0 0", "rapid 2 5 0", "rapid 2 6 0", "rapid 2 6 5", "rapid 8 6 5",
               "rapid 8 10 5"}));
-    // A section is repeated from its label on, twice more.
+    // A section is repeated from its label on, two more times.
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nSECTION: G91 X1\nREPEAT SECTION P=2\nG90 Y1\nM30\n"),
               (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 2 0 0", "rapid 3 0 0", "rapid 3 1 0"}));
 }
 
 TEST(SiemensFlow, RepeatsBlocksAndSections) {
-    // One block three times more; the lines between two labels, the second among them; as far as ENDLABEL.
+    // One block three more times; the lines between two labels, including the second; up to ENDLABEL.
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nPOS: G91 X1 Y2\nREPEATB POS P=3\nM30\n"),
               (Rows{"rapid 0 0 0", "rapid 1 2 0", "rapid 2 4 0", "rapid 3 6 0", "rapid 4 8 0"}));
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nBEGIN: G91 X1\nUNTIL_HERE: Y1\nZ1\nREPEAT BEGIN UNTIL_HERE P=2\nG90 Z9\nM30\n"),
@@ -256,11 +256,11 @@ TEST(SiemensFlow, RepeatsBlocksAndSections) {
                     "rapid 3 2 1", "rapid 3 3 1", "rapid 3 3 9"}));
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nHERE: G91 X1\nENDLABEL:\nZ1\nREPEAT HERE\nM30\n"),
               (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 1 0 1", "rapid 2 0 1"}));
-    // Sections within sections: AA runs BB twice more each time.
+    // Nested sections: AA runs BB two more times each time.
     EXPECT_EQ(rows("G0 X0 Y0 Z0 G91\nBB: X1\nAA: Y1\nREPEATB BB P=2\nREPEAT AA P=1\nM30\n"),
               (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 1 1 0", "rapid 2 1 0", "rapid 3 1 0", "rapid 3 2 0",
                     "rapid 4 2 0", "rapid 5 2 0"}));
-    // A jump out of it ends it: without, X3 would come back to the second turn.
+    // A jump out of it ends it: otherwise X3 would return to the second repetition.
     EXPECT_EQ(
         rows(
             "R1=0\nGOTOF START\nAA: R1=R1+1\nX=R1\nIF R1==2 GOTOF OUT\nENDLABEL:\nM30\nSTART: G0 X0\nREPEAT AA P=5\nM30\nOUT: X3\nM30\n")
@@ -278,7 +278,7 @@ TEST(SiemensFlow, ChoosesByCase) {
 }
 
 TEST(SiemensExpressions, FollowTheManualsPriorities) {
-    // Bits before AND before OR, comparisons last of all: 6 B_OR 1 is 7; 2 == (1 AND 1) is not so.
+    // Bits before AND before OR, comparisons last: 6 B_OR 1 is 7; 2 == (1 AND 1) is false.
     EXPECT_EQ(rows("G0 X=6 B_OR 1 Y=6 B_AND 3 Z=6 B_XOR 3\n"), (Rows{"rapid 7 2 5"}));
     EXPECT_EQ(rows("G0 X=(2 == 1 AND 1) Y=(1 + 2 == 3) Z=((2 == 2) AND (3 > 1))\n"), (Rows{"rapid 0 1 1"}));
     EXPECT_EQ(rows("G0 X=MINVAL(3,R1) Y=MAXVAL(3,4) Z=BOUND(0,10,12)\n"), (Rows{"rapid 0 4 10"}));

@@ -9,7 +9,7 @@
 namespace clsurf::ensemble_test {
 namespace {
 
-/// Loops that differ: the axes trail by other times, so that forward and backward passes lag apart nearly everywhere.
+/// Different loops: the axes have different lags, so that the lag of forward and backward passes differs nearly everywhere.
 Machine uneven_loops() {
     Machine machine;
     machine.path.max_jerk = 1e6;
@@ -19,8 +19,8 @@ Machine uneven_loops() {
     return machine;
 }
 
-// A systematic lag is one property of a machine. Its places come and go with the machine, and would hide what a new program
-// changes.
+// A systematic lag is one property of a machine. Its places vary from machine to machine, and would hide the effects of a new
+// program.
 TEST(Ensemble, ASystematicLagCountsOnceAsInCheck) {
     const Program program = read_text(wavy_zigzag(12, 20, [](int, double) { return 0.3; }));
     const Machine machine = uneven_loops();
@@ -36,7 +36,7 @@ TEST(Ensemble, ASystematicLagCountsOnceAsInCheck) {
     EXPECT_DOUBLE_EQ(result.runs[0].after.defects, static_cast<double>(defects.size()));
 }
 
-// A promise that one machine would break may be broken by the real one: the mean is no comfort then.
+// A promise that one machine would break may be broken by the real one: the mean is not sufficient then.
 TEST(Ensemble, NoMachineMayHaveMoreDefects) {
     const RunMeasures before{.mismatch = 10, .defects = 20, .duration = 100, .speed = 50};
     const auto with = [&](double defects) {

@@ -1,4 +1,4 @@
-// The feed reduction: speeds about the defects of a run, what they cost, and what they gained.
+// The feed reduction: speeds around the defects of a run, their cost, and their gain.
 
 #include "repair/feeds/feed_reduction.h"
 
@@ -16,8 +16,8 @@
 namespace clsurf::feed_reduction_test {
 namespace {
 
-/// Flat passes, the fourth of which has 100 points in 2 mm: blocks of 0.02 mm in 2 ms are passed at 10 mm/s instead of 50.
-/// With another section the sixth has points 0.08 mm apart in 2 mm, which are passed at 40 mm/s.
+/// Flat passes, the fourth of which has 100 points in 2 mm: blocks of 0.02 mm in 2 ms are run at 10 mm/s instead of 50.
+/// With another section the sixth has points 0.08 mm apart in 2 mm, which are run at 40 mm/s.
 struct SlowSection {
     Program program;
     JudgedRun run;
@@ -39,7 +39,8 @@ struct SlowSection {
     }
 };
 
-// The passes beside the slow section go at most a step faster, those next to them two steps, and so on: a larger budget buys a smaller step.
+// The passes next to the slow section are at most one step faster, the next ones two steps, and so on: a larger budget allows
+// a smaller step.
 TEST(FeedEqualisation, TakesTheLeastStepThatABudgetPaysFor) {
     const SlowSection part;
     const FeedEqualiser equaliser(part.run);
@@ -54,7 +55,7 @@ TEST(FeedEqualisation, TakesTheLeastStepThatABudgetPaysFor) {
     }
 }
 
-// Of lines of 0.02 mm at 50 mm/s a record names every second or third one. The others get the speed of those beside them.
+// Of lines of 0.02 mm at 50 mm/s a record names every second or third one. The others get the speed of adjacent lines.
 TEST(FeedEqualisation, LinesThatNoRecordNamesHaveASpeed) {
     const Program program = read_text(wavy_zigzag(
         3, 24, [](int, double) { return 0.02; }, 0));
@@ -122,7 +123,7 @@ TEST(FeedReductionTest, KeepsItsBudget) {
     for (const double share : {0.0, 0.3, 0.7}) EXPECT_LE(lost(share * whole), share * whole);
 }
 
-// What a mild one costs is paid, though both together, or the severe one alone, cost more.
+// The mild one is affordable, although both together, or the severe one alone, cost more.
 TEST(FeedReductionTest, TakesTheCheapestDefectsFirst) {
     const SlowSection part(0.02, true);
     const FeedEqualiser equaliser(part.run);
@@ -143,7 +144,7 @@ TEST(FeedReductionTest, TakesTheCheapestDefectsFirst) {
     EXPECT_EQ(lost_where(0.9 * mild, 0, 24), 0);
 }
 
-// A pass beside the slow section is lowered by a tenth there: those beside it follow, but need not become level with the slow one.
+// A pass next to the slow section is lowered by a tenth there: the adjacent ones follow, but need not reach the slow speed.
 TEST(FeedEqualisation, LeavesOtherSlowPlacesBesideALoweredOne) {
     const SlowSection part;
     const FeedEqualiser equaliser(part.run);
@@ -191,7 +192,7 @@ TEST(FeedReductionTest, KnowsHowLagGrowsWithSpeed) {
 }
 
 TEST(FeedEqualisation, FeedsAreThoseOfIntervals) {
-    // 100.4 lies within 0.5 % of 100, 104 does not; the last motion may not be slowed.
+    // 100.4 is within 0.5 % of 100, 104 is not; the last motion must not be slowed.
     EXPECT_EQ(equalised_feeds({0, 100.4F, 100, 104, 0, 50}, {1, 1, 1, 1, 1, 0}, 0.005),
               (std::vector<float>{0, 100, 100, 104, 0, 0}));
 }

@@ -1,4 +1,4 @@
-// The proposals that an ensemble of machines decides on.
+// The proposals among which an ensemble of machines chooses.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,8 @@ namespace {
 
 double crowded(int pass, double x) { return pass == 2 && x > 3 && x < 5 ? 0.02 : 0.31; }
 
-// An ensemble may refuse the best ones for one machine of it: others must be left. What runs alike would be refused alike.
+// An ensemble may refuse the best ones because of one machine: others must remain. Proposals with equal runs would be refused
+// together.
 TEST(Finalists, AreManyThatDifferTheBestFirst) {
     const Program program = read_text(wavy_zigzag(6, 9, crowded));
     const Machine machine = slow_at_short_blocks();

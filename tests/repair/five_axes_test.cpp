@@ -1,5 +1,5 @@
-// The repair on five axes: its runs are those of `simulate` judged by `check`, the tool axis is kept, and what may not be
-// touched is not.
+// The repair on five axes: its runs are those of `simulate` judged by `check`, the tool axis is kept, and protected
+// lines are not changed.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ namespace {
 
 const Vec3 zero(5, -8, 12);
 
-/// With so much jerk that no block has to be made slower in rounds: quick to plan.
+/// With so much jerk that no block has to be slowed repeatedly: fast to plan.
 Machine trunnion() {
     Machine machine = io::read_machine(SAMPLE_DATA "/machines/five_axis_trunnion.toml");
     machine.path.max_jerk = 1e6;
@@ -103,7 +103,8 @@ TEST(Orientation, DividesNoLineNearThePoleOrThatWindsUp) {
     const Orientation orientation(program, machine, zero, Vec3::Zero());
     std::vector<int> divisible;
     for (std::int64_t i = 0; i < program.motions.size(); ++i) divisible.push_back(orientation.divisible(i) ? 1 : 0);
-    // From the pole; then two turns of some degrees; winding up by 340°; steps near the pole; what does not turn; across it.
+    // From the pole; then two turns of some degrees; winding up by 340°; steps near the pole; a line that does not turn;
+    // across the pole.
     EXPECT_EQ(divisible, (std::vector<int>{1, 0, 1, 0, 1, 0, 0, 1, 0}));
     EXPECT_FALSE(orientation.turns(0));
     EXPECT_TRUE(orientation.turns(2));
@@ -132,7 +133,7 @@ TEST(Deviation, IsThatOfAPlantedTurn) {
     EXPECT_NEAR(tilted.turned, 0.02 * rad_per_deg, 1e-9);
     EXPECT_EQ(tilted.turned_line.line, 5U);
     EXPECT_NEAR(tilted.greatest, 0, 1e-9);
-    // Where the tool leans by 21°, a turn of the table is less of the tool: 2 sin⁻¹(sin 21° sin 0.05°).
+    // If the tool leans by 21°, a turn of the table changes the tool axis less: 2 sin⁻¹(sin 21° sin 0.05°).
     const Deviation turned =
         deviation_of(head + "X10 A-21\nX20\n" + tail, head + "X10 A-21\nX20 C30.1\nX30 A-22 C30\n");
     EXPECT_NEAR(turned.turned, 2 * std::asin(std::sin(21 * rad_per_deg) * std::sin(0.05 * rad_per_deg)), 1e-9);
@@ -169,8 +170,8 @@ Vec3 axis_of(double a, double c) {  // [rad] t = Rz(c) Rx(a) z
     return {std::sin(c) * std::sin(a), -std::cos(c) * std::sin(a), std::cos(a)};
 }
 
-/// Every 0.05 mm of the lines of one program: the nearest place of any line of the other, and the angle between the tool axes there, both
-/// linear in the angles. Brute force; the greatest of both.
+/// For every 0.05 mm of the lines of one program: the nearest point on any line of the other, and the angle between the tool
+/// axes there, both interpolated linearly in the angles. Brute force; returns the largest of both.
 std::pair<double, double> farthest(const Motions& from, const Motions& to) {
     double off = 0, turned = 0;
     const auto axis = [](const Motions& m, std::size_t i, double part) {
@@ -232,7 +233,7 @@ TEST(FiveAxisResample, KeepsTheToolAxisAlongGreatCircles) {
     }
 }
 
-// The decimals of the words are the program's own; words at points that stay are those that were there.
+// The number of decimals is that of the program; the words of points that are kept do not change.
 TEST(FiveAxisResample, WritesAsManyDecimalsAsTheProgram) {
     const std::string text = tilted_zigzag(5, 8, crowded, 3);
     const Resampled r = resampled(text, 0.005, 0.6);
@@ -249,7 +250,7 @@ TEST(FiveAxisResample, WritesAsManyDecimalsAsTheProgram) {
     EXPECT_EQ(resampled(coarse, 0.005, 0.6).text, coarse);
 }
 
-/// Of all joints of lines on passes, a step-over away from their ends, the greatest jump of the rates of C [rad/mm].
+/// The largest jump of the rate of C [rad/mm] at joints of lines on passes, more than a step-over from their ends.
 double greatest_jump(const Motions& m) {
     double greatest = 0;
     const auto rate = [&](std::size_t i) {
@@ -261,7 +262,7 @@ double greatest_jump(const Motions& m) {
     return greatest;
 }
 
-// Where lines become half as long, jumps of the rates become half as great, as they would not on the old lines.
+// If lines become half as long, jumps of the rates are halved, too, unlike on the old lines.
 TEST(FiveAxisResample, TurnsTheToolEvenly) {
     const Resampled r = resampled(tilted_zigzag(
                                       5, 8, [](int, double) { return 0.8; }, 5),
@@ -277,7 +278,7 @@ std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
-/// How many lines of `kept` stand in `lines`, in that order.
+/// How many lines of `kept` are in `lines`, in that order.
 std::size_t found_in_order(const std::vector<std::string>& kept, const std::vector<std::string>& lines) {
     std::size_t next = 0;
     for (const std::string& line : lines) next += next < kept.size() && line == kept[next] ? 1 : 0;
@@ -302,7 +303,7 @@ TEST(FiveAxisOptimizer, IsBetterInEveryRespect) {
     const auto [off_back, turned_back] = farthest(before.motions, after.motions);
     EXPECT_LE(std::max(off, off_back), rules.tolerance);
     EXPECT_LE(std::max(turned, turned_back), most_turned);
-    // What is no plain line is still there, in order.
+    // Everything but plain lines is kept, in order.
     std::vector<std::string> kept;
     for (const std::string& line : lines_of(text)) {
         if (!read_plain_line(line)) kept.push_back(line);

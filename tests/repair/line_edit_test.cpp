@@ -1,4 +1,4 @@
-// What may be rewritten, and that everything else stays byte for byte.
+// What may be rewritten; everything else is kept byte for byte.
 
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ TEST(LineEditor, LeavesLinesWithMoreInThemAlone) {
         << "F counts something else than lengths per minute";
 }
 
-// Klartext writes L on every line and a sign before every number; a feed alone is a block L F.
+// Klartext has L on every line and a sign before every number; a feed alone is a block L F.
 TEST(LineEditor, WritesKlartext) {
     const PlainLine line = *read_plain_line("12 L X+1.50 Y-2", "L");
     EXPECT_EQ(line.number, "12 ");
@@ -82,7 +82,7 @@ TEST(LineEditor, WritesKlartext) {
     EXPECT_NE(feeds.text("").find("3 L X+2.00 F300\n4 L X+3.00\nL F600\n5 L M30"), std::string::npos) << feeds.text("");
 }
 
-// Turned by 90° and 100 away: X 1.5 of the work system is Y 1.5 of the machine, where the points come from.
+// Rotated by 90° and 100 away: X 1.5 of the work system is Y 1.5 of the machine, where the points come from.
 TEST(LineEditor, WritesInTheFrameThatIsActive) {
     InterpreterOptions options;
     options.dialect = find_dialect("linuxcnc");
@@ -97,8 +97,8 @@ TEST(LineEditor, WritesInTheFrameThatIsActive) {
     EXPECT_NE(written.find("X1.000 F600\nX1.500\nX2.250Y0.250\nX3.000Y0.000\nM2"), std::string::npos) << written;
 }
 
-// Three lines become four: the words of an old point stay as they are, others have the finest decimals of the program.
-// Turned by 90° about (0, 0), then shifted or scaled: worked out by hand for each control.
+// Three lines become four: the words of an old point are kept, others have the finest decimals of the program.
+// Rotated by 90° about (0, 0), then shifted or scaled: computed by hand for each control.
 TEST(LineEditor, WritesWhatIsTurnedShiftedAndScaledAsTheProgramCountsIt) {
     struct Case {
         const char *dialect, *frame, *end;
@@ -136,7 +136,7 @@ TEST(LineEditor, WritesAngles) {
                         "C30.125\n"),
               std::string::npos)
         << text;
-    // Two angles, each off by half of a thousandth of a degree.
+    // Two angles, each off by half a thousandth of a degree.
     EXPECT_NEAR(editor.turn_rounding(), std::hypot(0.0005, 0.0005) * rad_per_deg, 1e-12);
 }
 

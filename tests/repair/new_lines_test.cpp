@@ -1,4 +1,4 @@
-// New lines: no stumps between longer lines.
+// New lines: no very short ones between longer ones.
 
 #include "repair/points/new_lines.h"
 
@@ -9,9 +9,9 @@
 namespace clsurf::new_lines_test {
 namespace {
 
-// An old point that lies beside the line between two aligned points by a little more than it may gets a point of its own. Where
-// an aligned point is next to it, one of both is dropped: lines of 0.03 mm between lines of 0.1 mm stop controllers that pass
-// corners on arcs.
+// An old point that is off the line between two aligned points by a little more than allowed is kept as a point. If
+// an aligned point is close to it, one of both is dropped: lines of 0.03 mm between lines of 0.1 mm stop controllers that
+// replace corners by arcs.
 TEST(NewLines, HaveNoStumps) {
     const auto height = [](double x) { return 0.3 * std::sin(0.8 * x); };
     OldSegment old;

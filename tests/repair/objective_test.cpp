@@ -11,7 +11,7 @@ namespace {
 
 constexpr RunMeasures before{.mismatch = 10, .defects = 20, .duration = 100};
 
-// By hand: 0.03·2 + 0.8 + 0.1·0.5 + 10/20 = 1.41; half of the mismatch and less counts a tenth: 0.03 + 0.5 + 0.1·0.2 + 0.5.
+// By hand: 0.03·2 + 0.8 + 0.1·0.5 + 10/20 = 1.41; below half of the mismatch only a tenth counts: 0.03 + 0.5 + 0.1·0.2 + 0.5.
 TEST(Objective, AddsTheSharesThatRemain) {
     EXPECT_DOUBLE_EQ(objective(before, before, 1, 0), 0.03 + 1 + 0.05 + 1);
     EXPECT_DOUBLE_EQ(objective(before, {8, 10, 100}, 2, 0), 1.41);
@@ -40,7 +40,7 @@ TEST(Objective, EveryMeasureMustNotBeWorse) {
     EXPECT_NE(why_not_better({0.02, 20, 100, 50}, {0.12, 10, 100, 50}, 0), "");
 }
 
-// One slow section on one of a hundred passes: the 95th percentile does not see it.
+// One slow section on one of a hundred passes: it does not change the 95th percentile.
 TEST(Objective, DefectsAloneCountWhereThe95thPercentileIsNone) {
     const RunMeasures slow{.mismatch = 0.02, .defects = 1, .duration = 100, .speed = 50, .defect_mismatch = 30};
     RunMeasures even = slow;
@@ -54,7 +54,7 @@ TEST(Objective, DefectsAloneCountWhereThe95thPercentileIsNone) {
     EXPECT_DOUBLE_EQ(objective(uneven, better, 1, 0), 0.03 + 1 + 0.05 + 1);
 }
 
-// The share of the roughness that remains is added; one that is not known counts nothing.
+// The remaining share of the roughness is added; if it is not known it does not count.
 TEST(Objective, RoughnessCountsWhereItIsKnown) {
     RunMeasures rough = before, smoother = before;
     rough.roughness = 0.002;

@@ -1,5 +1,5 @@
-// The repair as a whole: what it changes, what it leaves, how far it goes off the path, and that it
-// refuses what is not better.
+// The repair as a whole: what it changes and keeps, how far it deviates from the path, and that it
+// refuses results that are not better.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ std::vector<Vec3> corners_of(const Program& program) {
     return corners;
 }
 
-/// The farthest that points every 0.02 mm of one polyline lie from any line of the other: brute force.
+/// The largest distance of points every 0.02 mm of one polyline to the other one: brute force.
 double farthest(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
     double most = 0;
     for (std::size_t i = 1; i < from.size(); ++i) {
@@ -49,7 +49,7 @@ std::string resampled_text(const Program& program, double tolerance, double spac
     return editor.text("");
 }
 
-/// A machine with so much jerk that only acceleration counts: quick to plan.
+/// A machine with so much jerk that only acceleration counts: fast to plan.
 Machine brisk() {
     Machine machine;
     machine.path.max_jerk = 1e6;
@@ -77,7 +77,7 @@ TEST(Resample, StaysInsideTheToleranceEverywhere) {
 TEST(Resample, PutsPointsSideBySide) {
     const Program program = read_text(wavy_zigzag(5, 8, crowded));
     const Program changed = read_text(resampled_text(program, 0.01, 0.25));
-    // Inner points lie beside those of the pass before, the passes' ends set aside.
+    // Inner points are next to those of the previous pass, except at the ends of passes.
     std::set<int> of_pass[5];
     for (const Xyz& p : changed.motions.end) {
         const int pass = static_cast<int>(std::lround(p.y / 0.4));
@@ -92,7 +92,8 @@ TEST(Resample, PutsPointsSideBySide) {
     }
 }
 
-// A valley of 60° that the program rounds by lines of 0.02 mm, none of which turns by more than 16°: smoothed on both sides, never in it.
+// A valley of 60° that the program rounds by lines of 0.02 mm, none of which turns by more than 16°: smoothed on both sides,
+// never in it.
 TEST(Resample, LeavesCreasesAlone) {
     std::string text = "G21 G90\nG64 P0.005\nG0 X0 Y0 Z10\nG1 Z3 F1000\nG1 F3000\n";
     std::vector<std::string> crease;
@@ -117,7 +118,7 @@ TEST(Resample, LeavesCreasesAlone) {
     for (const std::string& line : crease) EXPECT_NE(changed.find(line + "\n"), std::string::npos) << line;
 }
 
-// Gentle waves: no line needs to be shorter for the sake of the tolerance. Where it meets a point that stays it may be.
+// Gentle waves: no line must be shorter for the tolerance. A line may be shorter where it meets a point that is kept.
 TEST(Resample, LaysNoLineShorterThanItMay) {
     const Program program = read_text(wavy_zigzag(
         7, 12, [](int pass, double x) { return 0.25 + 0.05 * std::sin(pass + x); }, 0.2));
@@ -163,7 +164,7 @@ TEST(Deviation, IsThatOfAPlantedBump) {
     EXPECT_EQ(measure_deviation(straight, straight).greatest, 0);
 }
 
-// A pass that is left out shows as a step-over at least, far above any tolerance.
+// A pass that is left out counts as a deviation of at least a step-over, far above any tolerance.
 TEST(Deviation, SeesAPassThatIsLeftOut) {
     const Program whole = read_text("G0 X0 Y0 Z0\nG1 X20 F600\nY0.4\nX0\nY0.8\nX20\n");
     const Program cut = read_text("G0 X0 Y0 Z0\nG1 X20 F600\nY0.8\nX20\n");
@@ -180,7 +181,7 @@ TEST(Deviation, SeesRapidsArcsAndDwellsThatChanged) {
     EXPECT_EQ(measure_deviation(before, before).disordered, 0U);
 }
 
-// Up and down on one line: a walk beside it must not turn back.
+// Up and down on one line: the comparison must not turn back early.
 TEST(Deviation, FollowsAPathThatGoesBackOnItself) {
     const Program program = read_text("G0 X0 Y0 Z0\nG0 Z20\nG0 Z0\nG1 X10 F600\nX0\nX10\nY0.3\nX0\n");
     EXPECT_NEAR(measure_deviation(program, program).greatest, 0, 1e-12);
@@ -204,7 +205,7 @@ TEST(Optimizer, IsBetterInEveryRespectOrRefuses) {
                        farthest(corners_of(program), corners_of(changed))),
               rules.tolerance);
     EXPECT_NE(result.text.find("(by a test)"), std::string::npos);
-    // What is not a plain line of a pass is still there, in order.
+    // Everything but plain lines of passes is kept, in order.
     std::istringstream old(program.main().text().data()), now(result.text);
     std::vector<std::string> kept;
     for (std::string line; std::getline(old, line);) {
@@ -218,7 +219,7 @@ TEST(Optimizer, IsBetterInEveryRespectOrRefuses) {
 }
 
 TEST(Optimizer, SlowsNeighboursDownOnlyInTheTimeThatIsAllowed) {
-    // One pass is slower than those beside it. Feeds are only ever lowered: there is no feed reduction that takes no time.
+    // One pass is slower than its neighbours. Feeds are only lowered: every feed reduction takes time.
     std::string text = wavy_zigzag(
         7, 10, [](int, double) { return 0.3; }, 0);
     for (const auto& [begin, feed] : {std::pair{"Y1.2000", " F2700"}, std::pair{"Y1.6000", " F3000"}})

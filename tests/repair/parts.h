@@ -1,5 +1,5 @@
 #pragma once
-// Programs of small parts, made for the tests, and a machine on which their faults show.
+// Programs of small parts, and a machine on which their faults show.
 
 #include <cmath>
 #include <string>
@@ -18,7 +18,7 @@ inline Program read_text(const std::string& text) {
     return parse_program(SourceText("part.nc", *bytes, bytes), {});
 }
 
-/// Blocks of 0.02 mm take 2 ms: they are passed at 10 mm/s instead of 50.
+/// Blocks of 0.02 mm take 2 ms: they are run at 10 mm/s instead of 50.
 inline Machine slow_at_short_blocks() {
     Machine machine;
     machine.path.max_jerk = 1e6;
@@ -27,7 +27,8 @@ inline Machine slow_at_short_blocks() {
     return machine;
 }
 
-/// A zigzag over z = sin-shaped waves of a height [mm]: passes along x, 0.4 mm apart. `spacing(pass, x)` is the way in x to the next point.
+/// A zigzag over sine-shaped waves in z with a height [mm]: passes along x, 0.4 mm apart. `spacing(pass, x)` is the distance
+/// in x to the next point.
 template <typename Spacing>
 std::string wavy_zigzag(int passes, double length, const Spacing& spacing, double height = 0.8) {
     const auto z = [=](double x, double y) { return height * std::sin(0.9 * x + 0.1 * y); };
@@ -49,8 +50,8 @@ std::string wavy_zigzag(int passes, double length, const Spacing& spacing, doubl
     return text + "G0 Z10\nM5\nM2\n%\n";
 }
 
-/// A zigzag over a ball of radius 60 mm, the tool normal to it and 8° or more from the pole, under G43.4: passes along x, 0.4 mm apart.
-/// `spacing` as above; angles have `decimals`.
+/// A zigzag over a ball of radius 60 mm with the tool normal to it and at least 8° from the pole, under G43.4: passes along
+/// x, 0.4 mm apart. `spacing` as above; angles have `decimals`.
 template <typename Spacing>
 std::string tilted_zigzag(int passes, double length, const Spacing& spacing, int decimals = 4) {
     constexpr double radius = 60, from = 10;

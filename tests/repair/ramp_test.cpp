@@ -1,4 +1,4 @@
-// Ramps: speeds about a lowered place that a machine can run.
+// Ramps: speeds around a lowered place that a machine can run.
 
 #include "repair/feeds/ramp.h"
 
@@ -27,8 +27,8 @@ struct Segment {
     void keep(const Ramp& rules = ramp) { keep_to_ramp(rules, period, own, speeds, causes); }
 };
 
-// From a point that is lowered by 2 mm/s speed grows by j t²/2 and bends back the same way: half of it after √(2/j) s, 6.3 points,
-// all after twice that; steps of a period take half a point more or less.
+// From a point lowered by 2 mm/s the speed increases by j t²/2 and then levels off symmetrically: half of the change after
+// √(2/j) s, 6.3 points, all after twice that; steps of a period take half a point more or less.
 TEST(Ramp, LeavesALowPlaceAndComesBackByTheJerk) {
     Segment s(101);
     s.lower(50, 48);
@@ -54,9 +54,9 @@ TEST(Ramp, BendsNoSharperThanTheJerkAndRisesNoFasterThanTheAcceleration) {
     const double bend = ramp.jerk * period * period;
     for (std::size_t i = 1; i + 1 < s.speeds.size(); ++i) {
         const double before = s.speeds[i] - s.speeds[i - 1], behind = s.speeds[i + 1] - s.speeds[i];
-        // A lowered place takes longer than a period, by 50/40 at most.
+        // At a lowered place a step takes longer than a period, by 50/40 at most.
         EXPECT_LE(std::abs(before), ramp.acceleration * period * 1.25 + 1e-4) << i;
-        // Peaks are rounded but for a thousandth of a speed, on each side.
+        // Peaks are rounded except for a thousandth of a speed, on each side.
         EXPECT_GE(behind - before, -1.25 * 1.25 * bend - 0.1) << i;
         ASSERT_LE(s.speeds[i], s.own[i]);
     }

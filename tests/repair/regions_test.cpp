@@ -1,4 +1,4 @@
-// Mixing by region: where a changed program runs worse, and that what is given back there makes it better.
+// Mixing by region: where a changed program runs worse, and that restoring the original there makes it better.
 
 #include "repair/regions.h"
 
@@ -15,7 +15,7 @@
 namespace clsurf::regions_test {
 namespace {
 
-/// Flat passes, the fifth of which (it runs forth) has 100 points between `from` and `from` + 2 mm.
+/// Flat passes, the fifth of which (it runs forward) has 100 points between `from` and `from` + 2 mm.
 Program crowded_at(double from) {
     return read_text(wavy_zigzag(
         9, 40, [=](int pass, double x) { return pass == 4 && x > from && x < from + 2 ? 0.02 : 0.31; }, 0));
@@ -26,7 +26,7 @@ JudgedRun run_of(const Program& program) {
     return judge_run(simulate_to_log(program, slow_at_short_blocks(), Vec3::Zero(), {}).log, program, diagnostics);
 }
 
-/// Per motion of the program: 1 where another run of it is worse than the first.
+/// Per motion of the program: 1 if another run of it is worse there than the first.
 std::vector<std::uint8_t> worse_motions(const JudgedRun& before, const JudgedRun& after, const Program& program) {
     const std::array<const JudgedRun*, 2> runs{&before, &after};
     std::vector<std::uint8_t> worse = best_runs(runs, 1, program, {});
@@ -34,7 +34,7 @@ std::vector<std::uint8_t> worse_motions(const JudgedRun& before, const JudgedRun
     return worse;
 }
 
-/// Of the cutting motion that ends near a place; −1: none does.
+/// The value of the cutting motion that ends near a place; −1: none does.
 int value_near(const Program& program, const std::vector<std::uint8_t>& of_motion, double x, double y) {
     for (std::size_t i = 0; i < of_motion.size(); ++i) {
         const Vec3 end = program.motions.end[i].vec();
@@ -47,7 +47,7 @@ bool marked_near(const Program& program, const std::vector<std::uint8_t>& marks,
     return value_near(program, marks, x, y) > 0;
 }
 
-// The slow place moves from x = 11 to x = 29: worse is what lies about the second, on the passes beside as well.
+// The slow place moves from x = 11 to x = 29: the run is worse around the second, on the adjacent passes as well.
 TEST(Regions, AreWhereTheOtherRunIsWorse) {
     const Program program = crowded_at(10), changed = crowded_at(28);
     const JudgedRun before = run_of(program), after = run_of(changed);
@@ -68,7 +68,7 @@ TEST(Regions, AreNoneBetweenARunAndItself) {
     EXPECT_EQ(std::count(worse.begin(), worse.end(), 1), 0);
 }
 
-// Slower by the same on all passes: no defect, no difference between them, but time.
+// Equally slower on all passes: no defect, no difference between them, but time.
 TEST(Regions, ThatCostTimeAreGivenBack) {
     const auto of = [](double spacing) {
         return read_text(wavy_zigzag(
@@ -83,7 +83,7 @@ TEST(Regions, ThatCostTimeAreGivenBack) {
     EXPECT_EQ(std::count(reverse.begin(), reverse.end(), 1), 0) << "what saves time is kept";
 }
 
-// One run is bad on the left, the other one on the right: the best of both has the good half of each.
+// One run is bad on the left, the other one on the right: the combination has the good half of each.
 TEST(Regions, TakeTheBestOfSeveralRuns) {
     const Program left = crowded_at(8), right = crowded_at(30);
     const Program program = read_text(wavy_zigzag(
@@ -97,7 +97,7 @@ TEST(Regions, TakeTheBestOfSeveralRuns) {
     EXPECT_EQ(best_at(3), 0) << "is the same in all";
 }
 
-// A slow section of one pass, and the same part slow everywhere: that removes the difference, and takes time.
+// A slow section of one pass, and the same part slow everywhere: this removes the difference, but takes time.
 TEST(Regions, TakeNoMoreTimeThanThereIs) {
     const Program program = read_text(wavy_zigzag(
         9, 40, [](int pass, double x) { return pass == 4 && x > 10 && x < 14 ? 0.07 : 0.31; }, 0));
@@ -115,7 +115,7 @@ TEST(Regions, TakeNoMoreTimeThanThereIs) {
     EXPECT_FALSE(marked_near(program, best, 30, y)) << "is as even in the first run";
 }
 
-/// A part that holds both: a crowd of points to be repaired, and bends where every pass has its points where it wants.
+/// A part with crowded points to be repaired, and with bends where the points of every pass are at different places.
 Program mixed_part() {
     return read_text(wavy_zigzag(6, 9, [](int pass, double x) {
         return pass == 3 && x > 3 && x < 4 ? 0.02 : 0.23 + 0.1 * std::abs(std::sin(1.7 * pass + 0.6 * x));

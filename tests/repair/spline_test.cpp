@@ -1,4 +1,4 @@
-// Sections as splines: the fit, the blocks of each dialect, and what reading them gives. Answers are worked out on paper;
+// Sections as splines: the fit, the blocks of each dialect, and reading them back. Expected values are computed by hand;
 // tests/cli/cases/optimize_splines.cmake evaluates whole programs with SciPy.
 
 #include <gtest/gtest.h>
@@ -67,7 +67,7 @@ TEST(SectionSpline, OfALineIsOneSpan) {
     EXPECT_EQ(spline->points.back(), points.back());
 }
 
-// Chords of 0.25 mm leave a circle of radius 10 mm by 0.8 µm. A cubic per radian leaves it by less than 1 µm.
+// Chords of 0.25 mm deviate from a circle of radius 10 mm by 0.8 µm. A cubic per radian deviates by less than 1 µm.
 TEST(SectionSpline, OfACircleNeedsFewSpans) {
     std::vector<Vec3> points;
     for (int k = 0; k <= 80; ++k) points.emplace_back(10 * std::cos(0.025 * k), 10 * std::sin(0.025 * k), 0.1 * k);
@@ -80,7 +80,7 @@ TEST(SectionSpline, OfACircleNeedsFewSpans) {
     }
 }
 
-// Points off a line by 3 µm in turn can be smoothed; where only 0.1 µm is allowed, a cubic would need a span for each.
+// Points alternately 3 µm off a line can be smoothed; if only 0.1 µm is allowed, a cubic would need a span for each.
 TEST(SectionSpline, GivesUpWhereSpansWouldBeAsShortAsLines) {
     std::vector<Vec3> points;
     for (int k = 0; k <= 60; ++k) points.emplace_back(0.2 * k, k % 2 == 0 ? 0.003 : -0.003, 0);
@@ -111,7 +111,7 @@ TEST(SplineLines, AreThoseOfEachDialect) {
               spline_lines(spline, SplineForm::polynomial, words).size());
 }
 
-// Two spans of different length, in every dialect: the curve that is read is the one that was written.
+// Two spans of different length, in every dialect: the curve that is read back is the written one.
 TEST(SplineLines, ReadBackAsTheSameCurve) {
     const Nurbs spline{
         3, {{0, 0, 5}, {1, 2, 5}, {2, 2, 5}, {4, 1, 5}, {5, 0, 5}}, {1, 1, 1, 1, 1}, {0, 0, 0, 0, 2, 5, 5, 5, 5}};
@@ -139,12 +139,12 @@ TEST(SplineLines, ReadBackAsTheSameCurve) {
     }
 }
 
-/// A section of two spans between two lines, as each dialect has it, and what its motions are fed.
+/// A section of two spans between two lines in each dialect, and the feeds of its motions.
 struct FedSection {
     const char *dialect, *before, *after;
     SplineForm form;
-    std::vector<std::string> with_words;  ///< lines that get an F word where a line follows that may be rewritten
-    std::vector<float> feeds;             ///< [mm/s] of lines, spans and line, as they are read back
+    std::vector<std::string> with_words;  ///< lines with an F word if a line that may be rewritten follows
+    std::vector<float> feeds;             ///< [mm/s] of lines, spans and line, as read back
 };
 
 const std::vector<FedSection>& fed_sections() {
@@ -188,7 +188,7 @@ std::vector<std::string> lines_with_feeds(const std::string& text) {
     return lines;
 }
 
-/// Motions that go somewhere: in linuxcnc a G1 alone is one that does not.
+/// Motions with a movement: in linuxcnc a G1 alone is one without.
 std::vector<std::size_t> moving(const Motions& motions) {
     std::vector<std::size_t> all;
     for (std::int64_t i = 0; i < motions.size(); ++i) {
@@ -198,7 +198,7 @@ std::vector<std::size_t> moving(const Motions& motions) {
     return all;
 }
 
-/// Feeds of those, in the place of all; 0 elsewhere.
+/// The feeds of these motions, at their index; 0 elsewhere.
 std::vector<float> feeds_of_moving(const Motions& motions, const std::vector<float>& feeds) {
     std::vector<float> all(static_cast<std::size_t>(motions.size()), 0);
     const std::vector<std::size_t> of = moving(motions);
@@ -249,8 +249,8 @@ TEST(LineEditor, SetsFeedsOfSpans) {
     }
 }
 
-// Behind the section stands what may not be rewritten: G1 sets the feed again, behind SPL a line of its own does. Of G06.2 that
-// is behind the last knots.
+// The line after the section may not be rewritten: G1 sets the feed again, after SPL a separate line does. For G06.2 that
+// is after the last knots.
 TEST(LineEditor, SetsTheProgrammedFeedBehindASpline) {
     for (const FedSection& row : fed_sections()) {
         const bool klartext = row.form == SplineForm::polynomial;
@@ -265,7 +265,7 @@ TEST(LineEditor, SetsTheProgrammedFeedBehindASpline) {
     }
 }
 
-// Two sections, one behind the other, each with a feed.
+// Two consecutive sections, each with a feed.
 TEST(LineEditor, SetsFeedsOfSectionsThatFollowEachOther) {
     for (const FedSection& row : fed_sections()) {
         const bool klartext = row.form == SplineForm::polynomial;
@@ -294,7 +294,7 @@ TEST(LineEditor, SetsFeedsOfSectionsWithNothingBetween) {
     }
 }
 
-// Splines that the program had stay byte for byte, even where the line before them gets a feed.
+// Splines of the original program are kept byte for byte, even if the line before them gets a feed.
 TEST(LineEditor, SetsNoFeedsOfSplinesThatItDidNotWrite) {
     for (const FedSection& row : fed_sections()) {
         const std::string section = section_text(row);
@@ -323,7 +323,7 @@ TEST(LineEditor, WritesG5InPlanesOfConstantZOnly) {
     EXPECT_TRUE(LineEditor(fanuc).may_be_spline(2, {{1, 0, 0}, {5, 0, 1}}));
 }
 
-// A Bézier curve with inner points h aside is 3/4 h aside of its chord at most.
+// A Bézier curve with inner points at a distance h from its chord deviates from it by at most 3/4 h.
 TEST(Deviation, OfASplineInPlaceOfALine) {
     const Program line = read_as("G21 G90 G17\nG0 X0 Y0 Z0\nG1 X10 F600\nX20\nX30\nM2\n", "linuxcnc");
     const Program spline =
@@ -333,7 +333,7 @@ TEST(Deviation, OfASplineInPlaceOfALine) {
     EXPECT_NEAR(deviation.greatest, 0.015, 1e-6);
 }
 
-/// How many of the sections of a program get more lines than they had.
+/// How many of the sections of a program get more lines than before.
 int growing_sections(const std::string& text, bool splines) {
     const Program program = read_as(text, "linuxcnc");
     const LineEditor editor(program);
@@ -346,7 +346,8 @@ int growing_sections(const std::string& text, bool splines) {
     return growing;
 }
 
-// LinuxCNC has no splines for passes on which Z moves, and even lines over this wave have to be shorter than those of the program.
+// LinuxCNC has no splines for passes on which Z moves, and straight lines over this wave have to be shorter than those of the
+// program.
 TEST(Splines, WhereThereIsNoneLinesDoNotBecomeMore) {
     const std::string text = wavy_zigzag(3, 9, [](int, double) { return 0.5; });
     EXPECT_GT(growing_sections(text, false), 0);

@@ -1,4 +1,4 @@
-// Outliers that are planted are found, all of them and no others; what looks like them is kept.
+// Planted outliers are all found, and no others; features that resemble outliers are kept.
 
 #include "scan/clean_scan.h"
 
@@ -42,7 +42,7 @@ TEST(CleanScan, AMarkOfAMissingValueHidesNoOutlier) {
     }
 }
 
-/// SciPy's siegelslopes of nine places at a time rejects the same ones of such a scan.
+/// SciPy's siegelslopes over nine points at a time rejects the same points of such a scan.
 TEST(CleanScan, ThreePlacesInARowAreFoundAndTheirNeighboursKept) {
     std::vector<ScanPoint> points = wave(1000, 0.01);
     for (const std::size_t i : {300U, 500U, 501U, 502U}) points[i].z += 0.8;
@@ -56,7 +56,7 @@ TEST(CleanScan, OutliersAreFoundWhereEachPlaceIsScannedTwice) {
     std::vector<ScanPoint> points;
     for (const ScanPoint& p : wave(1000, 0.01)) points.insert(points.end(), 2, p);
     points[1401].z += 0.8;                                       // one of the two
-    for (std::size_t i = 600; i < 606; ++i) points[i].z += 0.8;  // both, three places
+    for (std::size_t i = 600; i < 606; ++i) points[i].z += 0.8;  // both, three points each
     const CleanScan scan = clean_scan(points, 5);
     ASSERT_EQ(scan.rejected.size(), 7U);
     EXPECT_EQ(scan.rejected[6].z, points[1401].z);
@@ -76,7 +76,7 @@ TEST(CleanScan, SmoothProfilesAreKept) {
     for (int i = 0; i < 300; ++i) {
         const double x = 0.1 * i;
         line.push_back({x, 100 - 3 * x});
-        steps.push_back({x, std::round(20 * std::sin(x)) / 100});  // an instrument that resolves 0.01 mm
+        steps.push_back({x, std::round(20 * std::sin(x)) / 100});  // an instrument with a resolution of 0.01 mm
         const double in = std::clamp(x - 10, 0.0, 4.0);            // a plane, a fillet of 5 mm, a slope
         fillet.push_back({x, 5 - std::sqrt(25 - in * in) + std::max(0.0, x - 14) * 4 / 3});
     }

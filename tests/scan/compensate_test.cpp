@@ -1,4 +1,4 @@
-// Corrected passes: what is measured too high is taken off where the ball touched.
+// Corrected passes: measured excess height is removed at the contact point of the ball.
 #include "scan/compensate.h"
 
 #include <cmath>
@@ -62,7 +62,7 @@ TEST(Compensate, TakesOffWhatIsTooHigh) {
 }
 
 TEST(Compensate, FindsTheProfileBelowABall) {
-    // On a slope of one in one a ball of 4 mm touches 4/√2 mm ahead of its tip, and 4 − 4/√2 above it.
+    // On a slope of 1:1 a ball of 4 mm touches 4/√2 mm ahead of its tip, and 4 − 4/√2 above it.
     CompensationRules rules;
     rules.radius = 4;
     const double ahead = 4 / std::sqrt(2.0);

@@ -1,4 +1,4 @@
-// Paths of balls over profiles whose offset is known, and programs of every dialect, read again.
+// Paths of balls over profiles with a known offset, and programs in every dialect, read back.
 
 #include "scan/cut_path.h"
 
@@ -43,7 +43,7 @@ TEST(CutPath, ABallThatIsTooLargeIsSeen) {
     EXPECT_NEAR(gouge->least_radius, 1, 1e-3);
     // A ball of radius r on the lowest point: r − √(2 r − 1) below the parabola.
     EXPECT_GE(gouge->depth, 1.5 - std::sqrt(2.0) - 1e-3);
-    // Two slopes that face each other across a smooth bottom, each by itself wide enough.
+    // Two slopes that face each other across a smooth bottom, each wide enough by itself.
     EXPECT_THROW((void)scan_cut("v", std::vector<ScanPoint>{{0, 9}, {1, 4}, {2, 1}, {3, 0}, {4, 1}, {5, 4}, {6, 9}},
                                 {0, {2, 7, WindowJoin::c1}, 3, 0.01}),
                  InputError);
@@ -54,7 +54,7 @@ TEST(CutPath, LinesAndSplinesStayWithinTheTolerance) {
         for (const double tolerance : {0.1, 0.01, 0.001}) {
             const CutPath path(parabola(), radius, tolerance);
             const std::vector<Vec2> points = path.points();
-            // A chord of length l leaves a parabola of second derivative 1 by l²/8 cos, less where it is inclined.
+            // The chord error of a length l on a parabola with second derivative 1 is l²/8 cos, less on a slope.
             if (radius == 0) {
                 EXPECT_GE(points.size(), 1 + static_cast<std::size_t>(6 / std::sqrt(8 * tolerance * std::sqrt(10))));
                 EXPECT_LE(points.size(), 3 + static_cast<std::size_t>(6 / std::sqrt(8 * tolerance * 0.8)));

@@ -1,4 +1,4 @@
-// Fits of windows against NumPy and against what was computed independently for another room; exact polynomials.
+// Fits of windows compared with NumPy and with values computed independently for another room; exact polynomials.
 
 #include "scan/windowed_fit.h"
 
@@ -65,7 +65,7 @@ TEST(WindowedFit, WindowsApartJumpAsComputedIndependently) {
     }
 }
 
-/// Uneven places far from 0, as a long machine has them.
+/// Unevenly spaced positions far from 0, as on a long machine.
 std::vector<double> uneven_places(std::size_t count) {
     std::vector<double> x;
     for (std::size_t i = 0; i < count; ++i)

@@ -1,4 +1,4 @@
-// Arcs in corners of machines whose axes have jerk limits: speeds and times against answers on paper.
+// Arcs in corners of machines whose axes have jerk limits: speeds and times compared with values computed by hand.
 
 #include <gtest/gtest.h>
 
@@ -39,15 +39,15 @@ TEST(ArcSteps, ASquareCornerIsPassedAtTheRootOfJerkRadiusAndTime) {
     EXPECT_NEAR(speed_at({-1, 0, 0}, {0, 1, 0}, machine), right_angle_speed, 1e-9);
     machine.controller.arc_step_time = 0.002;
     EXPECT_NEAR(speed_at({-1, 0, 0}, {0, 1, 0}, machine), std::sqrt(2.0) * right_angle_speed, 1e-9);
-    machine.axes[1].max_jerk = 0.25 * axis_jerk;  // the step at the begin is along y
+    machine.axes[1].max_jerk = 0.25 * axis_jerk;  // the step at the beginning is along y
     EXPECT_NEAR(speed_at({-1, 0, 0}, {0, 1, 0}, machine), std::sqrt(0.5) * right_angle_speed, 1e-9);
-    machine.axes[1].max_jerk = 0;  // not limited: that at the end counts
+    machine.axes[1].max_jerk = 0;  // not limited: the step at the end counts
     EXPECT_NEAR(speed_at({-1, 0, 0}, {0, 1, 0}, machine), std::sqrt(2.0) * right_angle_speed, 1e-9);
     for (MachineAxis& axis : machine.axes) axis.max_jerk = 0;
     EXPECT_FALSE(ArcSteps(machine).count());
 }
 
-// Across the axes the step has 1/√2 of its size along each; after it the normal turns towards y by the angle of a period.
+// Across the axes the step along each is 1/√2 of its size; after it the normal turns towards y by the angle of a period.
 TEST(ArcSteps, WhatTheArcTurnsWithinTheTimeCounts) {
     const double steps_alone = std::sqrt(axis_jerk * period * right_angle_radius * std::sqrt(2.0));
     const double turned = steps_alone * period / right_angle_radius;
@@ -55,8 +55,8 @@ TEST(ArcSteps, WhatTheArcTurnsWithinTheTimeCounts) {
     EXPECT_NEAR(speed_at({-1, -1, 0}, {1, -1, 0}, stepping()), both, 1e-9);
 }
 
-// Where the whole arc is within the time, both of its steps are: of 120°, with normals at 90° ± 60°, they have
-// √3/2 of opposite signs along x and all of one along y.
+// If the whole arc is within the time, both of its steps are: for 120°, with normals at 90° ± 60°, they have
+// √3/2 with opposite signs along x and the full size along y.
 TEST(ArcSteps, BothEndsWithinTheTimeAddUp) {
     const Vec3 from(-0.5, -std::sqrt(0.75), 0), to(0.5, -std::sqrt(0.75), 0);
     Machine machine = stepping();
@@ -66,11 +66,11 @@ TEST(ArcSteps, BothEndsWithinTheTimeAddUp) {
     EXPECT_NEAR(speed_at(from, to, machine, error), std::sqrt(axis_jerk * period * radius / std::sqrt(3.0)), 1e-9);
 }
 
-/// Of a ramp from one speed to another, without acceleration at its ends.
+/// Time of a ramp from one speed to another, without acceleration at its ends.
 double ramp_time(double change) { return 2 * std::sqrt(change / path_jerk); }  // below a²/j = 80 mm/s
 double ramp_way(double low, double high) { return 0.5 * (low + high) * ramp_time(high - low); }
 
-/// A way from one speed to another through the highest.
+/// Time of a line from one speed to another through the highest speed.
 double line_time(double way, double start, double end) {
     const auto ramps = [&](double speed) { return ramp_way(start, speed) + ramp_way(end, speed); };
     double low = std::max(start, end), high = feed;
@@ -79,8 +79,8 @@ double line_time(double way, double start, double end) {
     return ramp_time(low - start) + ramp_time(low - end);
 }
 
-/// Lines of a length, with corners of 90° between them that are passed at a speed: at this speed for one and a half
-/// periods to each side of every arc, and over the arcs.
+/// Time of lines of a length, with corners of 90° between them that are passed at a given speed: at this speed for one and a
+/// half periods on each side of every arc, and over the arcs.
 double time_on_paper(int lines, double length, double corner_speed) {
     const double beside = 1.5 * period;
     double time = (lines - 1) * 0.5 * std::numbers::pi * right_angle_radius / corner_speed;
@@ -109,7 +109,7 @@ TEST(ArcSteps, AZigzagTakesTheTimeOnPaper) {
                          time_on_paper(6, std::sqrt(2.0), speed_at({-1, -1, 0}, {1, -1, 0}, stepping())));
 }
 
-// The arc is one: all points between the lines have its distance from the centre.
+// The corner is an arc: all points between the lines have the same distance from the centre.
 TEST(ArcSteps, PointsInTheCornerLieOnTheArc) {
     const Recorded r = run_program(program_of("G21 G90 G64\nG1 X10 F3000\nY10\nM2\n"), stepping());
     const Vec3 centre(10 - right_angle_radius, right_angle_radius, 0);
@@ -123,7 +123,7 @@ TEST(ArcSteps, PointsInTheCornerLieOnTheArc) {
     EXPECT_GT(on_arc, 20);
 }
 
-// Without a time for the steps, splines take the place of arcs, as if they were asked for.
+// Without a time for the steps, splines replace arcs, as if they were selected.
 TEST(ArcSteps, WithoutATimeThereAreSplines) {
     const Program program = program_of("G21 G90 G64\nG1 X10 F3000\nY10\nM2\n");
     Machine machine = stepping();

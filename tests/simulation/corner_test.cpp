@@ -1,5 +1,5 @@
-// Transition arcs and junction speeds against vectors that were computed independently, and what an arc
-// between any two blocks must hold.
+// Transition arcs and junction speeds compared with independently computed vectors, and properties of an arc
+// between any two blocks.
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ TEST(JunctionVectors, SpeedRules) {
     for (VectorRow& r : vector_rows("simulation", "junction_speed.txt")) {
         const double alpha = r.number(), a = r.number(), period = r.number(), chord_error = r.number(),
                      radius = r.number(), error = r.number();
-        (void)r.number();  // of a corner that is passed as it is, which no corner mode does
+        (void)r.number();  // of a corner without rounding, which no corner mode has
         near(arc_speed(radius, a), r.number(), 1e-9, 1e-12, r.name);
         near(chord_speed(radius, chord_error, period), r.number(), 1e-9, 1e-12, r.name);
         near(period_speed(radius, alpha, period), r.number(), 1e-9, 1e-12, r.name);
@@ -113,15 +113,16 @@ TEST(TransitionArcVectors, BetweenLineAndArcForthAndBack) {
     }
 }
 
-/// Arcs about a centre, clockwise up to the origin or from it, by an angle [rad].
+/// Arcs about a centre, clockwise to the origin or from it, by an angle [rad].
 PathElement clockwise_to_origin(const Vec3& centre, double sweep) {
     return arc(centre, centre + Eigen::AngleAxisd(sweep, Vec3::UnitZ()) * -centre, -sweep);
 }
 PathElement clockwise_from_origin(const Vec3& centre, double sweep) { return arc(centre, Vec3::Zero(), -sweep); }
 double direction_to(const Vec3& from, const Vec3& to) { return std::atan2(to.y() - from.y(), to.x() - from.x()); }
 
-// Two circles of R = 5 about (±4, −3) meet in the origin. A circle of radius r above it, between them, is touched from outside:
-// 4² + (r + e + 3)² = (5 + r)², e its distance from the origin, so that r = e (e + 6)/(2 (2 − e)): 13/12 for e = 1/2.
+// Two circles of R = 5 about (±4, −3) meet in the origin. A circle of radius r above it, between them, touches them from
+// outside: 4² + (r + e + 3)² = (5 + r)², e its distance from the origin, so that r = e (e + 6)/(2 (2 − e)): 13/12 for e =
+// 1/2.
 TEST(TransitionArc, InTheValleyBetweenTwoArcs) {
     const Vec3 left(-4, -3, 0), right(4, -3, 0), middle(0, 19.0 / 12, 0);
     const TransitionArc a = transition_arc(clockwise_to_origin(left, 1), clockwise_from_origin(right, 1), 0.5);
@@ -136,7 +137,7 @@ TEST(TransitionArc, InTheValleyBetweenTwoArcs) {
     near(a.middle, Vec3(0, 0.5, 0), 1e-8, 1e-8, "the point next to the corner");
 }
 
-// The same circles, along their inner sides: the tip of a lens. A circle below it is touched from inside:
+// The same circles, along their inner sides: the tip of a lens. A circle below it touches them from inside:
 // 4² + (3 − r − e)² = (5 − r)², so that r = e (6 − e)/(2 (2 + e)): 0.55 for e = 1/2.
 TEST(TransitionArc, InTheTipOfALens) {
     const Vec3 left(-4, -3, 0), right(4, -3, 0), middle(0, -1.05, 0);
@@ -150,8 +151,9 @@ TEST(TransitionArc, InTheTipOfALens) {
     EXPECT_NEAR(a.arc_length_after, arc_length, 1e-8);
 }
 
-// Circles of 5 about (−4, −3) and of 13 about (5, −12), half of the first arc ending in (−1, 1), towards u = (3/5, 4/5) from its centre. A circle that
-// touches it there is about (−1, 1) + r u, and touches the second one where |D + r u| = 13 + r, D = (−6, 13): r = (205 − 169)/(2 (13 − 34/5)) = 90/31.
+// Circles of 5 about (−4, −3) and of 13 about (5, −12), half of the first arc ending in (−1, 1), in the direction u = (3/5,
+// 4/5) from its centre. A circle that touches it there is about (−1, 1) + r u, and touches the second one where |D + r u| =
+// 13 + r, D = (−6, 13): r = (205 − 169)/(2 (13 − 34/5)) = 90/31.
 TEST(TransitionArc, AsLongAsHalfOfAnArcBetweenUnequalOnes) {
     const Vec3 first(-4, -3, 0), second(5, -12, 0), middle(23.0 / 31, 103.0 / 31, 0);
     const double half = std::atan2(4, 3) - std::atan2(3, 4);
@@ -166,7 +168,7 @@ TEST(TransitionArc, AsLongAsHalfOfAnArcBetweenUnequalOnes) {
     EXPECT_NEAR(a.arc_length_after, 13 * (direction_to(second, Vec3::Zero()) - direction_to(second, middle)), 1e-8);
 }
 
-// The centre of an arc between two arcs lies on the offsets of both: at |ρ ± r| from their centres.
+// The centre of an arc between two arcs is on the offsets of both: at |ρ ± r| from their centres.
 TEST(TransitionArc, BetweenArcsTouchesBoth) {
     std::mt19937_64 random(7);
     const auto uniform = [&](double low, double high) {
@@ -220,13 +222,13 @@ TEST(TransitionArc, OfBlocksOutOfPlaneThereIsNone) {
 }
 
 TEST(Corner, IsRoundedBesideAnExactPath) {
-    // The second line goes straight on from G64 to G61: no stop, and no rounding may reach the exact part.
+    // The second line continues straight from G64 to G61: no stop, and no rounding may extend into the exact part.
     Machine machine;
     const Recorded r = run_program(program_of("G21 G90 G64 P0.1\nG1 X5 F1800\nY0.05\nG61\nY5\nM2\n"), machine);
     EXPECT_TRUE(r.summary.limits_ok) << r.summary.max_acceleration.transpose() << ", jerk "
                                      << r.summary.max_jerk.transpose();
     EXPECT_GT(r.summary.path_deviation, 0.001);
-    double aside = 0;  // of the exact path
+    double aside = 0;  // off the exact path
     for (const SimulatedPoint& p : r.points) {
         if (p.commanded.y() > 0.05) aside = std::max(aside, std::abs(p.commanded.x() - 5));
     }

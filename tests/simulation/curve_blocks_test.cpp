@@ -1,4 +1,4 @@
-// Curves in the place of lines: what they stand for, where they go, and that they do not depend on the direction of travel.
+// Curves that replace lines: which lines, their path, and that they do not depend on the direction of travel.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ std::string lines_through(const std::vector<Vec3>& points) {
     return text + "M2\n";
 }
 
-/// The elements of a program's only section behind the way to its first point.
+/// The elements of a program's only section after the rapid to its first point.
 std::vector<PathElement> shaped(const std::vector<Vec3>& points, CurveMode mode) {
     const Program program = program_of(lines_through(points));
     const Machine machine;
@@ -94,18 +94,18 @@ TEST_P(Curves, StandForTheirBlocksAndJoin) {
 INSTANTIATE_TEST_SUITE_P(Modes, Curves, testing::Values(CurveMode::akima, CurveMode::least_squares),
                          [](const auto& mode) { return mode.param == CurveMode::akima ? "akima" : "least_squares"; });
 
-// R 20 mm in chords of 1 mm, which leave it by 6 µm: Akima's curve leaves it by less than a hundredth of that.
+// R 20 mm in chords of 1 mm, which deviate by 6 µm: Akima's curve deviates by less than a hundredth of that.
 TEST(CurveBlocks, RunSharpCubicsByTheirArcLength) {
-    // Most of the turn lies in a small part of the curve, where it is slow in u.
+    // Most of the turn is in a small part of the curve, where the position changes slowly with u.
     const CubicSpan sharp = hermite(Vec3::Zero(), Vec3(1, 0.4, 0), Vec3(1.6, -0.9, 0.2), Vec3(0.3, 1.4, -0.3), 1);
     const PathElement element = element_of(sharp);
-    // Its length by chords, which are shorter by a part in 10¹¹ or so.
+    // Its length by chords, which are shorter by about one part in 10¹¹.
     constexpr int chords = 200000;
     constexpr double step = 1.0 / chords;
     double length = 0;
     for (int k = 1; k <= chords; ++k) length += (sharp.at(k * step) - sharp.at((k - 1) * step)).norm();
     EXPECT_NEAR(element.length, length, 1e-9);
-    // Steps of equal length move the position by as much: central differences of four places.
+    // Steps of equal length move the position by equal distances: central differences of four points.
     const double h = 1e-3 * element.length;
     for (int k = 1; k < 100; ++k) {
         const double s = element.length * k / 100;

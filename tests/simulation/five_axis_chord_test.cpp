@@ -1,4 +1,4 @@
-// The chord error of a period where the tip nearly reverses, on five axes: it holds, and limits no more than it must.
+// The chord error of a period where the tip nearly reverses, on five axes: it is met, and limits no more than necessary.
 
 #include <gtest/gtest.h>
 
@@ -28,8 +28,8 @@ Machine machine_at(double period) {
     return machine;
 }
 
-// The rounding of a corner has (15/16)(1 − x²)²/w of the jump s of the slope as its second derivative, x = d/w, and is off the
-// corner by 15/96 w s, which is the tolerance: in the corner the second derivative is (15/16)(15/96) s²/tolerance.
+// The rounding of a corner has (15/16)(1 − x²)²/w of the jump s of the slope as its second derivative, x = d/w, and its
+// distance from the corner is 15/96 w s, the tolerance: in the corner the second derivative is (15/16)(15/96) s²/tolerance.
 TEST(FiveAxisChord, ANearReversalIsLimitedByItsSecondDerivative) {
     const Machine machine = machine_at(0.004);
     const ControllerSettings& c = machine.controller;
@@ -48,10 +48,10 @@ TEST(FiveAxisChord, ANearReversalIsLimitedByItsSecondDerivative) {
 
 struct ZigzagRun {
     double duration = 0;   ///< [s]
-    double least_end = 0;  ///< x where the tip reversed last out, of all times [mm]
+    double least_end = 0;  ///< smallest x of the outer reversals of the tip [mm]
 };
 
-/// Eight lines to and fro, `across` further each, the tool tilting.
+/// Eight lines back and forth, each `across` farther, while the tool tilts.
 ZigzagRun zigzag(double period) {
     const Machine machine = machine_at(period);
     std::string text = "G21 G90 G94 G17\nG43.4 H1\nG0 X0 Y0 Z0 A0 C0\nG1 F3000\n";
@@ -81,7 +81,7 @@ TEST(FiveAxisChord, ALongerPeriodIsHardlySlowerWhereTheTipNearlyReverses) {
     const ZigzagRun fine = zigzag(0.0005), coarse = zigzag(0.004);
     EXPECT_NEAR(coarse.duration, fine.duration, 0.01 * fine.duration);
     const ControllerSettings& c = machine_at(0.004).controller;
-    // The tip misses the corner by at most the tolerance of its rounding plus the chord error of a period.
+    // The tip is off the corner by at most the tolerance of its rounding plus the chord error of a period.
     EXPECT_GE(coarse.least_end, width - c.tolerance - c.chord_tolerance);
 }
 

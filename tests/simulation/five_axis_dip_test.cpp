@@ -1,5 +1,5 @@
-// Blocks of very different lengths that turn back at random: the pace of the tip falls to next to nothing beside many joints,
-// over nanometres. The jerk of the path holds there, too, at periods that see it.
+// Blocks of very different lengths with random reversals: next to many joints the speed of the tip falls almost to zero
+// within nanometres. The jerk of the path stays within its limit there, too, for periods that resolve it.
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ private:
     std::uint64_t state_;
 };
 
-/// Steps of 10 µm to 20 mm in all directions, with turns to match: `blocks` of them, from where `skipped` ones end.
+/// Steps of 10 µm to 20 mm in all directions, with corresponding turns: `blocks` of them, after `skipped` ones.
 std::string random_walk(std::uint64_t seed, int skipped, int blocks) {
     Random random(seed);
     std::string text = "G21 G90 G94 G17\nG43.4 H1\n";
@@ -71,12 +71,13 @@ void expect_the_paths_jerk_to_hold(const std::string& text, double period) {
     EXPECT_LE(jerk / (period * period), 1.001 * machine.path.max_jerk);
 }
 
-// Without places in the dip it has 21.8 times its limit.
+// Without grid points in the dip the jerk is 21.8 times its limit.
 TEST(FiveAxisDip, ThePathsJerkHoldsWhereTheTipNearlyReverses) {
     expect_the_paths_jerk_to_hold(random_walk(2, 74, 16), 0.0005);
 }
 
-// A limit that holds at every eighth of a cell is exceeded by 1 to 2 % on less than a tenth of the way between two of these.
+// A limit that is met at every eighth of a cell is exceeded by 1 to 2 % on less than a tenth of the path between two of
+// these.
 TEST(FiveAxisDip, LimitsHoldBetweenPlacesThatHoldThem) {
     for (const std::uint64_t seed : {3U, 23U, 49U}) {
         SCOPED_TRACE(seed);

@@ -1,4 +1,4 @@
-// Five axes simulated: limits of all of them hold, the tip keeps to its path, angles arrive.
+// Simulation of five axes: all limits are met, the tip keeps to its path, angles are reached.
 
 #include "simulation/run/five_axis_simulator.h"
 
@@ -50,7 +50,7 @@ ToolPose pose_of(const Machine& machine, const std::array<double, 5>& axes) {
     return pose;
 }
 
-/// Greatest speed, acceleration and jerk of each axis over its limit, by differences.
+/// The largest ratio of speed, acceleration and jerk of each axis to its limit, by differences.
 double worst_share(const Recorded& r, const Machine& machine) {
     double worst = 0;
     const double t = machine.controller.period;
@@ -74,7 +74,7 @@ TEST(FiveAxisSimulator, ADomeHoldsLimitsAndPath) {
         const Recorded r = run(test::dome_program(), machine);
         EXPECT_TRUE(r.summary.run.limits_ok) << name_of(mode);
         EXPECT_LE(worst_share(r, machine), 1.0011) << name_of(mode);
-        // Every tip is as near to the programmed path as corners may be rounded; programmed axes are met.
+        // Every tip is within the corner tolerance of the programmed path; programmed axis positions are reached.
         const Toolpath path(r.program.motions, Vec3::Zero());
         double off = 0;
         for (std::size_t i = 0; i < r.points.size(); i += 7) {
@@ -94,13 +94,14 @@ TEST(FiveAxisSimulator, ADomeHoldsLimitsAndPath) {
         EXPECT_LE(angle_between(end.axis, machine.kinematics.axis_of(
                                               machine.kinematics.angles_of(r.program.motions.rotary[last].vec()))),
                   1e-9);
-        // Half a degree is what a triangle of 16 periods takes from the changes of direction at the passes' ends.
+        // Smoothing over a triangle of 16 periods takes up to half a degree from the changes of direction at the ends of
+        // passes.
         EXPECT_LT(r.summary.orientation_error, 0.6 * rad_per_deg) << name_of(mode);
     }
 }
 
-// Near the pole C turns by 20° a millimetre: there a step of the angles at a rounded corner, and the jerk of the tip between
-// blocks of different speed, are too much for it. Some lines of a dome on both sides of the pole.
+// Near the pole C turns by 20° per millimetre: a step of the angles at a rounded corner, and the jerk of the tip between
+// blocks of different speed, would exceed its limits. Some lines of a dome on both sides of the pole.
 TEST(FiveAxisSimulator, LinesNearThePoleHoldTheLimitsOfTheRotation) {
     std::ifstream file(SAMPLE_DATA "/programs/dome_five_axis.nc");
     std::string text, line;
@@ -112,13 +113,13 @@ TEST(FiveAxisSimulator, LinesNearThePoleHoldTheLimitsOfTheRotation) {
     EXPECT_TRUE(r.summary.run.limits_ok);
     EXPECT_LE(worst_share(r, machine), 1.0011);
     EXPECT_LT(r.summary.run.duration, 15) << "slower than it must be";
-    // The last block's angles are met.
+    // The angles of the last block are reached.
     const RotaryAngles last =
         machine.kinematics.angles_of(r.program.motions.rotary[r.program.motions.kind.size() - 1].vec());
     EXPECT_NEAR(r.points.back().commanded[4], last.rotation, 1e-12);
 }
 
-// The tip in place, the tool turns: five axes move, the tip does not.
+// The tool turns with the tip in place: five axes move, the tip does not.
 TEST(FiveAxisSimulator, TurningOnTheSpotKeepsTheTip) {
     const Machine machine = trunnion();
     const Recorded r = run("G21 G90\nG43.4 H1\nG1 X10 Y5 Z3 F2000\nA-40 C90\nX20\nM30\n", machine);
@@ -134,7 +135,7 @@ TEST(FiveAxisSimulator, TurningOnTheSpotKeepsTheTip) {
     EXPECT_NEAR(r.points.back().commanded[4], 90 * rad_per_deg, 1e-12);
 }
 
-/// How long line 4 takes, which turns by 90° from (10, 5, 3) on [s].
+/// The time of line 4, which turns by 90°, from (10, 5, 3) [s].
 double turning_time(const std::string& line, double feed_override, bool planned_by_tip = false) {
     Machine machine = trunnion();
     machine.controller.feed_override = feed_override;
@@ -155,7 +156,7 @@ TEST(FiveAxisSimulator, ATurnKeepsItsFeedInDegrees) {
     EXPECT_LT(turning_time("G0 C90\nG1", 0.5), 0.6);
 }
 
-// 100 mm at 3000 mm/min are 2 s, at half of it 4 s; ramps take their time in both.
+// 100 mm at 3000 mm/min are 2 s, at half of it 4 s; both have ramps in addition.
 TEST(FiveAxisSimulator, FeedOverrideHolds) {
     Machine machine = trunnion();
     const std::string text = "G21 G90\nG43.4 H1\nG1 X100 A-20 F3000\nM30\n";
@@ -171,7 +172,7 @@ TEST(FiveAxisSimulator, FeedOverrideHolds) {
     EXPECT_EQ(with.summary.run.diagnostics.kept()[0].text.find("block_time: without effect"), 0U);
 }
 
-// Without control of the tip C turns by chords, here about the tip: one turn at the feed, not 180 from rest to rest.
+// Without tool centre point control C turns in chords, here about the tip: one turn at the feed, not 180 from rest to rest.
 TEST(FiveAxisSimulator, ATurnAboutTheTipIsOne) {
     Machine machine = trunnion();
     machine.kinematics = {};
@@ -183,7 +184,7 @@ TEST(FiveAxisSimulator, ATurnAboutTheTipIsOne) {
     EXPECT_NEAR(summary.run.duration, 1.7, 0.15);
 }
 
-// 20 mm at 1000 mm/min are 1.2 s, and ramps some hundredths: A turns within its limits at that feed. It took hours.
+// 20 mm at 1000 mm/min are 1.2 s, plus ramps of some hundredths: A turns within its limits at that feed. It once took hours.
 TEST(FiveAxisSimulator, AShortLineTakesTheTimeOfItsFeed) {
     Machine machine;
     machine.kinematics.type = KinematicsType::table_table;
@@ -193,7 +194,7 @@ TEST(FiveAxisSimulator, AShortLineTakesTheTimeOfItsFeed) {
     EXPECT_LT(r.summary.run.duration, 1.4);
 }
 
-// Without control of the tip, X moves while A turns, whether Y and Z were named before or not.
+// Without tool centre point control, X moves while A turns, whether Y and Z were named before or not.
 TEST(FiveAxisSimulator, AxesThatWereNotNamedStandAtTheStart) {
     Machine machine;
     machine.kinematics.type = KinematicsType::table_table;
@@ -201,7 +202,7 @@ TEST(FiveAxisSimulator, AxesThatWereNotNamedStandAtTheStart) {
                              "G21 G90\nG0 Z0\nG0 X0 A0\nG1 X20 A40 F1000\nM30\n"}) {
         const Recorded r = run(text, machine);
         EXPECT_GT(r.summary.run.duration, 1.2) << text;
-        EXPECT_LT(r.summary.run.duration, 1.8) << text;  // F counts along the tip, which the turn moves as well
+        EXPECT_LT(r.summary.run.duration, 1.8) << text;  // F counts along the tip, which also moves by the turn
         const std::array<double, 5>&first = r.points.front().commanded, &last = r.points.back().commanded;
         EXPECT_NEAR(last[0] - first[0], 20, 1e-4) << text;
         EXPECT_NEAR(last[1] - first[1], 0, 1e-4) << text;
@@ -220,7 +221,7 @@ TEST(FiveAxisSimulator, LongRapidsThatNearlyReverseArePlanned) {
     EXPECT_LE(worst_share(r, machine), 1.0011);
 }
 
-/// A zigzag of ten lines, which turn both axes.
+/// A zigzag of ten lines that turn both axes.
 FiveAxisPath zigzag(const Machine& machine, double length) {
     std::vector<FiveAxisChord> chords(10);
     for (std::size_t k = 0; k < chords.size(); ++k) {
@@ -245,8 +246,8 @@ TEST(FiveAxisSimulator, LongLinesCostNoMoreThanShortOnes) {
     EXPECT_LT(motions(2000), 1.6 * motions(100));
 }
 
-/// The greatest share of an axis' acceleration or jerk, or of the normal acceleration of the tip, at `places` of each motion: by the
-/// chain rule, with b = v² and its derivatives by u.
+/// The largest share of an axis' acceleration or jerk, or of the normal acceleration of the tip, at `places` of each motion:
+/// by the chain rule, with b = v² and its derivatives by u.
 double share_along(const FiveAxisPath& path, const Machine& machine, int places) {
     double worst = 0;
     for (const FiveAxisMotion& motion : plan_of(path, machine)) {
@@ -270,7 +271,7 @@ double share_along(const FiveAxisPath& path, const Machine& machine, int places)
             }
             PathDerivatives tip;
             const AxisSample<5> d = path.derivatives(u, tip);
-            const double pace = tip.first.norm();  // of the tip: its acceleration across the way is (v pace)² / radius
+            const double pace = tip.first.norm();  // of the tip: its normal acceleration is (v pace)² / radius
             if (pace > 1e-9)
                 worst = std::max(worst,
                                  b * tip.first.cross(tip.second).norm() / pace / machine.path.max_normal_acceleration);
@@ -286,14 +287,14 @@ double share_along(const FiveAxisPath& path, const Machine& machine, int places)
     return worst;
 }
 
-// Where lines nearly reverse, derivatives change within a thousandth of a millimetre: a limit held at five places of a
-// cell is not held between them.
+// Where lines nearly reverse, derivatives change within a thousandth of a millimetre: a limit met at five points of a
+// cell is not met between them.
 TEST(FiveAxisSimulator, LimitsHoldBetweenTheSamplesOfACell) {
     const Machine machine = trunnion();
     for (const double length : {100.0, 2000.0}) EXPECT_LE(share_along(zigzag(machine, length), machine, 64), 1.0005);
 }
 
-// A window of the plan would end at rest in a sharp bend, where no speeds hold the limits; a little before it they do.
+// A window of the plan would end at rest in a sharp bend, where no speeds meet the limits; slightly before it they do.
 TEST(FiveAxisSimulator, AWindowDoesNotEndInABendThatAllowsNoRest) {
     std::ifstream file(SAMPLE_DATA "/programs/butterfly_nurbs.nc");
     const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
@@ -301,12 +302,13 @@ TEST(FiveAxisSimulator, AWindowDoesNotEndInABendThatAllowsNoRest) {
     const FiveAxisSummary summary =
         simulate_five_axis(program, trunnion(), Vec3::Zero(), Vec3::Zero(), [](std::span<const FiveAxisPoint>) {}, {});
     EXPECT_TRUE(summary.run.limits_ok);
-    // Rotary axes stand still: the planner of three axes takes 5.778 s within the limits of the same linear axes.
+    // The rotary axes do not move: the three-axis planner takes 5.778 s within the limits of the same linear axes.
     EXPECT_NEAR(summary.run.duration, 5.778, 0.05 * 5.778);
 }
 
-// A rest in the middle of a bend that is smaller than what the jerk of a straight way to the rest would take: full circles of
-// 0.002 to 0.02 mm at the end, and a line of 3 µm that nearly reverses in front of a dwell.
+// A rest in the middle of a bend that is smaller than the distance that the jerk of a straight line to the rest would take:
+// full circles
+// of 0.002 to 0.02 mm at the end, and a line of 3 µm that nearly reverses before a dwell.
 TEST(FiveAxisSimulator, ARestBesideATinyBendIsReached) {
     const Machine machine = trunnion();
     std::vector<std::string> programs{
@@ -323,7 +325,7 @@ TEST(FiveAxisSimulator, ARestBesideATinyBendIsReached) {
 }
 
 // Short lines that nearly reverse, on a machine whose axes take from 1.3 ms (a table of high jerk) to 0.55 s to reach their
-// acceleration: no first speeds led to a solution, and the program was refused.
+// acceleration: no initial speeds led to a solution, and the program was refused.
 TEST(FiveAxisSimulator, LimitsOfVeryDifferentAxesArePlanned) {
     Machine machine = trunnion();
     machine.controller.period = 0.004;
@@ -348,8 +350,8 @@ TEST(FiveAxisSimulator, LimitsOfVeryDifferentAxesArePlanned) {
     EXPECT_LT(r.summary.run.duration, 5) << "4.3 s; the rapid alone takes 3.4 s";
 }
 
-// The chords of a curve are joined within a tolerance, but its bend is the program's: what it takes of an axis is jerk. Spans of
-// a spline are blocks, so beside their joints a few points are left; it was 57 of 3,009.
+// The chords of a curve are joined within a tolerance, but its bend is programmed: it affects the jerk of an axis. Spans of
+// a spline are blocks, so a few points next to their joints remain; it was 57 of 3,009.
 TEST(FiveAxisSimulator, ABendOfACurveIsNoCorner) {
     std::ifstream file(SAMPLE_DATA "/programs/butterfly_nurbs.nc");
     const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());

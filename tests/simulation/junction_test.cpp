@@ -1,4 +1,4 @@
-// Corners that are passed without rounding, limited look-ahead and blocks of whole periods, against answers on paper.
+// Corners without rounding, limited look-ahead and blocks of whole periods, compared with values computed by hand.
 
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ TEST(Junction, NoAxisSpeedStepsByMoreThanTheRule) {
     machine.controller.junction = {.deviation = 0, .speed_step = 3};
     EXPECT_NEAR(junction_speed({-1, 1, 0}, machine), 3, 1e-12);
     EXPECT_NEAR(junction_speed({-0.5, 0.25, 0.1}, machine), 6, 1e-12);
-    machine.controller.junction.deviation = 0.01;  // 90°: 3.474, the lower one counts
+    machine.controller.junction.deviation = 0.01;  // 90°: 3.474, the lower one applies
     EXPECT_NEAR(junction_speed({-1, 1, 0}, machine), 3, 1e-12);
     machine.controller.junction.speed_step = 4;
     EXPECT_NEAR(junction_speed({-1, 1, 0}, machine), 3.47434, 1e-5);
@@ -94,7 +94,7 @@ TEST(Junction, ExactStopsRemain) {
     EXPECT_NEAR(stopped.summary.duration - passed.summary.duration, 2 * saved, 3e-4);
 }
 
-/// Collinear blocks of 0.1 mm, fed faster than any look-ahead here lets them run.
+/// Collinear blocks of 0.1 mm, with a feed that no look-ahead here can reach.
 std::string short_lines() {
     std::string text = "G21 G90 G64 F6000\n";
     for (int k = 1; k <= 400; ++k) text += fmt::format("G1 X{:.1f}\n", 0.1 * k);
@@ -102,7 +102,7 @@ std::string short_lines() {
 }
 
 TEST(Lookahead, ASpeedCanBrakeInTheBlocksThatAreKnown) {
-    // With n blocks of l known after the one that runs, its end has v² = 2 a n l; in between it gains a l.
+    // With n blocks of length l known after the present one, its end has v² = 2 a n l; within a block it gains a l.
     for (const CornerMode corner : {CornerMode::junction, CornerMode::spline}) {
         Machine machine = stepper();
         machine.controller.corner = corner;
@@ -117,13 +117,13 @@ TEST(Lookahead, ASpeedCanBrakeInTheBlocksThatAreKnown) {
 TEST(Lookahead, ADistanceCountsLikeItsBlocks) {
     Machine machine = stepper();
     machine.controller.replan_blocks = 1;
-    machine.controller.lookahead_distance = 0.45;  // the fifth block ends behind it
+    machine.controller.lookahead_distance = 0.45;  // the fifth block ends beyond it
     const Recorded by_distance = run_program(program_of(short_lines()), machine);
     machine.controller.lookahead_distance = 0;
     machine.controller.lookahead_blocks = 5;
     const Recorded by_blocks = run_program(program_of(short_lines()), machine);
     EXPECT_EQ(by_distance.summary.duration, by_blocks.summary.duration);
-    // Long blocks are not held back: the distance counts from the end of the block that runs.
+    // Long blocks are not slowed: the distance counts from the end of the present block.
     machine.controller.lookahead_blocks = 500;
     machine.controller.lookahead_distance = 2;
     const Recorded longer = run_program(program_of("G21 G90 G1 X20 F600\nX40\nX60\nM2\n"), machine);

@@ -1,4 +1,4 @@
-// LimitRows, four side by side, against the same sums written out one row and one side at a time.
+// LimitRows, four in parallel, compared with the same sums computed one row and one side at a time.
 #include "simulation/plan/limit_rows.h"
 
 #include <cmath>
@@ -19,7 +19,7 @@ struct Made {
     Vector value;
 };
 
-/// Rows that a value keeps: some of acceleration (m = 1), some of jerk (m = b at their place).
+/// Rows that a value satisfies: some of acceleration (m = 1), some of jerk (m = b at their position).
 Made make(std::size_t count, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     const auto uniform = [&](double low, double high) {
@@ -44,7 +44,7 @@ Made make(std::size_t count, std::uint64_t seed) {
     return made;
 }
 
-/// A side of a row: how much is left of its bound, and the gradient of that.
+/// A side of a row: the distance to its bound, and its gradient.
 struct Side {
     double left = 0;
     Vector gradient = Vector::Zero();
@@ -122,7 +122,7 @@ TEST(LimitRows, TellHowFarALimitIsBroken) {
     std::vector<double> value{1, 1, 1};
     rows.begin(value.data(), 0.01, 1e-3);
     NewtonSystem newton = empty_system();
-    // The slack stands at a thousandth of the bound; what is left is 1 − 1.3.
+    // The slack is at a thousandth of the bound; the remaining distance is 1 − 1.3.
     EXPECT_NEAR(rows.assemble(value.data(), newton).broken, 0.301, 1e-12);
     EXPECT_LT(newton.pull[1], 0) << "pulled back";
 }

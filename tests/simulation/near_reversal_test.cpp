@@ -1,5 +1,5 @@
-// Where two arcs nearly reverse, the rounded path almost stands still over its programmed arc length: |p′| falls to a
-// least value and rises again within 0.1 µm. The jerk of the path holds there, too.
+// Where two arcs nearly reverse, the rounded path almost stops with respect to its programmed arc length: |p′| falls to a
+// minimum and rises again within 0.1 µm. The jerk of the path stays within its limit there, too.
 
 #include <gtest/gtest.h>
 
@@ -22,8 +22,8 @@ constexpr const char* two_arcs =
     "G3 X0.127988502 Y-0.900244830 I-0.142007672 J-0.479409867\n"
     "M2\n";
 
-// By NumPy, from the formulae at the top of path_stream.h with w = 6 · ¾ · 0.05/|Δt| and v² = ¼ · 0.05 · 3072/(27 |Δk|): 0.996 µm before
-// the corner |p′| is least, 0.0017539, and |p′|″ there is 173,397/mm², by differences of p′.
+// By NumPy, from the formulae at the top of path_stream.h with w = 6 · ¾ · 0.05/|Δt| and v² = ¼ · 0.05 · 3072/(27 |Δk|):
+// 0.996 µm before the corner |p′| is smallest, 0.0017539, and |p′|″ there is 173,397/mm², by differences of p′.
 constexpr double least_pace = 0.0017538608679, greatest_pace_curve = 173396.575;
 
 Machine limited() {
@@ -48,7 +48,7 @@ std::vector<Span> spans_of(const char* text, const Machine& machine) {
 
 TEST(NearReversal, TheSpansBesideItAllowTheSpeedThatItsJerkAllows) {
     Machine machine = limited();
-    // Nothing but the jerk along the path.
+    // Only the jerk along the path is limited.
     machine.path = {.max_speed = 1e3, .max_acceleration = 1e9, .max_normal_acceleration = 1e9, .max_jerk = 40000};
     machine.controller.chord_tolerance = 1;
     for (MachineAxis& axis : machine.axes) axis.max_speed = 1e3, axis.max_acceleration = 1e9, axis.max_jerk = 1e12;

@@ -1,4 +1,4 @@
-// The limits of the path that a simulated run is judged by.
+// The limits of the path for judging a simulated run.
 
 #include "simulation/run/path_limits.h"
 
@@ -22,7 +22,7 @@ double normal_of(const std::vector<Vec3>& positions, const std::vector<double>& 
     return normal.greatest();
 }
 
-// 10 mm/s on a circle of 1 mm: v²/r = 100, less some thousandths by differences.
+// 10 mm/s on a circle of 1 mm: v²/r = 100, minus some thousandths because of differences.
 TEST(PathLimits, NormalAccelerationOfACircle) {
     std::vector<Vec3> positions;
     std::vector<double> speeds;
@@ -33,7 +33,7 @@ TEST(PathLimits, NormalAccelerationOfACircle) {
     EXPECT_NEAR(normal_of(positions, speeds), 100, 0.01);
 }
 
-// To rest in a corner of 170° and away again at 1000 mm/s²: all of it lies along the path. Differences have a part across.
+// To rest in a corner of 170° and away again at 1000 mm/s²: all of it is along the path. Differences also have a normal part.
 TEST(PathLimits, BrakingIntoACornerIsNotNormal) {
     std::vector<Vec3> positions;
     std::vector<double> speeds;

@@ -1,4 +1,4 @@
-// Random programs on random machines: every limit holds when the points are differentiated, the path stays
+// Random programs on random machines: differentiated points stay within every limit, the path stays
 // inside its tolerance, nothing is NaN, the end is exact, and a second run gives the same bits.
 
 #include <gtest/gtest.h>
@@ -18,12 +18,12 @@
 namespace clsurf::random_programs_test {
 namespace {
 
-/// What a file of random machines and programs is made of.
+/// Makes random machines and programs.
 class Maker {
 public:
     explicit Maker(std::uint64_t seed) : random_(seed) {}
 
-    /// `jerk`: a limit of it that counts; `steps`: arcs although axes limit it.
+    /// `jerk`: an effective jerk limit; `steps`: arcs although axes limit the jerk.
     Machine machine(CornerMode corner, CurveMode curve, bool jerk, bool steps) {
         Machine machine;
         machine.controller.corner = corner;
@@ -59,11 +59,11 @@ public:
             const double kind = uniform(0, 1);
             Vec3 to = at + scale * spread(0.02, 1) * Vec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
             if (kind < 0.05)
-                to = at;  // no way
+                to = at;  // zero length
             else if (kind < 0.1)
                 to = before;  // back again
             else if (kind < 0.2)
-                to = at + uniform(0, 2) * (at - before);  // straight on
+                to = at + uniform(0, 2) * (at - before);  // in the same direction
             before = at;
             if (chance(0.1)) {  // a bend of short lines
                 const double radius = scale * spread(0.02, 1), step = spread(0.02, 0.4);
@@ -85,7 +85,7 @@ public:
                 at = to;
                 continue;
             }
-            // Arcs: spirals up, flat ones, three in a row, some far smaller than the tolerance.
+            // Arcs: spirals upwards, flat ones, three in a row, some far smaller than the tolerance.
             const int arcs = chance(0.2) ? 3 : 1;
             for (int k = 0; k < arcs; ++k) {
                 if (chance(0.15)) to = at + Vec3(spread(1e-4, 1e-2), spread(1e-4, 1e-2), 0);
@@ -125,7 +125,7 @@ std::string parts_of_limits(const SimulationSummary& s, const Machine& machine) 
     return parts;
 }
 
-/// The greatest tolerance that a program asks for.
+/// The largest tolerance that a program requests.
 double greatest_tolerance(const Program& program, const Machine& machine) {
     double greatest = machine.controller.tolerance;
     for (const ProgramEvent& event : program.events) {
@@ -144,21 +144,21 @@ struct Modes {
 
 class RandomPrograms : public testing::TestWithParam<Modes> {};
 
-/// Random programs in a mode: CLSURF_RANDOM_PROGRAMS of them in all modes together, else what the suite has time for. Arcs where
-/// axes limit the jerk take three times as long as the others: there are a third as many.
+/// The number of random programs in a mode: CLSURF_RANDOM_PROGRAMS for all modes together, otherwise as many as the suite has
+/// time for. Arcs with jerk limits of axes take three times as long as the others: there are a third as many.
 int rounds_of(const Modes& mode) {
     constexpr int usual = 10032, shares_of_others = 3, shares = 12 * shares_of_others + 2;
     const char* wanted = std::getenv("CLSURF_RANDOM_PROGRAMS");
     return (wanted != nullptr ? std::atoi(wanted) : usual) / shares * (mode.steps ? 1 : shares_of_others);
 }
 
-/// The number of the only program that is wanted of a mode, else -1: the others are made, but not run.
+/// The number of the only requested program of a mode, otherwise -1: other programs are made, but not run.
 int only_round() {
     const char* wanted = std::getenv("CLSURF_RANDOM_PROGRAM");
     return wanted != nullptr ? std::atoi(wanted) : -1;
 }
 
-/// What the random numbers begin with.
+/// The seed of the random numbers.
 std::uint64_t seed_of_programs() {
     constexpr std::uint64_t usual = 20260721;
     const char* wanted = std::getenv("CLSURF_RANDOM_SEED");
@@ -171,7 +171,7 @@ void write_files(const std::string& text, const Machine& machine) {
     std::ofstream("random.toml") << io::machine_text(machine);
 }
 
-/// Points of a program whose distance from the path is looked at: more programs show more than more points.
+/// Points of a program whose distance from the path is tested: more programs show more than more points.
 constexpr std::size_t places_of_a_program = 200;
 
 TEST_P(RandomPrograms, HoldLimitsToleranceAndEnd) {

@@ -1,5 +1,5 @@
-// The refinement of a plan, looked at as it leaves the planner: what it passes on covers the path once, is continuous,
-// keeps the limits of the axes and takes less time than the plan that it starts from.
+// The refinement of a plan at the output of the planner: it covers the path once, is continuous,
+// keeps the limits of the axes and takes less time than the initial plan.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 namespace clsurf::refiner_test {
 namespace {
 
-/// What a Refiner passes on: speed and acceleration along the programmed path at the ends of each part.
+/// The output of a Refiner: speed and acceleration along the programmed path at the ends of each part.
 struct Part {
     double length = 0, time = 0;
     double begin_speed = 0, end_speed = 0, begin_acceleration = 0, end_acceleration = 0;
@@ -67,14 +67,14 @@ Machine machine() {
     return machine;
 }
 
-/// Corners of 90 degrees, 4 mm apart, rounded, at a feed that the ramps do not reach.
+/// Rounded corners of 90 degrees, 4 mm apart, at a feed that the ramps do not reach.
 std::string staircase(int corners) {
     std::string text = "G21 G90 G64 P0.05\nF6000\n";
     for (int k = 1; k <= corners; ++k) text += fmt::format("G1 X{} Y{}\n", 4 * ((k + 1) / 2), 4 * (k / 2));
     return text + "M2\n";
 }
 
-/// Plans all of a program's only section, and refines it over `blocks`.
+/// Plans all of a program's only section, and refines it in windows of `blocks`.
 Received refine(const std::string& text, std::int64_t blocks) {
     const Machine tool = machine();
     const Program program = program_of(text);
@@ -130,11 +130,12 @@ TEST(Refiner, WindowsThatFollowEachOtherLoseLittle) {
 TEST(Refiner, ALineBetweenRestsStaysAsPlanned) {
     const Received line = refine("G21 G90 G1 X100 F3000\nM2\n", 1000);
     EXPECT_EQ(line.cells, 0);
-    // 2 s at the feed and two ramps of 2 √(50/50000) s, each of which covers half of what the feed would.
+    // 2 s at the feed, and two ramps of 2 √(50/50000) s, which cover half of the distance that the feed would cover in their
+    // time.
     EXPECT_NEAR(line.time, 2 + 2 * std::sqrt(50.0 / 50000.0), 1e-6);
 }
 
-/// Two sides of a star, 5.2 mm long, cut into lines. Their ends have six decimals, so that all of them meet in tiny bends.
+/// Two sides of a star, 5.2 mm long, divided into lines. Their ends have six decimals, so that all joints are tiny bends.
 std::string sides_of_star(int lines) {
     constexpr double radius = 8, inner = 0.45;
     std::string text = "G21 G90 G64 P0.05\nF6000\n";
@@ -151,8 +152,8 @@ std::string sides_of_star(int lines) {
     return text + "M2\n";
 }
 
-// From rest at the greatest jerk j, a distance s takes the time (6 s / j)^(1/3), the same towards rest. The last of the spans
-// that the tiny bends make are much shorter than that.
+// From rest at the highest jerk j, a distance s takes the time (6 s / j)^(1/3), the same towards rest. The last spans
+// between the tiny bends are much shorter than that.
 TEST(Refiner, ARestBehindShortSpansIsReachedAtTheGreatestJerk) {
     constexpr double distance = 0.25;  // mm
     for (const int lines : {1, 5, 20}) {

@@ -1,6 +1,6 @@
 // The rounded rectangle of Li et al., Optimal Control of CNC Machining Tool Motion in Green Converter PathSample
-// Based on Multisensor Fusion Data, Sensors and Materials (2025): its times and its Fig. 5, with
-// docs/experiments/rounded_rectangle.md saying what of the printed numbers cannot hold. mm, s.
+// Based on Multisensor Fusion Data, Sensors and Materials (2025): its times and its Fig. 5.
+// docs/experiments/rounded_rectangle.md explains which of the printed numbers cannot be right. mm, s.
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ TEST(RoundedRectangle, LapAndTotals) {
     EXPECT_NEAR(profile(arc_length_ab, 0, at_b, at_b).duration() + round.duration(), 85.4588586606, 1e-6);
     EXPECT_NEAR(profile(arc_length_ab, at_k, at_b, at_b).duration() + round.duration(), 85.374350541,
                 1e-6);  // printed 85.38
-    // The start acceleration as a state of the machine, taken back under the jerk limit.
+    // The initial acceleration as a state of the machine, reduced under the jerk limit.
     const RunningRamp running = ramp_from_state(at_k, 20, at_b, none, jerk);
     EXPECT_NEAR(running.time(), 0.0824045318333, 1e-9);
     EXPECT_NEAR(running.time() + (arc_length_ab - running.arc_length) / at_b + round.duration(), 85.3649383333, 1e-6);
@@ -56,7 +56,7 @@ TEST(RoundedRectangle, TheRadiusDoesNotBearTheSpeedUnderItsOwnJerkLimit) {
     EXPECT_NEAR(std::cbrt(jerk * radius * radius) * 60 / 1000, 1.17, 0.01);
 }
 
-// Fig. 5: the least of three speeds over the interior angle 2θ; the radius follows from E_rr less the chord error.
+// Fig. 5: the lowest of three speeds over the interior angle 2θ; the radius follows from E_rr minus the chord error.
 TEST(RoundedRectangle, ThreeArcLengthMinimumAtACorner) {
     constexpr double contour_error = 0.002, chord_error = 0.0009, acceleration = 600, period = 0.001;
     struct Row {

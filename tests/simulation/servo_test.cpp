@@ -1,4 +1,4 @@
-// ServoLoop against the closed forms of a second-order loop: step response, lag at constant speed, friction, backlash.
+// ServoLoop compared with closed forms of a second-order loop: step response, lag at constant speed, friction, backlash.
 #include "simulation/run/servo.h"
 
 #include <array>
@@ -27,7 +27,7 @@ double step_response(double gain, double time_constant, double t) {
 }
 
 TEST(Servo, StepResponseIsThatOfTheSecondOrderLoop) {
-    // Over-damped, near critical (4 K T = 1), and one that overshoots.
+    // Over-damped, nearly critically damped (4 K T = 1), and under-damped.
     for (const auto& [gain, time_constant] : {std::pair{50.0, 0.002}, {120.0, 0.0021}, {100.0, 0.01}}) {
         ServoModel model = ideal();
         model.position_gain = gain;
@@ -57,7 +57,7 @@ TEST(Servo, LagAtConstantSpeed) {
         ServoLoop loop(model, period, 0, 1);
         double lag = 0;
         for (int i = 1; i <= 4000; ++i) lag = i * period * speed - loop.follow(i * period * speed);
-        // v (1 − c)/Kv, of the command of the period before: the lag is read a period later.
+        // v (1 − c)/Kv, for the command of the previous period: the lag is read a period later.
         EXPECT_NEAR(lag, speed * (1 - feedforward) / model.position_gain, 1e-6) << feedforward;
     }
 }
@@ -88,7 +88,7 @@ TEST(Servo, FrictionAddsNothingToTheLagOfALoopThatIntegrates) {
     EXPECT_NEAR(lag, expected, 1e-9);
 }
 
-/// A period of T_v v′ = u − v + w, T_n w′ = u − v by the classical Runge–Kutta method.
+/// One period of T_v v′ = u − v + w, T_n w′ = u − v by the classical Runge–Kutta method.
 std::array<double, 2> integrated(double time_constant, double integral_time, double period, double reference,
                                  std::array<double, 2> state) {
     const auto slope = [&](const std::array<double, 2>& at) {
@@ -122,7 +122,7 @@ TEST(Servo, AStepOfTheVelocityLoopSolvesItsDifferentialEquation) {
     }
 }
 
-// A machine file may have any integral time from a period on.
+// A machine file may have any integral time of at least a period.
 TEST(Servo, EveryLoopOfAMachineFileSettles) {
     std::mt19937_64 random(3);
     const auto uniform = [&](double low, double high) {

@@ -63,7 +63,7 @@ TEST(Simulator, TheTangentialAccelerationKeepsToThePathsLimitInRoundedCorners) {
     for (const double jerk : {1e4, 1e6}) {  // the second is no limit
         const Machine machine = limited_by_the_path(jerk);
         const Recorded r = run(zigzag(), machine);
-        // From the set points alone: the change of the distance that is passed in a period.
+        // From the set points alone: the change of the distance covered in a period.
         double greatest = 0;
         for (std::size_t k = 2; k < r.points.size(); ++k) {
             const double before = (r.points[k - 1].commanded - r.points[k - 2].commanded).norm();
@@ -89,7 +89,7 @@ std::string star() {
     return text + "M2\n";
 }
 
-// Not only over the programmed arc length: in sharp corners the rounded path is much shorter.
+// Not only with respect to the programmed arc length: in sharp corners the rounded path is much shorter.
 TEST(Simulator, ThePathsJerkHoldsOnTheRoundedPath) {
     for (const bool axes : {false, true}) {
         Machine machine = limited_by_the_path(60000);
@@ -110,7 +110,7 @@ TEST(Simulator, ThePathsJerkHoldsOnTheRoundedPath) {
     }
 }
 
-// In bends the jerk of a path without limits of axes is v³k², the curvature from the set points.
+// In bends the jerk of a path without limits of axes is v³k², with the curvature from the set points.
 TEST(Simulator, WhereOnlyThePathLimitsTheJerkItDoesInBendsToo) {
     Machine machine = limited_by_the_path(60000);
     machine.controller.period = 0.0005;
@@ -165,7 +165,7 @@ TEST(Simulator, FrictionAddsItsSpeedOverTheGainAndHoldsAfterAReversal) {
     for (std::size_t i = 1; i < r.points.size(); ++i)
         standing += r.points[i].feedback.x() > 99 && r.points[i].feedback.x() == r.points[i - 1].feedback.x();
     EXPECT_GT(standing, 3);
-    EXPECT_GT(r.points.back().feedback.x(), 0);  // it stops on the way back, within what friction holds
+    EXPECT_GT(r.points.back().feedback.x(), 0);  // friction stops it on the way back
     EXPECT_LT(r.points.back().feedback.x(), 2.0 / 80 + 0.01);
 }
 
@@ -203,13 +203,13 @@ TEST(Simulator, ACircleShrinksByTheGainOfTheLoop) {
 TEST(Simulator, CornersStayInsideTheToleranceAndEndsAreExact) {
     const Recorded r = run("G64 P0.02\nG1 X10 F6000\nY10\nX0\nY0\nM2\n", ideal());
     EXPECT_LE(r.summary.path_deviation, 0.02);
-    EXPECT_GT(r.summary.path_deviation, 0.018);  // a period seldom ends in the middle of a corner
+    EXPECT_GT(r.summary.path_deviation, 0.018);  // a period rarely ends in the middle of a corner
     EXPECT_EQ(r.points.back().commanded, Vec3(0, 0, 0));
     for (std::size_t i = 100; i + 100 < r.points.size(); ++i) ASSERT_GT(r.points[i].speed, 0.1) << i;
 }
 
 // A right angle and a tolerance of 0.02 mm: r = e cos 45°/(1 − cos 45°) = 0.04828 mm, entered and left at √(a r).
-// An arc with unequal radii is driven by its angle: the speed of its points is not that of the plan.
+// The speed on an arc with unequal radii follows its angle: the speed of its points is not that of the plan.
 TEST(Simulator, ASpiralHasTheSpeedOfItsPoints) {
     const Machine machine;
     const Recorded r = run_program(program_of("G21 G17 G64 P0.01 F600\nG1 X5\nG3 X10.002 Y5 J5\nM2\n"), machine);
@@ -219,7 +219,7 @@ TEST(Simulator, ASpiralHasTheSpeedOfItsPoints) {
         if (a.line != 3 || b.line != 3 || a.limit != LimitingFactor::feed || b.limit != LimitingFactor::feed) continue;
         ++compared;
         const double speed = (b.commanded - a.commanded).norm() / machine.controller.period;
-        EXPECT_NEAR(0.5 * (a.speed + b.speed), speed, 2e-4);  // 10 mm/s, with up to 2e-3 more and less
+        EXPECT_NEAR(0.5 * (a.speed + b.speed), speed, 2e-4);  // 10 mm/s, varying by up to 2e-3
     }
     EXPECT_GT(compared, 300);
 }
@@ -238,7 +238,7 @@ TEST(Simulator, ACornerOfAnArcIsPassedAtTheLeastOfItsSpeeds) {
         const Recorded r = run_program(program, machine);
         EXPECT_TRUE(r.summary.limits_ok);
         EXPECT_NEAR(r.summary.path_deviation, 0.02,
-                    1e-9);  // of the corner from the arc; points leave the lines by r (1 − cos 45°)
+                    1e-9);  // from the corner to the arc; points leave the lines by r (1 − cos 45°)
         EXPECT_LE(greatest_distance(elements_of(program), r.points, 1, 5),
                   radius * (1 - std::numbers::sqrt2 / 2) + 1e-9);
         double greatest = 0;
@@ -265,7 +265,7 @@ TEST(Simulator, ExactPathStopsAtEveryCorner) {
 }
 
 TEST(Simulator, ExactStopRestsAtTheEndOfEveryBlock) {
-    // Straight on: an exact path goes through, an exact stop rests; G9 does so once.
+    // Straight on: an exact path passes through, an exact stop rests; G9 applies to one block.
     const auto rests = [](const std::string& text, const char* dialect) {
         const Recorded r = run_program(program_of(text, dialect), ideal());
         int count = 0;
@@ -322,7 +322,7 @@ TEST(Simulator, TheSameToTheBitAndWithoutALookAheadSlower) {
     EXPECT_GT(run(text, machine).summary.duration, 1.5 * a.summary.duration);
 }
 
-// Feeds of collinear blocks that lie just on one braking ramp: the ramp is then the optimum, and it
+// Feeds of collinear blocks that are exactly on one braking ramp: the ramp is then the optimum, and it
 // passes every node with acceleration.
 TEST(Simulator, CarriesAccelerationThroughNodes) {
     Machine machine = ideal();
@@ -348,7 +348,7 @@ TEST(Simulator, CarriesAccelerationThroughNodes) {
     EXPECT_LT(time, 1.01 * optimum);
 }
 
-// What LinuxCNC took, from the first to the last movement of the recorded logs [s].
+// The times of LinuxCNC, from the first to the last movement of the recorded logs [s].
 TEST(Simulator, TakesAsLongAsLinuxCncWithItsRules) {
     const Machine machine = io::read_machine(SAMPLE_DATA "/machines/linuxcnc_logs.toml");
     const std::vector<std::pair<std::string, double>> recorded{{"bottle_zigzag.nc", 34.79},
@@ -379,7 +379,7 @@ TEST(Simulator, AZigzagUnderAJerkLimitIsNearItsOptimum) {
     EXPECT_LT(summary.duration, 39.5);
 }
 
-// Without a jerk limit a bend of short lines is passed back as it was passed forth, but for what a period changes.
+// Without a jerk limit a bend of short lines is passed backward as it is passed forward, except for effects of the period.
 TEST(Simulator, PassesABendBackAsForth) {
     Machine machine = ideal();
     machine.path.max_jerk = 2 * machine.path.max_acceleration / machine.controller.period;
@@ -405,12 +405,12 @@ TEST(Simulator, PassesABendBackAsForth) {
 TEST(Simulator, DegenerateMovesKeepLimitsAndEnd) {
     const std::vector<std::pair<std::string, Vec3>> programs{
         {"G1 X0 F600\nX0 Y0\nX1\nX1\n", {1, 0, 0}},                          // no length, repeated
-        {"G1 X5 F6000\nX2\nX5\nX4.9999\n", {4.9999, 0, 0}},                  // back on itself
-        {"G1 X1 F6000\nX0 Y0.000001\n", {0, 0.000001, 0}},                   // nearly back
+        {"G1 X5 F6000\nX2\nX5\nX4.9999\n", {4.9999, 0, 0}},                  // reversal
+        {"G1 X1 F6000\nX0 Y0.000001\n", {0, 0.000001, 0}},                   // near reversal
         {"G1 X1 F6000\nG3 X1.002 Y0 R0.001\nG1 X2\n", {2, 0, 0}},            // an arc smaller than the tolerance
-        {"G1 X0.00001 F6000\nY0.00001\nX0.00002\n", {0.00002, 0.00001, 0}},  // all of it below resolution
+        {"G1 X0.00001 F6000\nY0.00001\nX0.00002\n", {0.00002, 0.00001, 0}},  // everything below resolution
         {"G2 X0 Y0 I0.5 P20 F9000\nG1 X-1 Z2\n", {-1, 0, 2}},                // many turns
-        {"G1 X10 F0.5\nG1 X10.01 F90000\n", {10.01, 0, 0}},                  // feeds far apart
+        {"G1 X10 F0.5\nG1 X10.01 F90000\n", {10.01, 0, 0}},                  // feeds of very different size
     };
     for (const auto& [text, end] : programs) {
         const Recorded r = run("G64\n" + text + "M2\n", ideal());
@@ -432,8 +432,8 @@ TEST(Simulator, ABlockTimeHoldsShortBlocksBack) {
     EXPECT_GT(r.summary.limited_by[static_cast<std::size_t>(LimitingFactor::block_time)], 4000);
 }
 
-// From 47.27 mm/s a way of 7.58e-7 mm gains 3.5e-12 mm/s, which is 500 times the rounding of the speed itself, so that
-// the way that its ramp takes is known to 0.05 %.
+// From 47.27 mm/s a distance of 7.58e-7 mm gains 3.5e-12 mm/s, 500 times the rounding error of the speed itself, so that
+// the distance of its ramp is known to 0.05 %.
 TEST(Simulator, ASpeedReachedOverHardlyAnyArcLengthIsPlanned) {
     const double arc_length = 7.58264e-07, jerk = 50000, acceleration = 2000, before = 47.273111160212636;
     const double after = reach(before, arc_length, acceleration, jerk);
@@ -446,8 +446,8 @@ TEST(Simulator, ASpeedReachedOverHardlyAnyArcLengthIsPlanned) {
 }
 
 TEST(Simulator, FeedsThatDifferFromBlockToBlockAreFollowed) {
-    // 150 mm of 0.04 mm blocks, 2850 ± 150 mm/min over 63 of them: v v′ = 300 mm/s² and v² v″ = 35,000 mm/s³ follow them, and there are
-    // 2000 and 50,000. Windows of the look-ahead end anywhere on rising and falling feeds.
+    // 150 mm of 0.04 mm blocks, 2850 ± 150 mm/min over 63 of them: these need v v′ = 300 mm/s² and v² v″ = 35,000 mm/s³, and
+    // the limits are 2000 and 50,000. Windows of the look-ahead end anywhere on rising and falling feeds.
     constexpr int blocks = 3750;
     const auto feed = [](int k) { return std::round(2850 + 150 * std::sin(0.1 * k)); };
     std::string text = "G21 G90 G94 G64 P0.005\nG0 X0\n";

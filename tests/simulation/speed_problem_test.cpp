@@ -1,4 +1,5 @@
-// SpeedProblem against optima of linear programs (vectors/speed_optimum.py): the time is theirs, and no limit is broken.
+// SpeedProblem compared with optima of linear programs (vectors/speed_optimum.py): the times are equal, and no limit is
+// exceeded.
 #include "simulation/plan/speed_problem.h"
 
 #include <cmath>
@@ -45,7 +46,7 @@ std::vector<Case> read_cases() {
     return all;
 }
 
-/// v² and its derivatives along the path: the quadratic B-spline of even cells through their coefficients.
+/// v² and its derivatives along the path: the quadratic B-spline of uniform cells through their coefficients.
 struct Square {
     double b, slope, curve;
 };
@@ -57,7 +58,7 @@ Square square_at(const std::vector<double>& c, int cell, double t) {
             (before - 2 * here + after) / (cell_length * cell_length)};
 }
 
-/// The greatest part of a limit that is used anywhere, and the time.
+/// The largest used share of a limit, and the time.
 struct Outcome {
     double most = 0, time = 0;
 };
@@ -116,7 +117,7 @@ TEST(SpeedProblem, TakesTheTimeOfTheOptimum) {
         c.push_back(of.speed * of.speed);
         const Outcome out = measure(of, c);
         EXPECT_LE(out.most, 1.005);
-        // The grid of the linear program is a little coarse still: what halving it changed, and as much again.
+        // The grid of the linear program is slightly coarse: the tolerance is twice the change by halving it.
         const double doubt = 2 * std::abs(of.fine - of.coarse) / of.fine;
         EXPECT_GE(out.time, of.fine * (1 - doubt - 0.001));
         EXPECT_LE(out.time, of.fine * (1 + doubt + 0.006));
@@ -125,7 +126,7 @@ TEST(SpeedProblem, TakesTheTimeOfTheOptimum) {
 }
 
 TEST(SpeedProblem, EntersACellWithTheAccelerationThatTheCellAllows) {
-    // Speed falls through cells that allow much acceleration, then through cells that allow little.
+    // Speed falls through cells that allow a large acceleration, then through cells that allow a small one.
     Machine machine;
     SpeedProblem problem(linear_limits(machine));
     problem.clear();
@@ -145,7 +146,7 @@ TEST(SpeedProblem, KeepsItsValuesWhereNothingIsFaster) {
     Machine machine;
     SpeedProblem problem(linear_limits(machine));
     problem.clear();
-    for (int i = 0; i < 8; ++i) problem.add_cell(1, 400, {20, 1000, 1e5});  // at its cap already
+    for (int i = 0; i < 8; ++i) problem.add_cell(1, 400, {20, 1000, 1e5});  // already at its cap
     EXPECT_FALSE(problem.solve({20, 0}, {20, 0}));
     for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(problem.value(i), 400);
     problem.clear();
@@ -153,8 +154,8 @@ TEST(SpeedProblem, KeepsItsValuesWhereNothingIsFaster) {
     EXPECT_FALSE(problem.solve({20, 0}, {20, 0})) << "fewer than four cells";
 }
 
-// b = u² + 100 over ten cells of 1 mm on a straight line: the coefficient of the cell from i is i (i + 1) + 100, and at the end the
-// acceleration is 10 and the jerk √200. A share s of v² has s times the acceleration and s √s times the jerk.
+// b = u² + 100 over ten cells of 1 mm on a straight line: the coefficient of the cell from i is i (i + 1) + 100, and at the
+// end the acceleration is 10 and the jerk √200. With a share s of v², the acceleration has the share s and the jerk s √s.
 TEST(SpeedProblem, SaysBySlowingDownWhichShareEveryLimitHolds) {
     const auto share = [](double acceleration, double jerk, double cap) {
         ProblemLimits<5> limits;

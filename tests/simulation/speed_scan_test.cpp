@@ -31,7 +31,7 @@ TEST(SpeedScan, ALineIsDrivenUpAndDownAgain) {
     EXPECT_NEAR(time_of(scan), 2 * std::sqrt(1.0 / 2000), 1e-9);
 }
 
-// A bend of 20 mm/s between two lines of 10 mm: each is driven from or to rest, v² = 20² + 2 a s there.
+// A bend with 20 mm/s between two lines of 10 mm: each is run from or to rest, with v² = 20² + 2 a s.
 TEST(SpeedScan, BrakesBeforeWhatIsSlower) {
     SpeedScan scan;
     scan.add_cell(10, 1000, 2000);
@@ -44,7 +44,7 @@ TEST(SpeedScan, BrakesBeforeWhatIsSlower) {
     EXPECT_NEAR(time_of(scan), 2 * (peak + (peak - 20)) / 2000 + 1.0 / 20, 1e-12);
 }
 
-// Behind 1 mm with |a + 0.1 b| ≤ 1000 at its begin b is at most 3000. The hardest braking is a = −1000 − 0.1 b, and
+// 1 mm before a bend with |a + 0.1 b| ≤ 1000, b is at most 3000 at the bend. The hardest braking is a = −1000 − 0.1 b, and
 // b + 2 a = 3000 gives b = 6250, a = −1625.
 TEST(SpeedScan, ABendLeavesLessOrMoreForBraking) {
     SpeedScan scan;
@@ -57,7 +57,7 @@ TEST(SpeedScan, ABendLeavesLessOrMoreForBraking) {
     EXPECT_NEAR(scan.speed(2), std::sqrt(3000), 1e-9);
 }
 
-// Where an axis turns back, its slope is none: 0.1 b ≤ 1000 whatever the acceleration.
+// Where an axis reverses, its slope is zero: 0.1 b ≤ 1000 for any acceleration.
 TEST(SpeedScan, AnAxisThatTurnsBackCapsTheSpeed) {
     SpeedScan scan;
     scan.add_cell(10, 1000, 2000);
@@ -83,7 +83,8 @@ TEST(SpeedScan, ForgetsCellsAndGoesOnAsPlanned) {
     for (std::size_t i = 0; i <= scan.size(); ++i) EXPECT_NEAR(scan.speed(i), speeds[15 + i], 1e-9) << i;
 }
 
-// A limit that joins a cell in the middle counts there, and not in another one: the speeds are those of a scan that had it from the beginning.
+// A limit that is added to a cell in the middle only affects that cell: the speeds are those of a scan that had it from the
+// beginning.
 TEST(SpeedScan, ALimitJoinsAnyCell) {
     SpeedScan whole, joined;
     for (int i = 0; i < 40; ++i) {
@@ -105,8 +106,8 @@ TEST(SpeedScan, ALimitJoinsAnyCell) {
     EXPECT_LE(std::abs(here), 1500 * (1 + 1e-9));
 }
 
-// Random bends: all limits hold along the cells, no knot can be faster with its neighbours as they are, and the way
-// back is driven as the way forth.
+// Random bends: all limits are met along the cells, no knot can be faster with the neighbours unchanged, and the reverse
+// path has the same speeds.
 TEST(SpeedScan, HoldsItsLimitsIsTightAndTheSameBackwards) {
     std::mt19937_64 random(7);
     const auto uniform = [&](double low, double high) {

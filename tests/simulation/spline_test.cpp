@@ -1,4 +1,4 @@
-// Splines in the simulation: driven along the exact curve, as fast as the limits let it, whatever their words.
+// Splines in the simulation: run along the exact curve, as fast as the limits allow, in every notation.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ TEST(Splines, ACircleOfSplinesIsDrivenAsTheArc) {
         EXPECT_NEAR(spline.summary.duration, arc.summary.duration, 0.01 * arc.summary.duration) << mode;
         double off = 0;
         for (const SimulatedPoint& point : spline.points) {
-            // The corner where the circle begins is rounded.
+            // The corner at the beginning of the circle is rounded.
             if (point.commanded.y() > 5) off = std::max(off, std::abs(point.commanded.norm() - 10));
         }
         EXPECT_LE(off, 1e-6) << mode;
@@ -59,7 +59,7 @@ TEST(Splines, TheTridentKeepsTheLimitsOfItsMachineInAllPlanners) {
     EXPECT_LE(r.summary.duration, 2);
 }
 
-/// One element.
+/// A source of one element.
 class OneElement final : public ElementSource {
 public:
     explicit OneElement(PathElement element) : element_(std::move(element)) {}
@@ -97,7 +97,7 @@ TEST(Splines, SectionsAreArcsWithCommonTangentsBesideTheCurve) {
     EXPECT_LE((at - points.back()).norm(), 1e-12);
     EXPECT_NEAR(length, curve->length(), 1e-3);
     EXPECT_GT(count, 4);
-    EXPECT_LT(count, 200);  // chords within the same error would be 500
+    EXPECT_LT(count, 200);  // chords with the same error would be 500
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Interpolation of the tool axis against independent vectors, and through the pole.
+// Interpolation of the tool axis compared with independent vectors, and through the pole.
 
 #include "simulation/path/tool_axis_path.h"
 
@@ -61,8 +61,8 @@ TEST(PoleWindow, AgreesWithIndependentVectors) {
     }
 }
 
-// From 45°, C 0 to 45°, C 178°: linear errs by 44°; over the other side of the tilt by 1°, C turning by 2°
-// only; where the tilt may not go there, the rotation keeps to the ratio that is given.
+// From 45°, C 0 to 45°, C 178°: linear interpolation errs by 44°; across the other side of the tilt by 1°, with C turning by
+// only 2°; if the tilt may not go there, the rotation follows the given ratio.
 TEST(ToolAxisPath, SafePassesThePole) {
     const Kinematics k = trunnion(ToolAxisInterpolation::safe);
     const RotaryAngles from{45 * degree, 0};

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// 2000 mm/s² on each axis, 1 ms; the points are where the planner has them, not where a spline smooths them.
+/// 2000 mm/s² on each axis, 1 ms; the points are those of the planner, without smoothing by a spline.
 Machine plain() {
     Machine machine;
     machine.controller.planner = PlannerKind::trapezoidal;
@@ -52,7 +52,7 @@ TEST(TrapezoidalPlanner, ALineTakesTheTimeOnPaper) {
 }
 
 TEST(TrapezoidalPlanner, AStopFallsOnAPeriod) {
-    // 10.01 mm would take 225.2 periods: the brake is less hard, and the line ends with the 226th.
+    // 10.01 mm would take 225.2 periods: the braking is weaker, and the line ends with the 226th.
     const Recorded r = run("G61 G1 X10.01 F3000\nM2\n", plain());
     const auto at_end = [](const SimulatedPoint& p) { return p.commanded.x() == 10.01; };
     const auto end = std::find_if(r.points.begin(), r.points.end(), at_end);
@@ -64,7 +64,8 @@ TEST(TrapezoidalPlanner, AStopFallsOnAPeriod) {
 }
 
 TEST(TrapezoidalPlanner, OverlappingBlocksLeaveTheCornerByTheTolerance) {
-    // Both at half of 2000 mm/s², 90°: v = 2 √(a e / cos 45°); where both run at v/2 each is v²/(8 a) from the corner.
+    // Both at half of 2000 mm/s², 90°: v = 2 √(a e / cos 45°); at the moment when both have v/2 each is v²/(8 a) from the
+    // corner.
     const Machine machine = plain();
     BlendSegment before = segment_of(element_of(MotionKind::feed, nullptr, Vec3(0, 0, 0), Vec3(20, 0, 0)), machine);
     BlendSegment after = segment_of(element_of(MotionKind::feed, nullptr, Vec3(20, 0, 0), Vec3(20, 20, 0)), machine);
@@ -85,7 +86,7 @@ TEST(TrapezoidalPlanner, OverlappingBlocksLeaveTheCornerByTheTolerance) {
     double nearest = 1;
     for (const SimulatedPoint& p : r.points) nearest = std::min(nearest, (p.commanded - Vec3(20, 0, 0)).norm());
     EXPECT_NEAR(nearest, 0.01, 0.003);  // a period at 7.5 mm/s is 7.5 µm
-    double off = 0;                     // the nearer one of y = 0 and x = 20
+    double off = 0;                     // distance to the nearer one of y = 0 and x = 20
     for (const SimulatedPoint& p : r.points) off = std::max(off, std::min(p.commanded.y(), 20 - p.commanded.x()));
     EXPECT_GT(off, 0.006);
     EXPECT_NEAR(r.summary.path_deviation, off, 1e-12);
@@ -93,7 +94,7 @@ TEST(TrapezoidalPlanner, OverlappingBlocksLeaveTheCornerByTheTolerance) {
 }
 
 TEST(TrapezoidalPlanner, AnOverlapOfArcsIsMeasuredFromTheArcs) {
-    // A line, a quarter of a circle about (20, 5), and 36.9° to the left of it a circle about (29, 8), all with radius 5.
+    // A line, a quarter of a circle about (20, 5), and at 36.9° to its left a circle about (29, 8), all with radius 5.
     Machine without_arcs = plain();
     without_arcs.controller.trapezoid.arc_blends = false;
     const Recorded r = run("G64 P0.05 Q0 F3000 G1 X20\nG3 X25 Y5 J5\nG2 X29 Y13 I4 J3\nM2\n", without_arcs);
@@ -109,7 +110,7 @@ TEST(TrapezoidalPlanner, AnOverlapOfArcsIsMeasuredFromTheArcs) {
     EXPECT_NEAR(r.summary.path_deviation, off, 1e-9);
 }
 
-// The kernel leaves the corner of mixed.ngc between its lines 47 and 48 by 0.7099 mm, too (data/logs/mixed.csv.xz).
+// The kernel's path also misses the corner of mixed.ngc between its lines 47 and 48 by 0.7099 mm (data/logs/mixed.csv.xz).
 TEST(TrapezoidalPlanner, SaysWhereThePathHasNoTolerance) {
     const std::string corner = "G0 X0 Y0 Z0\nG1 X20 F3000\nG1 Y20\nM2\n";
     const Recorded free = run("G64\n" + corner, of_kernel()), held = run("G64 P0.05\n" + corner, of_kernel());
@@ -127,7 +128,7 @@ TEST(TrapezoidalPlanner, TheEndHasTheLineOfTheLastMotion) {
 }
 
 TEST(TrapezoidalPlanner, AnArcIsAsLargeAsToleranceOrSpeedNeed) {
-    // 90°, 0.005 mm: trim e cos 45°/(1 − sin 45°), radius the same. √(a_n r) decides the speed.
+    // 90°, 0.005 mm: trim e cos 45°/(1 − sin 45°), the radius is the same. √(a_n r) limits the speed.
     BlendCorner corner{.half_angle = pi / 4,
                        .tolerance = 0.005,
                        .length_in = 5,
@@ -145,7 +146,7 @@ TEST(TrapezoidalPlanner, AnArcIsAsLargeAsToleranceOrSpeedNeed) {
     size = blend_size(corner);
     EXPECT_NEAR(size.radius, 2 * (2.0 / 1000) / (pi / 2), 1e-12);
     EXPECT_EQ(size.speed, 2);
-    // The half of a short block bounds it.
+    // Half of a short block is the bound.
     corner.speed = 100;
     corner.length_in = 0.004;
     EXPECT_NEAR(blend_size(corner).trim, 0.004, 1e-12);
@@ -161,7 +162,7 @@ TEST(TrapezoidalPlanner, APlaneHasTheAccelerationOfItsSlowestDirection) {
 TEST(TrapezoidalPlanner, AnArcSharesItsAcceleration) {
     const Machine machine = plain();
     const Program program = program_of("G1 F3000 G3 X0 Y20 I0 J10\nM2\n");
-    // 250 mm/s on R 10 would take 6250 mm/s²: √(√3/2 · 2000 · 10) remains, and half of the acceleration along the arc.
+    // 250 mm/s on R 10 would need 6250 mm/s²: √(√3/2 · 2000 · 10) remains, and half of the acceleration along the arc.
     BlendSegment arc = segment_of(elements_of(program).front(), machine);
     arc.end = SegmentEnd::tangent;
     arc.finish_length(machine.controller.period);
@@ -170,7 +171,7 @@ TEST(TrapezoidalPlanner, AnArcSharesItsAcceleration) {
 }
 
 TEST(TrapezoidalPlanner, StepsOfDirectionAreShared) {
-    // 0.001 rad at 50 mm/s and 1 ms: (50/0.001 + 2000) · 0.001 of 2000 mm/s² is 0.026, less than 0.1: passed at speed.
+    // 0.001 rad at 50 mm/s and 1 ms: (50/0.001 + 2000) · 0.001 of 2000 mm/s² is 0.026, less than 0.1: passed at full speed.
     const Machine machine = plain();
     const auto speed_at_corner = [&](double angle) {
         const std::string text = fmt::format("G64 P0.00001 Q0 G1 X10 F3000\nX20 Y{}\nM2\n", 10 * std::tan(angle));
@@ -181,7 +182,7 @@ TEST(TrapezoidalPlanner, StepsOfDirectionAreShared) {
         return least;
     };
     EXPECT_NEAR(speed_at_corner(0.001), 50, 1e-6);
-    // 0.01 rad takes 0.26, and the arc inside the tolerance is slower: v · 0.1/0.26 remains.
+    // 0.01 rad needs 0.26, and the arc inside the tolerance is slower: v · 0.1/0.26 remains.
     const double share = (50 / 0.001 + 2000) * 0.01 / 2000;
     const double allowed = 50 * 0.1 / share;
     EXPECT_GE(speed_at_corner(0.01), allowed - 1e-9);
@@ -201,7 +202,8 @@ TEST(BlockMerging, JoinsLinesWithinTheTolerance) {
         while (merged.next(element)) found.push_back(element);
         return found;
     };
-    // (1, 0.004) is 0.002 from the line to (2, 0.004); (3, 0.1) would leave (2, 0.004); another feed begins a line.
+    // (1, 0.004) is 0.002 from the line to (2, 0.004); (3, 0.1) would be too far from (2, 0.004); another feed begins a new
+    // line.
     const std::vector<PathElement> found = lines("G64 P0.01 Q0.005\n");
     ASSERT_EQ(found.size(), 3U);
     EXPECT_EQ(found[0].end, Vec3(2, 0.004, 0));
@@ -212,7 +214,7 @@ TEST(BlockMerging, JoinsLinesWithinTheTolerance) {
     EXPECT_EQ(lines("G61\n").size(), 5U);
 }
 
-// The first line has no length. The next two become one, and so do the last two: a change of feed between them would part them.
+// The first line has zero length. The next two are merged, and so are the last two: a change of feed would separate them.
 TEST(BlockMerging, SaysWhichMotionsBecomeOne) {
     const std::string lines = "G1 X0 F600\nX1 Y0.004\nX2\nX3 Y0.1\nX4 F500\nX5\nM2\n";
     EXPECT_EQ(merged_with_next(program_of("G64 P0.01 Q0.005\n" + lines), plain()),
@@ -221,7 +223,7 @@ TEST(BlockMerging, SaysWhichMotionsBecomeOne) {
               (std::vector<std::uint8_t>{1, 0, 0, 0, 0, 0}));
 }
 
-// The lines of the test before: the machine's tolerance counts in place of that of the program, but not on an exact path.
+// The lines of the previous test: the machine's tolerance replaces that of the program, except on an exact path.
 TEST(BlockMerging, AMachineMayMergeOtherwiseThanTheProgramSays) {
     const auto left = [](const std::string& mode, const Machine& machine) {
         return merged_lines(program_of(mode + "G1 X0 F600\nX1 Y0.004\nX2\nX3 Y0.1\nX4 F500\nX5\nM2\n"), machine).size();
@@ -232,7 +234,7 @@ TEST(BlockMerging, AMachineMayMergeOtherwiseThanTheProgramSays) {
     EXPECT_EQ(left("G64 P0.01 Q0.005\n", never), 5U);
     EXPECT_EQ(left("G64 P0.01 Q0\n", always), 3U);
     EXPECT_EQ(left("G61\n", always), 5U);
-    // The other planner merges where the machine file says so, and never by the program.
+    // The other planner merges if the machine file says so, never by the program.
     EXPECT_EQ(left("G64 P0.01 Q0.005\n", rounding), 5U);
     rounding.controller.merging_tolerance = 0.005;
     EXPECT_EQ(left("G64 P0.01 Q0\n", rounding), 3U);
@@ -240,7 +242,7 @@ TEST(BlockMerging, AMachineMayMergeOtherwiseThanTheProgramSays) {
     EXPECT_EQ(left("G64 P0.01 Q0.005\n", rounding), 5U);
 }
 
-// Two lines in one direction, whose ends are 1 µm beside one line: as one line they take 1 s at 10 mm/s, and the ramps.
+// Two lines in one direction, whose ends are 1 µm off one line: as one line they take 1 s at 10 mm/s, plus the ramps.
 TEST(BlockMerging, TheTimeOptimalPlannerDrivesTheMergedLine) {
     Machine machine;
     const std::string text = "G21 G90 G64 P0.01\nG1 X0 F600\nX5 Y0.001\nX10 Y0\nM2\n";

@@ -1,5 +1,5 @@
-// Profiles and scan against vectors that were computed independently
-// (tests/simulation/vectors): the tolerance of each is that of its makers.
+// Profiles and scan compared with independently computed vectors
+// (tests/simulation/vectors): the tolerance of each is that of its source.
 
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ TEST(SCurveVectors, SevenPhasesWithUnequalEndSpeeds) {
         }
         near(plan.profile.peak_speed(), peak, 1e-7, 1e-9, r.name);
         near(plan.profile.end_speed(), end, 1e-7, 1e-9, r.name);
-        // Where the peak is found by iteration the durations of flat ramps carry its square root.
+        // If the peak is found by iteration, the durations of flat ramps have the square root of its error.
         for (std::size_t i = 0; i < 7; ++i) near(plan.profile.durations()[i], durations[i], 1e-7, 1e-8, r.name);
         near(plan.profile.duration(), time, 1e-7, 1e-9, r.name);
         const int samples = static_cast<int>(r.number());
@@ -59,7 +59,7 @@ TEST(SCurveVectors, SevenPhasesWithUnequalEndSpeeds) {
             const MotionState s = plan.profile.at(t);
             near(s.arc_length, r.number(), 1e-7, 1e-9, r.name);
             near(s.speed, r.number(), 1e-7, 1e-8, r.name);
-            // A time of twelve digits moves the acceleration by the jerk times its rounding.
+            // Rounding the time to twelve digits changes the acceleration by the jerk times the rounding error.
             near(s.acceleration, r.number(), 1e-7, 1e-8 + limits.jerk * 1e-11, r.name);
         }
     }
@@ -102,7 +102,7 @@ TEST(SCurveVectors, FivePhasesOfLi) {
     }
 }
 
-// A period of constant acceleration in parts of the same way: v² is linear in it.
+// A period of constant acceleration, divided into equal lengths: v² is linear in the length.
 TEST(InterpolatorVectors, EqualLengthsOfAPeriod) {
     for (VectorRow& r : rows("equal_length.txt")) {
         const double v0 = r.number(), v1 = r.number(), period = r.number();

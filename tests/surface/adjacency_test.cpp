@@ -18,7 +18,7 @@ TEST(Adjacency, FindsBothNeighboursOfAZigzagBesideThePoint) {
     const Adjacency a = neighbours_of(p, 0.4);
     std::int64_t checked = 0;
     for (PointIndex i = 0; i < p.size(); ++i) {
-        // Away from the turns and the outermost passes everybody has two neighbours.
+        // Away from the turns and the outermost passes every point has two neighbours.
         const bool inner = p[i].x() > 1 && p[i].x() < 19 && p[i].y() > 0.3F && p[i].y() < 2.9F;
         if (!inner) continue;
         for (const Side side : {Side::left, Side::right}) {

@@ -1,4 +1,4 @@
-// Passes of two tools, and of two runs of a program in one log, lie over each other: they are no neighbours.
+// Passes of two tools, or of two runs of a program in one log, are above each other: they are not neighbours.
 #include "surface/cut_groups.h"
 
 #include <cmath>
@@ -21,7 +21,7 @@ struct Cut {
     Positions positions;
     Column<std::uint32_t> motions;
 
-    /// Adds a path at a height; `motion_of`(y) tells the motions.
+    /// Adds a path at a height; `motion_of`(y) gives the motions.
     template <typename MotionOf>
     void add(const Positions& path, float z, const MotionOf& motion_of) {
         for (PointIndex i = 0; i < path.size(); ++i) {
@@ -51,7 +51,7 @@ ClSurface semi_finished_and_finished(const char* second_tool) {
     return surface_of(std::move(cut), fmt::format("T1 M6\nG1 X1 F100\nG0 Z10\n{} M6\nG1 X2\n", second_tool));
 }
 
-/// Neighbours that lie on the passes of another height, and all.
+/// The number of neighbours on passes of another height, and of all neighbours.
 std::pair<int, int> across_heights(const ClSurface& surface) {
     std::pair<int, int> found;
     const Positions& p = surface.positions;
@@ -71,7 +71,7 @@ TEST(CutGroups, PassesOfTwoToolsAreNoNeighbours) {
     const auto [across, all] = across_heights(surface);
     EXPECT_EQ(across, 0);
     EXPECT_GT(all, 20000);
-    EXPECT_GT(across_heights(semi_finished_and_finished("T1")).first, 1000);  // one tool: nobody knows
+    EXPECT_GT(across_heights(semi_finished_and_finished("T1")).first, 1000);  // one tool: unknown
 }
 
 std::string lines_of(int count) {
@@ -123,7 +123,7 @@ TEST(CutGroups, ARestartedRunHasItsOwnPassesWhereItHasThem) {
     cut.add(passes_of(0, 12), 0, motion_of);
     const PointIndex second = cut.positions.size() + 1;
     cut.lift(20);
-    cut.motions.back() = 12;  // the retract has the number of the line that was stopped
+    cut.motions.back() = 12;  // the retract has the number of the stopped line
     cut.add(passes_of(8, 19), 0, motion_of);
     const ClSurface surface = surface_of(std::move(cut), lines_of(20));
     int first_again = 0;

@@ -39,7 +39,7 @@ TEST(Passes, OfAZigzagEndAtItsCorners) {
 }
 
 TEST(Passes, AreNotCutWhereTheSpeedIsLow) {
-    // The same way with points a hundred times as dense round a corner of 90°.
+    // The same path with points a hundred times as dense around a corner of 90°.
     Positions p;
     test::add_line(p, {0, 0, 0}, {10, 0, 0}, 0.05);
     test::add_line(p, {10, 0, 0}, {10.2, 0, 0}, 0.0005);

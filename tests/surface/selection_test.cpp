@@ -5,7 +5,7 @@
 namespace clsurf::selection_test {
 namespace {
 
-/// Two passes of five points beside each other, with a link of two between them.
+/// Two adjacent passes of five points, with a link of two between them.
 ClSurface two_passes() {
     ClSurface surface;
     for (int i = 0; i < 12; ++i) {

@@ -1,4 +1,4 @@
-// Standard deviations where the acceleration jumps, as it does under a control without a jerk limit: against the truth of a made
+// Standard deviations where the acceleration jumps, as with a control without a jerk limit: compared with the truth of a made
 // motion, from noisy positions alone.
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double period = 0.001;
 
-/// Lines of 40 mm back and forth in X over a wave in Z, each from rest to rest with 1,500 mm/s², in two places slower.
+/// Lines of 40 mm back and forth in X over a wave in Z, each from rest to rest with 1,500 mm/s², slower in two places.
 struct Trapezoids {
     std::array<std::vector<double>, 3> positions;
     std::vector<double> speed;  ///< true [mm/s]
@@ -48,7 +48,7 @@ private:
     static constexpr double length = 40, acceleration = 1500, fast = 50, slow = 20;
 
     static double height(double x) { return 2 * std::cos(2 * M_PI * (x - 20) / 17); }
-    /// The greatest speed from which the tool can still be slow at the next slow place, and at rest at the end.
+    /// The highest speed from which the tool can still slow down for the next slow place, and stop at the end.
     static double limit(double x, const std::array<double, 2>& slow_places) {
         double most = std::min(fast, std::sqrt(2 * acceleration * std::max(0.0, length - x)));
         for (const double at : slow_places) {

@@ -1,5 +1,5 @@
-// The encoder and the scale of an axis as one estimate, against the truth of a made table: backlash, pitch error, heat,
-// both quantised, the encoder recorded earlier or later. Is it better than each of them alone, and as good as it says?
+// The encoder and the scale of an axis as one estimate, compared with the truth of a made table: backlash, pitch error, heat,
+// quantisation of both, a time offset of the encoder. It must be better than each alone, and its stated errors must be right.
 
 #include <gtest/gtest.h>
 
@@ -37,13 +37,13 @@ ChannelView view_of(const std::vector<double>& x) {
 struct Drive {
     double backlash = 0.010, pitch_error = 0.002, pitch = 10, heat = 0.0004;  ///< [mm], [mm], [mm], [mm/s]
     double encoder_quantum = 1e-4, scale_quantum = 1e-3;                      ///< [mm]
-    double noise = 2e-4;    ///< of the scale before it is rounded [mm]
+    double noise = 2e-4;    ///< of the scale before rounding [mm]
     double lead = 0;        ///< of the encoder [records]
-    double compliance = 0;  ///< by which the motor is ahead of the screw, of the acceleration [s²]
+    double compliance = 0;  ///< lead of the motor over the screw per acceleration [s²]
 };
 
-/// Motors turn on a circle whose speed goes up and down between 30 and 60 mm/s in jerk-limited ramps. The table follows
-/// when the backlash is crossed, less the pitch error and the growth of the screw.
+/// Motors move along a circle whose speed varies between 30 and 60 mm/s in jerk-limited ramps. The table follows
+/// when the backlash is crossed, minus the pitch error and the thermal growth of the screw.
 struct Machine {
     static constexpr int count = 12000;
     static constexpr int lead_room = 20;  ///< records of motion before and after the log
@@ -68,7 +68,7 @@ struct Machine {
             for (int i = 0; i < count; ++i) {
                 const auto f = static_cast<std::size_t>((i + lead_room) * fine);
                 position[k].push_back(table[f]);
-                // As fast as over a tenth of a period: where the table starts and stops there is no better definition.
+                // Over a tenth of a period: where the table starts and stops there is no better definition.
                 velocity[k].push_back((table[f + fine / 10] - table[f - fine / 10]) / (0.2 * period));
                 const auto ahead = static_cast<std::size_t>(std::lround((i + lead_room + drive.lead) * fine));
                 const auto rounded = [](double x, double q) { return std::round(x / q) * q; };
@@ -93,7 +93,7 @@ struct Machine {
         return axis == 0 ? circle * std::cos(s / circle) : axis == 1 ? circle * std::sin(s / circle) : 4.0003;
     }
 
-    /// Over half a period to each side [mm/s²].
+    /// Over half a period on each side [mm/s²].
     static double acceleration(const std::vector<double>& way, std::size_t f, std::size_t axis) {
         constexpr std::size_t half = fine / 2;
         if (f < half || f + half >= way.size()) return 0;
@@ -101,7 +101,7 @@ struct Machine {
         return second / std::pow(period / 2, 2);
     }
 
-    /// Way along the circle at every fine step [mm].
+    /// Arc length along the circle at every fine step [mm].
     static std::vector<double> ways() {
         constexpr double step = period / fine, jerk = 60000, half = 0.0223606797749979;  // 60000 · half² = 30 mm/s
         std::vector<double> all;
@@ -120,7 +120,7 @@ struct Machine {
 
     struct Errors {
         double position = 0, speed = 0;                  ///< rms, of an axis [mm]; along the path [mm/s]
-        double position_covered = 0, speed_covered = 0;  ///< share that three standard deviations hold
+        double position_covered = 0, speed_covered = 0;  ///< share within three standard deviations
         double stated = 0;                               ///< median of a position's standard deviation [mm]
     };
 
@@ -140,7 +140,7 @@ struct Machine {
         estimate.sigmas(1, pieces[0], 0, scratch, of_speed);
         return errors(out[0], out[1], &sigmas, &of_speed);
     }
-    /// A window over the scale: speeds as `savgol` derives them, positions as they are recorded.
+    /// A window over the scale: speeds derived as with `savgol`, positions as recorded.
     [[nodiscard]] Errors window() const {
         std::array<std::vector<double>, 3> v;
         const Differentiator filter(derivative_filter(1, period));
@@ -167,7 +167,7 @@ private:
         for (std::size_t i = 100; i + 100 < count; ++i, ++n) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const double off = p[k][i] - position[k][i];
-                if (k < 2) sums.position += 0.5 * off * off;  // Z stands
+                if (k < 2) sums.position += 0.5 * off * off;  // Z does not move
                 if (sigmas == nullptr) continue;
                 sums.position_covered += std::abs(off) <= 3 * (*sigmas)[k][i] ? 1.0 / 3 : 0;
                 if (k < 2) stated.push_back((*sigmas)[k][i]);
@@ -194,7 +194,7 @@ struct Case {
 std::vector<Case> cases() {
     Drive late, exact, coarse, fine_scale, poor, elastic, stiff;
     stiff.compliance = 1 / std::pow(2 * M_PI * 150, 2);
-    elastic.compliance = 1 / std::pow(2 * M_PI * 60, 2);  // it would swing at 60 Hz
+    elastic.compliance = 1 / std::pow(2 * M_PI * 60, 2);  // natural frequency 60 Hz
     late.lead = -1.6;
     exact.backlash = exact.pitch_error = exact.heat = 0;
     coarse.scale_quantum = 5e-3, coarse.lead = 2.4;
@@ -249,12 +249,12 @@ TEST(EncoderAndScale, TogetherAreBetterThanEachAlone) {
         EXPECT_GE(fused.speed_covered, 0.99) << one.name;
         EXPECT_LT(fused.stated, 3 * fused.position) << one.name;
         for (const Machine::Errors& other : {scale, window}) {
-            // An encoder that is off by what its drive yields hardly counts.
+            // An encoder that is off by the compliance of its drive hardly counts.
             const double share = one.drive.compliance > 0 ? 1.02 : 1;
             EXPECT_LT(fused.position, share * other.position) << one.name;
             EXPECT_LT(fused.speed, share * other.speed) << one.name;
         }
-        // Only a drive without errors is known better by its encoder, which then measures the table.
+        // Only with a drive without errors is the encoder better, because it then measures the table.
         const bool exact = one.drive.backlash == 0;
         EXPECT_LT(fused.position, (exact ? 2 : 0.1) * encoder.position) << one.name;
         EXPECT_LT(fused.speed, (exact ? 1.05 : 0.5) * encoder.speed) << one.name;
@@ -273,7 +273,7 @@ std::vector<std::vector<double>> reference_rows() {
     return rows;
 }
 
-/// What SciPy's batch least squares made of the same records (fused_axis_reference.py).
+/// The result of SciPy's batch least squares for the same records (fused_axis_reference.py).
 struct Reference {
     SmootherModel position, difference;
     double weight = 0;
@@ -328,11 +328,11 @@ TEST(EncoderAndScale, AreFusedAsByBatchLeastSquares) {
             off[d] += std::pow((p[i][d][0] - reference.joint[i][d]) / sigma, 2) / static_cast<double>(n);
         }
     }
-    // Two smoothers one after the other know nearly as much as one of both: their errors are larger by less than a percent.
+    // Two consecutive smoothers are nearly as accurate as a joint one: their errors are larger by less than a percent.
     for (std::size_t d = 0; d < 4; ++d) EXPECT_LT(std::sqrt(off[d]), 0.12) << d;
 }
 
-// What is stated of both steps, added as independent errors, is what the joint solution leaves open.
+// The stated errors of both steps, added as independent ones, equal those of the joint solution.
 TEST(EncoderAndScale, AreAsUncertainAsInTheJointSolution) {
     const Reference reference;
     const auto n = static_cast<PointIndex>(reference.scale.size());
@@ -360,12 +360,12 @@ TEST(EncoderAndScale, AMotorTurnsWhereItComesBackByMoreThanTheThreshold) {
     EXPECT_TRUE(find_reversals(x, {0, 5}, 0.5).empty());
 }
 
-/// A log of X alone, there and back.
+/// A log of X alone, back and forth.
 struct Shuttle {
     static constexpr PointIndex count = 8000;
     std::vector<double> scale, encoder, table;
 
-    /// 2 s a stroke at `speed` [mm/s], turning round in 40 ms; pitch error and backlash of 10 µm.
+    /// 2 s per stroke at `speed` [mm/s], with reversals of 40 ms; pitch error and backlash of 10 µm.
     explicit Shuttle(double speed) {
         double m = 0, follows = 0;
         for (int i = 0; i < count; ++i) {
@@ -396,7 +396,8 @@ struct Shuttle {
     }
 };
 
-// Without noise, at 50 µm a record or at a creep, the rounding to 1 µm is the same for long and no mean of it gets better.
+// Without noise, at 50 µm per record or slower, the rounding error to 1 µm stays the same for long and is not reduced by
+// averaging.
 TEST(EncoderAndScale, ARoundingThatStaysIsNotAveragedAway) {
     for (const double speed : {50.0, 49.7, 5.0, 0.5, 0.1}) {
         const Shuttle shuttle(speed);
@@ -429,9 +430,9 @@ TEST(EncoderAndScale, OnlyActualPositionsAreFused) {
     EXPECT_FALSE(FusedPositions::applies(scale_only, reconstruct(scale_only, Role::actual, Vec3::Zero())));
 }
 
-// The test on records that are held out: noise, or the wandering of the difference, that is stated too small.
+// The test on held-out records: noise, or the random walk of the difference, that is stated too small.
 TEST(EncoderAndScale, WrongNoiseIsMoreThanTwiceWhatIsStated) {
-    const Reference reference;  // its wandering of b is large enough for its difference
+    const Reference reference;  // its random walk of b is large enough for its difference
     std::mt19937 random(2);
     std::normal_distribution<double> normal;
     const double sigma = reference.difference.position_sigma;
@@ -451,7 +452,7 @@ TEST(EncoderAndScale, WrongNoiseIsMoreThanTwiceWhatIsStated) {
     EXPECT_GT(nees(1, 1e-9), 2);
 }
 
-// A speed that reads zero in one record of 500 is no error that a standard deviation could state.
+// A speed that reads zero in one record of 500 is not an error that a standard deviation can describe.
 TEST(EncoderAndScale, AreRefusedWhereTheirErrorsCannotBeStated) {
     Machine machine{Drive{}};
     std::vector<double> speed;

@@ -1,4 +1,4 @@
-// Five axes: positions through the chain, lines found without a line channel under tool centre point
+// Five axes: positions through the kinematics, lines found without a line channel with tool centre point
 // control and without, tool axes given as vectors.
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ namespace {
 
 const Vec3 zero(12, -7, 31);  ///< machine position of the programs' zero
 
-/// Axes as they are: a face milled at A-30 C45, with an arc, then a way with both turning.
+/// Axis positions: a face milled at A-30 C45, with an arc, then a move with both axes turning.
 std::string tilted_program() {
     std::string text = "G21 G90 G54\nG0 X0 Y0 Z50\nG0 A-30 C45\nG0 Z5\nG1 Z0 F1500\n";
     for (int pass = 0; pass < 6; ++pass) {
@@ -66,8 +66,8 @@ TEST(FiveAxisLines, FoundOnAForkHead) {
     EXPECT_GE(right_share(test::parse_text(tilted_program()), k), 0.995);
 }
 
-// Positions of the axes, A at −90°: the program's Z is the workpiece's depth from the side. On paper for a
-// machine whose axes all go through its zero: T(−A) about x by +90° takes (x, y, z) to (x, −z, y), so
+// Axis positions with A at −90°: the program's Z is the workpiece's depth from the side. By hand for a
+// machine whose axes all pass through its zero: T(−A) about x by +90° maps (x, y, z) to (x, −z, y), so
 // that the tip at (1, 2, 3) of the workpiece has axis positions (1, −3, 2), and back.
 TEST(FiveAxisLines, PositionsOfTheAxesBecomeTips) {
     Kinematics k;
@@ -77,12 +77,12 @@ TEST(FiveAxisLines, PositionsOfTheAxesBecomeTips) {
     make_tip_motions(program, k, Vec3::Zero(), Vec3::Zero());
     const Vec3 end = program.motions.end[program.motions.end.size() - 1].vec();
     EXPECT_LE((end - Vec3(1, 2, 3)).norm(), 1e-12) << end.transpose();
-    // A quarter of a turn is made of chords; the last line is one.
+    // A quarter turn consists of chords; the last line is one motion.
     EXPECT_EQ(program.motions.size(), 180 + 1);
     EXPECT_EQ(program.motions.line[180], 3u);
 }
 
-/// How long the tip paths of a line take at their feeds [s].
+/// The time of the tip paths of a line at their feeds [s].
 double time_of_line(const Program& program, LineNumber line) {
     const Toolpath path(program.motions, Vec3::Zero());
     double time = 0;
@@ -93,8 +93,9 @@ double time_of_line(const Program& program, LineNumber line) {
     return time;
 }
 
-// C turns about the workpiece's zero, the tip 10 mm off it. Under G93 a line takes 1/F minutes, wherever the tip goes. A line
-// that only turns counts degrees: 90° at 360 deg/min are 15 s, though the tip goes 15.7 mm. With X in it, F is the tip's.
+// C turns about the workpiece's zero, with the tip 10 mm off it. Under G93 a line takes 1/F minutes, wherever the tip goes.
+// For a line that only turns, F counts degrees: 90° at 360 deg/min are 15 s, though the tip moves 15.7 mm. With X in it, F is
+// that of the tip.
 TEST(FiveAxisLines, ATurnTakesTheTimeOfItsFeed) {
     Kinematics k;
     k.type = KinematicsType::table_table;
@@ -110,8 +111,9 @@ TEST(FiveAxisLines, ATurnTakesTheTimeOfItsFeed) {
     }
 }
 
-// A ball of 3 mm whose axis is (0, 1, 0), tip at (1, 2, 3): its centre is (1, 5, 3), its lowest point (1, 5, 0). Upright
-// before that, where nothing changes.
+// A ball of 3 mm whose axis is (0, 1, 0), tip at (1, 2, 3): its centre is (1, 5, 3), its lowest point (1, 5, 0). The tool is
+// upright
+// before that, and nothing changes.
 TEST(UprightBall, HasTheSameCentre) {
     const Kinematics k = test::trunnion();
     test::MadeLog made = test::run(test::parse_text("G21 G90\nG43.4 H1\nG1 X1 Y2 Z3 F100\nA-90\nM30\n"), k, zero, 0.05);
@@ -169,10 +171,10 @@ TEST(ToolAxisVectors, BecomeAngles) {
     }
 }
 
-// A plane turned by 90° about X: programmed (x, y, z) is (x, −z, y) of the workpiece, its normal (0, −1, 0). The
-// trunnion's axis is (sin A sin C, −sin A cos C, cos A): A 90 C 0 (or A −90 C 180). On axes that all go through the zero
-// the axis positions of the tip (1, −3, 2) are T(−90°) about x of it: (1, 2, 3) again: what the tool's axes show is what
-// the plane's program says.
+// A plane rotated by 90° about X: programmed (x, y, z) is (x, −z, y) of the workpiece, its normal (0, −1, 0). The
+// trunnion's axis is (sin A sin C, −sin A cos C, cos A): A 90 C 0 (or A −90 C 180). If all axes pass through the zero,
+// the axis positions of the tip (1, −3, 2) are T(−90°) about x of it, (1, 2, 3): the axes show the coordinates
+// of the program in the plane.
 TEST(TiltedPlanes, AreWaysOfTheTipWithTheToolUprightOnThem) {
     Kinematics k;
     k.type = KinematicsType::table_table;
@@ -192,24 +194,25 @@ TEST(TiltedPlanes, AreWaysOfTheTipWithTheToolUprightOnThem) {
         EXPECT_LE((m.end[2].vec() - Vec3(1, -3, 2)).norm(), 1e-12) << dialect;
         for (const std::size_t i : {1u, 2u, 3u})
             EXPECT_LE(angle_between(k.axis_of(k.angles_of(m.rotary[i].vec())), {0, -1, 0}), 1e-12) << dialect << i;
-        EXPECT_EQ(m.rotary[4], m.rotary[3]) << dialect;  // G69 turns nothing back
+        EXPECT_EQ(m.rotary[4], m.rotary[3]) << dialect;  // G69 does not turn the axes back
         EXPECT_EQ(m.rotary[5], Xyz(0, 0, 0)) << dialect;
         const LineNumber after = m.line[4];
         make_tip_motions(program, k, Vec3::Zero(), Vec3::Zero());
         ToolCentrePoint control(program);
         std::int64_t in_plane = 0;
-        Vec3 axes = Vec3::Zero();  // of the last motion of the line behind the plane: those of the axes again
+        Vec3 axes = Vec3::Zero();  // of the last motion of the line after the plane: axis positions again
         for (std::size_t i = 0; i < m.kind.size(); ++i) {
             in_plane += control.on(static_cast<std::int64_t>(i)) ? 1 : 0;
             if (m.line[i] == after) axes = k.to_axes(m.end[i].vec(), k.angles_of(m.rotary[i].vec()));
         }
-        EXPECT_EQ(in_plane, 2) << dialect;  // the turn before them is one of the axes, in chords of its own
+        EXPECT_EQ(in_plane, 2) << dialect;  // the turn before them is a motion of the axes, in separate chords
         EXPECT_LE((axes - Vec3(7, 8, 9)).norm(), 1e-9) << dialect;
     }
 }
 
-// The same machine: on paper the axes show what the plane's program says, so that the log is the zigzag itself, with A at
-// 90°; behind the plane, at A 0, the same numbers are another place of the workpiece.
+// The same machine: computed by hand, the axes show the coordinates of the program in the plane, so that the log is the
+// zigzag itself,
+// with A at 90°; after the plane, at A 0, the same numbers are another place of the workpiece.
 TEST(TiltedPlanes, GiveTheirPointsTheirLines) {
     Kinematics k;
     k.type = KinematicsType::table_table;

@@ -1,5 +1,5 @@
-// Speed and acceleration from all that a log measures of them, against the truth of a made motion: are the errors as large
-// as stated, smaller than those of a window, and is it found which record of a channel belongs to which position?
+// Speed and acceleration from all measurements of a log, compared with the truth of a made motion: the errors must be as
+// large as stated and smaller than those of a window, and the time offset of a channel to the positions must be found.
 
 #include "toolpath/motion_estimate.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double period = 0.001;
 
-/// A circle of radius 20 whose speed goes up and down between 30 and 60 mm/s in jerk-limited ramps.
+/// A circle of radius 20 whose speed varies between 30 and 60 mm/s in jerk-limited ramps.
 struct Ramps {
     static constexpr int count = 12000;
     std::array<std::vector<double>, 3> positions;
@@ -43,7 +43,7 @@ struct Ramps {
             acceleration.push_back(a * along + v * v / 20 * inward);
             speeds.push_back(std::round(v * 60));
             for (int f = 0; f < fine; ++f) {
-                // Every 0.3 s a ramp of 2 · 22.36 ms, up and down in turn: 60000 · 0.02236² = 30 mm/s.
+                // Every 0.3 s a ramp of 2 · 22.36 ms, alternately up and down: 60000 · 0.02236² = 30 mm/s.
                 const double t = std::fmod(i * period + f * step, 0.3) - 0.1;
                 const bool up = std::fmod(i * period + f * step, 0.6) < 0.3;
                 constexpr double half = 0.0223606797749979;
@@ -67,7 +67,7 @@ struct Ramps {
 
     void record_speed(double lead) {
         for (int i = 0; i < count; ++i) {
-            // What the axes do `lead` records later, between records by the acceleration there.
+            // The motion of the axes `lead` records later, interpolated with the acceleration.
             const double at = std::clamp(i + lead, 0.0, count - 1.0);
             const auto whole = static_cast<std::size_t>(at);
             const double next = exact_speed[std::min<std::size_t>(whole + 1, count - 1)];
@@ -78,7 +78,7 @@ struct Ramps {
 
     struct Errors {
         double speed = 0, acceleration = 0;  ///< rms
-        double covered = 0;                  ///< share of the speeds that three standard deviations hold
+        double covered = 0;                  ///< share of the speeds within three standard deviations
     };
     [[nodiscard]] Errors kalman(std::string* note = nullptr, double* speed_sigma = nullptr,
                                 double* acceleration_sigma = nullptr) const {
@@ -142,8 +142,8 @@ TEST(MotionEstimate, SaysWhatPositionsAloneCannotTell) {
     (void)Ramps(0.001, true).kalman(nullptr, &known_speed);
     EXPECT_NE(note.find("acceleration known to"), std::string::npos) << note;
     EXPECT_LT(known_speed, 0.5 * speed_sigma);
-    // What it says it does not know is what it does not know: speed one component, acceleration two of them
-    // (z stands still).
+    // The stated errors are the true ones: speed has one component, acceleration two
+    // (z does not move).
     EXPECT_GT(blind.speed, 0.4 * speed_sigma);
     EXPECT_LT(blind.speed, 2 * speed_sigma);
     EXPECT_GT(blind.acceleration, 0.4 * acceleration_sigma * std::sqrt(2));
@@ -202,7 +202,7 @@ TEST(MotionEstimate, APartOfARunIsKnownAsWellAsInTheWhole) {
     std::vector<double> whole(Ramps::count), part(50);
     estimate.estimate(ramps.pieces[0], 0, Ramps::count - 1, scratch, out);
     estimate.sigmas(1, ramps.pieces[0], 0, scratch, whole);
-    for (PointIndex first = 1000; first < 1650; first += 7) {  // two ramps and what is between them
+    for (PointIndex first = 1000; first < 1650; first += 7) {  // two ramps and the motion between them
         estimate.estimate(ramps.pieces[0], first, first + 49, scratch, out);
         estimate.sigmas(1, ramps.pieces[0], first, scratch, part);
         for (std::size_t i = 0; i < part.size(); ++i)
@@ -218,7 +218,7 @@ TEST(MotionEstimate, AChannelThatIsNotTheSpeedTeachesNothing) {
     EXPECT_EQ(with, Ramps(0.001, false).kalman().speed);
 }
 
-// A speed that reads zero in one record of 500 is no error that a standard deviation could state.
+// A speed that reads zero in one record of 500 is not an error that a standard deviation can describe.
 TEST(MotionEstimate, IsRefusedWhereItsErrorsCannotBeStated) {
     Ramps ramps(0.001, true);
     for (std::size_t i = 250; i < ramps.speeds.size(); i += 500) ramps.speeds[i] = 0;

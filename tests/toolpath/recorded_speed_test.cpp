@@ -1,4 +1,4 @@
-// The speed derived from positions against the speed that the kernel recorded. The kernel's channel
+// The speed derived from positions compared with the speed that the kernel recorded. The kernel's channel
 // belongs to its planner and leads the axes by two records in every log (data/logs/README.md).
 #include <array>
 #include <cmath>
@@ -42,7 +42,7 @@ struct Speeds {
         copy_block(log.find("speed")->values, 0, recorded);
         copy_block(log.find("motion")->values, 0, motion);
     }
-    /// Difference [mm/min, rms] where the recorded speed is taken to lead by `shift` records.
+    /// Difference [mm/min, rms] if the recorded speed leads by `shift` records.
     [[nodiscard]] double rms(PointIndex shift) const {
         double sum = 0;
         double count = 0;
@@ -60,21 +60,21 @@ struct Speeds {
 class RecordedSpeed : public testing::TestWithParam<const char*> {};
 
 TEST_P(RecordedSpeed, IsThatOfThreePointsTwoRecordsLater) {
-    // Differences over two records, 2 ms: hardly any smoothing, and no noise in commanded positions.
+    // Differences over two records, 2 ms: almost no smoothing, and no noise in commanded positions.
     const Speeds speeds(GetParam(), {3, 2, 1, 0.001});
     EXPECT_LT(speeds.rms(lead), 15.0);  // of 9,000 … 15,000 mm/min
     for (const PointIndex other : {-1, 0, 1, 3, 4}) EXPECT_GT(speeds.rms(other), 5 * speeds.rms(lead)) << other;
 }
 
 TEST_P(RecordedSpeed, IsThatOfOurWindowButForItsSmoothing) {
-    // 20 ms round off what the planner does at corners: exact stops in the worst log.
+    // 20 ms smooth the speed at corners: exact stops are the worst case.
     const Speeds speeds(GetParam(), derivative_filter(1, 0.001));
     EXPECT_LT(speeds.rms(lead), 180.0);
     for (const PointIndex other : {-1, 0, 1, 3, 4}) EXPECT_GT(speeds.rms(other), speeds.rms(lead)) << other;
 }
 
-// The Kalman smoother on every log and role: its speeds against the differences over two records of positions that have
-// no noise, and, where they are commanded, against the kernel's own speed two records earlier. The table is printed.
+// The Kalman smoother on every log and role: its speeds are compared with differences over two records of positions without
+// noise and, for commanded ones, with the kernel's own speed two records earlier. The table is printed.
 TEST_P(RecordedSpeed, OfAKalmanSmootherHoldsItsUncertainty) {
     const Log log = io::open_log(std::string(SAMPLE_LOGS "/") + GetParam() + ".biip", {});
     const std::vector<PointRange> all{{0, log.records - 1}};

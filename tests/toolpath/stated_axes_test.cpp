@@ -1,4 +1,4 @@
-// The tool axes that programs state by tilted planes, and what is left to the machine's kinematics.
+// The tool axes that programs state by tilted planes, and those that need the machine's kinematics.
 
 #include "toolpath/stated_axes.h"
 
@@ -22,7 +22,7 @@ void expect_axis(const StatedAxes& stated, std::size_t motion, const Vec3& axis)
     EXPECT_NEAR((stated.axis[motion].vec() - axis).norm(), 0, 1e-12) << motion;
 }
 
-// z turned by 30 deg about Y: (sin 30, 0, cos 30).
+// z rotated by 30 deg about Y: (sin 30, 0, cos 30).
 const Vec3 about_y(0.5, 0, std::sqrt(0.75));
 
 TEST(StatedAxes, OfTiltedPlanesOfEachDialect) {

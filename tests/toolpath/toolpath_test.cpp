@@ -34,7 +34,7 @@ TEST(Toolpath, DirectionsAndCurvatureOfAHelix) {
     Motions m = quarter_circle();
     EXPECT_LT((Toolpath(m, Vec3::Zero()).direction(0, 0.5) - Vec3(-1, 1, 0).normalized()).norm(), 1e-12);
     EXPECT_NEAR(Toolpath(m, Vec3::Zero()).curvature(0), 1, 1e-12);
-    // A rise of 1 mm per radian: the direction at the begin is (0, 1, 1)/√2, and κ = r / (r² + c²) = 1/2.
+    // A rise of 1 mm per radian: the direction at the beginning is (0, 1, 1)/√2, and κ = r / (r² + c²) = 1/2.
     m.end[0] = Xyz(0, 1, std::numbers::pi / 2);
     EXPECT_LT((Toolpath(m, Vec3::Zero()).direction(0, 0) - Vec3(0, 1, 1).normalized()).norm(), 1e-12);
     EXPECT_NEAR(Toolpath(m, Vec3::Zero()).curvature(0), 0.5, 1e-12);
@@ -56,7 +56,7 @@ TEST(Toolpath, FindsTheTurnOfAHelix) {
 
 TEST(Toolpath, FindsTheFootOnASteepHelix) {
     // (cos t, sin t, 10 t), and a point 1.2 from its axis at the angle 0.5 and the height 7. The square of the distance,
-    // 1 + 1.2² − 2.4 cos(t − 0.5) + (10 t − 7)², is least where t = 0.7 − 0.012 sin(t − 0.5); at t = 0.5 it is 4.04.
+    // 1 + 1.2² − 2.4 cos(t − 0.5) + (10 t − 7)², is smallest where t = 0.7 − 0.012 sin(t − 0.5); at t = 0.5 it is 4.04.
     Motions m = quarter_circle();
     m.end[0] = Xyz(0, 1, 5 * std::numbers::pi);
     double t = 0.7;
@@ -79,7 +79,7 @@ TEST(Toolpath, BeginsUnknownAxesWhereTheToolRests) {
 }
 
 TEST(Toolpath, FindsTheFootOnACurve) {
-    // A parabola y = x (4 − x), of which only x and y are known: z is where the machine stands.
+    // A parabola y = x (4 − x), given in x and y only: z is the position of the machine.
     Motions m = quarter_circle();
     m.arcs.clear();
     m.kind[0] = MotionKind::spline;
@@ -95,10 +95,10 @@ TEST(Toolpath, FindsTheFootOnACurve) {
     EXPECT_LE((path.at(0, 0.5) - Vec3(2, 4, 7)).norm(), 1e-9);
     // ∫ √(1 + (4 − 2x)²) dx over 0 … 4 = 2 √17 + ½ asinh 4.
     EXPECT_NEAR(path.length(0), 2 * std::sqrt(17.0) + 0.5 * std::asinh(4.0), 1e-8);
-    // κ = 2 at the top; at the begin the slope is 4.
+    // κ = 2 at the top; at the beginning the slope is 4.
     EXPECT_NEAR(path.curvature(0), 2, 1e-6);
     EXPECT_LE((path.direction(0, 0) - Vec3(1, 4, 0).normalized()).norm(), 1e-9);
-    // Behind a fraction of the way only.
+    // Only from a fraction of the path on.
     EXPECT_NEAR(path.projection(0, Vec3(1, 4, 7), 0.5).fraction, 0.5, 1e-6);
 }
 

@@ -1,4 +1,4 @@
-// The front and the choice from it, against brute force over all pairs, and by hand.
+// The front and the choice from it, compared with brute force over all pairs, and with values computed by hand.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ std::vector<TradeoffRow> random_rows(std::mt19937& random, int count, int levels
     return rows;
 }
 
-/// By the definition, written out.
+/// The definition, written out.
 bool is_dominated(const std::vector<TradeoffRow>& rows, std::size_t k) {
     const MotionQuality& q = rows[k].quality;
     return std::ranges::any_of(rows, [&](const TradeoffRow& other) {
@@ -81,7 +81,7 @@ TEST(Weight, CostsWhatThePaperSays) {
     for (const double weight : {0.0, 0.3, 1.0}) EXPECT_DOUBLE_EQ(weighted_cost(reference, reference, weight), 1);
 }
 
-// 0 mm/min of mismatch is no unit: it stays, or rises by more than anything is worth.
+// 0 mm/min of mismatch is not a unit: it must stay, and no rise of it is accepted.
 TEST(Weight, TakesAReferenceWithoutMismatch) {
     const MotionQuality reference = row(10, 0, 5000).quality;
     EXPECT_DOUBLE_EQ(weighted_cost(row(10, 0, 5000).quality, reference, 0.5), 1);
@@ -89,7 +89,7 @@ TEST(Weight, TakesAReferenceWithoutMismatch) {
     EXPECT_DOUBLE_EQ(weighted_cost(row(9, 1, 4000).quality, reference, 0), 0.9);
 }
 
-// The first of the order is on the front and no other row costs less, at the ends of the weights, too.
+// The first of the order is on the front and no other row costs less, also for the extreme weights.
 TEST(Weight, ChoosesFromTheFront) {
     std::mt19937 random(7);
     for (const int levels : {4, 1000}) {
@@ -110,7 +110,7 @@ TEST(Weight, ChoosesFromTheFront) {
     }
 }
 
-// A higher weight never buys a rougher surface, and never less time.
+// A higher weight never gives a rougher surface, and never less time.
 TEST(Weight, TradesTimeForSurfaceOneWay) {
     std::mt19937 random(11);
     for (int round = 0; round < 50; ++round) {

@@ -1,4 +1,4 @@
-// Settings of a machine, and the search among them.
+// Settings of a machine, and the search over them.
 
 #include <gtest/gtest.h>
 
@@ -45,7 +45,7 @@ TEST(PlanSettings, OfTheMachineFileChangeNothing) {
     machine.fidelity.emplace();
     EXPECT_TRUE(with_settings(machine, {}).fidelity.has_value());
     EXPECT_EQ(with_settings(machine, {}).name, machine.name);
-    // What was measured is that of other settings.
+    // The measured fidelity is that of other settings.
     EXPECT_FALSE(with_settings(machine, {0.5}).fidelity.has_value());
 }
 

@@ -1,4 +1,4 @@
-// Bands over few vertices, as a page is sent them: what lies between passes stays closed.
+// Bands over few vertices, as in a page: the area between passes remains closed.
 #include "viz/bands.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ TEST(Bands, FewVerticesFarApartLeaveNothingOpen) {
     for (const double longest : {0.1, 0.6, 1.2, 2.4}) {  // mm between vertices, up to 24 step-overs
         std::vector<PointIndex> points;
         for (const Pass& pass : surface.passes) {
-            // Extremes of fields lie anywhere: steps of one point up to the longest, two of which often lie together.
+            // Extremes of fields are anywhere: steps from one point to the longest, two of which often coincide.
             std::uniform_int_distribution<PointIndex> stride(1, static_cast<PointIndex>(longest / step));
             for (PointIndex i = pass.first; i < pass.last; i += random() % 3 == 0 ? 1 : stride(random))
                 points.push_back(i);

@@ -44,7 +44,7 @@ TEST(ThinCurve, KeepsTheExtremesOnBothSidesOfAGap) {
     EXPECT_TRUE(has(thin, Vec2(4, 9)));
 }
 
-/// Numbers to the left of a plot whose frame begins at x [px].
+/// The numbers to the left of a plot whose frame begins at x [px].
 std::ptrdiff_t y_numbers(const std::vector<FlatText>& texts, double x) {
     return std::ranges::count_if(texts, [&](const FlatText& t) { return t.align == Align::right && t.x < x; });
 }

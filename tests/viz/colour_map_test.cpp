@@ -56,7 +56,7 @@ TEST(ColourMap, PartsSpanTheWholeRange) {
     }
 }
 
-/// As people without the cones for green see it (Viénot, Brettel, Mollon 1999), in sRGB.
+/// A colour as seen without green cones (Viénot, Brettel, Mollon 1999), in sRGB.
 Rgb as_deuteranope(Rgb c) {
     std::array<double, 3> linear{};
     for (std::size_t k = 0; k < 3; ++k) linear[k] = std::pow(c[k] / 255.0, 2.2);
@@ -71,7 +71,7 @@ Rgb as_deuteranope(Rgb c) {
 
 TEST(ColourMap, MapOfSpeedsIsEvenAlsoForTheColourBlind) {
     const ColourMap map = make_colour_map("magma");
-    // Equal steps look equally different: CIEDE2000 per twentieth stays within a factor of its mean.
+    // Equal steps appear equally different: CIEDE2000 per twentieth stays within a factor of its mean.
     std::vector<double> steps;
     std::vector<double> seen;
     for (int k = 1; k <= 20; ++k) {
@@ -134,7 +134,7 @@ TEST(ColourScale, CentredMapsHaveTheirMiddleAtZero) {
     EXPECT_EQ(uneven.colour(0), even.colour(0));
     EXPECT_EQ(uneven.colour(-1), even.colour(-1));
     EXPECT_EQ(uneven.colour(4), even.colour(4));
-    // Where 0 is not in the range there is no middle to keep.
+    // If 0 is not in the range there is no middle to keep.
     const ColourScale above{make_colour_map("coolwarm"), 1, 4, 0};
     EXPECT_EQ(above.colour(1), make_colour_map("coolwarm").at(0));
 }

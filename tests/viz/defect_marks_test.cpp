@@ -68,7 +68,7 @@ TEST(DefectMarks, TheCasingOfALeaderIsBelowTheMarks) {
     EXPECT_TRUE(cased);
 }
 
-/// Middle of the white dot where a leader begins.
+/// The middle of the white dot at the beginning of a leader.
 Vec2 anchor_in(const Sheet& sheet) {
     Vec2 sum = Vec2::Zero();
     int count = 0;
@@ -87,7 +87,7 @@ bool has_text(const Sheet& sheet, const std::string& words) {
 
 TEST(DefectMarks, ALeaderBeginsWhereTheWordsAreOf) {
     const Part part;
-    // The strongest point lies in the shorter section.
+    // The strongest point is in the shorter section.
     DefectMark mark = mark_of("1", {{1020, 1030}, {1220, 1290}});
     mark.point = 1022;
     const Sheet section = part.sheet(map_of({mark}));
@@ -99,7 +99,7 @@ TEST(DefectMarks, ALeaderBeginsWhereTheWordsAreOf) {
 
 TEST(DefectMarks, AStrongerMarkHidesNoAnchor) {
     const Part part;
-    // The second one has its strongest section below the first one, but for its end.
+    // The second one has its strongest section below the first one, except for its end.
     DefectMark weaker = mark_of("2", {{1070, 1100}, {1280, 1310}});
     weaker.point = 1080;
     DefectMap map = map_of({mark_of("1", {{1060, 1092}}), weaker});
@@ -164,7 +164,7 @@ TEST(DefectMarks, NumbersOfANarrowPartStandAboveItOrAreCounted) {
         ASSERT_NE(text, sheet.texts.end());
         EXPECT_GT(text->y, panel.rect.y + panel.rect.height) << "it would hide the part";
     }
-    // Long numbers, all at one place.
+    // Long numbers, all at the same place.
     for (DefectMark& mark : marks) {
         mark.sections = {{20, 40}};
         mark.number += "00000000";
@@ -177,7 +177,7 @@ TEST(DefectMarks, NumbersOfANarrowPartStandAboveItOrAreCounted) {
     EXPECT_TRUE(counted);
 }
 
-/// All that a mark is drawn with.
+/// All points that a mark is drawn with.
 std::vector<Vec2> drawn_marks(const Sheet& sheet) {
     std::vector<Vec2> all;
     for (const FlatLine& line : sheet.lines) {

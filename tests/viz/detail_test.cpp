@@ -1,4 +1,4 @@
-// Detail: the triangles between passes leave nothing open, and end where the passes do.
+// Detail: the triangles between passes have no gaps, and end with the passes.
 #include "viz/detail.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ using test::surface_of;
 
 constexpr double pixels_per_mm = 20;
 
-/// Seen from above, 0,0 in the middle; `values` empty: 1 everywhere.
+/// Seen from above, with (0, 0) in the middle; `values` empty: 1 everywhere.
 Detail detail_of(const ClSurface& surface, std::vector<float> values = {}) {
     DetailRequest request;
     request.projection << pixels_per_mm, 0, 0, 500, 0, pixels_per_mm, 0, 500;
@@ -27,7 +27,7 @@ Detail detail_of(const ClSurface& surface, std::vector<float> values = {}) {
 class Covered {
 public:
     explicit Covered(const Detail& detail) : detail_(detail), g_(detail.geometry) {}
-    /// By a triangle with a value of at least that at a corner.
+    /// Whether a triangle covers the point, with a value of at least that at a corner.
     bool operator()(double x, double y, float least = 0) const {
         for (std::size_t t = 0; t + 2 < g_.triangles.size(); t += 3) {
             if (std::max({value(t), value(t + 1), value(t + 2)}) < least) continue;
@@ -92,7 +92,7 @@ TEST(Detail, DrawsAStepSidewaysNowhereElse) {
 }
 
 TEST(Detail, EndsInALineWhereThePassesDo) {
-    // On a flank that rises along and across the passes what lies across one is not at its end.
+    // On a flank that rises along and across the passes, the point opposite to the end of one is not the end of the other.
     Positions positions = test::zigzag(12, 20, 0.4, 0.02);
     for (std::size_t i = 0; i < positions.x.size(); ++i) positions.z[i] = 0.7F * positions.x[i] + 0.7F * positions.y[i];
     const ClSurface surface = surface_of(std::move(positions), 0.45);
@@ -106,7 +106,7 @@ TEST(Detail, EndsInALineWhereThePassesDo) {
 }
 
 TEST(Detail, LeavesAMissingPassOpen) {
-    // Two zigzags, as one that lacks its seventh pass.
+    // Two zigzags, which together lack a seventh pass.
     Positions positions = test::zigzag(6, 10, 0.4, 0.02);
     const Positions other = test::zigzag(6, 10, 0.4, 0.02);
     for (PointIndex i = 0; i < other.size(); ++i) test::add(positions, other[i].x(), other[i].y() + 2.8, 0);

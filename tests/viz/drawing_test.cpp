@@ -47,7 +47,7 @@ TEST(Drawing, GivesAPixelItsColour) {
     EXPECT_EQ(image.pixel(1, 1)[0], 255);
 }
 
-/// Two wide lines across the picture, of which the middle 40 by 10 pixels are drawn.
+/// Two wide lines across the picture, clipped to the middle 40 by 10 pixels.
 Sheet clipped_lines() {
     Sheet sheet;
     sheet.width = 80;
@@ -65,7 +65,7 @@ TEST(Drawing, LinesEndAtTheirClip) {
     const Image image = draw(clipped_lines(), "osmesa", 2);
     for (int y = 0; y < 60; ++y) {
         for (int x = 0; x < 80; ++x) {
-            const bool inside = x >= 20 && x < 60 && y >= 25 && y < 35;  // the same from above as from below
+            const bool inside = x >= 20 && x < 60 && y >= 25 && y < 35;  // symmetric from above and from below
             EXPECT_EQ(image.pixel(x, y)[0], inside ? 10 : 255) << x << ", " << y;
         }
     }

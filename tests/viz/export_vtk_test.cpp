@@ -1,4 +1,4 @@
-// What is exported is read back by VTK's own readers.
+// Exported files are read back with VTK's own readers.
 #include "viz/export_vtk.h"
 
 #include "viz/vtkhdf.h"
@@ -20,7 +20,7 @@
 namespace clsurf::viz::export_vtk_test {
 namespace {
 
-/// Passes of a zigzag, stitched: three where nothing else is given.
+/// Stitched passes of a zigzag: three by default.
 struct Made {
     ClSurface surface;
     Column<float> values;
@@ -56,7 +56,7 @@ TEST(ExportVtk, VtpHoldsPointsPassesTrianglesAndColumns) {
 }
 
 TEST(ExportVtk, AMissingPassStaysOpen) {
-    // Two zigzags of 10 × 2 mm, as one that lacks its seventh pass.
+    // Two zigzags of 10 × 2 mm, which together lack a seventh pass.
     Positions positions = test::zigzag(6, 10, 0.4, 0.02);
     const Positions other = test::zigzag(6, 10, 0.4, 0.02);
     for (PointIndex i = 0; i < other.size(); ++i) test::add(positions, other[i].x(), other[i].y() + 2.8, 0);

@@ -1,4 +1,4 @@
-// The chart of a front: where its numbers stand.
+// The chart of a front: the positions of its numbers.
 
 #include "viz/front_chart.h"
 
@@ -17,7 +17,7 @@ struct Number {
     Rect rect;
 };
 
-/// Texts that are numbers of rows: centred, of the size that they alone have.
+/// Texts that are row numbers: centred, with a size that no other text has.
 std::vector<Number> numbers_in(const Drawing& drawing) {
     std::vector<Number> numbers;
     for (std::size_t k = 0; k < drawing.texts.size(); ++k) {
@@ -45,7 +45,7 @@ Image drawn(const FrontPicture& picture) {
     return draw_front(picture, look);
 }
 
-// Crowded in a corner, as fronts are.
+// Crowded in a corner, as usual in fronts.
 TEST(FrontChart, NumbersDoNotLieOnEachOther) {
     std::mt19937 random(3);
     std::exponential_distribution<double> near(4);
@@ -63,7 +63,7 @@ TEST(FrontChart, NumbersDoNotLieOnEachOther) {
             for (std::size_t j = 0; j < i; ++j)
                 EXPECT_FALSE(overlap(numbers[i].rect, numbers[j].rect)) << numbers[i].text << " " << numbers[j].text;
         }
-        // What was chosen and what it is compared with have their numbers in both panels.
+        // The chosen row and the reference have their numbers in both panels.
         for (const std::size_t row : {std::size_t{0}, *picture.chosen}) {
             EXPECT_EQ(std::ranges::count(numbers, std::to_string(row + 1), &Number::text), 2) << rows << " " << row;
         }
@@ -74,7 +74,7 @@ TEST(FrontChart, NumbersDoNotLieOnEachOther) {
     }
 }
 
-// A single row, with nothing to trade: still a picture.
+// A single row, without a trade-off: still a picture.
 TEST(FrontChart, OfOneRow) {
     FrontPicture picture;
     picture.reference = "the program";

@@ -38,7 +38,7 @@ TEST(Compare, FailsWhereManyValuesAreTwoStepsOff) { EXPECT_FALSE(compare(grey(10
 TEST(Compare, BlanksTextsOfBothPictures) {
     Image a = grey(10);
     Image b = grey(10);
-    // A word of each stands where the other has none; one reaches over the edge.
+    // Each has a word where the other has none; one extends beyond the edge.
     a.rgb[3 * (100 * 20 + 30)] = 200;
     a.texts.push_back({28, 18, 5, 5});
     b.rgb[3 * (100 * 49 + 99)] = 200;

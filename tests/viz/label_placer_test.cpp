@@ -20,7 +20,7 @@ TEST(LabelPlacer, ALineToALabelCrossesNoOtherLabel) {
         const Vec2 at = anchor + share * (end - anchor);
         EXPECT_FALSE(meets(first, {at.x(), at.y(), 0, 0})) << share;
     }
-    // Nor does a later label lie on a line.
+    // A later label does not overlap a line either.
     placer.take_line(anchor, Vec2(300, 20));
     const Rect third = placer.place(Vec2(300, 100), size).value();
     EXPECT_TRUE(third.x > 300 || third.x + third.width < 300);

@@ -38,14 +38,14 @@ TEST(AssignSlots, LeadersNeverCrossAndEverySlotIsUsedOnce) {
 }
 
 TEST(AssignSlots, OrderOfHeightsAloneWouldCross) {
-    // The lower anchor lies to the right, close to the slots: in order of heights its leader would be cut by the other one.
+    // The lower anchor is to the right, close to the slots: in order of heights its leader would cross the other one.
     const std::vector<Vec2> anchors{{0, 10}, {90, 9}};
     const std::vector<std::size_t> slot_of = assign_slots(anchors, {0, -100}, 100, 0);
     EXPECT_EQ(slot_of, (std::vector<std::size_t>{1, 0}));
 }
 
 TEST(AssignSlots, ALeaderKeepsClearOfOtherAnchors) {
-    // In order of heights the leader of the left anchor would run through the right one.
+    // In order of heights the leader of the left anchor would cross the right one.
     const std::vector<Vec2> anchors{{0, 50}, {50, 39}};
     const std::vector<double> slots{30, 0};
     EXPECT_EQ(assign_slots(anchors, slots, 100, 0), (std::vector<std::size_t>{0, 1}));
@@ -53,13 +53,13 @@ TEST(AssignSlots, ALeaderKeepsClearOfOtherAnchors) {
 }
 
 TEST(PlaceNames, MovesTheColumnWhereNoOrderIsClear) {
-    // The three lie on a level with the middle slot.
+    // The three are at the height of the middle slot.
     const std::vector<Vec2> anchors{{0, 500}, {300, 500}, {600, 500}};
     const NameColumn column = place_names(anchors, 40, 0, 1000, 1000, 10);
     for (std::size_t a = 0; a < anchors.size(); ++a) {
         const Vec2 end(1000, column.slots[column.slot_of[a]]);
         for (std::size_t b = 0; b < anchors.size(); ++b) {
-            if (b <= a) continue;  // the others lie behind
+            if (b <= a) continue;  // the others come after it
             const double share = (anchors[b].x() - anchors[a].x()) / (end.x() - anchors[a].x());
             const Vec2 beside = anchors[a] + share * (end - anchors[a]);
             EXPECT_GE((beside - anchors[b]).norm(), 10) << a << ' ' << b;

@@ -91,7 +91,7 @@ TEST(MapAxes, AFlatBoxHasTheScalesOfAnyBoxAndTellsItsHeight) {
     for (const FlatText& text : sheet.texts) {
         const bool height = text.text == "Z 2.000 mm";
         if (text.bold || height) names += text.text + ";";
-        // No edge runs through it: it stands in the lower left corner.
+        // No edge crosses it: it is in the lower left corner.
         if (height) { EXPECT_LT(text.y, 60 + 0.1 * 400); }
     }
     EXPECT_EQ(names, "X [mm];Y [mm];Z 2.000 mm;");
@@ -115,7 +115,7 @@ TEST(MapAxes, AScaleTooShortForNumbersTellsItsRange) {
 }
 
 TEST(MapAxes, ARangeIsThatOfThePartAndNotOfItsFrame) {
-    // 1 px is 0.4 mm: the frame lies several millimetres off the part.
+    // 1 px is 0.4 mm: the frame is several millimetres from the part.
     const Box3 strip(Vec3(0, 0, -2), Vec3(220, 5.75, 5));
     for (const std::string view : {"top", "front"}) {
         Look look;

@@ -1,4 +1,4 @@
-// Wide and tall pictures: the part fills the shorter side, and words and legend stand where it leaves room.
+// Wide and tall pictures: the part fills the shorter side, and texts and legend are in the remaining area.
 #include "viz/map_layout.h"
 
 #include <algorithm>

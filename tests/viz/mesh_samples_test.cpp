@@ -11,7 +11,7 @@ namespace {
 
 constexpr Rgb red{255, 0, 0}, green{0, 255, 0}, blue{0, 0, 255}, white{255, 255, 255};
 
-/// One row of samples from x on, all of one colour.
+/// One row of samples from x on, all in one colour.
 void add_row(MeshSamples& samples, CellKind kind, int x, const std::vector<float>& depths, const Rgb& rgb) {
     std::vector<std::uint8_t> colours;
     for (std::size_t k = 0; k < depths.size(); ++k) colours.insert(colours.end(), rgb.begin(), rgb.end());
@@ -37,7 +37,7 @@ TEST(MeshSamples, TheNearerIsSeenAndOfTwoAtOneDepthTheEarlier) {
 }
 
 TEST(MeshSamples, KindsCompeteWhenAllPartsAreThere) {
-    // A line of the second part is as near as a triangle of the first one: in the whole, lines are drawn first.
+    // A line of the second part is as near as a triangle of the first one: in the whole mesh, lines are drawn first.
     MeshSamples first(2, 1), second(2, 1);
     add_row(first, CellKind::triangles, 0, {0.5F, 0.5F}, red);
     add_row(second, CellKind::lines_and_points, 0, {0.5F, 0.6F}, blue);

@@ -3,8 +3,9 @@
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
-// The leak checker of preset asan asks what lies before the thread-local data of a loaded library for their size. Debian's glibc has
-// none there: depending on what else was allocated, the checker reads far outside. With this option it does not ask.
+// The leak checker of preset asan reads the size of the thread-local data of a loaded library from the memory before them.
+// Debian's glibc has no size there: depending on other allocations, the checker reads far outside. With this option it does
+// not read it.
 extern "C" const char* __asan_default_options() {  // NOLINT: the checker gives the name
     return "intercept_tls_get_addr=0";
 }
@@ -18,7 +19,7 @@ bool is_loaded(const char* name) {
     return library != nullptr;
 }
 
-// exit() beside a library's constructors ended in an assertion of one of OpenImageIO's libraries.
+// Calling exit() while a library's constructors ran ended in an assertion of one of OpenImageIO's libraries.
 TEST(PictureLibraries, AreLoadedWhenThePreloadEnds) {
     { const PictureLibrariesPreload preload; }
     EXPECT_TRUE(is_loaded("libclsurf_image.so"));

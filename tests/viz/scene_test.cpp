@@ -11,7 +11,7 @@ namespace clsurf::viz::scene_test {
 namespace {
 
 TEST(Scene, TheLegendPointsToTheValueOfASinglePoint) {
-    // Ten points and more in each pixel.
+    // At least ten points in each pixel.
     const ClSurface surface = test::surface_of(test::zigzag(21, 10, 0.5, 0.001), 0.5);
     Field field;
     field.values = Column<float>(static_cast<std::size_t>(surface.positions.size()), 1.0F);

@@ -10,7 +10,7 @@
 namespace clsurf::viz {
 namespace {
 
-/// Passes of different lengths on a wavy surface, rapids that reach farther between them, and a point without a position.
+/// Passes of different lengths on a wavy surface, rapids that extend farther between them, and a point without a position.
 ClSurface wavy() {
     ClSurface surface;
     std::mt19937 random(7);
@@ -32,7 +32,7 @@ ClSurface wavy() {
     return surface;
 }
 
-/// The boxes of its blocks, as a survey has them.
+/// The boxes of its blocks, as in a survey.
 std::vector<Eigen::AlignedBox3f> boxes_of(const ClSurface& surface) {
     std::vector<Eigen::AlignedBox3f> boxes(static_cast<std::size_t>(surface.positions.size() / block_points + 1));
     for (const Pass& pass : surface.passes) {

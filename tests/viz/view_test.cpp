@@ -42,7 +42,7 @@ TEST(View, ZoomShowsThatPartOfThePicture) {
 }
 
 TEST(View, FillsThePictureWithTheExtentAlongItsAxes) {
-    // A square stood on its corner: along the axes of the view it is as wide as it is, its box is wider.
+    // A square on its corner: along the axes of the view its width is exact, its box is wider.
     const ViewAxes axes = axes_of(parse_view("45,90"));
     Box3 extent;
     for (const Vec3& p : {Vec3(10, 0, 0), Vec3(0, 10, 0), Vec3(-10, 0, 0), Vec3(0, -10, 4)}) extent.extend(axes * p);
@@ -66,7 +66,7 @@ TEST(LabelPlacer, NoLabelLiesOnAnotherOneNorOutside) {
     LabelPlacer placer(panel);
     const Vec2 size(40, 15);
     std::vector<Rect> placed;
-    // The panel has room for them, but not where they are all wanted: in a corner.
+    // The panel has room for them, but not at the wanted place in a corner.
     for (int k = 0; k < 20; ++k) {
         const std::optional<Rect> rect = placer.place(Vec2(12, 22), size);
         ASSERT_TRUE(rect.has_value()) << k;
