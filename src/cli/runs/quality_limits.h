@@ -25,7 +25,7 @@ struct CheckBudget {
     [[nodiscard]] bool only_limits() const;
 };
 
-/// The limits of the command line, then those of --budget, and --accepted. Throws UsageError: a limit factor without
+/// The limits of --budget, overridden by those of the command line, and --accepted. Throws UsageError: a limit factor without
 /// --machine.
 [[nodiscard]] CheckBudget read_limits(const po::variables_map& values);
 
