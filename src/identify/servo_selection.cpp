@@ -132,12 +132,22 @@ private:
                std::abs(one[ServoTerm::dead_time] - other[ServoTerm::dead_time]) < of_dead_time;
     }
 
+    [[nodiscard]] std::vector<double> usual_gains() const {
+        constexpr double ratio = 1.4, least = 5;
+        std::vector<double> gains;
+        for (double gain = least; gain * problem_.period() < 0.9; gain *= ratio) gains.push_back(gain);
+        return gains;
+    }
+
+    [[nodiscard]] static bool has_usual_feedforward(const ServoParameters& p) {
+        return p[ServoTerm::feedforward] > -0.1 && p[ServoTerm::feedforward] < 1.5;
+    }
+
     /// Adds loops with usual gains that have the lags of the records.
     void add_with_lags(unsigned set, std::vector<ServoParameters>& all) const {
-        constexpr double gain_ratio = 1.4, least_gain = 5;
         const bool sticks = includes(set, ServoTerm::friction), plays = includes(set, ServoTerm::backlash),
                    delays = includes(set, ServoTerm::dead_time);
-        for (double gain = least_gain; gain * problem_.period() < 0.9; gain *= gain_ratio) {
+        for (const double gain : usual_gains()) {
             for (double dead = 0; dead <= (delays ? 8.0 : 0.0); dead += 0.5) {
                 // Friction and backlash share the delay at reversals in an unknown ratio.
                 for (const double share : {0.2, 0.8}) {
@@ -148,7 +158,7 @@ private:
                     if (plays) p[ServoTerm::backlash] = 2 * (sticks ? share : 1.0) * lags_[ServoTerm::friction];
                     if (sticks) p[ServoTerm::friction] = lags_[ServoTerm::friction];
                     p = loop_of_lags(p, problem_.period());
-                    if (p[ServoTerm::feedforward] > -0.1 && p[ServoTerm::feedforward] < 1.5) all.push_back(p);
+                    if (has_usual_feedforward(p)) all.push_back(p);
                 }
             }
         }
@@ -157,15 +167,14 @@ private:
     /// The same with an integrating velocity loop, whose lag at constant speed determines only the feed-forward: usual time
     /// constants and integral times.
     void add_integrating(unsigned set, std::vector<ServoParameters>& all) const {
-        constexpr double gain_ratio = 1.4, least_gain = 5;
         const bool delays = includes(set, ServoTerm::dead_time);
-        for (double gain = least_gain; gain * problem_.period() < 0.9; gain *= gain_ratio) {
+        for (const double gain : usual_gains()) {
             for (const double dead : {0.0, 1.0, 2.0, 4.0}) {
                 if (!delays && dead > 0) break;
                 ServoParameters p = with_terms(lags_, set);
                 p[ServoTerm::log_gain] = std::log(gain);
                 p[ServoTerm::feedforward] = 1 - (lags_[ServoTerm::feedforward] - dead * problem_.period()) * gain;
-                if (!(p[ServoTerm::feedforward] > -0.1 && p[ServoTerm::feedforward] < 1.5)) continue;
+                if (!has_usual_feedforward(p)) continue;
                 if (delays) p[ServoTerm::dead_time] = dead;
                 if (p.has(ServoTerm::friction)) p[ServoTerm::friction] = lags_[ServoTerm::friction] * gain;
                 if (p.has(ServoTerm::backlash)) p[ServoTerm::backlash] = lags_[ServoTerm::friction];

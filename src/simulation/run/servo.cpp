@@ -30,7 +30,10 @@ bool integrates(const ServoModel& model) {
 
 VelocityStep velocity_step_of(const ServoModel& model, double period) {
     if (!(model.velocity_time_constant > 0)) return {};
-    if (!integrates(model)) return {.by_error = 1 - std::exp(-period / model.velocity_time_constant)};
+    if (!integrates(model)) {
+        const double step = 1 - std::exp(-period / model.velocity_time_constant);
+        return {.by_error = step, .by_integral = step};
+    }
     // exp(A T) of (v − v_ref)′ = (w − (v − v_ref))/T_v, w′ = (v_ref − v)/T_n, from half the trace h of A and the root r of
     // its characteristic polynomial: e^{h T} (cosh(r T) + (A − h) sinh(r T)/r), where r may be imaginary.
     const double fast = 1 / model.velocity_time_constant, slow = 1 / model.velocity_integral_time;

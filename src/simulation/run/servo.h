@@ -22,9 +22,10 @@
 
 namespace clsurf {
 
-/// The response of the velocity loop to an error v_ref − v and to w in a period with constant v_ref (exact).
+/// The response of the velocity loop to an error v_ref − v and to w in a period with constant v_ref (exact). The defaults are
+/// those of an ideal loop.
 struct VelocityStep {
-    double by_error = 1, by_integral = 0;             ///< change of the speed
+    double by_error = 1, by_integral = 1;             ///< change of the speed
     double integral_by_error = 0, integral_kept = 1;  ///< w at the period's end
 };
 [[nodiscard]] VelocityStep velocity_step_of(const ServoModel& model, double period);
@@ -39,8 +40,7 @@ public:
         if (!delay_line_.empty()) commanded = delayed(commanded);
         const double reference = gain_ * (commanded_ - position_) + feedforward_ * (commanded - commanded_) / period_;
         const double before = velocity_;
-        velocity_ = integral_per_period_ > 0 ? integrated(reference)
-                                             : velocity_ + step_.by_error * (less_friction(reference) - velocity_);
+        velocity_ = driven(reference);
         // Friction stops an axis; it does not reverse it.
         if (friction_ > 0 && before * velocity_ < 0 && std::abs(reference + integral_) <= friction_) velocity_ = 0;
         position_ += velocity_ * period_;
@@ -51,14 +51,8 @@ public:
     }
 
 private:
-    [[nodiscard]] double less_friction(double reference) const {
-        const double direction = velocity_ != 0 ? velocity_ : reference;
-        if (velocity_ == 0 && std::abs(reference) <= friction_) return 0;
-        return reference - std::copysign(friction_, direction);
-    }
-    /// The speed after a period of an integrating velocity loop. w acts against the friction, whose direction is that at
-    /// the start of the period.
-    double integrated(double reference) {
+    /// The speed after a period. w acts against the friction, whose direction is that at the start of the period.
+    double driven(double reference) {
         const double push = reference + integral_;
         if (friction_ > 0 && velocity_ == 0 && std::abs(push) <= friction_) {
             integral_ += reference * integral_per_period_;
