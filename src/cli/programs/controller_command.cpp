@@ -29,16 +29,12 @@ void replace_all(std::string& text, std::string_view word, const std::string& by
         text.replace(at, word.size(), by);
 }
 
-void stop(pid_t child) {
-    ::kill(-child, SIGKILL);
-    ::waitpid(child, nullptr, 0);
-}
-
-/// Waits for the child, whose output is in a file. Returns why it was stopped; empty: it ended itself with that status.
-std::string wait_for(pid_t child, const std::filesystem::path& output, double timeout, int& status) {
+/// Waits for the child, which writes its output to a file. Returns why it failed; empty: it ended with exit code 0.
+std::string wait_for(pid_t child, const std::filesystem::path& output, double timeout) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point end =
         Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout));
+    int status = 0;
     while (::waitpid(child, &status, WNOHANG) == 0) {
         std::error_code none;
         const std::uintmax_t printed = std::filesystem::file_size(output, none);
@@ -48,11 +44,14 @@ std::string wait_for(pid_t child, const std::filesystem::path& output, double ti
         else if (Clock::now() >= end)
             reason = fmt::format("it took longer than {} s and was stopped", timeout);
         if (!reason.empty()) {
-            stop(child);
+            ::kill(-child, SIGKILL);
+            ::waitpid(child, &status, 0);
             return reason;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
+    if (WIFSIGNALED(status)) return fmt::format("it was ended by signal {}", WTERMSIG(status));
+    if (WEXITSTATUS(status) != 0) return fmt::format("it ended with exit code {}", WEXITSTATUS(status));
     return {};
 }
 
@@ -107,17 +106,14 @@ std::string ControllerCommand::run(const std::filesystem::path& program, const s
     const pid_t child =
         start_child({.file = "/bin/sh", .words = {"sh", "-c", command}, .output = output.string(), .own_group = true},
                     "the controller");
-    int status = 0;
-    const std::string stopped = wait_for(child, output, timeout_, status);
+    std::string failure = wait_for(child, output, timeout_);
     const std::string printed = last_line(output);
     std::filesystem::remove(output, none);
     const std::string words = printed.empty() ? std::string() : fmt::format(" (\"{}\")", printed);
-    if (!stopped.empty()) return stopped + words;
-    if (WIFSIGNALED(status)) return fmt::format("it was ended by signal {}{}", WTERMSIG(status), words);
-    if (WEXITSTATUS(status) != 0) return fmt::format("it ended with exit code {}{}", WEXITSTATUS(status), words);
-    if (!std::filesystem::exists(log)) return "it ended with exit code 0 but wrote no log" + words;
+    if (failure.empty() && !std::filesystem::exists(log)) failure = "it ended with exit code 0 but wrote no log";
     // A pipe or a device may never end.
-    if (!std::filesystem::is_regular_file(log)) return "its log is not a file" + words;
+    if (failure.empty() && !std::filesystem::is_regular_file(log)) failure = "its log is not a file";
+    if (!failure.empty()) return failure + words;
     return {};
 }
 
