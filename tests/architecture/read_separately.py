@@ -9,9 +9,9 @@ ROOT: the project; BUILD: a folder configured without unity builds and precompil
 eighth: of the sources only those that the last commit changed, and an eighth of the others, another one for each commit.
 Exit code 1: a file is refused; the compiler has said why.
 
-Most of the time goes to headers that many files share. Files that include the same of SHARED, directly or through other
-headers, share one precompiled file of these. It stands before all that they say, which hides nothing: these headers are read
-by themselves as well, and the file includes them in any case.
+Headers that many files include take most of the time. Files that include the same headers of SHARED, directly or through
+other headers, share one precompiled file of them. The compiler reads it before the file itself. This hides no missing include:
+the file includes these headers in any case, and each of them is also read by itself.
 """
 import collections
 import functools
@@ -23,9 +23,10 @@ import re
 import shlex
 import subprocess
 import sys
-import zlib
 
-# The costly headers that many files reach. One that includes another stands behind it.
+from commit_share import share_of_commit
+
+# Expensive headers that many files include. A header comes after those that it includes.
 SHARED = ["gtest/gtest.h", "fmt/format.h", "boost/program_options.hpp", "nlohmann/json.hpp", "core/geometry.h",
           "program/program.h", "surface/cl_surface.h", "machine/machine.h", "predictor/signals.h", "cli/options/options.h"]
 FEWEST = 4  # files that make a precompiled one worth its cost
@@ -88,13 +89,10 @@ class Project:
 
 
 def eighth_of(sources, root):
-    def git(*words):
-        return subprocess.run(["git", "-C", root, *words], check=True, capture_output=True, text=True).stdout.split()
-
-    changed = {root / name for name in git("show", "--format=", "--name-only", "HEAD")}
-    turn = int(git("rev-list", "--count", "HEAD")[0]) % 8
-    return [each for each in sources
-            if each in changed or zlib.crc32(str(each.relative_to(root)).encode()) % 8 == turn]
+    names = subprocess.run(["git", "-C", root, "show", "--format=", "--name-only", "HEAD"], check=True, capture_output=True,
+                           text=True).stdout.split()
+    chosen = {root / name for name in names}.union(share_of_commit(sources, 8, root))
+    return [each for each in sources if each in chosen]
 
 
 def accepted(words, folder):
