@@ -1,9 +1,9 @@
 #pragma once
 // BlockFill: columns whose blocks are filled when they are first read. If a log is too large for memory, only the points
-// that are read are computed: those of a shard, and those of adjacent passes that it is compared with.
+// that are read are computed: the points of a shard and of the adjacent passes with which it is compared.
 //
 // Any number of threads may read. A fill function must not read a block of its own columns, but it may read columns that
-// are filled by another BlockFill, and so on. So a block waits for other columns only, and never in a circle. A fill
+// are filled by another BlockFill, and so on. Thus a block waits only for other columns, and never in a cycle. A fill
 // function must not work in parallel: a thread that waits for its helpers would take up other work, which may wait for
 // this block.
 
@@ -27,7 +27,7 @@ public:
 
     /// Returns when the block of that point is filled. O(1) from the second time on.
     void need(PointIndex point) { need(point, fill_); }
-    /// The same with a fill function of the caller, for captured objects that may have moved since the constructor.
+    /// The same with a fill function given by the caller, because captured objects may have moved since construction.
     void need(PointIndex point, const Fill& fill) {
         const auto block = static_cast<std::size_t>(point >> shift_);
         if (!filled_[block].load(std::memory_order_acquire)) fill_block(block, fill);

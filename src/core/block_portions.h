@@ -12,7 +12,7 @@
 
 namespace clsurf {
 
-/// Calls f(first, end) for portions of [0, count), one after the other; point_of(k) is the point around which k reads.
+/// Calls f(first, end) for portions of [0, count), one after the other; item k reads the points around point_of(k).
 /// Without `forget` there is a single portion.
 template <typename PointOf, typename F>
 void for_each_portion(std::size_t count, const ForgetBlocks& forget, PointOf&& point_of, F&& f) {
@@ -35,7 +35,7 @@ void for_each_portion(std::size_t count, const ForgetBlocks& forget, PointOf&& p
     forget();
 }
 
-/// Calls f(k) for [0, count) in parallel; each k reads its own region. With `forget` as many run at once as there are
+/// Calls f(k) for [0, count) in parallel; each k reads its own region. With `forget`, as many run at once as there are
 /// threads.
 template <typename F>
 void for_each_at_once(std::size_t count, const ForgetBlocks& forget, F&& f) {

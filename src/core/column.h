@@ -6,7 +6,7 @@
 // large blocks instead, so that a column that grows never needs twice its memory.
 //
 // A sparse column takes memory only for the pages that are written. A borrowed one shows memory of another owner, for
-// example a mapped file. Both serve logs of which only a part is read (core/block_fill.h).
+// example a mapped file. Both serve logs that are read only in part (core/block_fill.h).
 // Large columns may be kept in files (core/column_file.h).
 
 #include <sys/mman.h>

@@ -41,7 +41,7 @@ public:
     [[nodiscard]] std::uint64_t count(Severity severity) const;
     [[nodiscard]] bool has_errors() const { return errors_ > 0; }
     [[nodiscard]] bool empty() const { return kept_.empty(); }
-    /// The kept diagnostics; each code with more of them ends with one that says how many were left out.
+    /// The kept diagnostics. If some of a code were not kept, the last of that code gives the number left out.
     [[nodiscard]] std::vector<Diagnostic> summary() const;
 
 private:

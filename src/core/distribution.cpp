@@ -12,7 +12,7 @@ namespace {
 constexpr int digit_bits = 32;
 constexpr std::uint64_t digit_mask = 0xffffffffU;
 constexpr int smallest_square = -298;                  ///< power of two
-constexpr std::uint32_t most_not_carried = 1U << 30U;  ///< times a digit and a carry is below 2^64
+constexpr std::uint32_t most_not_carried = 1U << 30U;  ///< additions that keep a digit and its carry below 2^64
 
 // A bin has the upper eleven bits of the mantissa.
 constexpr int mantissa_bits = 23, bin_bits = 11, bits_inside = mantissa_bits - bin_bits;

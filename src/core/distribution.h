@@ -28,7 +28,7 @@ public:
 private:
     void carry();
 
-    std::array<std::uint64_t, digit_count> sums_{};  ///< of digits; the bits above 32 are not carried yet
+    std::array<std::uint64_t, digit_count> sums_{};  ///< sums of digits; the bits above 32 are not carried yet
     std::uint32_t not_carried_ = 0;                  ///< values added since the last carry
 };
 
@@ -63,7 +63,7 @@ public:
 private:
     [[nodiscard]] std::uint64_t& count_of(std::uint32_t bin);
 
-    /// By power of two; empty if there is no size.
+    /// By power of two; empty if there are no sizes.
     std::array<std::vector<std::uint64_t>, 256> counts_;
     std::uint64_t count_ = 0;
     SumOfSquares squares_;

@@ -1,5 +1,5 @@
 #pragma once
-// Number of points in a time. Bounded, because the period of a log may be wrong.
+// Number of points in a given time. Bounded, because the period of a log may be wrong.
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace clsurf {
 
-/// Points in `seconds` at this period [s], rounded: from `least` to a million.
+/// Number of points in `seconds` at this period [s], rounded: from `least` to a million.
 [[nodiscard]] inline PointIndex points_in(double seconds, double period, PointIndex least = 1) {
     return std::max<PointIndex>(least, std::lround(std::min(seconds / period, 1e6)));
 }

@@ -31,13 +31,13 @@ template <typename Values>
     return std::size(values) % 2 == 1 ? upper : (upper + kth_smallest(values, half - 1)) / 2;
 }
 
-/// The quantile of a share (0 … 1); the lower value if it is between two.
+/// The quantile for a share (0 … 1); if it is between two values, the lower one.
 template <typename Values>
 [[nodiscard]] auto quantile_below(Values& values, double share) {
     return kth_smallest(values, static_cast<std::size_t>(share * static_cast<double>(std::size(values) - 1)));
 }
 
-/// The same; the nearer value if it is between two.
+/// The same; if it is between two values, the nearer one.
 template <typename Values>
 [[nodiscard]] auto nearest_quantile(Values& values, double share) {
     return kth_smallest(values,

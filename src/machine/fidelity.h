@@ -26,7 +26,7 @@ struct Fidelity {
     double speed_error_p95 = 0;        ///< [mm/s] over 95 % of the path
     double speed_error_p95_ratio = 0;  ///< the same relative to the run's usual speed
     std::optional<double>
-        following_error_p95;  ///< [mm] |difference|, over 95 % of the path; nullopt: no measured positions
+        following_error_p95;  ///< [mm] |difference| not exceeded over 95 % of the path; nullopt: no measured positions
     std::optional<double> following_error_ratio;  ///< the same relative to the 95 % following error of the log
     std::optional<double> defects_recall;  ///< defects of the logs that simulations have, 0 … 1; nullopt: no defects
     std::optional<double> defects_precision;  ///< defects of the simulations that the logs have, 0 … 1

@@ -22,7 +22,7 @@ double angle_about(const Vec3& axis, const Vec3& a, const Vec3& b) {
     return std::atan2(axis.dot(across_a.cross(across_b)), across_a.dot(across_b));
 }
 
-/// Shifts `angle` by whole turns to the value inside the range that is nearest to `before`. False if there is none.
+/// Shifts `angle` by whole turns to the value inside the range that is nearest to `before`. False if there is no such value.
 bool wrap_near(double& angle, double before, const AngleRange& range) {
     double wrapped = angle + full_turn * std::round((before - angle) / full_turn);
     if (wrapped > range.high) wrapped -= full_turn * std::ceil((wrapped - range.high) / full_turn);
@@ -131,7 +131,7 @@ RotarySolutions solve_rotary(const Kinematics& kinematics, const Vec3& axis, con
     const Vec3& k = kinematics.tool_axis;
     RotarySolutions solutions;
     // z = T(θ) k = R(−φ) t in the basis e2, e1, e2 × e1: its components along e1 and e2 are known, its component
-    // perpendicular to e2 has the length of that of t. (The cross product is accurate near the pole; 1 − cos² is
+    // perpendicular to e2 is as long as that of t. (The cross product is accurate near the pole; 1 − cos² is
     // not.)
     const Vec3 normal = e2.cross(e1);
     const double s2 = normal.squaredNorm();

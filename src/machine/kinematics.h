@@ -73,10 +73,10 @@ struct Kinematics {
     Vec3 tilt_point = Vec3::Zero();          ///< m [mm]
     Vec3 tilt_from_rotation = Vec3::Zero();  ///< b [mm]
     double tool_length = 0;                  ///< L, from the tip to the point at q [mm]
-    bool always_tool_centre_point = false;   ///< there is no word for it in programs: positions are always tips
+    bool always_tool_centre_point = false;   ///< programs have no word for it: positions are always tips
 
     ToolAxisInterpolation interpolation = ToolAxisInterpolation::linear;
-    double axis_tolerance = 0.1 * rad_per_deg;  ///< by which `safe` may leave the great circle [rad]
+    double axis_tolerance = 0.1 * rad_per_deg;  ///< angle by which `safe` may leave the great circle [rad]
 
     [[nodiscard]] bool has_rotary() const { return type != KinematicsType::xyz; }
 
@@ -95,7 +95,7 @@ struct Kinematics {
     [[nodiscard]] Vec3 zero_position() const { return to_axes(Vec3::Zero(), {}); }
 };
 
-/// The angles for a tool axis: two solutions, that with the greater tilt first; one solution if they coincide or at
+/// The angles for a tool axis: two solutions, the one with the greater tilt first; one solution if they coincide or at
 /// the pole; none if the axis is out of reach (an inclined tilt axis).
 struct RotarySolutions {
     std::array<RotaryAngles, 2> angles;
@@ -118,7 +118,7 @@ struct AngleRange {
 
 /// The angles for a series of tool axes with the least total travel |Δθ| + |Δφ| over both solutions at each (dynamic
 /// programming), so that a cut does not change between solutions unnecessarily. Starts from `before`. If the result
-/// is shorter than `axes`, the next one is out of reach. O(axes).
+/// is shorter than `axes`, the next axis is out of reach. O(axes).
 [[nodiscard]] std::vector<RotaryAngles> follow_rotary(const Kinematics& kinematics, std::span<const Vec3> axes,
                                                       const RotaryAngles& before, const AngleRange& tilt,
                                                       const AngleRange& rotation);

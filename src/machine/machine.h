@@ -47,9 +47,9 @@ enum class CornerMode : unsigned char {
 
 /// The curve that replaces short lines.
 enum class CurveMode : unsigned char {
-    none,           ///< none: they are executed as lines
+    none,           ///< no curve: the lines are executed as they are
     akima,          ///< Akima's curve through their points
-    least_squares,  ///< cubics fitted to their points
+    least_squares,  ///< cubics fitted to the points of the lines
 };
 
 /// The name in a machine file.
@@ -64,13 +64,13 @@ enum class PlannerKind : unsigned char {
 
 [[nodiscard]] std::string_view name_of(PlannerKind kind);
 
-/// Of the trapezoidal planner; the defaults are those of LinuxCNC 2.9.
+/// Settings of the trapezoidal planner; the defaults are those of LinuxCNC 2.9.
 struct TrapezoidSettings {
     bool arc_blends = true;           ///< corners become arcs if that is faster (ARC_BLEND_ENABLE)
     double gap_periods = 4;           ///< a shorter remainder of a line before an arc becomes part of the arc [periods]
     double ramp_frequency = 100;      ///< blocks shorter than its period have a single acceleration [Hz]
     double kink_ratio = 0.1;          ///< share of the acceleration that a change of direction between blocks may use
-    double max_feed_override = 1;     ///< up to which corners are planned
+    double max_feed_override = 1;     ///< greatest feed override for which corners are planned
     int blocks_per_period = 1;        ///< blocks that reach the planner per period
     bool cubic_interpolation = true;  ///< set points are the knots of a cubic B-spline through three periods
     [[nodiscard]] bool operator==(const TrapezoidSettings&) const = default;
@@ -79,7 +79,7 @@ struct TrapezoidSettings {
 /// Rules for the speed at a corner that is passed without rounding; the lowest counts.
 struct JunctionSettings {
     double deviation =
-        0.01;  ///< of the corner from the arc that limits its speed by normal acceleration [mm]; 0: no rule
+        0.01;  ///< distance of the corner from the arc that limits its speed by normal acceleration [mm]; 0: no rule
     double speed_step = 0;  ///< greatest step of an axis' speed [mm/s]; 0: no rule
     [[nodiscard]] bool operator==(const JunctionSettings&) const = default;
 };
@@ -98,8 +98,8 @@ struct ControllerSettings {
     TrapezoidSettings trapezoid;
     double period = 0.001;  ///< interpolation period [s]
     int lookahead_blocks = 500;
-    double lookahead_distance = 0;  ///< known after the current block [mm]; 0: not limited
-    int replan_blocks = 0;          ///< executed before speeds are planned again; 0: half of those known
+    double lookahead_distance = 0;  ///< known length after the current block [mm]; 0: not limited
+    int replan_blocks = 0;          ///< blocks executed before speeds are planned again; 0: half of the known blocks
     CornerMode corner = CornerMode::arc;
     /// If an axis has a jerk limit: the time over which a step of its acceleration at the end of an arc is assumed to
     /// spread [s]; 0: splines replace arcs.
@@ -110,7 +110,7 @@ struct ControllerSettings {
     /// Consecutive lines whose ends are within this distance of a common line are merged before corners are rounded
     /// [mm]; 0: none; nullopt: the planner's default: trapezoidal by the program (G64 Q), time_optimal never.
     std::optional<double> merging_tolerance;
-    double chord_tolerance = 0.002;  ///< of the chord of one period against an arc [mm]
+    double chord_tolerance = 0.002;  ///< distance of the chord of one period from an arc [mm]
     double block_time = 0;           ///< the shortest duration of a block [s]: the controller's time to prepare one
     bool whole_periods = false;      ///< feeds are lowered so that a block at its feed takes a whole number of periods
     double feed_override = 1;        ///< of programmed feeds, not of rapids

@@ -11,12 +11,12 @@ namespace {
 using WeightedPoint = BezierCurve::Weighted;
 
 constexpr std::size_t least_curve_pieces = 4, most_curve_pieces = 256;
-constexpr double curve_length_exact = 1e-10;  ///< of the length: greatest change when the pieces are doubled
+constexpr double curve_length_exact = 1e-10;  ///< greatest relative change of the length if the pieces are doubled
 constexpr int most_newton_steps = 40;
 constexpr double parameter_exact = 1e-14;
-constexpr double arc_length_rounding = 1e-13;  ///< of the length
-constexpr double no_speed = 1e-7;              ///< of the length: below it a derivative has no direction
-constexpr double beside_a_stop = 1e-4;         ///< in t: offset at which the direction is taken instead
+constexpr double arc_length_rounding = 1e-13;  ///< relative to the length
+constexpr double no_speed = 1e-7;              ///< relative to the length: a smaller derivative has no direction
+constexpr double beside_a_stop = 1e-4;         ///< offset in t at which the direction is taken instead
 constexpr int most_splits = 16;
 
 /// de Casteljau's scheme over control points.
@@ -115,9 +115,9 @@ std::optional<std::pair<double, double>> BezierCurve::sharp_turn(double within) 
     Vec3 before = tangent(0);
     for (std::size_t piece = 1; piece < knots_.size(); ++piece) {
         const Vec3 after = tangent(stepped(piece));
-        const bool looks = before.dot(after) < may_hide_one;
+        const bool is_examined = before.dot(after) < may_hide_one;
         before = after;
-        if (!looks) continue;
+        if (!is_examined) continue;
         // The direction turns fastest at the smallest derivative.
         double low = stepped(piece - 1), high = stepped(piece);
         for (int k = 0; k < halvings; ++k) {

@@ -98,7 +98,7 @@ struct Nurbs {
 
 /// A span between two different knots.
 struct NurbsSpan {
-    std::size_t last_point = 0;  ///< of the degree + 1 points that shape it
+    std::size_t last_point = 0;  ///< last of the degree + 1 points that shape the span
     BezierCurve curve;
 };
 

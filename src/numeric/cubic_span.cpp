@@ -5,9 +5,9 @@
 namespace clsurf {
 namespace {
 
-constexpr double arc_length_exact = 1e-12;  ///< of the chord: tolerance of Newton's method
+constexpr double arc_length_exact = 1e-12;  ///< tolerance of Newton's method, relative to the chord
 constexpr int most_steps = 60;
-constexpr double length_exact = 1e-10;  ///< of the length: greatest change when the pieces are doubled
+constexpr double length_exact = 1e-10;  ///< greatest relative change of the length if the pieces are doubled
 constexpr int most_pieces = 64;
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace clsurf {
 struct CubicSpan {
     std::array<Vec3, 4> coefficients;  ///< A, B, C, D
     double chord = 0;                  ///< end of the range of u [mm]
-    int pieces = 1;                    ///< into which arc_length_to() divides its interval
+    int pieces = 1;                    ///< number of pieces into which arc_length_to() divides its interval
 
     [[nodiscard]] Vec3 at(double u) const;          ///< [mm], u ∈ [0, chord]
     [[nodiscard]] Vec3 derivative(double u) const;  ///< dr/du

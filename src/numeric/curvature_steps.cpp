@@ -7,13 +7,13 @@
 namespace clsurf {
 namespace {
 
-constexpr double told_from = 400;  ///< steps of the coordinates, for curvature · distance²: enough to know a step well
-constexpr double most_turn = 0.5;        ///< [rad] over which an arc is nearly a parabola
+constexpr double well_resolved = 400;    ///< curvature · distance² that resolves a step well, in steps of coordinates
+constexpr double most_turn = 0.5;        ///< [rad] greatest turn over which an arc is nearly a parabola
 constexpr std::size_t least_points = 4;  ///< on each side
 constexpr std::size_t usual_points = 6;
-constexpr std::size_t most_fitted = 32;  ///< on each side, for the parabolas
-constexpr double much_less = 0.5;        ///< of the squared residuals of a cubic
-constexpr double parabola = 0.004;       ///< of its height: how far an arc deviates from a parabola
+constexpr std::size_t most_fitted = 32;  ///< points on each side for the parabolas
+constexpr double much_less = 0.5;        ///< share of the squared residuals of a cubic
+constexpr double parabola = 0.004;       ///< deviation of an arc from a parabola, relative to its height
 constexpr double rounding = 0.6;         ///< steps of the coordinates: a larger rms is not rounding alone
 
 /// Heights of points over the chord of a section, in the direction in which it bends, by arc length from its middle.
@@ -85,7 +85,7 @@ BentSection bent_section(std::span<const Vec3> points, std::size_t first, std::s
 
 std::optional<std::size_t> curvature_step_near(std::span<const Vec3> points, std::span<const double> curvature,
                                                std::size_t boundary, std::size_t first, std::size_t last, double step) {
-    const auto reach_of = [&](double bend) { return std::sqrt(told_from * step / bend); };
+    const auto reach_of = [&](double bend) { return std::sqrt(well_resolved * step / bend); };
     if (!(curvature[boundary] > 0) || !std::isfinite(curvature[boundary])) return {};
     const double wide = reach_of(curvature[boundary]);
     const double bend =

@@ -51,7 +51,7 @@ public:
     [[nodiscard]] PointIndex reach() const { return static_cast<PointIndex>(forward_.size()); }
 
     /// Smooths consecutive points with all their measurements; `states` has one for each. A missing value (NaN) is
-    /// ignored. `innovations`, if it is not empty, has one for each point, too: how far the positions are from their
+    /// ignored. `innovations`, if it is not empty, also has one for each point: how far the positions are from their
     /// one-step predictions, in standard deviations; 0 while the gains settle.
     void smooth(const Measurements& measured, std::span<SmoothedState> states,
                 std::span<Eigen::Array4d> innovations = {}) const;
@@ -87,7 +87,7 @@ private:
     std::vector<Step> forward_;  ///< from the first point until the gains settle
     std::vector<Matrix> filtered_,
         alone_;  ///< likewise: covariances after a point; what smoothing adds to those of the next
-    std::vector<std::array<double, 4>> end_variance_;  ///< by distance from an end, the other far away
+    std::vector<std::array<double, 4>> end_variance_;  ///< by distance from one end, with the other far away
     double innovation_variance_ = 1;
 };
 

@@ -13,9 +13,9 @@ namespace {
 
 constexpr double resolved = 0.1;                ///< greatest error over curvature
 constexpr double unknown = 0.5;                 ///< standard error over curvature at which nothing is known
-constexpr std::size_t most_points = 31;         ///< of a section, that are fitted; more would only take longer
-constexpr double much_shorter = 0.5;            ///< of the reach: points that were resolved over less bound a section
-constexpr double growth = std::numbers::sqrt2;  ///< of the sections from one attempt to the next
+constexpr std::size_t most_points = 31;         ///< fitted points of a section; more would only take longer
+constexpr double much_shorter = 0.5;            ///< share of the reach: points resolved over less bound a section
+constexpr double growth = std::numbers::sqrt2;  ///< growth of the sections from one attempt to the next
 
 struct Estimate {
     double curvature = 0, standard_error = 0;  ///< [1/mm]

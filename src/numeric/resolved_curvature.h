@@ -14,14 +14,14 @@ namespace clsurf {
 /// The result for a point whose curvature no section resolves.
 enum class Unresolved : std::uint8_t {
     best,      ///< the curvature of the widest section
-    no_value,  ///< NaN if the standard error of that is more than half of it, and of `least`
+    no_value,  ///< the same; NaN if its standard error exceeds half of it and half of `least`
 };
 
 /// Curvature at each point [1/mm] by a parabola fitted to the points around it. The section is the shortest one in which
 /// rounding to `step` [mm] cannot change the curvature by more than a tenth, or by a tenth of `least` [1/mm] if that is
-/// more. So the greatest of many is right to a tenth, too. Sections end at points that a section of half the length has
-/// resolved, so that a corner does not bend the adjacent lines. Infinite if the path turns back. No two consecutive points
-/// are the same. O(points · log(spacing)).
+/// more. Thus even the greatest of many values is right to a tenth. Sections end at points that a section of half the
+/// length has resolved, so that a corner does not bend the adjacent lines. Infinite if the path turns back. No two
+/// consecutive points are the same. O(points · log(spacing)).
 [[nodiscard]] std::vector<double> resolved_curvatures(std::span<const Vec3> points, double step, double least,
                                                       Unresolved unresolved = Unresolved::best);
 

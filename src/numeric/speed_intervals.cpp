@@ -14,7 +14,7 @@ namespace {
 
 constexpr double just_a_boundary = 1 - 1e-9;
 constexpr double same_score = 1e-9;
-constexpr double closed_share = 1e-6;  ///< of the pass's extent: it is closed if its ends are nearer than this
+constexpr double closed_share = 1e-6;  ///< share of the pass's extent: a pass is closed if its ends are nearer
 
 void reduce(std::span<const Vec3> points, std::size_t first, std::size_t last, double error,
             std::vector<std::size_t>& kept) {

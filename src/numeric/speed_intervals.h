@@ -18,12 +18,12 @@ namespace clsurf {
 
 struct IntervalRules {
     double error = 0.01;           ///< [mm] largest distance of the pass from the polyline of its characteristic points
-    double length_ratio = 5;       ///< of adjacent lines; at a larger ratio their point bounds an interval
-    double curvature_ratio = 2;    ///< of the curvatures before and after a point, likewise
+    double length_ratio = 5;       ///< ratio of adjacent lines beyond which their common point bounds an interval
+    double curvature_ratio = 2;    ///< ratio of the curvatures before and after a point, likewise
     double flat_curvature = 1e-3;  ///< [1/mm] smaller curvatures count as this
     double drift_ratio = 4;        ///< greatest over least curvature inside; 0: not checked
-    double greatest_length = 0;    ///< [mm] of an interval; 0: not bounded
-    double coordinate_step = 0;    ///< [mm] that coordinates are rounded to (resolved_curvature.h); 0: they are exact
+    double greatest_length = 0;    ///< [mm] greatest length of an interval; 0: not bounded
+    double coordinate_step = 0;    ///< [mm] step to which coordinates are rounded (resolved_curvature.h); 0: exact
 };
 
 /// Points first … last of a pass; neighbours share the point between them.

@@ -15,7 +15,7 @@ namespace clsurf {
 /// place; empty: the places. Fewer than four places: returns the start.
 ///
 /// Alternating directions (S. Boyd et al., Foundations and Trends in Machine Learning 3 (2011) 1–122, section 3) over a
-/// matrix with three diagonals to each side: 60 rounds, of which the last ends inside the tube. The result is not the
+/// matrix with three diagonals to each side: 60 rounds; the last one ends inside the tube. The result is not the
 /// optimum, but its speed is within some per cent of it. O(points).
 [[nodiscard]] std::vector<Vec3> smoothest_in_tube(std::span<const Vec3> places, std::span<const double> arc_lengths,
                                                   std::span<const double> radii, std::span<const Vec3> start);
