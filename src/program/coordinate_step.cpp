@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t sample_size = 10'000;
 constexpr int most_decimals = 6;
-constexpr double whole = 1e-3;  ///< of a step: rounding error of a multiple
+constexpr double whole = 1e-3;  ///< rounding error of a multiple, as a share of a step
 constexpr double most_others =
     0.1;  ///< share of the coordinates that need not be multiples: ends of arcs and computed values
 

@@ -11,7 +11,7 @@ namespace clsurf {
 
 class EventCursor {
 public:
-    /// Calls take(event) for the events up to a motion that were not passed before; motions must be in ascending
+    /// Calls take(event) for the events up to a motion, except those passed before; motions must be in ascending
     /// order.
     template <typename Take>
     void pass(const std::vector<ProgramEvent>& events, std::int64_t motion, const Take& take) {

@@ -15,7 +15,7 @@ namespace clsurf {
 
 /// The coordinate system of the result.
 enum class Coordinates : std::uint8_t {
-    workpiece,  ///< that of the program at its first cut
+    workpiece,  ///< the coordinates of the program at its first cut
     level,      ///< the same zero, with axes parallel to those of the machine
     machine,
 };

@@ -67,7 +67,7 @@ struct Motions {
     /// Index of the first motion for which X, Y, Z have been programmed; before it the axes are at the machine's
     /// position at the start of the program, whatever `start` says.
     std::array<std::int64_t, 3> programmed_from{};
-    std::vector<Call> calls;    ///< after its caller; the same line with the same caller is one call
+    std::vector<Call> calls;    ///< each after its caller; the same line with the same caller is one call
     std::vector<Arc> arcs;      ///< sorted by motion
     std::vector<Curve> curves;  ///< sorted by motion
     Xyz start{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(),

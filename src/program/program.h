@@ -50,7 +50,7 @@ enum class BlockEnd : std::uint8_t {
 
 struct PathMode {
     BlockEnd block_end = BlockEnd::rounded;
-    /// Of rounded corners [mm]. NaN: the machine's own; infinite: limited by the speed only (G64 without P).
+    /// Tolerance of rounded corners [mm]. NaN: the machine's own; infinite: limited by the speed only (G64 without P).
     double tolerance = std::numeric_limits<double>::quiet_NaN();
     double merging_tolerance = 0;  ///< [mm] for merging short blocks before corners are rounded (Q of G64)
 };

@@ -21,7 +21,7 @@ struct Tool {
 
 struct ToolTable {
     std::map<int, Tool> tools;  ///< by number
-    double unit_mm = 1;         ///< of the controller: unit of #5401 … and #5161 … [mm]
+    double unit_mm = 1;         ///< unit of the controller's #5401 … and #5161 … [mm]
 
     /// nullptr if there is no such tool.
     [[nodiscard]] const Tool* find(int number) const {

@@ -15,8 +15,8 @@ namespace clsurf {
 namespace dialect_signs {
 namespace {
 
-constexpr std::size_t looked_at = 200'000;  ///< bytes of the text
-constexpr int counted = 3;                  ///< of a repeated sign
+constexpr std::size_t examined_bytes = 200'000;
+constexpr int counted = 3;  ///< greatest number of times that a repeated sign counts
 constexpr std::size_t shown_signs = 2;
 constexpr std::size_t longest_shown_word = 20;
 
@@ -30,7 +30,7 @@ struct Sign {
     int weight;
     int count;
     std::string word;  ///< as shown
-    std::size_t line;  ///< the first one; 0: the whole text
+    std::size_t line;  ///< line of the first occurrence; 0: the whole text
 };
 
 /// Reads lines and collects signs.
@@ -344,7 +344,7 @@ private:
 DialectGuess guess_dialect(std::string_view text, std::string_view name) {
     dialect_signs::SignReader reader;
     reader.ending(name);
-    text = text.substr(0, dialect_signs::looked_at);
+    text = text.substr(0, dialect_signs::examined_bytes);
     while (!text.empty()) {
         const std::size_t end = std::min(text.find('\n'), text.size());
         reader.line(text.substr(0, end));

@@ -27,7 +27,7 @@ struct ArcTolerance {
     double absolute = 0;        ///< [mm]
     double relative = 0;        ///< of the greater radius
     double most = 0;            ///< [mm]
-    double reach = 0;           ///< by how much half the chord may exceed a radius R [mm]
+    double reach = 0;           ///< greatest excess of half the chord over a radius R [mm]
     double relative_reach = 0;  ///< the same, relative to R; the greater one counts
     bool moves_centre = false;  ///< the centre is moved so that one circle passes through both ends; else a spiral
 };
@@ -41,7 +41,7 @@ struct ArcTolerance {
 /// Arc length along an arc or helix [mm].
 [[nodiscard]] double arc_length(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end);
 
-constexpr double arc_chord_error = 1e-3;  ///< [mm] of the chords that replace an arc
+constexpr double arc_chord_error = 1e-3;  ///< [mm] error of the chords that replace an arc
 
 /// How many equal chords stay within `error` [mm] of an arc, helix or spiral of that sweep [rad] and greatest radius
 /// [mm]; at most 100,000. `widening`: the change of a spiral's radius [mm].

@@ -51,10 +51,10 @@ struct OpenSpline {
     SplineKind kind = SplineKind::none;
     int degree = 3;
     std::vector<SplinePoint> points;
-    std::vector<double> last_knots;  ///< of blocks without a point, after those of the points
+    std::vector<double> last_knots;  ///< knots of blocks without a point, after the knots of the points
     Vec3 begin_tangent = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< NaN: there is none
     SplineEnd begin = SplineEnd::tangent, end = SplineEnd::tangent;
-    std::vector<std::size_t> events;  ///< for each event within the spline: the number of points before it
+    std::vector<std::size_t> events;  ///< number of points before each event within the spline
     bool left = false;                ///< a block in another mode came after it: the next point begins a new one
 };
 
@@ -91,8 +91,8 @@ struct BlockFlags {
     bool motion_suppressed = false;    ///< the axis words belong to G10, G92, G28 …
     bool probes = false;               ///< G31: the motion is a probing move
     bool path_mode_returns = false;    ///< G9: the previous mode is restored after the block
-    std::string unknown_name;          ///< of a variable of the control that the block has read
-    int unknown_parameter = 0;         ///< that the block has read
+    std::string unknown_name;          ///< name of a variable of the control that the block has read
+    int unknown_parameter = 0;         ///< number of a parameter that the block has read
 };
 
 }  // namespace clsurf

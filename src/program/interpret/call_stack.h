@@ -21,8 +21,8 @@ struct CallFrame {
     LineNumber line = 0;         ///< the calling line
     std::size_t start_file = 0;  ///< of the subprogram, for repeats
     LineNumber start_line = 0;
-    std::uint32_t call = 0;                 ///< call that was active before it: index into Motions::calls, from 1
-    int repeats = 0;                        ///< remaining after this one
+    std::uint32_t call = 0;                 ///< the call active before this one: index into Motions::calls, from 1
+    int repeats = 0;                        ///< repeats that remain after this one
     bool locals = false;                    ///< a set of local variables was pushed
     std::map<LineNumber, double> counters;  ///< of the repeat and for loops of the caller
 };

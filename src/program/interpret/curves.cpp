@@ -29,7 +29,7 @@ constexpr int least_uniform_order = 3;  ///< LinuxCNC reads a smaller L as 3
 constexpr int most_order = 20;
 constexpr double no_chord = 1e-9;         ///< [mm] nearer points are equal
 constexpr double start_play_steps = 1.5;  ///< increments, between the current position and the first point of a spline
-constexpr double same_knot = 1e-12;       ///< of the range of knots
+constexpr double same_knot = 1e-12;       ///< relative to the range of knots
 constexpr int denominator_places = 64;
 constexpr int most_polynomial = 5;  ///< degree
 
@@ -49,7 +49,7 @@ std::vector<double> coefficients_to(double end, const std::vector<double>& value
     return a;
 }
 
-/// The spline that uses the blocks of that mode as its points; none: they are no points.
+/// The spline whose points are the blocks of that mode; none: the blocks are not points.
 SplineKind kind_of_points(MotionMode mode) {
     switch (mode) {
         case MotionMode::akima_spline: return SplineKind::akima;

@@ -1,5 +1,5 @@
 #pragma once
-// Cutter compensation, G41 and G42: from the programmed path to that of the tool's centre, in the working plane. The
+// Cutter compensation, G41 and G42: from the programmed path to the path of the tool's centre, in the working plane. The
 // end of a motion is only known with the next motion: an inside corner moves it back. Rules: LinuxCNC, "Cutter
 // compensation"; RS274/NGC (NIST IR 6556), appendix B.
 

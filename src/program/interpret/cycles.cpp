@@ -215,8 +215,8 @@ void drilling_cycle(Interpreter& in, const Block& block) {
     const Vec3 position = here.array().isNaN().select(0.0, here);
     // Increments of R count from the level before the first cycle, whatever the present level.
     if (std::isnan(in.cycle_.initial)) in.cycle_.initial = position[c];
-    // Increments under G91. Fanuc keeps the heights as they were programmed, even if the next hole has the other of
-    // G90 and G91.
+    // Increments under G91. Fanuc keeps the heights as they were programmed, even if G90 or G91 has
+    // changed at the next hole.
     if (rs274 || block.words.given('R') || std::isnan(in.cycle_.r_height))
         in.cycle_.r_height = in.cycle_.r * unit + (in.state_.incremental ? in.cycle_.initial : 0.0);
     const double r = in.cycle_.r_height;

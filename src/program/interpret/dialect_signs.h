@@ -17,7 +17,7 @@ struct WordSign {
 struct CodeSign {
     int code;  ///< G, in tenths
     int weight;
-    std::string_view with;     ///< letters, one of which must be in the block; empty: none required
+    std::string_view with;     ///< letters: one of them must be in the block; empty: none is required
     std::string_view without;  ///< letters that must not be in the block
 };
 

@@ -14,8 +14,8 @@ void count_in(ModalState& state, const MotionRules& rules, double unit);
 void take_feed(ModalState& state, const MotionRules& rules, double value);
 /// G93, G94, G95.
 void select_feed_mode(Interpreter& in, FeedMode mode);
-/// Of a motion [mm/s]. `unit`: what F counts in: mm of a length, or 1 for rotation in degrees, which inches do not
-/// change.
+/// The feed of a motion [mm/s]. `unit`: the unit in which F counts: mm of a length, or 1 for rotation in degrees, to
+/// which inches do not apply.
 [[nodiscard]] float feed_for(const ModalState& state, double length, double unit);
 [[nodiscard]] inline float feed_for(const ModalState& state, double length) {
     return feed_for(state, length, state.feed_unit_mm);

@@ -38,7 +38,7 @@ struct RoughingStart {
 };
 
 constexpr double coincident = 1e-9;  ///< [mm]
-constexpr double no_pocket = 0.01;   ///< of this depth: permitted roughness of the profile's joints [mm]
+constexpr double no_pocket = 0.01;   ///< permitted roughness of the profile's joints [mm]; a deeper dent is a pocket
 constexpr int most_cuts = 100'000;
 
 Vec2 zx(const Vec3& p) { return {p.z(), p.x()}; }

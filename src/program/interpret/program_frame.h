@@ -40,7 +40,7 @@ public:
     }
 
     /// The image of an arc about a principal axis: its new axis, and whether its direction is reversed; nullopt: the
-    /// image is no circle in a principal plane.
+    /// image is not a circle in a principal plane.
     struct Circle {
         int axis;
         bool reversed;

@@ -1,5 +1,5 @@
 // Tilted planes (CYCLE800, G68.2, PLANE). The program is then in the coordinates of a plane of the workpiece that is
-// normal to the tool: a frame rotates its positions, they are those of the tip, and the tool axis is a vector, the
+// normal to the tool: a frame rotates its positions, which are those of the tip, and the tool axis is a vector, the
 // plane's normal. The corresponding angles follow from the machine's kinematics.
 
 #include "program/interpret/tilted_plane.h"

@@ -44,7 +44,7 @@ struct TextRules {
     std::string_view
         straight_word{};  ///< the first word of every straight line, for example L; empty: G1, which is modal
     std::string_view first_block{};  ///< the first block of a program, after its number
-    double inch_feed = 1;            ///< inches that F counts in an inch program
+    double inch_feed = 1;            ///< length that F counts in an inch program [inch]
 
     SplineForm splines = SplineForm::none;  ///< of repaired sections
 

@@ -266,7 +266,7 @@ bool define_tool(Interpreter& in, const CodeWord& w) {
     return note_mode(in, w);
 }
 
-constexpr int order_of_offsets = 9;  ///< G54 is no work system: G90 or G91 applies to its words
+constexpr int order_of_offsets = 9;  ///< G54 is not a work system here: G90 or G91 applies to its words
 constexpr auto codes = std::to_array<CodeRule>({
     {0_g, move_as_usual},
     {1_g, move_as_usual},

@@ -167,7 +167,7 @@ double plane_value(Line& line, std::string_view name, bool needed) {
     const auto begins_value = [](char c) { return is_digit(c) || c == '+' || c == '-' || c == 'Q'; };
     const std::string word = " " + std::string(name);
     std::size_t at = line.c.text.find(word, line.c.at);
-    // PLANE SPATIAL begins with SPA, too.
+    // PLANE SPATIAL also begins with SPA.
     while (at < line.c.text.size() &&
            !(at + word.size() < line.c.text.size() && begins_value(line.c.text[at + word.size()])))
         at = line.c.text.find(word, at + 1);

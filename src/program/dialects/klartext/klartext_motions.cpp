@@ -15,7 +15,7 @@
 namespace clsurf::klartext {
 namespace {
 
-constexpr double least_angle = 1e-9;  ///< [rad] between lines that form a corner
+constexpr double least_angle = 1e-9;  ///< [rad] least angle between lines that form a corner
 constexpr double same_height = 1e-9;  ///< [mm]
 
 /// The beginning and end of the corner's arc or chamfer, in the plane of the axes u and v.

@@ -15,7 +15,7 @@ namespace clsurf::klartext {
 namespace {
 
 constexpr double most_start_play =
-    1e-3 + 1e-9;  ///< [mm] between the end of the previous block and the beginning of the curve
+    1e-3 + 1e-9;  ///< [mm] gap between the end of the previous block and the beginning of the curve
 
 struct SplineWords {
     std::array<std::optional<double>, 3> end;                     ///< X, Y, Z

@@ -171,7 +171,7 @@ bool mode_keyword(Interpreter& in, const Keyword& keyword) {
             in.note(Severity::warning, "program.unknown-word", "DIAM90 is read as DIAMOF", keyword.column);
         in.event("lathe", name);
     } else if (name == "CIP" || name == "CT") {
-        in.state_.motion = MotionMode::cw;  // which way, the point between or the tangent tells
+        in.state_.motion = MotionMode::cw;  // the point between or the tangent determines the direction
         in.arcs_.kind = name == "CIP" ? ArcKind::by_points : ArcKind::tangential;
     } else {
         return false;
