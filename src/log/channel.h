@@ -12,14 +12,14 @@ namespace clsurf {
 struct ChannelInfo {
     std::string_view name;         ///< "line"; a trailing dot ("cmd."): an axis letter follows
     std::string_view unit;         ///< empty: a count
-    std::string_view rotary_unit;  ///< of axes a, b, c if it differs
+    std::string_view rotary_unit;  ///< unit of axes a, b, c if it differs
     std::string_view meaning;
 };
 
 /// Every name that the project knows.
 [[nodiscard]] std::span<const ChannelInfo> known_channels();
 
-/// Whether it is a name of the table or a bare axis, in any letter case.
+/// Whether a name is in the table or is a bare axis, in any letter case.
 [[nodiscard]] bool is_known_name(std::string_view name);
 
 /// The known form of a name or bare axis in any letter case; other names unchanged.

@@ -18,7 +18,7 @@ namespace clsurf {
 namespace {
 
 constexpr double gap_periods = 1.5;                  ///< a longer step in time has lost records
-constexpr double jitter_share = 0.05;                ///< of a period, rms; less is not reported
+constexpr double jitter_share = 0.05;                ///< rms as a share of a period; less is not reported
 constexpr double heading_chord = 0.5;                ///< [mm] length of the chords for the heading
 constexpr double least_turn = 0.05;                  ///< [rad] less is noise and fine chords of a curve
 constexpr double stuck_arc_length = 50.0;            ///< [mm] at least, on one line
@@ -26,7 +26,7 @@ constexpr double stuck_turn = 3 * std::numbers::pi;  ///< [rad] to the left, and
 
 constexpr double shown_in_full = 1e7;  ///< [mm] a longer step is impossible for a machine, and may have 300 digits
 
-constexpr PointIndex before = 2;             ///< records before a section that it reads
+constexpr PointIndex before = 2;             ///< number of records read before a section
 constexpr PointIndex section_length = 2048;  ///< records whose channels stay in the cache together
 
 bool is_position(const Channel& channel) {
@@ -87,7 +87,7 @@ private:
 struct Limits {
     double period = 0;     ///< [s]
     double jump = 0;       ///< [mm]
-    double last_line = 0;  ///< of the program; infinite: unknown
+    double last_line = 0;  ///< last line of the program; infinite: unknown
 };
 
 /// Points with a line that is not in the program.
@@ -179,7 +179,7 @@ private:
     [[nodiscard]] double value(std::size_t channel, PointIndex i) const {
         return values_[channel][static_cast<std::size_t>(i - window_)];
     }
-    /// From the previous record to i [mm]; 0 before the first record, NaN if a value is missing.
+    /// Distance from the previous record to i [mm]; 0 before the first record, NaN if a value is missing.
     [[nodiscard]] Vec3 step(const Meanings::Axes& axes, PointIndex i) const {
         if (i < 1 || i >= log_.records) return Vec3::Zero();
         const auto along = [&](std::optional<std::size_t> axis) {

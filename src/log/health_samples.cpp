@@ -45,7 +45,7 @@ public:
         products_ += step_off * (difference - mean_);
     }
 
-    /// [mm]; 0: none that is significant. `resting`: whether it was measured at rest.
+    /// Offset [mm]; 0: none is significant. `resting`: whether it was measured at rest.
     [[nodiscard]] double offset(bool& resting) {
         resting = resting_.size() >= least_resting;
         if (resting) return median(resting_);

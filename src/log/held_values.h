@@ -10,7 +10,7 @@ namespace clsurf {
 /// How the time bases of two logs are related.
 struct HoldRule {
     double offset = 0;  ///< [s] time in the slow log at which the fast one has time 0
-    double age = 1;     ///< [s] for which a value is held at most
+    double age = 1;     ///< [s] longest time for which a value is held
 };
 
 /// For each record of `fast`, the latest value of `channel` of `slow`; NaN if there is none yet or it is older than

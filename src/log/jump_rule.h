@@ -1,7 +1,7 @@
 #pragma once
 // Rule for jumps of a logged position that no axis can make: a counter overflows, or a record is wrong. The step is longer
 // than any acceleration allows and much longer than the step before it. It is also much longer than the step after it, unless
-// that one goes back (a spike).
+// that step goes back (a spike).
 
 #include <algorithm>
 

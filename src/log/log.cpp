@@ -49,8 +49,8 @@ double Log::time_of(PointIndex point) const {
 double Log::measured_period() const {
     const Channel* time = find("time");
     if (time == nullptr) return 0;
-    constexpr PointIndex looked_at = 10'001;
-    std::vector<double> t(static_cast<std::size_t>(std::min(records, looked_at)));
+    constexpr PointIndex examined = 10'001;
+    std::vector<double> t(static_cast<std::size_t>(std::min(records, examined)));
     copy_block(time->values, 0, t);
     std::vector<double> steps;
     for (std::size_t i = 1; i < t.size(); ++i) {

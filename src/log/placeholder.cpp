@@ -13,7 +13,7 @@ namespace {
 constexpr double least_excursion = 10;  ///< [mm]
 constexpr double least_of_axis = 1;     ///< [mm] least component along an axis that takes part in a jump
 constexpr double times_before = 3;      ///< longer than the previous step: a rapid accelerates and brakes
-constexpr double returns_within = 0.5;  ///< of the jump
+constexpr double returns_within = 0.5;  ///< share of the jump
 constexpr PointIndex longest_stay = 256;
 constexpr PointIndex fewest = 3;
 

@@ -1,6 +1,6 @@
 #pragma once
-// Placeholder: a position in a log that substitutes for one that was not recorded. The path jumps to it, always
-// exactly the same, and returns to where it was.
+// Placeholder: a position in a log that substitutes for one that was not recorded. The path jumps to exactly
+// this position each time and returns to where it was.
 
 #include <array>
 #include <optional>
@@ -13,7 +13,7 @@ namespace clsurf {
 struct Placeholder {
     std::array<double, 3> position{};  ///< x, y, z as in the log [mm]
     PointIndex first = 0;              ///< the first record with it
-    PointIndex times = 0;              ///< how often the path jumps to it, at least three times
+    PointIndex times = 0;              ///< number of jumps of the path to it, at least three
     double farthest = 0;               ///< the longest of these jumps [mm]
 };
 

@@ -14,17 +14,17 @@ namespace clsurf {
 namespace {
 
 constexpr double least_quantum = 5e-6;  ///< [mm] or [deg]; finer steps are rounding of the file
-constexpr double least_change = 1e-9;   ///< rounding of doubles is no change
-constexpr PointIndex looked_at = 20'000;
+constexpr double least_change = 1e-9;   ///< rounding of doubles is not a change
+constexpr PointIndex examined = 20'000;
 
 }  // namespace
 
 double quantum_of(const ChannelView& channel) {
     std::vector<double> steps;
-    const auto n = static_cast<std::size_t>(std::min(channel.count, looked_at));
+    const auto n = static_cast<std::size_t>(std::min(channel.count, examined));
     std::vector<double> values(n);
     copy_block(channel, (channel.count - static_cast<PointIndex>(n)) / 2, values);
-    // Second differences: at constant speed the distance per period is no grid.
+    // Second differences: at constant speed the distance per period is not a grid.
     for (std::size_t i = 2; i < n; ++i) {
         const double step = std::abs(values[i] - 2 * values[i - 1] + values[i - 2]);
         if (step > least_change && std::isfinite(step)) steps.push_back(step);

@@ -23,7 +23,7 @@ constexpr double lost_length = 1.0;         ///< arc length off the path after w
 constexpr double near_distance = 0.1;       ///< largest distance of a restart
 constexpr PointIndex trial_points = 400;    ///< moving points over which a restart must stay near
 constexpr double least_jump = 10;           ///< to a placeholder
-constexpr double placeholder_reach = 1e-6;  ///< tolerance for its position in workpiece coordinates
+constexpr double placeholder_reach = 1e-6;  ///< tolerance for the position of a placeholder in workpiece coordinates
 constexpr double first_retry = 1.0;         ///< arc length until a failed search is repeated; doubles
 
 class Aligner {
@@ -38,7 +38,7 @@ public:
         WalkState state;
         Vec3 before = first_position(log_);
         double off_path = 0;        // arc length since the walk left the path
-        PointIndex off_since = -1;  // its first point
+        PointIndex off_since = -1;  // first point off the path
         double retry_after = lost_length;
         bool reported = false;
         for (PointIndex i = 0; i < log_.count; ++i) {

@@ -18,7 +18,7 @@ struct ProgramPlace {
 
 struct CallChain {
     std::optional<ProgramPlace> subprogram;  ///< nullopt: the point is not in a subprogram
-    std::vector<ProgramPlace> calls;         ///< that led there, the main program's first
+    std::vector<ProgramPlace> calls;         ///< calls that led there, the main program's first
 };
 
 /// Every run of consecutive points that are on that line of a file of the program, in order. `file`: index into

@@ -18,8 +18,8 @@ constexpr PointIndex sampled_sections = 64;  ///< evenly spaced over the log
 constexpr PointIndex sampled_points = 1600;  ///< points
 constexpr std::size_t least_run = 5;      ///< moving points of a line, so that its middle is distinct from the next one
 constexpr double steps_off = 1.5;         ///< chords by which a point may be off its line
-constexpr double least_confidence = 0.5;  ///< of an aligned point that locates a line
-constexpr double explained_share = 0.8;   ///< of all lines; else no edit explains them
+constexpr double least_confidence = 0.5;  ///< least confidence of an aligned point that locates a line
+constexpr double explained_share = 0.8;   ///< share of all lines that the edits must explain
 constexpr std::size_t most_shifts = 1000;  ///< in total, and at most one for ten lines
 
 class EditFinder {

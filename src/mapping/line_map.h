@@ -3,7 +3,7 @@
 //
 // If the log has a line channel, it is used as it is and checked against the geometry. A kernel
 // reports the line of its planner, which leads the axes by a few records, changes at the beginning of a
-// blend and is the last line of merged ones, so the check allows the line before as well.
+// blend and is the last of the merged lines, so the check allows the line before as well.
 // If the log has none, log and program are aligned in order (mapping/alignment.h).
 
 #include <memory>
@@ -84,7 +84,7 @@ public:
     /// edited. confidences() adds the agreement with the geometry.
     [[nodiscard]] double confidence_at(PointIndex point) const;
 
-    /// Its source: the numbers of a channel (from_log()), a motion and a confidence per point; empty: none.
+    /// Source of the map: the numbers of a channel (from_log()), a motion and a confidence per point; empty: none.
     [[nodiscard]] const ChannelView& channel() const { return channel_; }
     [[nodiscard]] const Column<std::uint32_t>& point_motions() const { return motion_of_point_; }
     [[nodiscard]] const Column<std::uint8_t>& confidences() const { return confidence_; }
@@ -93,7 +93,7 @@ public:
     [[nodiscard]] const ProgramMatch& match() const { return match_; }
     void set_match(ProgramMatch match) { match_ = std::move(match); }
 
-    /// Its source is in a file whose blocks are checked when they are read.
+    /// For a map whose source is in a file: blocks are checked when they are read.
     void check_when_read(BlockFillPointer checked) { checked_ = std::move(checked); }
 
 private:

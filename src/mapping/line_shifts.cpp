@@ -17,13 +17,13 @@ constexpr std::size_t lines_for_lead = 4096;
 constexpr double shorter_lead = 1.0;       ///< additional cost that a longer lead must save
 constexpr double lead_changes = 1.0;       ///< records
 constexpr double slightly_off = 4.0;       ///< records that cost 1
-constexpr double most_cost = 3.0;          ///< of a line
-constexpr double records_off = 28.0;       ///< with the highest cost: slightly_off · (2^most_cost − 1)
-constexpr double near_cost = 1.0;          ///< of a line whose shift is tested
-constexpr double explained_cost = 0.5;     ///< of the lines of a section, at most
-constexpr double shift_cost = 5.0;         ///< as much as two long lines that are clearly off
-constexpr double most_doubt = 9.0;         ///< of a line end: three times its uncertainty, squared
-constexpr std::size_t most_ends = 8;       ///< of one line that are evaluated
+constexpr double most_cost = 3.0;          ///< greatest cost of a line
+constexpr double records_off = 28.0;       ///< records that have the highest cost: slightly_off · (2^most_cost − 1)
+constexpr double near_cost = 1.0;          ///< cost of a line whose shift is tested
+constexpr double explained_cost = 0.5;     ///< greatest cost of the lines of a section
+constexpr double shift_cost = 5.0;         ///< cost of a shift: as much as two long lines that are clearly off
+constexpr double most_doubt = 9.0;         ///< greatest doubt about a line end: three times its uncertainty, squared
+constexpr std::size_t most_ends = 8;       ///< number of ends of one line that are evaluated
 constexpr std::ptrdiff_t most_tries = 64;  ///< shifts suggested by one line end
 
 /// The records at which the tool came to the ends of lines near a record.
@@ -264,24 +264,24 @@ private:
         }
     }
 
-    /// Moves the beginning of a section to where the lines around it fit best. The lead is the one that these lines fit best
-    /// with, because it changes with the speed. On both sides, lines are added until they clearly distinguish the two shifts.
+    /// Moves the beginning of a section to where the lines around it fit best. The lead is the one with which these lines fit
+    /// best, because it changes with the speed. On both sides, lines are added until they clearly distinguish the two shifts.
     void place(std::vector<Section>& sections, std::size_t k, std::int64_t lead) const {
         const std::int64_t before = sections[k - 1].shift, after = sections[k].shift;
         const std::size_t least_first = sections[k - 1].begin + (k > 1 ? 1 : 0);
         const std::size_t last_end = k + 1 < sections.size() ? sections[k + 1].begin : begins_.size();
         std::deque<std::vector<Arrivals>> arrivals;
         std::size_t first = sections[k].begin, end = first;
-        const auto told = [&](const std::vector<Arrivals>& of_line, std::size_t i) {
+        const auto evidence = [&](const std::vector<Arrivals>& of_line, std::size_t i) {
             return cost(of_line, std::int64_t{line_of(i)} + before) - cost(of_line, std::int64_t{line_of(i)} + after);
         };
         for (double sum = 0; first > least_first && sum > -shift_cost;) {
             arrivals.push_front(arrivals_of(--first, lead));
-            sum += told(arrivals.front(), first);
+            sum += evidence(arrivals.front(), first);
         }
         for (double sum = 0; end < last_end && sum < shift_cost; ++end) {
             arrivals.push_back(arrivals_of(end, lead));
-            sum += told(arrivals.back(), end);
+            sum += evidence(arrivals.back(), end);
         }
         double least = infinity;
         for (int half_records = -4; half_records <= 4; ++half_records) {

@@ -28,7 +28,7 @@ struct ShiftedLines {
 struct LineShifts {
     std::vector<ShiftedLines> sections;  ///< in order; lines before the first one are not shifted
     std::int64_t lead = 0;               ///< records by which the reported lines lead the positions
-    std::size_t lines = 0;               ///< that are informative
+    std::size_t lines = 0;               ///< number of informative lines
     double unexplained = 0;              ///< share of the lines, 0 … 1
 };
 

@@ -11,7 +11,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double least_extent = 0.1;    ///< [mm] of the program, on an axis that is informative
+constexpr double least_extent = 0.1;    ///< [mm] least extent of the program on an informative axis
 constexpr double extents_differ = 0.1;  ///< share: rapids and approaches of the log are not part of any motion at feed
 
 struct LogScale {

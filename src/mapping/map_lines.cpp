@@ -44,8 +44,8 @@ constexpr double sure_confidence = 0.9;  ///< of an aligned point
 
 /// Share of the aligned points that are farther off than a finishing tolerance.
 double off_share(const LineMap& map) {
-    constexpr PointIndex looked_at = 10'000;
-    const PointIndex stride = std::max<PointIndex>(1, map.count() / looked_at);
+    constexpr PointIndex examined = 10'000;
+    const PointIndex stride = std::max<PointIndex>(1, map.count() / examined);
     PointIndex off = 0;
     PointIndex all = 0;
     for (PointIndex i = 0; i < map.count(); i += stride, ++all) off += map.confidence_at(i) < sure_confidence ? 1 : 0;

@@ -56,7 +56,7 @@ public:
     }
 
     [[nodiscard]] std::size_t files() const { return base_.size(); }
-    /// Those of a line; none if the file does not have it.
+    /// The sections of a line; none if the file does not have the line.
     [[nodiscard]] std::span<const Section> of(std::size_t file, LineNumber line) const {
         const std::size_t end = file + 1 < base_.size() ? base_[file + 1] : keys_;
         if (base_[file] + line >= end) return {};
@@ -91,7 +91,7 @@ private:
 
     std::size_t keys_ = 0;
     std::vector<std::size_t> base_;       ///< by file: key of its line 0
-    Column<std::uint32_t> first_of_key_;  ///< by key: index in sections_ of its first one
+    Column<std::uint32_t> first_of_key_;  ///< by key: index of its first section in sections_
     Column<Section> sections_;            ///< sorted by key, then by motion
 };
 

@@ -17,9 +17,9 @@ constexpr double kept_share = 0.8;          ///< of the pairs in a round
 constexpr int pair_rounds = 5;
 constexpr int follow_rounds = 6;
 constexpr std::size_t followed_most = 1500;  ///< points of a log that are followed along the program
-constexpr double window_share = 0.01;        ///< of the program: how far a point may be from its expected place
+constexpr double window_share = 0.01;        ///< share of the program: how far a point may be from its expected place
 constexpr std::size_t best_places = 6;       ///< places of the log on the program that are followed
-constexpr double place_share = 0.005;        ///< of the program: matches nearer to each other count as one place
+constexpr double place_share = 0.005;        ///< share of the program: matches nearer to each other count as one place
 
 /// Resamples a path that comes in pieces at equal distances.
 class EvenPoints {

@@ -32,7 +32,7 @@ struct PointPair {
 [[nodiscard]] std::vector<Eigen::Isometry3d> guess_poses(const PathProfile& program, const PathProfile& log);
 
 /// The rotation about Z and shift that bring the points of a log onto those of the program: least squares in a few
-/// rounds, each of which excludes the farthest fifth. Kabsch, Acta Crystallographica A32 (1976) 922, in the plane.
+/// rounds, each excluding the farthest fifth. Kabsch, Acta Crystallographica A32 (1976) 922, in the plane.
 [[nodiscard]] Eigen::Isometry3d pose_of_pairs(const std::vector<PointPair>& pairs);
 
 }  // namespace clsurf

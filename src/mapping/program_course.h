@@ -12,7 +12,7 @@ namespace clsurf {
 /// Reports deviations from a single, complete run:
 /// - map.begins-inside, map.ends-early: the log has a part of the program only (warnings)
 /// - map.runs: the program begins again: two runs in one file (a warning)
-/// - map.restart: a run continues from an earlier line: the lines between ran twice (a warning)
+/// - map.restart: a run continues from an earlier line: the lines in between ran twice (a warning)
 /// - map.pause: the tool is at rest for more than a second on a line that cuts
 /// Returns the share of the program's motions before and after the log, 0 … 1; 0 if only an approach and
 /// a retract are missing. `runs`: from find_program_runs(). O(points).

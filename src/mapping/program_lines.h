@@ -1,6 +1,6 @@
 #pragma once
 // The records of a log that belong to a program, if the log names the program of each record: a line of a subprogram
-// is no line of the program that called it.
+// is not a line of the program that called it.
 
 #include <memory>
 #include <optional>

@@ -60,7 +60,7 @@ private:
 
     std::vector<ProgramRun> runs_{1};
     std::vector<bool> had_;            ///< motions of the last run
-    std::optional<ProgramRun> again_;  ///< where the log went back: possibly a run
+    std::optional<ProgramRun> again_;  ///< place at which the log went back: possibly a run
     int count_ = 0;                    ///< cutting motions since then that the previous run had, too
 };
 

@@ -12,12 +12,12 @@ namespace clsurf {
 
 struct ProgramRun {
     PointIndex first = 0;           ///< its first point
-    std::int64_t first_motion = 0;  ///< of its motions, both ends included …
+    std::int64_t first_motion = 0;  ///< first of its motions, both ends included …
     std::int64_t last_motion = -1;  ///< … last < first: none
 };
 
 /// At least one, in order. A run begins where the log goes back in the program and then executes cutting motions that the
-/// previous run already had: a number that flickers begins none. O(points).
+/// previous run already had: a flickering number begins no run. O(points).
 [[nodiscard]] std::vector<ProgramRun> find_program_runs(const LineMap& lines);
 
 /// For each run but the first: the points just before it at which the tool is off the program's path, returning to the

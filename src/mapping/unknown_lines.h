@@ -1,5 +1,5 @@
 #pragma once
-// Points with a reported line that the program does not have: of another program, or of one that was truncated.
+// Points whose reported line the program does not have: it is a line of another program, or the program was truncated.
 
 #include <limits>
 
@@ -9,7 +9,7 @@ namespace clsurf {
 
 struct UnknownLines {
     PointIndex moving = 0;   ///< points that move on a line; 0 also if the program has all lines
-    PointIndex unknown = 0;  ///< those of them whose line the program does not have
+    PointIndex unknown = 0;  ///< moving points whose line the program does not have
     PointIndex first = -1;   ///< the first of these
     LineNumber low = std::numeric_limits<LineNumber>::max(), high = 0;  ///< their lines
 

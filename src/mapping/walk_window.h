@@ -9,7 +9,7 @@
 
 namespace clsurf {
 
-/// One step of a walk, for a tool that moved by a chord. Lengths in mm; `Real` is that of the path's positions.
+/// One step of a walk, for a tool that moved by a chord. Lengths in mm; `Real` is the type of the path's positions.
 template <typename Real>
 class WalkWindow {
 public:

@@ -8,8 +8,8 @@ namespace {
 
 /// Larger squares are significant: 1 in 16,000 by chance (χ² with one degree of freedom).
 constexpr double gate = 16;
-constexpr double hardly = 0.01;       ///< of the greatest error or innovation: smaller ones are omitted
-constexpr PointIndex tried = 32;      ///< positions at which a jump is tested, within the innovations that it changes
+constexpr double hardly = 0.01;       ///< share of the greatest error or innovation: smaller ones are omitted
+constexpr PointIndex tried = 32;      ///< tested positions of a jump within the innovations that it changes
 constexpr PointIndex beside = 2;      ///< records: jumps may be between records
 constexpr PointIndex longest = 4000;  ///< records: in a steadier motion no jumps are sought
 

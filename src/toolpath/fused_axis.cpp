@@ -15,7 +15,7 @@ constexpr PointIndex half_window = 8;  ///< records to each side over which disp
 constexpr double sure = 3;             ///< standard errors by which a lead must differ from a whole number
 constexpr double known_lead = 0.1;     ///< records: the standard error below which a lead is used
 constexpr double most_difference =
-    0.3;                               ///< share of the motion: an encoder that differs by more is not that of the axis
+    0.3;                               ///< share of the motion: an encoder that differs by more belongs to another axis
 constexpr int alignment_steps = 4;     ///< of the Gauss–Newton method
 constexpr double sure_compliance = 5;  ///< standard errors
 constexpr double reversal_sigmas = 12;  ///< an axis has reversed if it has moved back by this many standard deviations

@@ -3,7 +3,7 @@
 //
 // The scale measures the table, with noise n_s. The encoder measures the motor, with less noise n_e, but it differs from
 // the table by b (backlash, pitch error and heat): s = p + n_s, e = p + b + n_e. With the weight w = σ_s²/(σ_s² + σ_e²)
-// the mean s + w (e − s) has the least noise, and this noise is independent of that of d = e − s. So b follows from d
+// the mean s + w (e − s) has the least noise, and this noise is independent of the noise of d = e − s. So b follows from d
 // alone: a Kalman smoother (numeric/kalman_smoother.h) estimates it, with its noise and its wandering measured in d.
 // The fused position is
 //
@@ -55,7 +55,7 @@ void hold_out(std::span<const double> differences, const KalmanSmoother& smoothe
               std::vector<double>& ratios);
 
 struct FusedAxis {
-    /// Of a position [mm]: noise, including the compliance of the drive.
+    /// Uncertainty of a position [mm]: noise, including the compliance of the drive.
     double scale_sigma = 0, encoder_sigma = 0;
     double lead = 0;      ///< records by which the encoder is ahead of the scale
     double yield = 0;     ///< rms of the drive's deflection by the acceleration [mm]; 0: none is found

@@ -47,7 +47,7 @@ FusedPositions::FusedPositions(const Log& log, const Trajectory& path, const std
                          1.0,
                          0.0};
     }
-    // An axis at rest shows no step. It is assumed to have that of the others.
+    // An axis at rest shows no step. It is assumed to have the step of the others.
     for (std::size_t k = 0; k < 3; ++k) {
         if (quantum_of(path.axes[k]) > 0) continue;
         for (float& sigma : axes_[k].sigmas[0]) sigma = std::hypot(sigma, static_cast<float>(scale_floor_));

@@ -31,7 +31,7 @@ public:
     /// Standard deviation of the remaining difference of the encoder, in a derivative of an axis' position [mm/s^d]; infinite
     /// if its scale is used alone.
     void sigmas(std::size_t axis, int derivative, PointIndex first, std::span<double> out) const;
-    /// Parts of a range in which every moving axis uses its encoder, too.
+    /// Parts of a range in which every moving axis also uses its encoder.
     [[nodiscard]] std::vector<PointRange> fused_ranges(PointRange range) const;
     /// The same for the worst axis, far from reversals.
     [[nodiscard]] double remaining(int derivative) const;

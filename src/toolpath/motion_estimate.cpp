@@ -165,7 +165,7 @@ void MotionEstimate::measure_components(const std::vector<PointRange>& pieces) {
                                  return measured(s, i)[axis] - estimated(s, i)[axis];
                              }));
         }
-        // The residual includes the uncertainty of the positions, too.
+        // The residual also includes the uncertainty of the positions.
         const double known = across_->sigma(static_cast<int>(d) + 1);
         const double floor = std::max(quantum / std::sqrt(12.0), 1e-3 * known);
         const double sigma = std::sqrt(std::max(worst * worst - known * known, floor * floor));

@@ -9,10 +9,10 @@
 namespace clsurf {
 namespace {
 
-constexpr PointIndex looked_at = 2000;   ///< points of a section on which the model is measured
-constexpr PointIndex sections = 48;      ///< evenly spaced over the pieces
-constexpr PointIndex least_piece = 100;  ///< points
-constexpr double gap = 1.5;              ///< periods; a longer interval between records ends a piece
+constexpr PointIndex section_points = 2000;  ///< points of a section on which the model is measured
+constexpr PointIndex sections = 48;          ///< evenly spaced over the pieces
+constexpr PointIndex least_piece = 100;      ///< points
+constexpr double gap = 1.5;                  ///< periods; a longer interval between records ends a piece
 constexpr double most_wandering = 1e6, least_wandering = 1e-17;
 /// The likelihood determines the wandering only roughly: it is found to a factor of √10.
 constexpr double wandering_step = 3.1622776601683795;
@@ -23,14 +23,14 @@ constexpr double moving_steps = 10;  ///< an axis that stays within this many st
 std::vector<PointRange> sample_sections(const std::vector<PointRange>& pieces) {
     PointIndex all = 0;
     for (const PointRange& piece : pieces) all += piece.size() >= least_piece ? piece.size() : 0;
-    const PointIndex every = std::max(looked_at, all / sections);
+    const PointIndex every = std::max(section_points, all / sections);
     std::vector<PointRange> samples;
     PointIndex next = 0;  // start of the next section, counted from the piece's first point
     for (const PointRange& piece : pieces) {
         if (piece.size() < least_piece) continue;
         for (; next < piece.size(); next += every) {
             const PointIndex first = piece.first + std::min(next, piece.size() - least_piece);
-            samples.push_back({first, std::min(piece.last, first + looked_at - 1)});
+            samples.push_back({first, std::min(piece.last, first + section_points - 1)});
         }
         next -= piece.size();
     }
@@ -114,7 +114,7 @@ NoiseFit NoiseFitter::fit(const std::vector<std::vector<double>>& series, double
         // If the gains settle too late, few records remain, and not the same ones.
         most = std::max(most, count);
         if (!(count > 0.5 * most)) break;
-        // The likelihood at its maximum over the uncertainty of a position, which is at least that of the quantum.
+        // The likelihood at its maximum over the uncertainty of a position, which is at least the uncertainty from the quantum.
         const double variance = std::max(squares / count, floor * floor);
         const double cost = std::log(variance) + squares / count / variance + log_variance;
         if (!(cost < least)) continue;

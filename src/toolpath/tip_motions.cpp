@@ -18,9 +18,9 @@
 namespace clsurf {
 namespace {
 
-constexpr double chord_turn = 0.5 * rad_per_deg;  ///< of a rotary axis, per chord
-constexpr double least_length = 1e-9;             ///< [mm] of a motion with a displacement
-constexpr int most_chords = 2000;                 ///< of a motion
+constexpr double chord_turn = 0.5 * rad_per_deg;  ///< turn of a rotary axis for each chord
+constexpr double least_length = 1e-9;             ///< [mm] least length of a motion with a displacement
+constexpr int most_chords = 2000;                 ///< greatest number of chords of a motion
 
 class TipMaker {
 public:

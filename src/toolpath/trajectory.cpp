@@ -156,7 +156,7 @@ void set_columns(Trajectory& trajectory, std::shared_ptr<const OwnColumns> colum
 
 namespace {
 
-/// Moves tips to those of an upright ball of that radius, by the stated axes.
+/// Replaces tips by those of an upright ball of that radius, with the stated axes.
 void stand_upright(Trajectory& trajectory, double ball) {
     const ToolAxes& axes = *trajectory.stated_axes;
     const std::array<ChannelView, 3> linear = trajectory.axes;

@@ -64,7 +64,7 @@ struct Trajectory {
 /// Whether the tool axis ever leaves z, by more than 10⁻⁶ rad. False without kinematics and stated axes. O(points).
 [[nodiscard]] bool tilts(const Log& log, const Trajectory& trajectory);
 
-/// Whether reconstruct_like() finds the channels that it needs: with kinematics the rotary axes too.
+/// Whether reconstruct_like() finds the channels that it needs: with kinematics also the rotary axes.
 [[nodiscard]] bool can_reconstruct_like(const Log& log, Role role, const Trajectory& like);
 
 /// Another role of the same log, with the same transformation to the workpiece.
