@@ -32,7 +32,7 @@ struct FieldClass {
     bool good = false;  ///< no problem: pictures show it in light grey
 };
 
-/// A unit that owns its name: that of a channel is known only after its log is read.
+/// A unit that owns its name: the unit of a channel is known only after its log is read.
 struct FieldUnit {
     std::string name;       ///< "mm/min"; empty: none
     double per_inside = 1;  ///< shown = inside · per_inside
@@ -52,18 +52,18 @@ struct FieldInfo {
     std::string note;                    ///< how it was computed, "21-point window (20 ms)"; may be empty
     char axis = 0;                       ///< 'x' … 'c' of a component; 0: of all axes together
     std::vector<std::string> also = {};  ///< synonyms: "velocity"
-    int report_rank = 0;                 ///< its rank among the default fields of a report, from 1; 0: not there
+    int report_rank = 0;                 ///< rank among the default fields of a report, from 1; 0: not among them
     bool percentiles = false;            ///< reports give the percentiles of its absolute value
     FieldPreference preference = FieldPreference::none;
-    std::vector<FieldClass> classes = {};  ///< of classes; empty: values are numbers
-    std::string class_word = {};           ///< values are numbers of discrete things: "line"
-    /// The fixed range of its colours, so that pictures of different runs can be compared; else the data decide
-    /// (range.h).
+    std::vector<FieldClass> classes = {};  ///< meanings of the classes; empty: values are numbers
+    std::string class_word = {};           ///< name of the discrete things that values number: "line"
+    /// The fixed range of its colours, so that pictures of different runs can be compared; nullopt: the data
+    /// determine it (range.h).
     std::optional<ValueRange> usual_range = {};
-    double slack = 0;                 ///< beyond usual_range that still counts as its end, internal units
-    double least_span = 0;            ///< of colours, internal units: smaller differences do not matter
+    double slack = 0;                 ///< distance beyond usual_range that still counts as its end, internal units
+    double least_span = 0;            ///< least span of the colours, internal units: smaller differences do not matter
     double least_span_of_median = 0;  ///< likewise, as a share of the median
-    /// Of a difference that counts as a discontinuity if some consecutive points exceed it, internal units; 0: none.
+    /// Difference that counts as a discontinuity if some consecutive points exceed it, internal units; 0: none.
     double threshold = 0;
 };
 

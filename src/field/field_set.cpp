@@ -120,7 +120,7 @@ std::vector<Field> FieldSet::get_all(const std::vector<std::string>& names, Poin
 
 namespace {
 
-/// Requirements of a log for the field; empty: no log has it.
+/// What a log must contain to provide the field; empty: no log provides it.
 std::string what_has(std::string_view name) {
     if (name == "limit")
         return "only a simulated log says what limits its speed: leave the log out, and give --machine FILE; of a recorded "

@@ -54,7 +54,7 @@ private:
     };
     struct Found {
         const Entry* entry = nullptr;
-        std::string name;  ///< by which it was found
+        std::string name;  ///< name by which it was found
     };
     [[nodiscard]] const Entry* find_name(std::string_view name) const;
     [[nodiscard]] std::optional<Found> find(std::string_view name) const;

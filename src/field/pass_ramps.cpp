@@ -6,10 +6,10 @@
 namespace clsurf {
 namespace {
 
-constexpr double rise_seconds = 0.005;  ///< over which a ramp …
+constexpr double rise_seconds = 0.005;  ///< interval within which a ramp …
 constexpr float least_rise = 0.02F;     ///< … must become faster by this share
-constexpr double longest_fall = 0.05;   ///< [s] for which a pass may brake before its ramp
-constexpr float least_gain = 0.1F;      ///< by which the end of a ramp exceeds its slowest point
+constexpr double longest_fall = 0.05;   ///< [s] longest time for which a pass may brake before its ramp
+constexpr float least_gain = 0.1F;      ///< least share by which the end of a ramp exceeds its slowest point
 
 /// Number of points of the ramp that begins at `end` and extends inwards.
 PointIndex ramp_length(const Column<float>& speed, PointIndex end, int direction, PointIndex count, double period) {

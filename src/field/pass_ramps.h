@@ -10,7 +10,7 @@ namespace clsurf {
 
 /// The ramps of all cut passes, and the links between passes, in the order of their points. A ramp extends inwards from an
 /// end as long as the speed rises by 2 % in every 5 ms. Before that the speed may fall for 50 ms, for example if the move to
-/// the next pass belongs to the pass. A gain of less than a tenth is no ramp. `speed`: path speeds, or shares of the feed;
+/// the next pass belongs to the pass. A gain of less than a tenth is not a ramp. `speed`: path speeds, or shares of the feed;
 /// `period` of the log [s]. O(passes + points of ramps).
 [[nodiscard]] std::vector<PointRange> pass_ramps(const Field& speed, const Passes& passes, double period);
 

@@ -19,7 +19,7 @@ constexpr double least_curvature = 1e-3;           ///< [1/mm] a path with a rad
 constexpr double apart = 2;                        ///< steps between points that differ
 constexpr double corner_reach = 0.1;               ///< [mm] of a corner on each side of its middle
 constexpr double corner_angle = 45 * rad_per_deg;  ///< a smaller one is curvature, as of programmed paths
-constexpr PointIndex sample_points = 512;          ///< of a section from which noise is measured
+constexpr PointIndex sample_points = 512;          ///< number of points of a section from which noise is measured
 constexpr PointIndex samples = 16;
 
 using Columns = std::array<std::vector<double>, 3>;
@@ -30,7 +30,7 @@ void read(const Trajectory& path, PointIndex first, PointIndex count, Columns& p
 }
 
 /// The step [mm] whose rounding has the deviation of the noise: from third differences, which are nearly zero for a smooth
-/// motion. Those of noise of deviation σ have √20 σ.
+/// motion. Third differences of noise with the deviation σ have the deviation √20 σ.
 double step_of_noise(const Trajectory& path) {
     std::vector<double> differences;
     Columns p;

@@ -21,8 +21,8 @@ public:
     /// Measures the errors of positions by rounding and noise. O(points), from a few sections all over the log.
     PathCurvature(const Log& log, const Trajectory& path);
 
-    /// Of points [first, first + out.size()) [1/mm], by the path before and after them, across pass limits. NaN if the path
-    /// turns back, in corners of more than 45 deg within 0.2 mm, and if positions do not resolve it.
+    /// Curvature at points [first, first + out.size()) [1/mm], by the path before and after them, across pass limits.
+    /// NaN if the path turns back, in corners of more than 45 deg within 0.2 mm, and if positions do not resolve it.
     void compute(PointIndex first, std::span<double> out) const;
     /// The effective step of positions from rounding and noise [mm].
     [[nodiscard]] double step() const { return step_; }

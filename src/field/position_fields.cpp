@@ -17,7 +17,7 @@
 namespace clsurf {
 namespace {
 
-constexpr PointIndex section_points = 4096;  ///< of a block, processed at once: fits the L1 cache
+constexpr PointIndex section_points = 4096;  ///< points processed at once, so that they fit the L1 cache
 
 constexpr unsigned bit_of_derivative(int d) { return needs::velocity << (d - 1); }
 constexpr unsigned bit_of_sigma(int d) { return needs::velocity_sigma << (d - 1); }
@@ -52,7 +52,7 @@ private:
 /// A requested row, and the target of its values.
 struct Wanted {
     const FieldRow* row = nullptr;
-    float* out = nullptr;  ///< of the first requested point
+    float* out = nullptr;  ///< value of the first requested point
 };
 
 /// Rows that share positions and derivatives, and their inputs, computed once.
@@ -85,7 +85,7 @@ bool is_smoothed(const FieldRow& row, const Derivation& derivation) {
 
 Role measured_role_of(const Trajectory& path) { return path.role == Role::commanded ? Role::feedback : path.role; }
 
-/// Why a row cannot be computed; nullopt: it can.
+/// The reason why a row cannot be computed; nullopt: it can be computed.
 std::optional<UsageError> refusal(const FieldRow& row, const Log& log, const Trajectory& path,
                                   const Derivation& derivation) {
     if ((row.needs & needs::sigmas) != 0 && !derivation.estimate)

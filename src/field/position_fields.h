@@ -19,7 +19,7 @@ struct Derivation {
     /// Derivatives by a Kalman smoother, except those of angles and tool axes; nullptr: all by least squares over a
     /// window.
     std::shared_ptr<const MotionEstimate> estimate;
-    /// [s] of another log whose fields are to be compared; 0: none. Windows then extend across standstills: a pause has
+    /// [s] Period of another log whose fields are to be compared; 0: none. Windows then extend across standstills: a pause has
     /// no length, so only its share of the window appears at the adjacent places.
     double coarsest_period = 0;
     double jerk_window = 0;  ///< [s] from its first point to the last one; 0: as in derivative_filter()

@@ -25,8 +25,8 @@ struct CleanScan {
     double scatter = 0;  ///< [mm] standard deviation about the running median, from the median absolute one
 };
 
-/// `points` in ascending x. `threshold`: multiples of the scatter, that of the whole scan or that of the 21 places
-/// around, whichever is greater, so that a tight curve is no outlier; 0: none is rejected. O(points).
+/// `points` in ascending x. `threshold`: multiples of the scatter of the whole scan or of the 21 places around,
+/// whichever is greater, so that a tight curve is not an outlier; 0: no point is rejected. O(points).
 [[nodiscard]] CleanScan clean_scan(std::span<const ScanPoint> points, double threshold);
 
 }  // namespace clsurf

@@ -11,7 +11,7 @@
 namespace clsurf {
 namespace {
 
-/// Tips at equal steps of x, between those of the program.
+/// Tips at equal steps of x, between the tips of the program.
 std::vector<Vec2> resampled(const std::vector<Vec2>& tips, double step) {
     std::vector<Vec2> even;
     const double begin = tips.front().x();
@@ -71,7 +71,7 @@ public:
 
     /// Throws InputError if the pass continues without deviations.
     void check_cover(double from, double to) const {
-        constexpr double share = 0.02;  // of the pass, that may be uncovered at each end
+        constexpr double share = 0.02;  // share of the pass that may be uncovered at each end
         const double most_beyond = share * (to - from);
         if (scan_.x.front() - from > most_beyond || to - scan_.x.back() > most_beyond)
             throw InputError(

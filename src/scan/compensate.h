@@ -36,7 +36,7 @@ struct Compensation {
     std::vector<ScanPoint> target;  ///< the target profile, in ascending x
     CleanScan deviations;
     FitResiduals residuals;  ///< of the accepted deviations
-    double greatest = 0;     ///< [mm] correction, absolute
+    double greatest = 0;     ///< [mm] greatest absolute correction
     double greatest_x = 0;   ///< [mm]
 };
 

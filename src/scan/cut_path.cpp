@@ -10,10 +10,10 @@ namespace {
 
 /// Number of chords that stay within `error` of a piece, and of the path of a ball that follows it.
 std::size_t chords_of(const FitPiece& piece, double radius, double error) {
-    constexpr int looked_at = 8;
+    constexpr int examined = 8;
     double second = 0;
-    for (int k = 0; k <= looked_at; ++k) {
-        const double x = piece.begin + (piece.end - piece.begin) * k / looked_at;
+    for (int k = 0; k <= examined; ++k) {
+        const double x = piece.begin + (piece.end - piece.begin) * k / examined;
         const FitJet jet = piece.jet(x);
         // The path turns like the fit, over a chord that is longer by the factor 1 + radius · curvature.
         const double curvature = std::abs(jet.second) / std::pow(1 + jet.slope * jet.slope, 1.5);
@@ -102,7 +102,7 @@ std::optional<Gouge> CutPath::gouge() const {
 }
 
 std::vector<Vec2> CutPath::points() const {
-    constexpr double share = 0.9;  // of the tolerance; the rest is for chords between samples and rounding
+    constexpr double share = 0.9;  // share of the tolerance; the rest is for chords between samples and rounding
     const double tolerance = share * tolerance_;
     std::vector<Vec2> ends{samples_.front()};
     Sleeve sleeve;
@@ -130,9 +130,9 @@ std::vector<CutSpan> CutPath::spans() const {
         while (from < piece.end) {
             const CutSpan span = span_of(piece, from, to);
             double error = 0;
-            constexpr int looked_at = 16;
-            for (int k = 1; k < looked_at; ++k) {
-                const double t = static_cast<double>(k) / looked_at;
+            constexpr int examined = 16;
+            for (int k = 1; k < examined; ++k) {
+                const double t = static_cast<double>(k) / examined;
                 error = std::max(error, (span.at(t) - place(piece, from + t * (to - from))).norm());
             }
             constexpr double share = 0.5, shortest = 1e-3;  // of the tolerance; mm

@@ -11,8 +11,8 @@ namespace clsurf {
 struct FitResiduals {
     std::vector<double> values;  ///< [mm] by point: measured minus fitted
     double rms = 0;              ///< [mm]
-    double worst = 0;            ///< [mm] the greatest, absolute
-    double worst_x = 0;          ///< [mm] its place
+    double worst = 0;            ///< [mm] greatest absolute residual
+    double worst_x = 0;          ///< [mm] place of that residual
 };
 
 /// Domain: at least one point. O(points).

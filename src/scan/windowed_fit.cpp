@@ -62,7 +62,7 @@ FitPiece blended(const FitPiece& left, const FitPiece& right, double from, doubl
     return piece;
 }
 
-/// The first points of consecutive windows; a last one with too few points is merged into the one before.
+/// The first points of consecutive windows; a last window with too few points is merged into the previous one.
 std::vector<std::size_t> window_starts(std::size_t points, std::size_t window, std::size_t fewest) {
     std::vector<std::size_t> starts{0};
     while (starts.back() + window < points && points - (starts.back() + window) >= fewest)

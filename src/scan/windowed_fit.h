@@ -57,7 +57,7 @@ struct WindowedFit {
 };
 
 /// Domain: x strictly increasing, as many z, at least degree + 1 points, rules as in FitRules. A last window of fewer than
-/// degree + 1 points: with c1 it is merged into the one before; else its polynomial is that of the last `window` points.
+/// degree + 1 points: with c1 it is merged into the previous one; else its polynomial is that of the last `window` points.
 /// O(points degree²).
 [[nodiscard]] WindowedFit fit_windows(std::span<const double> x, std::span<const double> z, const FitRules& rules);
 

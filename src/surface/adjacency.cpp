@@ -15,10 +15,10 @@ namespace {
 using Vec3f = Eigen::Vector3f;
 
 // All in step-overs.
-constexpr float nearest_neighbour = 0.2F;   ///< nearer ones are the same pass cut again
-constexpr float usual_neighbour = 1.6F;     ///< if it is farther, a nearer one may have begun: it is searched for
+constexpr float nearest_neighbour = 0.2F;   ///< nearer neighbours are the same pass cut again
+constexpr float usual_neighbour = 1.6F;     ///< beyond this a nearer neighbour may have begun and is searched for
 constexpr float farthest_neighbour = 4.0F;  ///< on steep flanks passes are this far apart
-constexpr float along_tolerance = 0.35F;    ///< how far a projection may be off along the feed
+constexpr float along_tolerance = 0.35F;    ///< greatest distance of a projection along the feed
 constexpr float steep_share = 0.12F;        ///< squared cosine to the horizontal below which a neighbour is above
 constexpr float direction_chord = 0.75F;    ///< arc length of the chords that give the feed direction
 constexpr double grid_cell = 4.0;
@@ -27,7 +27,7 @@ constexpr double grid_records =
 constexpr float search_again = 0.25F;      ///< arc length without a neighbour after which it is searched again
 constexpr float own_arc_length = 1.7F;     ///< least ratio of arc length to distance of a neighbour
 constexpr float running_along = 0.8660F;   ///< cos 30°
-constexpr PointIndex part_points = 65536;  ///< of a pass, per thread
+constexpr PointIndex part_points = 65536;  ///< points of a pass for each thread
 
 /// A point on another pass that is followed while the own point advances.
 struct Follower {

@@ -22,7 +22,7 @@ struct ClSurface {
     double step_over = 0;  ///< [mm]; 0: a single pass, no neighbours
     /// Cutting points that belong to no finishing pass (surface/finishing.h); in `passes` they count as rapid.
     PointIndex not_finishing = 0;
-    /// Earlier measurements, for a surface of which only parts are read; else empty.
+    /// Earlier measurements, for a surface that is read only in part; else empty.
     std::optional<double> cut_length;                ///< [mm] of all cut passes
     std::vector<bool> low_links;                     ///< by pass: stays_low() (machined/contact_points.h)
     std::vector<Eigen::AlignedBox3f> boxes;          ///< [mm] of the positions shown and measured, by block

@@ -1,6 +1,6 @@
 #pragma once
-// Passes that cannot be adjacent, however near they are: those of two tools (the finishing passes run over the surface of
-// another tool), and those of two runs of a program in one log (of two parts, or of one that was cut twice).
+// Passes that cannot be adjacent, however near they are: passes of two tools (the finishing passes run over the surface of
+// another tool), and passes of two runs of a program in one log (of two parts, or of one part that was cut twice).
 
 #include <cstdint>
 #include <span>

@@ -11,18 +11,18 @@
 namespace clsurf {
 namespace {
 
-constexpr double beside_share = 0.3;      ///< of the shorter pass that is adjacent to the other one
-constexpr std::size_t many_passes = 5;    ///< adjacent to each other: a finished surface of any shape
-constexpr double surface_share = 0.6;     ///< of a smaller group that has a neighbour
+constexpr double beside_share = 0.3;      ///< share of the shorter pass that is adjacent to the other pass
+constexpr std::size_t many_passes = 5;    ///< so many adjacent passes are a finished surface of any shape
+constexpr double surface_share = 0.6;     ///< share of a smaller group that has a neighbour
 constexpr std::size_t fewest_passes = 2;  ///< of a group
 /// Share of the points of a smaller group with a neighbour above or below.
 constexpr double stacked_share = 0.5;
 constexpr float upright = 0.9F;           ///< squared cosine to z of a neighbour above
-constexpr double many_beside = 0.4;       ///< of a group of many passes that has a neighbour
+constexpr double many_beside = 0.4;       ///< share of a group of many passes that has a neighbour
 constexpr float plumb = 0.98F;            ///< squared cosine to z: the turns of a helix, up to 8° steep
-constexpr double plumb_share = 0.9;       ///< of the points of a helix
+constexpr double plumb_share = 0.9;       ///< share of the points of a helix
 constexpr double plunge_diameter = 50;    ///< pitches: a narrower helix leads into the material
-constexpr PointIndex turn_parts = 8;      ///< of a turn, in points; a helix …
+constexpr PointIndex turn_parts = 8;      ///< parts of a turn, in points; a helix …
 constexpr PointIndex climbing_parts = 6;  ///< … climbs in this many of them; levels are joined in a few
 
 /// Disjoint sets of passes.
@@ -42,11 +42,11 @@ private:
 
 /// Statistics of the neighbours of a pass's points.
 struct Beside {
-    PointIndex points = 0;                                ///< with a neighbour
-    PointIndex stacked = 0;                               ///< of these, with one above or below
-    PointIndex plumb = 0;                                 ///< of these, with one vertically above or below
-    PointIndex climbing = 0;                              ///< all of these, if the pass climbs all along
-    double distance = 0;                                  ///< [mm] to vertical neighbours, sum
+    PointIndex points = 0;                                ///< number of points with a neighbour
+    PointIndex stacked = 0;                               ///< points with a neighbour above or below
+    PointIndex plumb = 0;                                 ///< points with a neighbour vertically above or below
+    PointIndex climbing = 0;                              ///< all points of the pass if it climbs all along
+    double distance = 0;                                  ///< [mm] sum of the distances to vertical neighbours
     Eigen::AlignedBox3f box;                              ///< of the points
     std::unordered_map<std::size_t, PointIndex> of_pass;  ///< neighbours by pass
 };
@@ -114,7 +114,7 @@ struct Group {
     std::size_t passes = 0;
     PointIndex points = 0;
     Beside beside;
-    double climb = 0;  ///< [mm] difference in height of each pass, sum
+    double climb = 0;  ///< [mm] sum of the differences in height of all passes
 
     void add(const Pass& pass, const Beside& its) {
         ++passes;

@@ -5,7 +5,7 @@ namespace {
 
 using Vec3f = Eigen::Vector3f;
 
-constexpr float missing_width = 1.7F;  ///< of a gap with a missing pass, in widths of the adjacent ones
+constexpr float missing_width = 1.7F;  ///< width of a gap with a missing pass, in widths of the adjacent gaps
 
 }  // namespace
 

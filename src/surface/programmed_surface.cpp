@@ -12,7 +12,7 @@ namespace {
 
 constexpr double most_programmed_points = 20e6;  ///< longer programs get wider spacing
 constexpr double spacing_of_step_over = 0.5;     ///< largest distance of points, in step-overs
-constexpr int most_closer_looks = 4;
+constexpr int most_iterations = 4;
 
 struct Sampled {
     Positions positions;
@@ -92,7 +92,7 @@ ProgrammedSurface build_programmed_surface(const Program& program) {
     ProgrammedSurface programmed = stitch_sampled(sample(path, spacing), program);
     // Passes and neighbours need points closer than the passes. Points of long motions are so far apart that the
     // first estimate of the step-over can be too large, so each iteration estimates it again.
-    for (int look = 0; look < most_closer_looks && programmed.surface.step_over > 0; ++look) {
+    for (int iteration = 0; iteration < most_iterations && programmed.surface.step_over > 0; ++iteration) {
         const double wanted = std::max(coarsest, spacing_of_step_over * programmed.surface.step_over);
         if (wanted >= 0.9 * spacing) break;
         spacing = wanted;

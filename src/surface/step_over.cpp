@@ -17,7 +17,7 @@ constexpr std::size_t probes_wanted = 384;
 constexpr double arc_length_over_distance = 3.0;
 constexpr double same_place = 1e-3;   ///< [mm]; nearer points are the same pass cut again
 constexpr double finest_cells = 256;  ///< cells along the part's diagonal in the first iteration
-constexpr int coarsest_look = 7;
+constexpr int most_coarsenings = 7;
 constexpr double enough = 0.5;  ///< share of probes that must have found a neighbour
 
 struct Probe {
@@ -113,7 +113,7 @@ double estimate_step_over(const Positions& positions, const Passes& runs, const 
         probes.push_back({path[i].point, path[i].arc_length, path[i].run});
     }
     float cell = diagonal / static_cast<float>(finest_cells);
-    for (int look = 0; look < coarsest_look; ++look, cell *= 2) {
+    for (int iteration = 0; iteration < most_coarsenings; ++iteration, cell *= 2) {
         const ProbeCells cells(positions, probes, cell);
         for (std::size_t k = 1; k < path.size(); ++k) {
             const Eigen::Vector3f here = positions[path[k].point];

@@ -65,7 +65,7 @@ private:
     float step_over_;
 };
 
-/// A loop or a spiral has completed a turn where its neighbour is in the same piece: the piece is cut there, so that
+/// A loop or a spiral has completed a turn at a point whose neighbour is in the same piece: the piece is cut there, so that
 /// every turn is a pass. Adds the moves from loop to loop to `step_over_moves`.
 Passes cut_at_returns(const Passes& passes, const Adjacency& neighbours, const StepOverMoveFinder& finder,
                       std::vector<PointRange>& step_over_moves) {

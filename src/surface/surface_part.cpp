@@ -11,7 +11,7 @@ namespace {
 
 // Bands and seams of triangles depend on the adjacent bands. With two passes each, some triangles at the edge of a part
 // are not those of the whole surface (tests/cli/read_pieces.py).
-constexpr std::size_t passes_along = 8;  ///< before and after the part
+constexpr std::size_t passes_along = 8;  ///< passes before and after the part
 constexpr int passes_aside = 4;
 
 using PassNumbers = std::set<std::size_t>;

@@ -10,7 +10,7 @@ namespace clsurf {
 struct SurfacePart {
     ClSurface surface;               ///< passes that are not consecutive are separated by a point without a position
     Column<PointIndex> points;       ///< of the whole surface, by point, ascending; −1: no position
-    std::vector<PointRange> ranges;  ///< of the whole surface that are in it
+    std::vector<PointRange> ranges;  ///< ranges of the whole surface that are in the part
     PointRange own;                  ///< the points of the part that it was made for
 };
 
