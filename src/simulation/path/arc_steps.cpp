@@ -10,7 +10,7 @@
 namespace clsurf {
 namespace {
 
-constexpr int places = 8;  ///< at which the curvature is evaluated within the time
+constexpr int places = 8;  ///< number of places at which the curvature is evaluated within the time
 
 }  // namespace
 

@@ -4,7 +4,7 @@
 // A line and an arc are tangent, but the curvature jumps where they meet, so the acceleration steps by v²/r. No speed
 // satisfies a jerk limit there. A controller gives one position per period, and a drive spreads a step over its response
 // time. Therefore the limit applies to the mean over a time t: no axis changes its acceleration by more than J t within t,
-// which means v ≤ √(J r t) if the step is along one axis. With t = T the differences of set points satisfy the limit, too:
+// which means v ≤ √(J r t) if the step is along one axis. With t = T the differences of set points also satisfy the limit:
 // a step of J T gives a third difference of at most 3/4 J T³, the peak of the quadratic B-spline. The rest of the limit
 // remains for changes of the speed.
 

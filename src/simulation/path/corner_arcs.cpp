@@ -7,7 +7,7 @@
 namespace clsurf {
 namespace {
 
-constexpr int reached_places = 4;  ///< at which the curvature of an arc is evaluated within the reach of a step
+constexpr int reached_places = 4;  ///< places of an arc within the reach of a step at which the curvature is evaluated
 
 }  // namespace
 
@@ -36,7 +36,7 @@ void CornerArcs::add_block(double end, const Side& at_end) {
 }
 
 /// The speed that the steps of an arc after the held block allow. Steps of previous arcs within the reach add up, and the
-/// previous arc gets the lower speed, too.
+/// previous arc also gets the lower speed.
 CornerArcs::Side CornerArcs::side_of(const TransitionArc& arc, const PathElement& whole, const PathElement& after) {
     const double end = held_.length - arc.arc_length_before;
     Side side;

@@ -41,9 +41,9 @@ private:
     bool holds_ = false;
     PathElement held_;         ///< the last block
     double used_ = 0;          ///< length that the arc at its start replaces [mm]
-    Side begun_;               ///< by that arc
+    Side begun_;               ///< effect of that arc
     double passed_ = 0;        ///< arc length at which the rest of the last block begins [mm]
-    std::deque<Bend> recent_;  ///< close enough to add to a step here
+    std::deque<Bend> recent_;  ///< bends close enough to add to a step here
     std::deque<PathElement> ready_;
 };
 

@@ -13,13 +13,13 @@
 namespace clsurf {
 namespace {
 
-constexpr double curve_share = 0.5;             ///< of the tolerance, for curves
+constexpr double curve_share = 0.5;             ///< share of the tolerance that curves may use
 constexpr double sharp = std::numbers::pi / 4;  ///< [rad] no curve passes a sharper corner
-constexpr std::size_t most_blocks = 1000;       ///< of a run: limits how many blocks must be known
+constexpr std::size_t most_blocks = 1000;       ///< greatest number of blocks of a run; limits how many must be known
 constexpr std::size_t windows[] = {10, 5};      ///< blocks per least-squares cubic, tried in turn
 
 /// Upper bound of the distance between a cubic and the line between two points. Uses the distances of the cubic's ends and
-/// of the inner Bézier control points, of which at most 3/4 is reached; infinite if the cubic does not run along the line.
+/// of the inner Bézier control points, at most 3/4 of which is reached; infinite if the cubic does not run along the line.
 double deviation_from(const CubicSpan& curve, const Vec3& begin, const Vec3& end) {
     const Vec3 along = (end - begin).normalized();
     const Vec3 at_begin = curve.derivative(0), at_end = curve.derivative(curve.chord);

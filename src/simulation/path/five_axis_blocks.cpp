@@ -13,9 +13,9 @@
 namespace clsurf {
 namespace {
 
-constexpr double derating = 0.97;          ///< of the speed that exactly reaches the limit
-constexpr double least_turn_angle = 1e-9;  ///< [rad] a smaller turn is none
-constexpr int places_of_block = 4;         ///< of a block, for a first estimate of its speed
+constexpr double derating = 0.97;          ///< share of the speed that exactly reaches the limit
+constexpr double least_turn_angle = 1e-9;  ///< [rad] a smaller turn counts as none
+constexpr int places_of_block = 4;         ///< number of places of a block for a first estimate of its speed
 std::array<AxisLimits, 5> limits_of(const Machine& machine) {
     std::array<AxisLimits, 5> limits{};
     for (std::size_t k = 0; k < 5; ++k) {

@@ -112,7 +112,7 @@ void FiveAxisPath::set_widths() {
     fit(&Joint::angle_width, 3, 2, of_angles);
 }
 
-/// Widths that satisfy the tolerances where roundings overlap, too: between joints the sum of the deviations is convex, and
+/// Widths that also satisfy the tolerances where roundings overlap: between joints the sum of the deviations is convex, and
 /// at a joint all widths times f make it at most f times as great.
 void FiveAxisPath::fit(double Joint::*width, int first, int count, const std::vector<double>& tolerances) {
     const std::size_t n = joints_.size();

@@ -25,7 +25,7 @@ struct FiveAxisChord {
     double feed = 0;                  ///< of the tip, with the override [mm/s]; infinite for a rapid
     /// Speed of both angles together if only they move [rad/s]; infinite if the feed is that of the tip.
     double turn_speed = infinite_speed;
-    double tolerance = 0;  ///< of the tip at the start of the chord [mm]
+    double tolerance = 0;  ///< tolerance of the tip at the start of the chord [mm]
     bool inside = false;   ///< the chord begins within a curved block
     std::uint32_t block = 0;
     double part_from = 0, part_to = 1;  ///< of the block

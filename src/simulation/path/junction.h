@@ -26,7 +26,7 @@ namespace clsurf {
 /// Arcs replace corners. If an axis has a jerk limit, the machine must also give a time for the steps of its acceleration.
 [[nodiscard]] bool drives_arcs(const Machine& machine);
 
-/// Whether the jerk limit of the path applies on bends, too: no axis has a jerk limit, and corners are not replaced by
+/// Whether the jerk limit of the path also applies on bends: no axis has a jerk limit, and corners are not replaced by
 /// arcs, at whose ends no jerk limit can be satisfied.
 [[nodiscard]] bool limits_jerk_in_bends(const Machine& machine);
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
 constexpr double same_angle = 1e-9;  ///< a smaller angle is rounding and means a full circle
-constexpr int turning_places = 8;    ///< at which the direction of a cubic is evaluated
+constexpr int turning_places = 8;    ///< number of places at which the direction of a cubic is evaluated
 
 /// Derivatives of a curve by arc length, from its derivatives by a parameter u.
 PathDerivatives by_the_way(const Vec3& r1, const Vec3& r2, const Vec3& r3) {

@@ -38,13 +38,13 @@ struct PathElement {
 
     // Data of the block that the element belongs to.
     double feed = 0;               ///< programmed speed [mm/s]; infinite for a rapid
-    double tolerance = 0;          ///< for rounding its ends [mm]; 0: exact path
-    double merging_tolerance = 0;  ///< for merging lines before that [mm]
+    double tolerance = 0;          ///< tolerance for rounding its ends [mm]; 0: exact path
+    double merging_tolerance = 0;  ///< tolerance for merging lines before that [mm]
     bool stops = false;            ///< comes to rest at its end (exact stop)
     LineNumber line = 0;
     std::int64_t block = 0;                                           ///< number among the blocks with a length
     double block_length = 0;                                          ///< [mm]
-    double deviation = 0;                                             ///< of the element from the block, at most [mm]
+    double deviation = 0;                                             ///< greatest deviation from the block [mm]
     double greatest_speed = std::numeric_limits<double>::infinity();  ///< speed limit from its shape [mm/s]
     double jerk_share = 1;    ///< share of the axes' jerk limits that changes of speed may use
     bool corner_arc = false;  ///< replaces a corner

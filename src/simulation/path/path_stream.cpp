@@ -10,8 +10,8 @@
 namespace clsurf {
 namespace {
 
-constexpr double share_of_bends = 0.25;  ///< of the tolerance, for jumps of curvature, if the path has arcs
-constexpr double top_share = 0.25;       ///< of a rounding's width, if only the path limits the jerk
+constexpr double share_of_bends = 0.25;  ///< share of the tolerance for jumps of curvature if the path has arcs
+constexpr double top_share = 0.25;       ///< share of a rounding's width if only the path limits the jerk
 
 }  // namespace
 

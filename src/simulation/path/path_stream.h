@@ -104,7 +104,7 @@ public:
     /// Goes to the next section, between two exact stops. False: the program has ended.
     /// Throws InputError (feed 0, rotary axes).
     bool begin_section();
-    /// The next span of the section, valid until the next call; nullptr: there is no more.
+    /// The next span of the section, valid until the next call; nullptr: there are no more spans.
     [[nodiscard]] const Span* next();
     /// The blocks of the program. The data at the end of the section are valid after next() has returned false.
     [[nodiscard]] const BlockStream& blocks() const { return blocks_; }
@@ -142,7 +142,7 @@ private:
     }
 
     const Machine* machine_;
-    double bend_share_ = 0;  ///< of the tolerance, for jumps of curvature
+    double bend_share_ = 0;  ///< share of the tolerance for jumps of curvature
     double top_ = 0;         ///< β: half-width of the top of the trapezoid, as a share of w
     BlockStream blocks_;
     std::unique_ptr<BlockMerging> merged_;

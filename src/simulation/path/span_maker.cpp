@@ -14,19 +14,18 @@ namespace clsurf {
 namespace {
 
 constexpr double least_span = 1e-9;         ///< [mm] closer cuts are merged
-constexpr double most_turn_of_span = 0.75;  ///< [rad] of a curve in one span: limits of axes vary with the direction
+constexpr double most_turn_of_span = 0.75;  ///< [rad] greatest turn of a span: limits of axes vary with the direction
 constexpr double gentle_turn = 0.1;         ///< [rad] a span of a spline that turns less is not divided further …
 constexpr double most_bend_ratio = 1.5;     ///< … nor one with a smaller ratio of greatest to least curvature
-constexpr int most_spline_halvings = 10;    ///< of a span of a spline
-constexpr int checked_points = 5;           ///< of a span whose greatest values need not be at its ends
+constexpr int most_spline_halvings = 10;    ///< number of times that a span of a spline is halved
+constexpr int checked_points = 5;           ///< points of a span whose greatest values need not be at its ends
 constexpr double most_turn_of_step = 0.75;  ///< [rad] of the path between checked points, where it nearly reverses
-constexpr double reversal_share =
-    1e-12;  ///< of the distance to a place where a path nearly reverses: the accuracy of that distance
+constexpr double reversal_share = 1e-12;  ///< relative accuracy of the distance to a place where a path nearly reverses
 // Distances of cuts to both sides of that place: the first in lengths over which the path turns by 1 rad, then as a factor
 // of the last.
 constexpr double first_distance = 2, distance_growth = 4;
 constexpr double least_pace = 0.1;   ///< share of the shortest checked p′, used if there is no bound
-constexpr double nearly = 1 - 1e-9;  ///< of a limit, to allow for rounding
+constexpr double nearly = 1 - 1e-9;  ///< share of a limit, to allow for rounding
 
 /// Adds factor · (a + b τ)(c + e τ)³ to a polynomial in τ.
 void add_product(std::array<Vec3, 5>& sum, const Vec3& factor, double a, double b, double c, double e) {
@@ -142,7 +141,7 @@ void bound_curve(Span& span) {
     }
     span.fourth = 24 * span.rounding[4].norm() + (span.base.arc ? span.base.radius * std::pow(span.base.rate, 4) : 0.0);
     if (span.base.cubic || span.base.spline) {
-        // As a function of arc length a cubic is no polynomial: differences replace the derivatives, and are doubled for
+        // As a function of arc length a cubic is not a polynomial: differences replace the derivatives, and are doubled for
         // safety.
         Vec3 margin = Vec3::Zero();
         for (std::size_t k = 1; k < thirds.size(); ++k) {

@@ -7,8 +7,8 @@
 namespace clsurf {
 namespace {
 
-constexpr double least_angle = 1e-9;  ///< [rad] a smaller turn of the axis is none
-constexpr double opposite = 1e-6;     ///< [rad] from half a turn: the plane is not defined
+constexpr double least_angle = 1e-9;  ///< [rad] a smaller turn of the axis counts as none
+constexpr double opposite = 1e-6;     ///< [rad] this close to half a turn the plane is not defined
 constexpr int judged_places = 200;    ///< of a passage over the other branch
 
 /// Rotation along a great circle whose least distance from the pole is `tilt`, counted from the nearest point.

@@ -14,7 +14,7 @@ namespace {
 constexpr double collinear = 0.01 * rad_per_deg;
 constexpr double reversal = 179.0 * rad_per_deg;
 constexpr double least_arc_length = 1e-7;  ///< [mm] a shorter tangent is rounding
-constexpr double plane_tolerance = 1e-9;   ///< of the chord: greatest distance from the plane of the tangents
+constexpr double plane_tolerance = 1e-9;   ///< greatest distance from the plane of the tangents, relative to the chord
 constexpr double most_of_turn = 0.9;       ///< share of a block's turn until the arc would be a half circle
 
 /// The root of f between 0, where f is negative, and `high`, where it is not.

@@ -30,7 +30,7 @@ struct TransitionArc {
     double deflection = 0;  ///< at the corner [rad]
     ArcLimit limited = ArcLimit::error;
     double arc_length_before = 0,
-           arc_length_after = 0;   ///< of the blocks that it replaces, from the corner [mm]
+           arc_length_after = 0;   ///< lengths of the blocks that it replaces, from the corner [mm]
     double radius = 0, error = 0;  ///< r; distance of the corner from the arc [mm]
     double sweep = 0;              ///< angle between its tangents [rad]
     Vec3 begin = Vec3::Zero(), middle = Vec3::Zero(), end = Vec3::Zero(), centre = Vec3::Zero();

@@ -9,12 +9,12 @@ namespace clsurf {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double no_angle = 1e-6;             ///< [rad] a smaller angle of a corner or an arc is none
+constexpr double no_angle = 1e-6;             ///< [rad] a smaller angle of a corner or an arc counts as none
 constexpr double least_arc = 1e-6;            ///< [mm]
 constexpr double least_radius = 1e-12;        ///< [mm]
 constexpr double sharpest_of_arcs = pi / 12;  ///< smallest half angle of a corner between two arcs [rad]
-constexpr double tangent_share = 0.25;        ///< of the normal acceleration, for direction errors of a blend
-constexpr double tolerance_share = 0.25;  ///< of a block's length: the deviation of a parabola over half of the block
+constexpr double tangent_share = 0.25;        ///< share of the normal acceleration for direction errors of a blend
+constexpr double tolerance_share = 0.25;      ///< deviation of a parabola over half of a block, relative to the block
 
 /// One of the two blocks of a corner.
 struct Side {

@@ -12,7 +12,7 @@ namespace clsurf {
 struct BlendCorner {
     double half_angle = 0;                 ///< half_corner_angle() [rad]
     double tolerance = 0;                  ///< greatest distance of the arc from the corner [mm]
-    double length_in = 0, length_out = 0;  ///< that the arc may replace of the blocks [mm]
+    double length_in = 0, length_out = 0;  ///< lengths of the blocks that the arc may replace [mm]
     double acceleration = 0;               ///< limit in the plane of the corner, in any direction [mm/s²]
     double normal_acceleration = 0;        ///< [mm/s²]
     double speed = 0;                      ///< highest speed that the blocks can reach [mm/s]

@@ -8,10 +8,10 @@ namespace clsurf {
 namespace {
 
 constexpr double near_limit = 0.95;  ///< share from which a maximum is refined
-constexpr int peak_halvings = 3;     ///< of the two intervals next to a local maximum of the share
-constexpr int dip_halvings = 24;     ///< to find the minimum of the pace
+constexpr int peak_halvings = 3;     ///< halvings of the two intervals next to a local maximum of the share
+constexpr int dip_halvings = 24;     ///< halvings to find the minimum of the pace
 constexpr double dip_step = 0.125;   ///< distance of places, as a share of the width of the dip
-constexpr int dip_places = 16;       ///< on each side of the minimum
+constexpr int dip_places = 16;       ///< places on each side of the minimum
 
 }  // namespace
 

@@ -6,7 +6,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double share_of_bend = 0.5;  ///< of the axis jerk that remains on a bend: for tangential acceleration there
+constexpr double share_of_bend = 0.5;  ///< share of the axis jerk left on a bend, for tangential acceleration there
 // Shares of the tangential limits: large for long ramps on bends, small where speeds are nearly constant.
 struct LeastLeft {
     double acceleration, jerk;

@@ -9,7 +9,7 @@ namespace clsurf {
 namespace {
 
 constexpr double steady_share = 0.8;  ///< greatest share of the limits that bends alone may use
-constexpr double turn_in_ramp = 0.1;  ///< of ramp(): least time of the first speeds for a distance of two radii
+constexpr double turn_in_ramp = 0.1;  ///< share of ramp(): least time of the first speeds for a distance of two radii
 
 /// The speed of u at which the steps of a period stay within the chord error. Between two places at the distance h a curve
 /// is at most h²/8 of the second derivative from its chord. If the tip nearly reverses, the radius is almost 0 over a

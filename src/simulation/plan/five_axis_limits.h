@@ -14,8 +14,7 @@ namespace clsurf {
 /// The limits at a place.
 struct LimitPlace {
     double u = 0;
-    double free_cap = infinite, cap = infinite;  ///< of u's speed: without bends; with bends, for the first speeds
-                                                 ///< speeds
+    double free_cap = infinite, cap = infinite;  ///< limits of u's speed: without bends; with them, for first speeds
     double acceleration = 0, jerk = 0;           ///< of u, as on a straight path with the same slopes
     double square = 0;                           ///< first value of v²
     LimitingFactor why = LimitingFactor::none;

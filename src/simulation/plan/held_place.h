@@ -13,7 +13,7 @@ struct BendSpeed {
 };
 
 struct HeldPlace {
-    PathSample sample;  ///< its `at` is counted from the start of the part; its cap is that of the bend
+    PathSample sample;  ///< its `at` is counted from the start of the part; its cap is the limit of the bend
     BendSpeed bend;
 };
 

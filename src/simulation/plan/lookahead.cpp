@@ -178,7 +178,7 @@ void WindowPlanner::cut(std::span<const Span> spans, std::span<const std::size_t
     for (std::size_t n = 0; n <= nodes.size(); ++n) {
         const std::size_t last = n < nodes.size() ? nodes[n] : spans.size();
         while (begin < last) {
-            // A corner that is not rounded is a node, too. So is the end of a section next to an arc's step: its limits
+            // A corner that is not rounded is also a node. So is the end of a section next to an arc's step: its limits
             // would slow the rest.
             const auto joins = [&](std::size_t span) {
                 return spans[span].begin_cap >= std::min(spans[span - 1].cap, spans[span].cap) &&

@@ -53,7 +53,7 @@ private:
     struct Verdict {
         double worst = 0;      ///< greatest share of a limit; 1: exactly at the limit
         bool at_cap = false;   ///< the limit is exceeded by the speed alone, without acceleration
-        std::size_t span = 0;  ///< where the worst share is
+        std::size_t span = 0;  ///< number of the span with the worst share
     };
     [[nodiscard]] bool plan_with(std::size_t derating, std::span<const Span> spans, double start_speed,
                                  std::span<const std::size_t> nodes);

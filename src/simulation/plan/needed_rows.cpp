@@ -18,7 +18,7 @@ constexpr double lowering = 0.998;                 ///< additional factor for a 
 // acceleration.
 constexpr double near_limit = 0.6;
 constexpr double faster = 1.1, steeper = 0.15;
-constexpr double path_likely = 0.85;  ///< of the jerk along the path; the rest is for its rounding
+constexpr double path_likely = 0.85;  ///< share of the jerk along the path; the rest is for its rounding
 
 using Three = std::array<double, 3>;
 
@@ -155,7 +155,7 @@ struct AxisSpeedProblem<Axes>::SampleMotion {
     }
 };
 
-/// The limits of which more than a share is used at a sample of a cell, as bits of HeldSample::needed.
+/// The limits that are used by more than a share at a sample of a cell, as bits of HeldSample::needed.
 template <int Axes>
 std::uint16_t AxisSpeedProblem<Axes>::broken_at(const Sample& sample, const AtBegin& at, double part) const {
     const SampleMotion motion(sample, at);
@@ -223,7 +223,7 @@ void AxisSpeedProblem<Axes>::scale(double factor) {
     limiting_.assign(cells_.size(), Row::axis_jerk);
 }
 
-/// Marks rows for limits of which more than a share is used and which have none. False: there are none.
+/// Marks rows for limits that have no rows and are used by more than a share. False: there are none.
 template <int Axes>
 bool AxisSpeedProblem<Axes>::need_broken_rows(double part) {
     for (std::size_t i = 0; i < cells_.size(); ++i) {

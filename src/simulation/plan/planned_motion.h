@@ -32,7 +32,6 @@ struct CellPart {
     const Span* span = nullptr;
     double from = 0, length = 0;  ///< on the span [mm]
     int pieces = 0;               ///< number of equal pieces with checked ends; 0: the part is straight
-                                  ///< straight
 };
 
 /// Receives a plan, element by element.

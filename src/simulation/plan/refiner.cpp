@@ -10,17 +10,17 @@ namespace clsurf {
 namespace {
 
 constexpr std::size_t most_cells_of_window = 350;
-constexpr double run_share = 0.85;          ///< of a window that is run before it is planned again
-constexpr double rest_share = 0.35;         ///< of the jerk phase next to a rest: v² is no quadratic there
+constexpr double run_share = 0.85;          ///< share of a window that is run before it is planned again
+constexpr double rest_share = 0.35;         ///< share of the jerk phase next to a rest, where v² is not a quadratic
 constexpr double growth = 0.15;             ///< longest cell, as a share of the time from or to a rest
-constexpr double cells_a_ramp = 14;         ///< in the time in which the jerk limit reaches the greatest acceleration
+constexpr double cells_a_ramp = 14;         ///< cells in the shortest time to the greatest acceleration
 constexpr double most_change = 0.05;        ///< share by which the jerk may change the speed in a cell
 constexpr double most_turn_of_cell = 0.05;  ///< [rad] of the path in a cell
 constexpr double approach = 0.5;            ///< share of the distance over which the pace would fall to 0
 constexpr double turn_share = 0.7;          ///< share of that turn after which a cell ends
-// Short spans share a cell until it has the least duration; samples keep the limits of each span. This duration is a part
-// of the ramp time, too, since the speed hardly changes in less. Where a straight section meets a curved one, limits change:
-// a shorter cell ends there, too.
+// Short spans share a cell until it has the least duration; samples keep the limits of each span. This duration is also a
+// part of the ramp time, since the speed hardly changes in less. Where a straight section meets a curved one, limits change:
+// a cell of less than this duration ends there.
 constexpr double least_cells_a_ramp = 28, least_periods = 0.4, most_periods = 3, least_at_bend = 0.3;
 // The places at which a part of a span is checked, by its duration in periods: two, three, five, nine.
 constexpr double briefest = 0.5, brief = 1, middling = 2.5;

@@ -42,8 +42,8 @@ private:
     };
     struct Cell {
         double length = 0, turning = 0;  ///< [mm, rad]
-        std::size_t parts = 0;           ///< how many
-        std::int64_t run = 0;            ///< on which it begins
+        std::size_t parts = 0;           ///< number of parts
+        std::int64_t run = 0;            ///< number of the run on which it begins
         std::int64_t block = 0;
         LimitingFactor at_cap = LimitingFactor::feed, in_bend = LimitingFactor::axis_acceleration;
         bool rounded = false;  ///< it contains a corner rounding
@@ -78,7 +78,7 @@ private:
     const Machine* machine_;
     MotionSink* sink_;
     std::int64_t blocks_;
-    double knot_time_, least_time_;  ///< [s] of cells: the longest, and the shortest if spans are shorter
+    double knot_time_, least_time_;  ///< [s] duration of cells: the longest, and the shortest if spans are shorter
 
     std::deque<KeptRun> runs_;
     std::int64_t first_run_ = 0;

@@ -12,10 +12,10 @@ namespace {
 constexpr double rest_part = 0.25;     ///< share of the jerk phase next to a rest that has constant jerk
 constexpr double rest_jerk = 0.95;     ///< share of the jerk that the axes allow at the rest
 constexpr double rest_held = 0.9;      ///< share of that jerk that is required; a shorter piece is tried for it
-constexpr double settled_share = 0.7;  ///< of the speed limit of a following bend that the piece may lead to
-constexpr std::array<double, 2> settling_jerks{1, 0.5};  ///< of the jerk from the rest, tried in turn
+constexpr double settled_share = 0.7;  ///< share of the speed limit of a following bend to which the piece may lead
+constexpr std::array<double, 2> settling_jerks{1, 0.5};  ///< shares of the jerk from the rest, tried in turn
 constexpr std::size_t settling_samples = 12, piece_samples = 4;
-constexpr double least_rest_piece = 0.01;  ///< of the time of a piece without joints
+constexpr double least_rest_piece = 0.01;  ///< share of the time of a piece without joints
 
 }  // namespace
 

@@ -13,12 +13,12 @@ constexpr double periods_a_cell = 0.5;  ///< periods per cell on a bent span, at
 constexpr int most_cells_of_span = 16;
 // Between two places at the distance Δ an acceleration x′ a + x″ v² differs from linear interpolation by at most Δ²/8 of
 // its second derivative, 5 x‴ a + x⁗ v². This margin is left at the places, and their distance is chosen accordingly:
-constexpr double left_over = 0.005;         ///< of an acceleration, for the margin
-constexpr double least_acceleration = 0.5;  ///< of an acceleration that remains in any case
-constexpr double most_turn = 0.1;           ///< [rad] of the path between two places
-constexpr int most_parts = 8;               ///< of a cell, between its places
+constexpr double left_over = 0.005;         ///< share of an acceleration for the margin
+constexpr double least_acceleration = 0.5;  ///< share of an acceleration that remains in any case
+constexpr double most_turn = 0.1;           ///< [rad] greatest turn of the path between two places
+constexpr int most_parts = 8;               ///< parts of a cell between its places
 constexpr double share_held = 1 + 1e-9;     ///< share of an acceleration that counts as kept halfway between two places
-constexpr int most_scan_looks = 8;          ///< for those that exceed it
+constexpr int most_iterations = 8;          ///< plans after which limits are added for accelerations that exceed it
 
 }  // namespace
 
@@ -37,8 +37,8 @@ Vec3 ScanDriver::curving(const Span& span) const {
     return (5 * machine_->path.max_acceleration * span.third).array() + fastest * fastest * span.fourth;
 }
 
-/// Whether no limit of an axis or the path is reached on a span while the tangential acceleration stays within that of a
-/// straight path.
+/// Whether no limit of an axis or the path is reached on a span while the tangential acceleration stays within the limit
+/// for a straight path.
 bool ScanDriver::gentle(const Span& span) const {
     if (span.straight()) return true;
     if (span.cap < span.free_cap) return false;
@@ -175,7 +175,7 @@ bool ScanDriver::limit_between() {
 
 /// An exchange method (Hettich and Kortanek 1993): limits are added until the plan exceeds none.
 void ScanDriver::plan(double speed) {
-    for (int look = 0; look < most_scan_looks; ++look) {
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
         scan_.plan(speed);
         if (!limit_between()) return;
     }

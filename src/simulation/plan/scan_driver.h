@@ -51,7 +51,7 @@ private:
     PathStream* stream_;
     MotionSink* sink_;
     std::deque<Span> spans_;   ///< of the window
-    std::vector<Cell> cells_;  ///< those of scan_
+    std::vector<Cell> cells_;  ///< cells of scan_
     SpeedScan scan_;
     // Scratch: the places of a cell from start to end, and its motions.
     std::vector<PathDerivatives> places_;

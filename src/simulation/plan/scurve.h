@@ -71,7 +71,7 @@ private:
 struct PlannedProfile {
     ProfileStatus status = ProfileStatus::ok;
     SCurve profile;                ///< empty when infeasible
-    double needed_arc_length = 0;  ///< of the ramp between start and end speed [mm]
+    double needed_arc_length = 0;  ///< length of the ramp between start and end speed [mm]
     double allowed_start = 0;      ///< infeasible_decel: the greatest feasible start speed [mm/s]
 };
 

@@ -124,7 +124,7 @@ void SegmentQueue::blend(BlendSegment& after) {
     if (before.progress > 0.5 * before.length || join(before, after) == Junction::settled) return;
     if (before.end != SegmentEnd::parabolic) return;
     const std::optional<BlendedCorner> arc = blend_corner(before, after, *machine_);
-    // Both blocks of an overlap have only half of the acceleration, which slows the adjacent corners, too.
+    // Both blocks of an overlap have only half of the acceleration, which also slows the adjacent corners.
     const double overlap = 0.5 * overlap_speeds(before, after, greatest_speed(before), greatest_speed(after)).along;
     const double tangent = before.junction_speed;
     const double of_arc = arc ? arc->arc.max_speed : 0;

@@ -51,7 +51,7 @@ private:
     const Machine* machine_;
     double period_;
     Vec3 position_;
-    double overlap_speed_ = 0;  ///< of the next segment while it overlaps the present one [mm/s]
+    double overlap_speed_ = 0;  ///< speed of the next segment while it overlaps the present one [mm/s]
 };
 
 }  // namespace clsurf

@@ -8,19 +8,19 @@ namespace clsurf {
 namespace {
 
 constexpr int most_steps = 90;
-constexpr double end_gap = 4e-3;         ///< of the time: distance from the optimum at which the iteration stops
+constexpr double end_gap = 4e-3;         ///< distance from the optimum, relative to the time, that ends the iteration
 constexpr double boundary_share = 0.97;  ///< share of a step to the bound that is taken
 // Convergence is best if the slacks say that the start is far from every limit.
 constexpr double first_slack = 1.0;  ///< least slack, as a share of the bound
-constexpr double first_gap = 1.0;    ///< of the time
-constexpr double diverged = 1e3;     ///< of the time: a larger gap means that there is no solution
+constexpr double first_gap = 1.0;    ///< share of the time
+constexpr double diverged = 1e3;     ///< share of the time: a larger gap means that there is no solution
 constexpr double mended = 1e-4;      ///< greatest violation, as a share of a bound
 constexpr double held = 1 + 3e-4;    ///< share of a limit that counts as kept
 constexpr int most_rounds = 6;       ///< each adds rows for limits that the last solution exceeds
-constexpr int most_looks = 8;        ///< for places between samples at which a solution exceeds a limit
+constexpr int most_looks = 8;        ///< searches for places between samples at which a solution exceeds a limit
 // Rows are also added during the iteration: at a first gap, then whenever the gap has shrunk by a factor, until it is
 // small.
-constexpr double early_gap = 0.3, look_step = 0.7, last_look = 0.005;  ///< of the time; of the gap; of the time
+constexpr double early_gap = 0.3, look_step = 0.7, last_look = 0.005;  ///< shares of the time, the gap, the time
 constexpr double nearly_held = 0.8;   ///< share of a limit from which a row is added there
 constexpr double later_slack = 0.05;  ///< slack of an added row, as a share of its bound
 

@@ -121,7 +121,7 @@ private:
         // Rows found to be needed: acceleration at the end; jerk at start, middle and end.
         bool acceleration = false;
         std::array<bool, 3> jerk{};
-        double jerk_share = 1;  ///< of the jerk limit along the path, lowered if it is exceeded between rows
+        double jerk_share = 1;  ///< share of the jerk limit along the path, lowered if it is exceeded between rows
         bool changed = false;   ///< rows have become needed since the rows were made
     };
     struct HeldSample {

@@ -19,10 +19,10 @@
 namespace clsurf {
 namespace {
 
-constexpr int places_of_spline = 32;  ///< of a span, at which its curvature is evaluated
+constexpr int places_of_spline = 32;  ///< places of a span at which its curvature is evaluated
 constexpr double chords_off = 0.03;   ///< greatest deviation of the chords of a curved block, as a share of a tolerance
 constexpr int most_chords = 4096;     ///< of a block
-constexpr int judged_parts = 8;       ///< of a block, to check whether its angles are proportional to arc length
+constexpr int judged_parts = 8;       ///< parts of a block, to check whether angles are proportional to arc length
 
 class FiveAxisRun {
 public:

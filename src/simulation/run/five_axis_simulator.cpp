@@ -19,11 +19,11 @@ namespace {
 
 constexpr int most_slower_rounds = 32;
 constexpr int half_width = 8;             ///< of the smoothing of angles [periods]
-constexpr int carry_periods = 16;         ///< over which angles catch up after a rounded corner skipped a part of them
-constexpr int patient_rounds = 8;         ///< before the jerk limit of the tip is lowered
+constexpr int carry_periods = 16;         ///< periods over which angles catch up after a rounded corner skipped some
+constexpr int patient_rounds = 8;         ///< number of rounds before the jerk limit of the tip is lowered
 constexpr double most_lowering = 0.97;    ///< least factor of that limit in a round
 constexpr double nearly_greatest = 0.95;  ///< a rate that counts as the greatest
-/// Takes the samples of the tip and makes those of the axes.
+/// Makes the samples of the axes from the samples of the tip.
 class FiveAxisRecorder {
 public:
     FiveAxisRecorder(const FiveAxisBlocks& blocks, const Program& program, const Machine& machine,
@@ -213,7 +213,7 @@ private:
     FiveAxisLog log_;
 };
 
-/// The machine for which the arc length of the tip is planned; its axes may have any orientation to those of the workpiece.
+/// The machine for which the arc length of the tip is planned; its axes may have any orientation to the workpiece.
 Machine machine_of_tip(const Machine& machine) {
     Machine tip = machine;
     MachineAxis least = machine.axes[0];

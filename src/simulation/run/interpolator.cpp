@@ -6,7 +6,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double same_instant = 1e-6;  ///< of a period: a stop that is less than this after a sample coincides with it
+constexpr double same_instant = 1e-6;  ///< share of a period: a stop less than this after a sample coincides with it
 
 LimitingFactor limiting_of(const ProfileSegment& section, const Span& span, int phase) {
     if (phase == 3) return span.limiting;

@@ -12,7 +12,7 @@ namespace clsurf {
 namespace {
 
 /// Arcs in corners are for drives that tolerate steps of the curvature. Where an arc meets the rounding of another corner,
-/// the tangential acceleration steps, too.
+/// the tangential acceleration also steps.
 bool limits_tangential_jerk(const Machine& machine) {
     const bool arcs = drives_arcs(machine) && only_path_jerk(machine);
     return machine.controller.planner == PlannerKind::time_optimal && !arcs;

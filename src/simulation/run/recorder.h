@@ -31,7 +31,7 @@ public:
     SimulationSummary finish();
 
 private:
-    static constexpr std::size_t points_at_once = 1024;  ///< so that they fit into the cache of a core
+    static constexpr std::size_t points_at_once = 1024;  ///< a number of points that fits into the cache of a core
 
     void flush();
     void follow();

@@ -27,7 +27,7 @@ struct SimulationSummary {
     double max_speed = 0;                    ///< of the path [mm/s]
     double max_tangential_acceleration = 0;  ///< change of the path speed in a period [mm/s²]
     double max_tangential_jerk = 0;          ///< change of that acceleration in a period [mm/s³]
-    double max_normal_acceleration = 0;      ///< that differences establish (path_limits.h) [mm/s²]
+    double max_normal_acceleration = 0;      ///< greatest that differences establish (path_limits.h) [mm/s²]
     Vec3 max_axis_speed = Vec3::Zero(), max_acceleration = Vec3::Zero(), max_jerk = Vec3::Zero();
     double path_deviation = 0;  ///< greatest deviation of a point from the path by rounding [mm]
     /// No limit of an axis or of the path (excess_of_path()) is exceeded by more than limit_tolerance. If corners are not
