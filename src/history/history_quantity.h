@@ -25,7 +25,7 @@ struct HistoryQuantity {
     std::string_view unit;   ///< "µm"; empty: none
     /// For a whole run that did not fail; NaN: unknown.
     double (*of_run)(const RunRecord& run);
-    double least_deviation;  ///< a deviation from the median of 3.5 times this may be worth a look
+    double least_deviation;  ///< a deviation from the median by 3.5 times this may be significant
     /// For some of its defects, possibly none; nullptr: the quantity exists for whole runs only.
     double (*of_defects)(std::span<const RecordedDefect> defects);
 };

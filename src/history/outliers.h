@@ -16,15 +16,15 @@ namespace clsurf {
 struct RunOutlier {
     std::size_t run = 0;  ///< index among the given runs
     const HistoryQuantity* quantity = nullptr;
-    double value = 0, usual = 0;  ///< of the run, and the median of all runs of the program
+    double value = 0, usual = 0;  ///< value of the run, and median of all runs of the program
     double z = 0;                 ///< modified z-score
 };
 
 constexpr double outlier_score = 3.5;
-constexpr std::size_t least_runs_for_outliers = 5;  ///< of a program; fewer are not informative
+constexpr std::size_t least_runs_for_outliers = 5;  ///< runs of a program; fewer are not informative
 
 /// The modified z-score of each value; empty: all values are equal, or there are none. NaN stays NaN.
-/// `least_deviation`: lower bound of the standard deviation, so that rounding is no outlier. O(n).
+/// `least_deviation`: lower bound of the standard deviation, so that rounding does not make an outlier. O(n).
 [[nodiscard]] std::vector<double> modified_z_scores(std::span<const double> values, double least_deviation = 0);
 
 /// Largest z-score first. Judged runs only. O(runs · quantities).

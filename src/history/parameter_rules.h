@@ -17,8 +17,8 @@ struct ParameterRule {
     std::string name;
     ParameterKind kind = ParameterKind::text;
     std::string unit = {};                 ///< of a number, "mm"; empty: none
-    std::optional<double> low, high;       ///< of a number, inclusive
-    std::vector<std::string> values = {};  ///< of a text: all allowed values; empty: any
+    std::optional<double> low, high;       ///< bounds of a number, inclusive
+    std::vector<std::string> values = {};  ///< allowed values of a text; empty: any value
     bool required = false;
     friend bool operator==(const ParameterRule&, const ParameterRule&) = default;
 };
@@ -27,8 +27,8 @@ struct ParameterRules {
     std::vector<ParameterRule> rules;  ///< empty: any parameter is allowed
 
     /// The parameters as they are stored: numbers without units. Throws UsageError: an unknown or invalid name, a
-    /// value of another kind, out of its range or in another unit, a missing required one. With `all` false others may
-    /// follow: a missing one is no error.
+    /// value of another kind, out of its range or in another unit, a missing required parameter. With `all` false more
+    /// parameters may follow, so a missing one is no error.
     [[nodiscard]] std::vector<RunParameter> checked(std::vector<RunParameter> parameters, bool all = true) const;
     /// Numbers with their unit, in input form: "0.05 mm". Domain: checked parameters.
     [[nodiscard]] std::vector<RunParameter> with_units(std::vector<RunParameter> parameters) const;

@@ -23,8 +23,8 @@ struct RunComparison {
 /// Both with their defects.
 [[nodiscard]] RunComparison compare_runs(const RunRecord& reference, const RunRecord& run);
 
-/// The judged run of that program with the lowest worst score, excluding `except`; among equals that with the shallower
-/// deepest defect, then the earlier one. nullptr if there is none.
+/// The judged run of that program with the lowest worst score, excluding `except`; among equals the one whose deepest
+/// defect is shallower, then the earlier one. nullptr if there is none.
 [[nodiscard]] const RunRecord* best_run(std::span<const RunRecord> runs, const RunRecord& except);
 
 }  // namespace clsurf

@@ -59,7 +59,7 @@ struct RunRecord {
     std::string tool;      ///< "ball:6"; empty: unknown
     std::string version;   ///< of clsurf
     std::string settings;  ///< the options of `check`, as words of a command line
-    std::string failure;   ///< the reason if it could not be judged at all; empty: it could
+    std::string failure;   ///< reason why the run could not be judged at all; empty: it did not fail
     double duration_s = std::numeric_limits<double>::quiet_NaN();
     std::int64_t points = 0, passes = 0;  ///< of cut passes
     bool judged = false;
@@ -77,7 +77,7 @@ struct RunRecord {
     std::vector<RunParameter> parameters;  ///< in the order of their names, each name once
     std::vector<RecordedDefect> found;  ///< the defects themselves, worst first; a history reads them only on request
 
-    /// Nothing was measured: its counts and its worst values are not 0 but unknown.
+    /// Whether nothing was measured: the counts and worst values of the run are then not 0 but unknown.
     [[nodiscard]] bool failed() const { return !failure.empty(); }
     /// The value of a parameter; nullptr if the run has none of that name.
     [[nodiscard]] const std::string* parameter(std::string_view name) const;
@@ -88,7 +88,7 @@ struct RunRecord {
 [[nodiscard]] std::string identity_text(const RunRecord& run);
 
 /// Whether a judged run replaces a failed one: the same program and log (by name if the failed one could not be read), and at
-/// least its parameters, because those of a log are unknown before it is read.
+/// least its parameters, because the parameters of a log are unknown before it is read.
 [[nodiscard]] bool supersedes(const RunRecord& judged, const RunRecord& failed);
 
 /// Sorts parameters by name. Throws UsageError for a name that is given twice.

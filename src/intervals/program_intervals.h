@@ -15,8 +15,8 @@ struct ProgramInterval {
     double length = 0;                                  ///< [mm]
     double mean_curvature = 0, greatest_curvature = 0;  ///< [1/mm]
     double feed = 0;                                    ///< [mm/s] lowest programmed feed
-    double own_speed = 0;                               ///< [mm/s] that feed, curvature and machine allow
-    double speed = 0;  ///< [mm/s] planned, with short intervals and neighbours considered
+    double own_speed = 0;  ///< [mm/s] greatest speed that feed, curvature and machine allow
+    double speed = 0;      ///< [mm/s] planned, with short intervals and neighbours considered
 };
 
 struct ProgramIntervals {

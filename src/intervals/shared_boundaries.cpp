@@ -118,7 +118,7 @@ PassBoundaries share_boundaries(const ProgrammedSurface& programmed, const std::
             }
             std::vector<double> offsets = adjacent.around(own[b]).offsets;
             offsets.push_back(0);
-            // The median of an even number is the mean of the middle two, so that both directions of travel give the same.
+            // The median of an even number is the mean of the middle two, so that it is the same in both directions.
             shared[k].push_back(moved(passes[k], p, own[b], midpoint_median(offsets)));
         }
     }

@@ -45,7 +45,7 @@ private:
 };
 
 /// Aligns boundaries with those of the adjacent passes. Each boundary moves to the median of its own place and those around
-/// it. A pass gets a boundary where the passes on both sides have one. The ends of passes do not move. `passes`: in the
+/// it. A pass gets a boundary if the passes on both sides have one there. The ends of passes do not move. `passes`: in the
 /// order of the boundaries. O(boundaries · log boundaries).
 [[nodiscard]] PassBoundaries share_boundaries(const ProgrammedSurface& programmed,
                                               const std::vector<ProgrammedPass>& passes,

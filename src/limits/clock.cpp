@@ -12,10 +12,10 @@
 namespace clsurf {
 namespace {
 
-constexpr double lost_share = 0.5;   ///< of a period: difference of a clock step from which it is broken
+constexpr double lost_share = 0.5;   ///< share of a period: a clock step that differs by more is broken
 constexpr double beyond_limit = 20;  ///< times the limit of acceleration
 constexpr double slack = 0.02;       ///< share of a limit by which a motion at the limit may exceed it
-constexpr double certain_jerk = 3;   ///< factor of the limit: if steps are otherwise even, more shows lost records
+constexpr double certain_jerk = 3;   ///< multiple of the limit: if steps are even otherwise, more means lost records
 constexpr double long_step = 1.6;    ///< factor of the adjacent steps
 constexpr double short_step = 0.45;  ///< factor of the adjacent steps
 

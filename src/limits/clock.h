@@ -9,7 +9,7 @@
 namespace clsurf {
 
 struct ClockRules {
-    double acceleration = 0;     ///< [mm/s²] the greatest that a limit allows; 0: there is no limit
+    double acceleration = 0;     ///< [mm/s²] greatest acceleration that a limit allows; 0: there is no limit
     double jerk = 0;             ///< [mm/s³] of the linear axes; 0: one of them has no limit
     double resolution = 0;       ///< of positions [mm]
     double time_resolution = 0;  ///< of the channel `time` [s]

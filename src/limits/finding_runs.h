@@ -14,9 +14,9 @@ namespace clsurf {
 struct RecordRun {
     LimitFinding finding;
     double proved = 0;  ///< the greatest factor minus uncertainty
-    double clear = 0;   ///< of the finding: factor minus the effects of rounding and the clock
+    double clear = 0;   ///< factor of the finding minus the effects of rounding and the clock
     /// Upper bound of the excess in the gap to the previous run: the least factor plus uncertainty of the records between.
-    /// Infinite: there are none.
+    /// Infinite: there are no such records.
     double gap_reach = std::numeric_limits<double>::infinity();
 };
 

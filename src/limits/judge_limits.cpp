@@ -21,7 +21,7 @@ namespace clsurf {
 namespace {
 
 /// If a steady excess is as small as its uncertainty, some records do not show it. On circles 2 % too fast, such gaps
-/// lasted up to 0.06 s. Excesses with longer gaps are different places.
+/// lasted up to 0.06 s. Excesses separated by longer gaps are at different places.
 constexpr double longest_gap = 0.1;  // [s]
 
 /// A limit and its comparison with records.
@@ -64,7 +64,7 @@ bool is_stated(const Trajectory& path) {
     return path.turn.isIdentity() && (steps - steps.array().round().matrix()).cwiseAbs().maxCoeff() < 1e-6;
 }
 
-/// Possible offset of the log's zero from that of the program: half of all records are nearer to the path.
+/// Possible offset of the log's zero from the program's zero: half of all records are nearer to the path.
 double pose_error(const Trajectory& path, const PathTolerance& tolerance) {
     if (is_stated(path)) return 0;
     const PointIndex count = path.count;

@@ -27,8 +27,8 @@ struct LimitFinding {
 /// A limit with which the motion was compared.
 struct JudgedLimit {
     StatedLimit limit;
-    double factor = 0;       ///< of the record with the greatest factor minus uncertainty
-    double uncertainty = 0;  ///< of this factor
+    double factor = 0;       ///< factor of the record with the greatest factor minus uncertainty
+    double uncertainty = 0;  ///< uncertainty of this factor
 };
 
 struct LimitReport {

@@ -60,10 +60,10 @@ struct Stride {
     std::size_t records = 1;
     double roundings = 0;
 };
-/// From one record on, until rounding is less than a percent of the limit; at most 16 records.
+/// Strides of one record and more, until rounding is less than a percent of the limit; at most 16 records.
 [[nodiscard]] std::vector<Stride> strides_for(const StatedLimit& limit, const CommandedMotion& motion);
 
-/// A value, of the stride with the greatest certain value; NaN: not known.
+/// The value for the stride with the greatest certain value; NaN: not known.
 struct MeasuredValue {
     double value = 0;
     double uncertainty = 0;

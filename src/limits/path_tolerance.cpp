@@ -8,7 +8,7 @@
 namespace clsurf {
 namespace {
 
-/// A kernel may report one line for many merged ones, or be ahead on short lines.
+/// A kernel may report one line for many merged lines, or be ahead on short lines.
 constexpr std::int64_t reach = 128;  ///< motions to each side
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
-// The deviation of the commanded motion from the programmed path, compared with the tolerance in force: P of G64, that of a
-// cycle, or the machine's own.
+// The deviation of the commanded motion from the programmed path, compared with the tolerance in force: P of G64, the
+// tolerance of a cycle, or the machine's own.
 
 #include <optional>
 #include <vector>

@@ -90,7 +90,7 @@ struct LintRule {
 
 /// Which runs of unsuitable ends become findings.
 struct LintRunRule {
-    std::size_t fewest = 1;  ///< ends: one or two points may be intentional
+    std::size_t fewest = 1;  ///< ends in a run: one or two points may be intentional
     bool medians = false;    ///< found and expected are medians; if false, the values farthest from 1
 };
 

@@ -16,9 +16,9 @@ namespace {
 
 using Findings = std::vector<LintFinding>;
 
-constexpr std::size_t fewest_uneven = 3;   ///< ends: saving one or two points on a collinear line is harmless
+constexpr std::size_t fewest_uneven = 3;   ///< ends in a run: saving one or two points on a collinear line is harmless
 constexpr double reversing_cosine = -0.5;  ///< a line that turns by more than 120° runs back
-constexpr double scatter_of_starts = 6;    ///< factor of the median absolute residual; a greater one is out of line
+constexpr double scatter_of_starts = 6;    ///< multiple of the median absolute residual; a greater one is out of line
 constexpr double start_reach = 6;  ///< [step-overs] greatest distance between ends of adjacent passes across the feed
 
 void check_spacing(const LintContext& context, const LintRule& rule, Findings& findings) {

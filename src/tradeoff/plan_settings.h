@@ -13,7 +13,7 @@ struct PlanSettings {
     double jerk = 1;          ///< of every jerk limit
     double acceleration = 1;  ///< of every acceleration limit: tangential, normal and of the axes
     double feed = 1;          ///< of the programmed feeds, as feed override
-    bool intervals = false;   ///< lowers feeds to those of constant-speed intervals
+    bool intervals = false;   ///< lowers feeds to the speeds of constant-speed intervals
 
     friend bool operator==(const PlanSettings&, const PlanSettings&) = default;
 };
