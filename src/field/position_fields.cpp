@@ -61,7 +61,7 @@ struct Plan {
     FieldSubject subject = FieldSubject::tip;
     char axis = 0;          ///< of a rotary axis
     bool smoothed = false;  ///< positions and derivatives are those of the estimate
-    unsigned needs = 0;     ///< of all rows
+    unsigned needs = 0;     ///< needs of all rows
     const Log* log = nullptr;
     const MotionEstimate* estimate = nullptr;
     PointIndex count = 0;  ///< of the log

@@ -61,7 +61,7 @@ struct RunRecord {
     std::string settings;  ///< the options of `check`, as words of a command line
     std::string failure;   ///< reason why the run could not be judged at all; empty: it did not fail
     double duration_s = std::numeric_limits<double>::quiet_NaN();
-    std::int64_t points = 0, passes = 0;  ///< of cut passes
+    std::int64_t points = 0, passes = 0;  ///< numbers of points in cut passes, and of cut passes
     bool judged = false;
     std::string not_judged_reasons;  ///< sentences; empty: it is judged
     bool within_budget = false;

@@ -31,7 +31,7 @@ struct TrendChange {
 
 struct TrendGroup {
     std::string name;
-    std::size_t runs = 0;  ///< with a value
+    std::size_t runs = 0;  ///< runs with a value
     double median = 0, most = 0;
 };
 

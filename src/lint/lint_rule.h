@@ -31,7 +31,7 @@ public:
     [[nodiscard]] const ClSurface& surface() const { return programmed_.surface; }
     [[nodiscard]] const LintThresholds& thresholds() const { return thresholds_; }
     [[nodiscard]] const std::vector<ProgrammedPass>& passes() const { return passes_; }
-    [[nodiscard]] double tolerance() const { return tolerance_; }    ///< [mm] of the controller; 0: not known
+    [[nodiscard]] double tolerance() const { return tolerance_; }    ///< [mm] tolerance of the controller; 0: not known
     [[nodiscard]] double spacing() const { return usual_spacing_; }  ///< [mm] median length of the cutting lines
     [[nodiscard]] double chord_error() const { return usual_chord_error_; }  ///< [mm] 95th percentile
     /// [mm] length of the line at a point; NaN: not on a cut pass.

@@ -106,7 +106,7 @@ struct BadLines {
 struct BlockSummary {
     Diagnostics diagnostics;
     std::vector<ChannelRange> ranges;
-    double squares = 0, worst = 0;  ///< of the clock's differences from the period
+    double squares = 0, worst = 0;  ///< sum of squares, and greatest, of the clock's differences from the period
     PointIndex steps = 0;
     double highest_line = 0;
     BadLines bad_lines;

@@ -12,7 +12,7 @@ namespace clsurf {
 struct ChannelRange {
     PointIndex missing = 0;  ///< NaN and infinite values
     PointIndex first_missing = -1;
-    double low = 0, high = 0;  ///< of the other values; low > high: there are none
+    double low = 0, high = 0;  ///< bounds of the other values; low > high: there are none
 };
 
 struct RecordFindings {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr PointIndex sampled = 200'000;  ///< records in total
 constexpr PointIndex run_length = 1024;  ///< consecutive records
-constexpr double worth_offset = 0.002;   ///< [mm] between commanded and measured
+constexpr double worth_offset = 0.002;   ///< [mm] least reported offset between commanded and measured
 constexpr double resting_step = 1e-4;    ///< [mm] per record that feedback may move at rest
 constexpr std::size_t least_resting = 50;
 constexpr std::size_t least_moving = 1000;  ///< records in each direction

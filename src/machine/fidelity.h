@@ -23,7 +23,7 @@ struct Fidelity {
     int runs = 0;
     double time_error = 0;             ///< simulated over recorded time, minus 1; the greatest, signed
     double speed_error_p50 = 0;        ///< [mm/s] |difference| at the same place, median along the path
-    double speed_error_p95 = 0;        ///< [mm/s] over 95 % of the path
+    double speed_error_p95 = 0;        ///< [mm/s] not exceeded over 95 % of the path
     double speed_error_p95_ratio = 0;  ///< the same relative to the run's usual speed
     std::optional<double>
         following_error_p95;  ///< [mm] |difference| not exceeded over 95 % of the path; nullopt: no measured positions

@@ -22,7 +22,7 @@ constexpr double off_distance = 0.1;        ///< from here on the walk may be on
 constexpr double lost_length = 1.0;         ///< arc length off the path after which the walk counts as lost
 constexpr double near_distance = 0.1;       ///< largest distance of a restart
 constexpr PointIndex trial_points = 400;    ///< moving points over which a restart must stay near
-constexpr double least_jump = 10;           ///< to a placeholder
+constexpr double least_jump = 10;           ///< distance of a jump to a placeholder
 constexpr double placeholder_reach = 1e-6;  ///< tolerance for the position of a placeholder in workpiece coordinates
 constexpr double first_retry = 1.0;         ///< arc length until a failed search is repeated; doubles
 

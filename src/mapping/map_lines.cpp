@@ -40,7 +40,7 @@ constexpr double unexplained_share = 0.5;
 constexpr double all_displaced = 0.3;
 /// A path fits, although its line numbers do not, if no larger share of points is off.
 constexpr double fitting_share = 0.1;
-constexpr double sure_confidence = 0.9;  ///< of an aligned point
+constexpr double sure_confidence = 0.9;  ///< confidence of an aligned point
 
 /// Share of the aligned points that are farther off than a finishing tolerance.
 double off_share(const LineMap& map) {

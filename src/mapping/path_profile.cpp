@@ -12,8 +12,8 @@ namespace {
 
 constexpr double least_step = 0.05;         ///< [mm] shorter steps of a log may be noise
 constexpr std::size_t compared_most = 400;  ///< points of a log whose distances are compared
-constexpr std::size_t least_points = 16;    ///< of a log
-constexpr double kept_share = 0.8;          ///< of the pairs in a round
+constexpr std::size_t least_points = 16;    ///< points of a log
+constexpr double kept_share = 0.8;          ///< share of the pairs kept in a round
 constexpr int pair_rounds = 5;
 constexpr int follow_rounds = 6;
 constexpr std::size_t followed_most = 1500;  ///< points of a log that are followed along the program

@@ -63,7 +63,7 @@ private:
     std::size_t first_ = 0;  ///< the frame of the program's first cut
     Eigen::Isometry3d reference_ = Eigen::Isometry3d::Identity();
     Eigen::Isometry3d displaced_ = Eigen::Isometry3d::Identity();  ///< from the machine's coordinates to the log's
-    std::map<int, Eigen::Isometry3d> offsets_;                     ///< of the unknown systems
+    std::map<int, Eigen::Isometry3d> offsets_;                     ///< offsets of the unknown systems
     std::vector<Eigen::Isometry3d> true_, nominal_;                ///< work to machine, by frame; with offsets zero
     Vec3 machine_ = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< end of the last motion
     Vec3 nominal_machine_ = machine_;

@@ -14,7 +14,7 @@ namespace {
 constexpr double beside_share = 0.3;      ///< share of the shorter pass that is adjacent to the other pass
 constexpr std::size_t many_passes = 5;    ///< so many adjacent passes are a finished surface of any shape
 constexpr double surface_share = 0.6;     ///< share of a smaller group that has a neighbour
-constexpr std::size_t fewest_passes = 2;  ///< of a group
+constexpr std::size_t fewest_passes = 2;  ///< passes of a group
 /// Share of the points of a smaller group with a neighbour above or below.
 constexpr double stacked_share = 0.5;
 constexpr float upright = 0.9F;           ///< squared cosine to z of a neighbour above

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float turning_cosine = -0.5F;       ///< chords that enclose more than 120° turn back
 constexpr double chord_step_overs = 1.5;      ///< arc length of a chord
-constexpr float corner_tolerance = 1e-6F;     ///< [mm²] of reach times chord; less is not progress
+constexpr float corner_tolerance = 1e-6F;     ///< [mm²] reach times chord; less is not progress
 constexpr double shortest_pass = 2.0;         ///< step-overs of arc length; a shorter piece is part of its link
 constexpr float vertical_slope = 0.02F;       ///< horizontal per vertical arc length of an approach
 constexpr float vertical_tolerance = 0.005F;  ///< [mm]

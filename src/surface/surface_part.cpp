@@ -114,7 +114,7 @@ private:
 
     const ClSurface& whole_;
     SurfacePart part_;
-    std::vector<PointIndex> begin_;  ///< of each range in the part
+    std::vector<PointIndex> begin_;  ///< first point of each range in the part
 };
 
 }  // namespace

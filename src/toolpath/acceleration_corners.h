@@ -29,7 +29,7 @@ public:
 
 private:
     std::vector<double> innovation_;             ///< after a jump of 1 mm/s², in standard deviations
-    std::array<std::vector<double>, 4> errors_;  ///< around it, in standard deviations; the jump is in the middle
+    std::array<std::vector<double>, 4> errors_;  ///< errors around it, likewise; the jump is in the middle
     PointIndex step_ = 1;                        ///< records between tested positions of a jump
 };
 

@@ -16,7 +16,7 @@ constexpr double sure = 3;             ///< standard errors by which a lead must
 constexpr double known_lead = 0.1;     ///< records: the standard error below which a lead is used
 constexpr double most_difference =
     0.3;                               ///< share of the motion: an encoder that differs by more belongs to another axis
-constexpr int alignment_steps = 4;     ///< of the Gauss–Newton method
+constexpr int alignment_steps = 4;     ///< steps of the Gauss–Newton method
 constexpr double sure_compliance = 5;  ///< standard errors
 constexpr double reversal_sigmas = 12;  ///< an axis has reversed if it has moved back by this many standard deviations
 /// Distance of the motor from a reversal [mm] at which the backlash is certainly crossed; measured between it and twice of

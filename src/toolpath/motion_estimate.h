@@ -108,7 +108,7 @@ private:
     std::array<double, 2> component_lead_{};  ///< records by which they lead the positions
     double path_speed_lead_ = 0;
     bool rounding_rules_ = false;  ///< rounding is at least half the variance of the positions
-    double scale_ = 1;             ///< of all standard deviations …
+    double scale_ = 1;             ///< factor of all standard deviations …
     double difference_scale_ = 1;  ///< … except those of the remaining difference of the encoder
     double nees_ = 1;              ///< normalised estimation error squared, as measured
     SmootherModel model_;

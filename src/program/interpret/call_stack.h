@@ -24,7 +24,7 @@ struct CallFrame {
     std::uint32_t call = 0;                 ///< the call active before this one: index into Motions::calls, from 1
     int repeats = 0;                        ///< repeats that remain after this one
     bool locals = false;                    ///< a set of local variables was pushed
-    std::map<LineNumber, double> counters;  ///< of the repeat and for loops of the caller
+    std::map<LineNumber, double> counters;  ///< counters of the caller's repeat and for loops
 };
 
 /// Lines that Siemens' REPEAT executes again.
@@ -53,7 +53,7 @@ struct CallStack {
     std::map<std::array<std::uint32_t, 3>, std::uint32_t> known;  ///< by caller, file and line
     std::vector<std::optional<ModalState>> kept_modes{1};         ///< by level: modes saved by M70 and M73
     std::vector<bool> restores_modes{false};                      ///< M73: modes are restored on return
-    std::map<LineNumber, double> counters;                        ///< of the active loops
+    std::map<LineNumber, double> counters;                        ///< counters of the active loops
     std::uint64_t jumps = 0;
 };
 
@@ -62,7 +62,7 @@ struct KnownTexts {
     std::vector<ControlIndex> indexes;
     std::vector<bool> indexed;
     std::map<std::string, std::size_t> loaded;    ///< files of subprograms, by the name they were called by
-    std::map<std::size_t, BlockNumbers> numbers;  ///< of files in which a jump went to a block number
+    std::map<std::size_t, BlockNumbers> numbers;  ///< block numbers of files in which a jump went to one
 };
 
 struct ReadingPlace {

@@ -114,7 +114,7 @@ struct CallRules {
     bool subs_run_through = false;    ///< a label that the program reaches is executed; false: skipped
     bool begins_at_label = false;     ///< the line of the label itself is executed
     bool file_from_top = false;       ///< a subprogram in its own file begins at its first line
-    bool returns_value = false;       ///< of a call: #<_value>
+    bool returns_value = false;       ///< a call returns a value: #<_value>
     bool return_ends_main = false;    ///< outside of calls a return ends the program; false: it does nothing
     bool second_name_ends = false;    ///< the name of another program ends the first
     bool blocks_after_label = false;  ///< LABEL: G1 X10

@@ -21,8 +21,8 @@
 namespace clsurf {
 namespace {
 
-constexpr std::size_t shown_line_bytes = 4000;  ///< of a source line in a message
-constexpr std::size_t shown_text_bytes = 400;   ///< of a message, which may name a word of any length
+constexpr std::size_t shown_line_bytes = 4000;  ///< greatest length of a source line in a message
+constexpr std::size_t shown_text_bytes = 400;   ///< greatest length of a message, which may name a word of any length
 
 }  // namespace
 

@@ -67,8 +67,8 @@ public:
     Program program_;
     std::uint64_t most_motions_ = 0, forgotten_ = 0;
     std::vector<Vec3>
-        forgotten_tangents_;      ///< of the motions removed last, and the last that is not parallel to it [mm]
-    bool tangents_kept_ = false;  ///< of the settled motions, in work coordinates
+        forgotten_tangents_;      ///< last tangent of the removed motions, and the last one not parallel to it [mm]
+    bool tangents_kept_ = false;  ///< the tangents of the settled motions have been kept, in work coordinates
     FramePlacer placer_{{}, Coordinates::machine};
 
     ReadingPlace place_;
@@ -77,7 +77,7 @@ public:
     ModalCall modal_call_;  ///< G66, MCALL
     Variables variables_;
     Block block_;
-    Words plain_;  ///< of the current line, if it is plain
+    Words plain_;  ///< words of the current line if it is plain
     BlockFlags this_block_;
 
     ModalState state_;

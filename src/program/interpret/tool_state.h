@@ -12,7 +12,7 @@ namespace clsurf {
 
 struct ToolState {
     ToolTable table;
-    int next = 0;  ///< of the T word
+    int next = 0;  ///< number of the T word
     Tool in_spindle;
     int length_row = 0, radius_row = 0;  ///< last programmed by H and D
 };

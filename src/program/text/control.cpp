@@ -131,7 +131,7 @@ private:
 
     std::vector<Control>& controls_;
     std::vector<int> open_;                   ///< statements without their end, the innermost last
-    std::vector<std::vector<int>> branches_;  ///< of each IF
+    std::vector<std::vector<int>> branches_;  ///< branches of each IF
 };
 
 }  // namespace

@@ -46,7 +46,7 @@ struct TextRules {
     std::string_view first_block{};  ///< the first block of a program, after its number
     double inch_feed = 1;            ///< length that F counts in an inch program [inch]
 
-    SplineForm splines = SplineForm::none;  ///< of repaired sections
+    SplineForm splines = SplineForm::none;  ///< form of the splines of repaired sections
 
     // Words.
     WordStyle words = WordStyle::letters;

@@ -11,7 +11,7 @@ namespace {
 constexpr double no_height = 1e-9;         ///< [mm] greatest distance of a span in a principal plane from that plane
 constexpr double no_section_turn = 1e-7;   ///< [rad] a section that turns less is a line
 constexpr double most_section_turn = 1.5;  ///< [rad] of one section
-constexpr int compared_places = 8;         ///< of a pair of arcs
+constexpr int compared_places = 8;         ///< compared places of a pair of arcs
 constexpr int most_section_halvings = 12;
 
 /// The arc from a point in a direction to another point; a line if it does not turn.

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double least_angle = 1e-9;  ///< [rad] a smaller turn of the axis counts as none
 constexpr double opposite = 1e-6;     ///< [rad] this close to half a turn the plane is not defined
-constexpr int judged_places = 200;    ///< of a passage over the other branch
+constexpr int judged_places = 200;    ///< places of a passage over the other branch
 
 /// Rotation along a great circle whose least distance from the pole is `tilt`, counted from the nearest point.
 double rotation_at(double s, double tilt) { return std::atan2(std::sin(s), std::cos(s) * std::sin(tilt)); }

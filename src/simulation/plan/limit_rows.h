@@ -44,7 +44,7 @@ public:
         double by_primal = 0, by_dual = 0, by_both = 0;  ///< how the gap changes with the steps
     };
     struct Gap {
-        double sum = 0;     ///< of slack times multiplier
+        double sum = 0;     ///< sum of slack times multiplier
         double broken = 0;  ///< greatest violation of a limit, as a share of its bound
     };
 

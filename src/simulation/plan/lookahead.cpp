@@ -7,7 +7,7 @@ namespace clsurf {
 namespace {
 
 constexpr double holds = 1 + 1e-9;          ///< share of a limit that counts as kept
-constexpr double braking_tolerance = 1e-9;  ///< of a start speed, for rounding in reach()
+constexpr double braking_tolerance = 1e-9;  ///< share of a start speed, for rounding in reach()
 
 /// The greatest speed and acceleration of a profile between two times.
 struct Extremes {

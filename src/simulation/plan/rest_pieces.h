@@ -10,7 +10,7 @@ namespace clsurf {
 
 /// Motion from or to a rest at constant jerk.
 struct RestPiece {
-    double jerk = 0, time = 0;  ///< of u
+    double jerk = 0, time = 0;  ///< jerk of u, and duration
     [[nodiscard]] double length() const { return jerk * time * time * time / 6; }
 };
 
