@@ -11,9 +11,9 @@ namespace clsurf::planted {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double lift = 2;          ///< [mm] of a retract above the surface
-constexpr double crease = 0.6;      ///< [mm] over which the loops around two borders blend
-constexpr double grid_cell = 0.05;  ///< [mm] of the grid for tracing level lines
+constexpr double lift = 2;          ///< [mm] height of a retract above the surface
+constexpr double crease = 0.6;      ///< [mm] distance over which the loops around two borders blend
+constexpr double grid_cell = 0.05;  ///< [mm] cell size of the grid for tracing level lines
 
 using Line2 = std::vector<Vec2>;
 
@@ -254,7 +254,7 @@ std::vector<PlanePass> contours(const CourseRecipe& r) {
             level.erase(level.begin() + static_cast<std::ptrdiff_t>(best_loop));
             double around = 0;
             for (std::size_t i = 1; i < loop.size(); ++i) around += (loop[i] - loop[i - 1]).norm();
-            if (around < 6) continue;  // the rest in a corner
+            if (around < 6) continue;  // a remnant in a corner
             loop.pop_back();
             std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(best_point), loop.end());
             loop.push_back(loop.front());
@@ -296,7 +296,7 @@ std::vector<PlanePass> round_a_tower(const CourseRecipe& r) {
         }
         if (r.layout == Layout::slanted) {
             constexpr double before = 1.6,
-                             farther = 1.8;  // [mm] of a link before and after the beginning of the loop
+                             farther = 1.8;  // [mm] length of a link before and after the beginning of the loop
             const double start = k * farther, end = start + around;
             const double fall = r.step_over * (1 - r.spacing / (before + farther));
             passes.push_back({{{start, v}, {end - before, v}, {end + farther - r.spacing, v - fall}},
@@ -311,7 +311,7 @@ std::vector<PlanePass> round_a_tower(const CourseRecipe& r) {
 }
 
 std::vector<PlanePass> triangles(const CourseRecipe& r) {
-    constexpr double blend = 0.2;   // [mm] from a corner to the beginning of its parabola
+    constexpr double blend = 0.2;   // [mm] distance from a corner to the beginning of its parabola
     constexpr double middle = 1.5;  // [mm] radius below which there is no room
     constexpr int steps = 16;
     std::vector<PlanePass> passes;

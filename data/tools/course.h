@@ -34,13 +34,13 @@ inline constexpr int layouts = 14;
 
 struct CourseRecipe {
     Layout layout = Layout::zigzag;
-    double length = 30;      ///< [mm] of a straight pass; side or diameter of other layouts
-    int passes = 30;         ///< for contours at most
+    double length = 30;      ///< [mm] length of a straight pass; side or diameter of other layouts
+    int passes = 30;         ///< number of passes; for contours the maximum
     double step_over = 0.3;  ///< [mm]
     double angle = 0.5;      ///< [rad] of oblique passes
     double waviness = 1;     ///< [mm] amplitude of the surface
     double wave = 12;        ///< [mm] its wavelength / 2π
-    double draft = 0.1;      ///< [rad] of walls and towers from the vertical
+    double draft = 0.1;      ///< [rad] angle of walls and towers from the vertical
     double spacing = 0.02;   ///< [mm] between points
     double block = 0.5;      ///< [mm] programmed step
 };
@@ -51,7 +51,7 @@ struct CoursePoint {
     Vec3 at = Vec3::Zero();
     Vec3 normal = Vec3::UnitZ();  ///< of the surface
     int pass = -1;                ///< from 0; −1: on a link or a rapid
-    Motion motion = Motion::cut;  ///< that leads to it
+    Motion motion = Motion::cut;  ///< motion to the point
 };
 
 /// The points of a course in order of motion. Each pass is contiguous.

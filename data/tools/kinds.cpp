@@ -58,10 +58,10 @@ constexpr std::array kinds = std::to_array<LogKind>({
 
 constexpr double pi = std::numbers::pi;
 constexpr double rapid_speed = 300;     ///< [mm/s]
-constexpr double creep = 0.5;           ///< [mm/s] at which the tool starts and stops
+constexpr double creep = 0.5;           ///< [mm/s] speed at which the tool starts and stops
 constexpr double jerk_seconds = 0.012;  ///< time over which the plan is rounded
-constexpr double bend_reach = 0.1;      ///< [mm] over which the curvature is computed
-constexpr double delay = 0.001;         ///< [s] of measured after commanded positions
+constexpr double bend_reach = 0.1;      ///< [mm] distance over which the curvature is computed
+constexpr double delay = 0.001;         ///< [s] delay of measured positions after commanded ones
 constexpr double give = 1.5e-5;         ///< [mm per mm/s²] offset along the normal per normal acceleration
 constexpr int first_line = 10;
 
@@ -389,7 +389,7 @@ private:
         return v;
     }
 
-    /// Limits the jerk: speeds are averaged over some milliseconds, a shorter distance than that to the next corner.
+    /// Limits the jerk: speeds are averaged over some milliseconds, which is a shorter distance than to the next corner.
     [[nodiscard]] std::vector<double> rounded(const std::vector<double>& v) const {
         std::vector<double> sum(v.size() + 1, 0);
         for (std::size_t i = 0; i < v.size(); ++i) sum[i + 1] = sum[i] + v[i];
@@ -405,9 +405,9 @@ private:
     void sample(const std::vector<double>& speed) {
         log_.truth.resize(recipe_.defects.size());
         std::size_t i = 1;
-        double time = 0;     // of point i − 1
-        double next = 0;     // of the next record
-        double scatter = 0;  // of the time of the record
+        double time = 0;     // time of point i − 1
+        double next = 0;     // time of the next record
+        double scatter = 0;  // scatter of the time of the record
         const auto seconds = [&] { return (arc_length_[i] - arc_length_[i - 1]) / (0.5 * (speed[i] + speed[i - 1])); };
         while (i < course_.size()) {
             const double step = seconds();

@@ -3,7 +3,7 @@
 // combines a layout of passes (course.h), a feed with its period and resolution, and the planted faults.
 //
 // The motion is planned over the whole course: a speed limit by feed and curvature, faults as slower or faster sections,
-// then the acceleration of the machine. A fault over several passes is at the closest place of each to that on the first.
+// then the acceleration of the machine. A fault over several passes follows the closest places from pass to pass.
 
 #include <span>
 

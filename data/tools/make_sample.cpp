@@ -47,8 +47,8 @@ constexpr std::array<std::string_view, 3> pattern_names{"zigzag", "one-way", "lo
 struct Wishes {
     Pattern pattern = Pattern::zigzag;
     std::int64_t points = 0;
-    double line = 0.5;                               ///< [mm] of a programmed line
-    double wave = 100;                               ///< [mm] of the surface
+    double line = 0.5;                               ///< [mm] length of a programmed line
+    double wave = 100;                               ///< [mm] wavelength of the surface
     double height = 3;                               ///< [mm] amplitude of its waves, if the part is larger than a wave
     std::array<double, 3> lag{0.003, 0.004, 0.005};  ///< [s] of the feedback
     std::int64_t slow = 0;                           ///< passes with a slow place
@@ -73,7 +73,7 @@ public:
     explicit Part(const Wishes& wishes)
         : wishes_(wishes), size_(size_of(wishes)), wave_(std::min(size_, wishes.wave)) {}
 
-    /// [mm] of the largest coordinates.
+    /// The largest coordinates [mm].
     [[nodiscard]] double size() const { return size_; }
     /// Sets the passes with a slow place, in increasing order.
     void set_slow(std::vector<std::int64_t> passes) { slow_ = std::move(passes); }
@@ -82,7 +82,7 @@ public:
     /// The position of the tool before the first pass.
     [[nodiscard]] Vec3 start() const { return {0, 0, to_micrometre(height_over_all())}; }
 
-    /// The waypoints of pass k after the last one of k − 1; empty: no more passes.
+    /// The waypoints of pass k, which follow the last waypoint of pass k − 1; empty: no more passes.
     [[nodiscard]] std::vector<Waypoint> pass(std::int64_t k) const {
         std::vector<Waypoint> route;
         if (wishes_.pattern == Pattern::loops) {
@@ -135,13 +135,13 @@ double distance_from_slow_place(double gone, double length) {
     return std::max(0.0, std::abs(gone - 0.5 * length) - 0.5 * std::min(slow_length, length / 3));
 }
 
-/// The speed [mm/s] that a slow place allows at that distance.
+/// The speed [mm/s] allowed at that distance from a slow place.
 double speed_near_slow_place(double distance) {
     const double least = slow_feed * feed;
     return std::sqrt(least * least + 2 * acceleration * distance);
 }
 
-/// Moves along waypoints with bounded acceleration; calls record(position, waypoint index, whether it is slow there) once per
+/// Moves along waypoints with bounded acceleration; calls record(position, waypoint index, whether the place is slow) once per
 /// period. `slow`: cutting sections have a slow place in their middle.
 template <typename Record>
 void run(Vec3 from, const std::vector<Waypoint>& route, bool slow, Record&& record) {
@@ -179,7 +179,7 @@ void run(Vec3 from, const std::vector<Waypoint>& route, bool slow, Record&& reco
     }
 }
 
-/// Evenly spaced passes among those that the points are enough for.
+/// Evenly spaced passes among those for which there are enough points.
 std::vector<std::int64_t> choose_slow(const Part& part, const Wishes& wishes) {
     std::int64_t points_of_one = 0;
     const std::vector<Waypoint> before = part.pass(0), one = part.pass(1);
@@ -224,9 +224,9 @@ void write_program(const std::string& path, const Part& part, const Wishes& wish
     file.commit();
 }
 
-/// [mm] of one unit in the log, so that 32 bits are enough for the part: a nanometre, on large parts ten.
+/// The size [mm] of one unit in the log, such that 32 bits are enough for the part: a nanometre, or ten on large parts.
 double raw_unit_of(const Part& part) {
-    constexpr double largest = 1500;  // of a part; a raster may exceed it
+    constexpr double largest = 1500;  // [mm] size of a part; a raster may exceed it
     return part.size() <= largest ? 1e-6 : 1e-5;
 }
 

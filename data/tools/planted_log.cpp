@@ -12,13 +12,13 @@
 namespace clsurf::planted {
 namespace {
 
-constexpr double grid_step = 0.01;           ///< [mm] at which passes are built before sampling
-constexpr double normal_acceleration = 600;  ///< [mm/s²] that limits the speed in curves …
+constexpr double grid_step = 0.01;           ///< [mm] spacing of the points of a pass before sampling
+constexpr double normal_acceleration = 600;  ///< [mm/s²] acceleration that limits the speed in curves …
 constexpr double end_acceleration = 600;     ///< … and at the ends of passes
-constexpr double plan_smoothing = 0.4;       ///< [mm] over which the speed plan is smoothed
+constexpr double plan_smoothing = 0.4;       ///< [mm] distance over which the speed plan is smoothed
 constexpr double creep = 1.0;                ///< [mm/s] at the ends
 constexpr int link_points = 11;
-constexpr double lift = 2;           ///< [mm] above the passes on the way back
+constexpr double lift = 2;           ///< [mm] height above the passes on the way back
 constexpr double rapid_speed = 200;  ///< [mm/s]
 constexpr double scatter_knots = 6;  ///< intervals of the slow scatter along a pass
 constexpr int first_line = 10;

@@ -26,7 +26,7 @@ enum class Kind : std::uint8_t { speed, oscillation, lag, offset };
 struct Defect {
     Kind kind = Kind::speed;
     int first_pass = 0, last_pass = 0;
-    int every = 1;            ///< 2: on every second one of these passes
+    int every = 1;            ///< 2: on every second of these passes
     double from = 0, to = 0;  ///< [mm] along the pass, in the coordinate at its beginning: full amplitude
     double edge = 0.5;        ///< [mm] raised-cosine edges outside
     double amplitude =
@@ -39,7 +39,7 @@ struct Recipe {
     Shape shape = Shape::zigzag;
     Surface surface = Surface::transition;
     double height = 4;   ///< [mm] amplitude of the surface
-    double width = 3;    ///< [mm] over which a transition rises; wavelength / 2π of a wave
+    double width = 3;    ///< [mm] length over which a transition rises; wavelength / 2π of a wave
     double length = 24;  ///< [mm] of a straight pass; diameter of loops and spirals
     int passes = 30;
     double step_over = 0.3;  ///< [mm]
@@ -47,8 +47,8 @@ struct Recipe {
     double period = 0.001;   ///< [s]
     double quantum = 0.001;  ///< [mm] resolution of positions
     double noise = 0.0002;   ///< [mm] standard deviation of the measured positions
-    double scatter = 0.004;  ///< relative, of the speed from pass to pass
-    double delay = 0.001;    ///< [s] of measured after commanded positions
+    double scatter = 0.004;  ///< relative scatter of the speed from pass to pass
+    double delay = 0.001;    ///< [s] delay of measured positions after commanded ones
     double give = 2e-5;      ///< [mm per mm/s²] offset along the normal per normal acceleration
     double jitter = 0;       ///< of the period, standard deviation
     double block = 0.6;      ///< [mm] programmed step

@@ -27,7 +27,7 @@ namespace {
 
 constexpr Shape shapes[] = {Shape::zigzag, Shape::one_way, Shape::loops, Shape::spiral};
 
-/// Of the absolute values.
+/// A percentile of the absolute values.
 double percentile(std::vector<double> values, double share) {
     for (double& v : values) v = std::abs(v);
     return values.empty() ? 0 : quantile_below(values, share);

@@ -131,7 +131,7 @@ QualityReport judge(const PlantedLog& planted, const QualityRules& rules) {
     const Log log = as_log(planted);
     const Program program = program_of(planted);
     PartRules part_rules;
-    part_rules.accept_foreign = true;  // the score shows how much of it is found
+    part_rules.accept_foreign = true;  // the score shows how much is found
     const Part part = assemble(program, log, part_rules);
     const ClSurface surface = stitch(part);
     const PartSignals read = signals_of(part, surface, Role::feedback);
@@ -160,7 +160,7 @@ Score score(const PlantedLog& planted, const QualityReport& report) {
         const std::vector<PointIndex>& truth = planted.truth[d];
         if (near_flagged.share(truth) < share_enough) continue;
         ++result.found;
-        // The reported defect that covers most of it.
+        // The reported defect that covers most of the planted one.
         const clsurf::Defect* best = nullptr;
         double most = 0;
         for (const clsurf::Defect& defect : report.defects) {

@@ -30,7 +30,7 @@ struct Score {
 
     Score& operator+=(const Score& other);
     [[nodiscard]] double recall() const { return planted > 0 ? static_cast<double>(found) / planted : 1.0; }
-    /// Of the regions that are not differences of the plan.
+    /// The share of right regions among those that are not differences of the plan.
     [[nodiscard]] double precision() const {
         const int judged = reported - natural;
         return judged > 0 ? static_cast<double>(right) / judged : 1.0;
