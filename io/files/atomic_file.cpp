@@ -205,7 +205,7 @@ void AtomicFile::commit() {
     if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, "cannot rename into place");
     named_ = false;
     if (claim_) claim_->release();
-    // The name must survive a power failure, too. A folder that cannot be synchronised is not an error.
+    // The name must survive a power failure as well. A folder that cannot be synchronised is not an error.
     const int folder = ::open(folder_of(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder >= 0) {
         ::fsync(folder);

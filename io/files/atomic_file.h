@@ -59,7 +59,7 @@ private:
     int stream_ = -1;        ///< a device, a pipe or standard output; −1: a file
     std::string temporary_;  ///< a path of the file
     bool named_ = false;     ///< temporary_ is a name in the folder
-    bool stays_ = false;     ///< the file is kept without commit(), too
+    bool stays_ = false;     ///< the file is kept even without commit()
     std::string buffer_;
     int descriptor_ = -1;
 };

@@ -22,7 +22,7 @@
 namespace clsurf::io {
 namespace {
 
-constexpr double between_looks = 0.02;  ///< [s] between checks of a file, which does not notify of growth
+constexpr double between_looks = 0.02;  ///< [s] interval between checks of a file, which does not signal its growth
 
 [[noreturn]] void fail_to_read(const std::string& name) {
     throw InputError(Place::of_file(name), std::string("cannot read: ") + std::strerror(errno));

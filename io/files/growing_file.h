@@ -22,8 +22,8 @@ public:
     ~GrowingFile();
 
     [[nodiscard]] const std::string& name() const { return name_; }
-    /// Appends at most `most` new bytes to `out`. Returns how many; 0: none yet. Throws InputError: the file became
-    /// shorter than what was read of it, or its name now refers to another file; SystemError: the copy of a stream cannot be
+    /// Appends at most `most` new bytes to `out`. Returns their number; 0: none yet. Throws InputError: the file became
+    /// shorter than the part already read, or its name now refers to another file; SystemError: the copy of a stream cannot be
     /// written.
     std::size_t read(std::size_t most, std::vector<std::byte>& out);
     /// Bytes of a regular file that were read before, as they are now; fewer if the file ends earlier.

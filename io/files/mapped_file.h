@@ -31,7 +31,7 @@ struct Source {
 void guard_mapped_files();
 
 /// Throws InputError if a mapped file became shorter; after guard_mapped_files(), also if a file that was mapped earlier did.
-/// What was read of it may be zeros. O(mapped files).
+/// What was read from such a file may be zeros. O(mapped files).
 void check_mapped_files();
 
 }  // namespace clsurf::io

@@ -1,5 +1,5 @@
 #pragma once
-// SHA-256 (FIPS 180-4) with OpenSSL. BIIP metadata identify the program of a log by it.
+// SHA-256 (FIPS 180-4) with OpenSSL. BIIP metadata identify the program of a log by its SHA-256.
 
 #include <cstddef>
 #include <span>

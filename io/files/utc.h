@@ -1,5 +1,5 @@
 #pragma once
-// Times as the project's files store them: UTC, ISO 8601, "2026-11-24T07:30:00Z". Their texts sort by time.
+// Times as the project's files store them: UTC, ISO 8601, "2026-11-24T07:30:00Z". Sorted as text, they are in order of time.
 
 #include <chrono>
 #include <string>

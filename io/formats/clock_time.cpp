@@ -61,7 +61,7 @@ std::optional<std::int64_t> date(Scanner& scan) {
     return std::chrono::sys_days(day).time_since_epoch().count();
 }
 
-/// "Z", "+02:00", "-0530", "+01": seconds to subtract. True without an offset, too; false: malformed.
+/// "Z", "+02:00", "-0530", "+01": seconds to subtract. Also true without an offset; false: malformed.
 bool offset(Scanner& scan, double& seconds) {
     if (scan.any_of("Zz")) return true;
     const bool west = scan.front() == '-';

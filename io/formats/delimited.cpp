@@ -32,12 +32,13 @@ Log open_text(const Source& source, const LogOptions& options, const char* forma
 
 int probe_delimited(std::span<const std::byte> head, const LogOptions& options) {
     if (head.empty() || !is_text(head)) return 0;
-    // A mapping describes the log: the program that is given with it must not be taken for one.
+    // A mapping describes the log: the program that is given with it must not be taken for a log.
     if (!options.mapping.empty()) {
         const std::vector<std::string> first = read_head(text_of(head)).first;
         return std::any_of(first.begin(), first.end(), is_value) ? 60 : 0;
     }
-    // A log has a position column with a role in its name, or x, y and z without roles. A lathe has two of them and a clock.
+    // A log has a position column with a role in its name, or x, y and z without roles.
+    // For a lathe, two of these and a clock suffice.
     std::size_t axes = 0;
     bool clock = false;
     for (const ColumnPlan& column : read_head(text_of(head)).columns) {
@@ -75,7 +76,7 @@ Log open_halsampler(const Source& source, const LogOptions& options) {
     return open_text(source, options, "halsampler");
 }
 
-/// For both formats.
+/// The frame of a growing log in either text format.
 RecordFrame frame_text(const Source& beginning, const LogOptions& options) {
     const std::optional<Mapping> mapping = mapping_of_growing(options);
     return {plan_text(beginning, mapping ? &*mapping : nullptr).data_begin, 0, mapping && mapping->halsampler, {}};

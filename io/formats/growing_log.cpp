@@ -16,8 +16,8 @@ namespace clsurf::io {
 namespace {
 
 constexpr std::size_t text_record_bytes = 100;              ///< approximate size, for one read
-constexpr std::size_t longest_head = std::size_t{1} << 20;  ///< [bytes] within which the format must be recognised
-constexpr std::size_t telling_lines = 4;                    ///< records of a text from which its format is detected
+constexpr std::size_t longest_head = std::size_t{1} << 20;  ///< [bytes] length by which the format must be recognised
+constexpr std::size_t lines_to_detect = 4;                  ///< number of records from which the format of a text is detected
 
 std::string_view text_of_bytes(const std::vector<std::byte>& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -50,7 +50,7 @@ std::size_t GrowingLog::read(PointIndex most) {
     return got;
 }
 
-/// Recognises the format as soon as the head and some records are there.
+/// Recognises the format as soon as the head and some records are available.
 void GrowingLog::find_frame() {
     if (is_compressed(kept_))
         throw InputError(Place::of_file(file_.name()), "is compressed: such a log cannot be followed",
@@ -80,7 +80,7 @@ void GrowingLog::find_frame() {
     const bool enough =
         frame_.record_bytes > 0
             ? kept_.size() >= frame_.head_bytes
-            : static_cast<std::size_t>(std::count(records.begin(), records.end(), '\n')) >= telling_lines;
+            : static_cast<std::size_t>(std::count(records.begin(), records.end(), '\n')) >= lines_to_detect;
     if (!enough) return;
     format_ = format;
     const auto end_of_head = kept_.begin() + static_cast<std::ptrdiff_t>(frame_.head_bytes);

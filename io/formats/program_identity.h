@@ -17,8 +17,8 @@ namespace clsurf::io {
 [[nodiscard]] std::string with_programs(const std::string& metadata, std::span<const ProgramReference> programs);
 
 /// Whether `program` is one of those that the log names by hash. Line ends (LF, CR LF) are ignored.
-/// If it is none of them, adds the warning `log.program`: edited after the run if the
-/// name is the same, otherwise another program. O(bytes) for logs with hashes, O(1) for others.
+/// If it is not, adds the warning `log.program`: the program was edited after the run if the
+/// name is the same, otherwise it is another program. O(bytes) for logs with hashes, O(1) for others.
 [[nodiscard]] ProgramIdentity check_identity(const Source& program, const Log& log, Diagnostics& diagnostics);
 
 }  // namespace clsurf::io

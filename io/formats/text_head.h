@@ -19,7 +19,7 @@ struct TextHead {
     std::vector<std::string> first;   ///< fields of the first record; empty: there is none
     std::size_t data_begin = 0;       ///< byte of the first record
     std::uint64_t first_data_line = 1;
-    std::uint64_t line = 1;  ///< that names the columns, otherwise the first line that is not a comment
+    std::uint64_t line = 1;  ///< number of the line that names the columns, otherwise of the first line that is not a comment
 };
 
 /// `separator` '\0': detected. The names are in the first line that is not a comment. If that line is a record,

@@ -48,7 +48,7 @@ struct Mapping {
 struct SourceColumn {
     std::string name;   ///< as in the file
     std::string other;  ///< a second name by which a mapping may call it; may be empty
-    ColumnPlan known;   ///< its own name and no unit if nothing is known
+    ColumnPlan known;   ///< its channel; if none is known, its own name without a unit
 };
 
 /// The channels of the columns: with a mapping exactly those that it lists, otherwise the known ones.

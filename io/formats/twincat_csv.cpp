@@ -78,7 +78,7 @@ HeaderRows read_rows(const Source& source, TextPlan& plan) {
     return header;
 }
 
-/// The properties of column i. `sample_time` [ms]: reduced to that of the column if that is shorter.
+/// The properties of column i. `sample_time` [ms]: reduced to the sample time of the column if that is shorter.
 SourceColumn read_column(const std::vector<std::vector<std::string>>& rows, std::size_t i, double& sample_time) {
     const std::string& name = rows[0][i];
     SourceColumn column{name, {}, {.name = name, .unit = {}}};
@@ -156,7 +156,7 @@ void count_from_first(std::vector<std::vector<double>>& columns) {
     }
 }
 
-/// The time per record between the first two records with times; infinity: there are not two.
+/// The time per record between the first two records with times; infinity: fewer than two records have times.
 double first_step(const std::vector<double>& times) {
     const auto first = std::find_if(times.begin(), times.end(), is_known);
     if (first == times.end()) return std::numeric_limits<double>::infinity();
@@ -165,7 +165,7 @@ double first_step(const std::vector<double>& times) {
     return (*second - *first) / static_cast<double>(second - first);
 }
 
-/// Replaces each missing time by the previous one: a damaged time is only known not to be earlier.
+/// Replaces each missing time by the previous one: all that is known of a damaged time is that it is not earlier.
 std::vector<double> filled(std::vector<double> times) {
     for (std::size_t i = 1; i < times.size(); ++i) {
         if (!std::isfinite(times[i])) times[i] = times[i - 1];

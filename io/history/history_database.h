@@ -76,7 +76,7 @@ public:
     explicit HistoryWriter(const std::string& path);
 
     /// Adds a run with its defects in one transaction. A run with the same identity is replaced and keeps its id; failed
-    /// runs that the new one supersedes() are replaced, too. Sets `recorded`. O(defects + runs).
+    /// runs that the new one supersedes() are also replaced. Sets `recorded`. O(defects + runs).
     AddedRun add(const RunRecord& run);
     /// Adds the runs of other histories that are missing here, in order of time, as recorded. If both have a run,
     /// the judged one is kept, and of two judged ones the later. Parameter rules are copied if there are

@@ -112,7 +112,7 @@ std::int64_t SqliteConnection::last_row() const { return sqlite3_last_insert_row
 
 SqliteStatement::SqliteStatement(const SqliteConnection& connection, std::string_view sql) : connection_(connection) {
     sqlite3_stmt* statement = nullptr;
-    // Preparing reads the schema, so it has to wait, too.
+    // Preparing reads the schema, so it also has to wait.
     const int code = patiently([&] {
         return sqlite3_prepare_v2(connection.get(), sql.data(), static_cast<int>(sql.size()), &statement, nullptr);
     });
@@ -175,7 +175,7 @@ SqliteTransaction::SqliteTransaction(const SqliteConnection& connection) : conne
 }
 
 SqliteTransaction::~SqliteTransaction() {
-    // If this fails, too, the database rolls back when it is opened next.
+    // If this also fails, the database rolls back when it is opened next.
     if (open_) sqlite3_exec(connection_.get(), "ROLLBACK", nullptr, nullptr, nullptr);
 }
 

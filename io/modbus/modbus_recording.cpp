@@ -21,8 +21,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double save_period = 1;      // [s] the most that is lost if the program is killed
-constexpr double stop_latency = 0.05;  // [s] within which a stop is noticed
+constexpr double save_period = 1;      // [s] longest recording time lost if the program is killed
+constexpr double stop_latency = 0.05;  // [s] time within which a stop is noticed
 constexpr int illegal_function = 1, illegal_address = 2;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }

@@ -14,10 +14,10 @@ namespace {
 /// too long to follow the surface. If there is no room for so many points, the chord grows up to the last value.
 constexpr std::array<double, 4> longest_chords{3, 6, 12, 24};
 constexpr double most_for_chords = 0.75;    ///< share of the limit that chords may take
-constexpr PointIndex share_of_defects = 4;  ///< defects that are kept whole may take one in so many points
+constexpr PointIndex share_of_defects = 4;  ///< one in this many points may be of defects that are kept whole
 constexpr PointIndex windows_at_once = 64;
 
-using Marks = Column<std::uint8_t>;  ///< per point: 1, it is kept
+using Marks = Column<std::uint8_t>;  ///< per point: 1 if it is kept
 
 void mark(Marks& marks, PointIndex i) { marks[static_cast<std::size_t>(i)] = 1; }
 

@@ -20,7 +20,7 @@ struct KeptPoints {
     PointIndex all = 0;                          ///< points with a position
     PointIndex window = 1;                       ///< points; 1: all are kept
     bool line_starts = true;                     ///< the first point of each line is kept
-    std::size_t defects = 0, whole_defects = 0;  ///< and those of which all points are kept
+    std::size_t defects = 0, whole_defects = 0;  ///< number of all defects, and of those kept with all points
 
     [[nodiscard]] bool reduced() const { return window > 1; }
 };

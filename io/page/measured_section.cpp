@@ -46,7 +46,7 @@ std::string state_text(const ComparedMark& mark) {
     return {};
 }
 
-/// Which of the predicted marks that the measurement crosses were found in it.
+/// The predicted marks that the measurement crosses, and whether each was found.
 std::string marks_html(const std::vector<ComparedMark>& marks) {
     if (marks.empty()) return "<p>The measurement crosses none of the predicted marks.</p>\n";
     std::string rows;

@@ -73,7 +73,7 @@ std::string defect_lines(const Defect& d) {
 
 /// Bars across the page: why there is no verdict, and what the log lacks.
 std::string alarm_bars(const ReportPage& page) {
-    constexpr double worth_saying = 0.01;  // of the program's motions
+    constexpr double worth_saying = 0.01;  // share of the program's motions
     const QualityReport& report = *page.quality.report;
     const PageSurface& s = page.surfaces.front();
     const auto bar = [](std::string_view what, const std::string& why) {

@@ -91,7 +91,7 @@ FolderContent read_folder(const std::string& folder) {
     return content;
 }
 
-/// How well a program fits: the length of the common name, then being in the log's folder. 0: not at all.
+/// How well a program fits: the length of the common name, then whether it is in the log's folder. 0: not at all.
 std::size_t fit_of(const fs::path& program, const fs::path& log) {
     const std::string stem = program.stem().string();
     if (!log.filename().string().starts_with(stem)) return 0;

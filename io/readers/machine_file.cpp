@@ -78,7 +78,7 @@ void read_trapezoid(const TomlFile& file, const toml::table& table, TrapezoidSet
     take(file, table, "max_feed_override", t.max_feed_override, Low::above_zero, percent, 1000);
 }
 
-/// When arcs replace corners if axes have jerk limits. Domain: the period is known.
+/// The time that determines when arcs replace corners if axes have jerk limits. Domain: the period is known.
 void read_arc_steps(const TomlFile& file, const toml::table& table, ControllerSettings& c) {
     take(file, table, "arc_step_time", c.arc_step_time, Low::zero, 1.0, 1.0);
     if (c.arc_step_time > 0 && c.arc_step_time < c.period)

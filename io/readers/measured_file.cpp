@@ -177,7 +177,7 @@ private:
     std::vector<ReadColumn> columns_;
 };
 
-/// Replaces the line ends of a text with CR alone, as some instruments write it, by line feeds.
+/// Replaces line ends of CR alone, as some instruments write them, by line feeds.
 Source with_line_feeds(const Source& source) {
     const std::string_view text = source.text();
     if (text.find('\n') != std::string_view::npos || text.find('\r') == std::string_view::npos) return source;

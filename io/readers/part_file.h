@@ -15,7 +15,7 @@ namespace clsurf::io {
 struct PartFiles {
     std::string program;  ///< empty: the log has no program
     std::string log;
-    ProgramOptions program_options;  ///< `coordinates` is ignored: a part has those of the workpiece
+    ProgramOptions program_options;  ///< `coordinates` is ignored: a part is in workpiece coordinates
     LogOptions log_options;
     bool recorded_tool = true;  ///< if the rules name no tool, take it from the metadata or the tool table
     std::optional<Source> log_source = std::nullopt;  ///< content of the log; nullopt: read the file `log`

@@ -68,7 +68,7 @@ void put(MeasuredData& map, const Header& header, double value) {
                             value * header.z * mm_per_m);
 }
 
-/// The value of each type that means not measured, by type number. NaN means it, too.
+/// The value of each type that means "not measured", by type number. NaN has the same meaning.
 template <typename Value>
 constexpr double lowest_of = static_cast<double>(std::numeric_limits<Value>::lowest());
 template <typename Value>
@@ -286,7 +286,7 @@ Header binary_header(const Source& source, Fields& fields) {
     return header;
 }
 
-/// Whether an instrument can have such a spacing [m]; the wrong byte order rarely gives one.
+/// Whether an instrument can have such a spacing [m]; the wrong byte order rarely gives a plausible value.
 bool is_likely_spacing(double metres) { return metres >= 1e-12 && metres <= 1; }
 
 /// Some microscope programs add two numbers, 5 and 1, to the header of version 1.0.

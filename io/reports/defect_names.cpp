@@ -15,7 +15,7 @@
 namespace clsurf::io {
 namespace {
 
-constexpr double as_strong = 0.5;  ///< share of the strongest score from which defects are in the title
+constexpr double as_strong = 0.5;  ///< least score of a defect in the title, as a share of the strongest
 
 std::string number_word(std::size_t n) {
     static constexpr std::array<std::string_view, 12> words{"One",   "Two",   "Three", "Four", "Five",   "Six",

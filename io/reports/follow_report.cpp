@@ -54,7 +54,7 @@ std::string finding_text(const ProvisionalDefect& found, double period) {
 
 std::string finding_json(const ProvisionalDefect& found, double period) {
     Json defect = list_defects({found.defect}, 0).front();
-    for (const char* key : {"id", "rank", "depth_scallops"}) defect.erase(key);  // of a list or report
+    for (const char* key : {"id", "rank", "depth_scallops"}) defect.erase(key);  // only meaningful in a list or report
     return line_of({{"event", "finding"},
                     {"number", found.number},
                     {"provisional", true},

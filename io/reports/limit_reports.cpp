@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t most_rows = 20;     ///< in the text; JSON and CSV have all
 constexpr std::size_t widest_block = 40;  ///< characters of a block in the text
-constexpr double grave = 1.5;             ///< from this factor on an error in SARIF
+constexpr double grave = 1.5;             ///< factor from which a finding is an error in SARIF
 
 double shown(const StatedLimit& limit, double value) { return value * unit_of(limit).per_inside; }
 

@@ -22,7 +22,7 @@
 namespace clsurf::io {
 namespace {
 
-constexpr double worth_saying = 0.005;  ///< share without a form from which the text mentions it
+constexpr double worth_saying = 0.005;  ///< least share without a form that the text mentions
 
 double um(double mm) { return mm * um_per_mm; }
 double per_minute(double per_second) { return per_second * seconds_per_minute; }

@@ -27,7 +27,7 @@ struct ReportedQuality {
     std::string log;  ///< its name
     std::optional<CuttingTool> tool;
     double scallop = 0;                      ///< [mm] between clean passes; 0: not known
-    std::vector<double> colour_differences;  ///< ΔE00 of each defect's speed and that next to it, in the speed map
+    std::vector<double> colour_differences;  ///< ΔE00 between each defect and the passes next to it, in the speed map
     const AsMachinedReport* as_machined = nullptr;  ///< nullptr: the tool is not known
     std::optional<MotionQuality> motion;            ///< in JSON only; nothing: not asked for
     const LimitReport* limits = nullptr;            ///< nullptr: no limits are given

@@ -14,7 +14,7 @@ namespace clsurf::io {
 namespace {
 
 constexpr double least_shown_depth = 5e-5;  ///< [mm] a depth that is shown as 0.0 µm is neither pit nor bulge
-constexpr double least_depth = 1e-4;        ///< [mm] from which a depth is mentioned next to a change of speed
+constexpr double least_depth = 1e-4;        ///< [mm] least depth that is mentioned next to a change of speed
 
 std::string with_um(double mm) { return fmt::format("{:.1f} µm", mm * um_per_mm); }
 

@@ -134,7 +134,7 @@ std::string run_text(const ReportedRun& run, const std::string& reference) {
     if (!r.sections.empty())
         text += fmt::format("\n{:>3} {:<13} {:>16} {:>10} {:>8} {:>8} {:<28} {}\n", "no", "quantity", "peak", "mean",
                             "mm", "s", fmt::format("{} X Y Z [mm]", place_word(r.sections.front().place)), "lines");
-    // The worst sections are often all of one quantity; those of the others must be shown, too.
+    // The worst sections are often all of one quantity; the worst of the other quantities must also be shown.
     std::array<int, run_quantities> shown{};
     std::size_t left_out = 0;
     for (std::size_t i = 0; i < r.sections.size(); ++i) {

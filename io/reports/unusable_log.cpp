@@ -36,7 +36,7 @@ std::string unusable_json(const UnusableLog& log) {
 std::string unusable_csv(const UnusableLog& log) {
     const std::string titles = quality_csv_titles();
     constexpr std::string_view to_cause = ",,";
-    // The message is in the last column, that of comments.
+    // The message is in the last column, which is for comments.
     const auto to_comment = static_cast<std::size_t>(std::ranges::count(titles, ',')) - to_cause.size();
     return fmt::format("{}{}error{}{}\n", titles, to_cause, std::string(to_comment, ','), csv_field(message_of(log)));
 }
