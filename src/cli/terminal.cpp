@@ -26,7 +26,7 @@ constexpr std::string_view plain = "\033[0m";
 
 constexpr std::size_t usual_columns = 80;
 
-/// Columns of the terminal of standard output.
+/// The number of columns of the terminal of standard output.
 std::optional<std::size_t> terminal_columns() {
     constexpr std::size_t least = 40;
     winsize size{};

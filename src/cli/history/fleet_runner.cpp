@@ -147,12 +147,12 @@ private:
         const RunRecorder recorder(rules_.database, values);
         try {
             run.parameters = recorder.parameters_with(io::parameters_of_log(unit.log, read_log_options(values)));
-        } catch (const InputError&) {  // unreadable: the run will fail itself, with --param only
-        } catch (const UsageError&) {  // parameters that are not allowed: the same
+        } catch (const InputError&) {  // unreadable: the run itself will fail, with --param only
+        } catch (const UsageError&) {  // parameters that are not allowed: the run itself will fail
         }
     }
 
-    /// A failure is recorded as a row, too.
+    /// A failure is also recorded as a row.
     void fail(std::size_t i, const std::string& cause) {
         const FleetUnit& unit = units_[i];
         RunRecord run;

@@ -66,7 +66,7 @@ std::string find_config(const std::vector<std::string>& arguments, const po::var
     if (error) return {};
     const std::string database = values.count("DB") > 0 ? values["DB"].as<std::string>() : "";
     for (const std::string& argument : arguments) {
-        if (argument == database) continue;  // it belongs to many parts, not to one
+        if (argument == database) continue;  // a database belongs to many parts, not to one
         if (argument == "-" || !fs::is_regular_file(argument, error)) continue;
         folder = fs::absolute(argument, error).parent_path();
         break;

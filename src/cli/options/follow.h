@@ -21,7 +21,7 @@ void declare_follow(po::options_description& options, const char* meaning);
 
 /// When new records are processed.
 struct LookRules {
-    double least_pause = 0.1;         ///< [s] from one call to the next
+    double least_pause = 0.1;         ///< [s] shortest pause from one call to the next
     double pause_share = 0.5;         ///< … and as a share of the duration of the previous call
     PointIndex most_unseen = 50'000;  ///< records that are processed without delay
     bool keeps_records = true;        ///< false: only the bytes of the log are needed

@@ -20,7 +20,7 @@ struct OptionRow {
     std::string short_name;     ///< "-o"; empty: none
     std::string long_name;      ///< "--output"
     std::string value_name;     ///< "FILE"; empty: takes no value
-    std::string default_value;  ///< empty: none, or given in the description
+    std::string default_value;  ///< empty: no default, or the description gives it
     std::string description;
 
     [[nodiscard]] std::string names() const;  ///< "-o, --output FILE"

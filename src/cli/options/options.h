@@ -29,7 +29,7 @@ void declare_common(po::options_description& options);
 
 /// --dialect, --block-delete, --tools
 void declare_program_options(po::options_description& options);
-/// Reads --start, too, if the subcommand has it.
+/// Also reads --start if the subcommand has it.
 [[nodiscard]] io::ProgramOptions read_program_options(const po::variables_map& values);
 
 /// --layout, --mapping, --period

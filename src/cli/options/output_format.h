@@ -17,8 +17,8 @@ struct OutputFormat {
 /// The formats of one kind of output. The first one is for names without extension: "-", devices, pipes.
 using OutputFormats = std::span<const OutputFormat>;
 
-[[nodiscard]] OutputFormats picture_formats();  ///< those that viz::encode_image() writes
-[[nodiscard]] OutputFormats drawing_formats();  ///< these, plus SVG and PDF
+[[nodiscard]] OutputFormats picture_formats();  ///< the formats that viz::encode_image() writes
+[[nodiscard]] OutputFormats drawing_formats();  ///< formats of pictures, plus SVG and PDF
 [[nodiscard]] OutputFormats front_formats();    ///< drawings, and tables of a Pareto front: CSV and JSON
 [[nodiscard]] OutputFormats page_formats();
 [[nodiscard]] OutputFormats log_formats();

@@ -59,7 +59,7 @@ bool is_log(const io::Source& source, const io::LogOptions& options) {
 
 namespace {
 
-/// Options of the only file, as a log without a program.
+/// The options for a single file, read as a log without a program.
 PartOptions read_options_of_one_file(const po::variables_map& values) {
     const std::string log = required(values, "PROGRAM");
     po::variables_map alone = values;

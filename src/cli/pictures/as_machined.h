@@ -14,7 +14,7 @@ struct AsMachinedMap {
     Field field;  ///< deviations at the relief's vertices
 };
 
-/// In the resolution of the picture; each vertex is the mean of its cells. `box` empty: everything that `camera` shows.
+/// A map in the resolution of the picture; each vertex is the mean of its cells. `box` empty: everything that `camera` shows.
 [[nodiscard]] AsMachinedMap make_as_machined_map(const AsMachinedPart& part, const Box3& box,
                                                  const viz::Camera& camera);
 

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double darkest_score = 16;  ///< multiples of the threshold from which a mark has its full colour
 
-// Vermilion, orange, blue and bluish green are distinct for colour-blind readers (Okabe and Ito 2008); the strokes differ,
-// too.
+// Vermilion, orange, blue and bluish green are distinct for colour-blind readers (Okabe and Ito 2008). The
+// strokes also differ.
 viz::DefectKind kind_of(Quantity quantity) {
     switch (quantity) {
         case Quantity::speed: return {"speed", {200, 70, 0}, viz::StrokeStyle::solid};

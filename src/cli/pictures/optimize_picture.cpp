@@ -37,7 +37,7 @@ viz::Image draw_pair(const Optimized& result, const Field& before, const Field& 
 
 Field speed_of(const JudgedRun& run) { return FieldSet(run.log, run.path, run.surface.passes).get("speed"); }
 
-/// The residual, because only the pass that causes the difference has it; both adjacent passes have the difference.
+/// The residual, because only the pass that causes a difference has a residual; both adjacent passes have the difference.
 Field mismatch_of(const JudgedRun& run) {
     const QualityFields fields(run.surface, [&] { return run.signals; });
     return std::move(

@@ -36,7 +36,7 @@ struct RenderOptions {
     std::vector<PointIndex> points;
     std::vector<LineNumber> lines;
     bool defects = false;
-    bool programmed = false;    ///< draw the path of the program, too
+    bool programmed = false;    ///< also draw the path of the program
     std::optional<Role> swept;  ///< the swept positions; none: the most truthful
 };
 

@@ -123,7 +123,7 @@ Shown load_shown(const PartOptions& options, const std::string& field, bool defe
 }
 
 void show_programmed(Shown& shown, const PartOptions& options) {
-    constexpr PointIndex most_points = 2'000'000;  // of longer programs some points are left out
+    constexpr PointIndex most_points = 2'000'000;  // longer programs are drawn with some points left out
     if (const std::string why = why_no_programmed_lines(options, shown.part); !why.empty())
         throw UsageError("--programmed: " + why);
     shown.programmed = programmed_lines(options, most_points);

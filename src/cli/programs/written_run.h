@@ -11,7 +11,7 @@
 namespace clsurf::cli {
 
 struct WrittenRun {
-    FiveAxisSummary summary;  ///< on three axes only `run`
+    FiveAxisSummary summary;  ///< on three axes, only `run` is set
     bool five_axes = false;
     Diagnostics diagnostics;
 };

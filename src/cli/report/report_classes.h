@@ -7,7 +7,7 @@
 
 namespace clsurf::cli {
 
-/// Sets the classes of each field of each log. A class has the same colour in all logs: that of the first one.
+/// Sets the classes of each field of each log. A class has the same colour in all logs: its colour in the first log.
 void name_classes(std::vector<ReportLog>& logs);
 
 }  // namespace clsurf::cli

@@ -25,7 +25,7 @@ constexpr std::uint64_t usual_rest = 3'000'000;  ///< [bytes] of pictures, text 
 void choose_points(ReportLog& shown, PointIndex most) {
     shown.kept = keep_points(shown.surface, *shown.part.lines, shown.fields, shown.quality.report.defects, most);
     shown.vertices = viz::section_vertices(shown.surface, shown.kept.points);
-    // All ends of passes are kept, so the closer vertex represents the points between, at any distance.
+    // All ends of passes are kept, so each point between two vertices is represented by the closer vertex, at any distance.
     shown.bands =
         viz::join_passes(shown.surface, shown.vertices, viz::NearnessFrame(), std::numeric_limits<float>::max());
     shown.slow = slow_words(shown.part, shown.kept.points, speeds_of(shown));

@@ -12,8 +12,8 @@
 namespace clsurf::cli {
 namespace {
 
-constexpr PointIndex least_records = 1000;      ///< needed to align program and log
-constexpr PointIndex telling_records = 10'000;  ///< after which a log is known not to belong to the program
+constexpr PointIndex least_records = 1000;      ///< number of records needed to align program and log
+constexpr PointIndex records_to_warn = 10'000;  ///< number of records after which a foreign log is reported
 
 }  // namespace
 
@@ -36,7 +36,7 @@ void FollowedCheck::follow(PartOptions& options, std::optional<Role> measured) {
     io::ProgramOptions as_programmed = options.program_options;
     as_programmed.coordinates.reset();
     std::optional<Program> read = io::read_program(program, as_programmed);
-    bool told_foreign = false;
+    bool warned = false;
     const auto look = [&](io::GrowingLog& log) {
         if (log.end() < least_records) return;
         Log window = log.window();
@@ -54,8 +54,8 @@ void FollowedCheck::follow(PartOptions& options, std::optional<Role> measured) {
         for (const ProvisionalDefect& found : run_->judge(std::move(window), log.first()))
             write(json_ ? io::finding_json(found, period) : io::finding_text(found, period));
         log.forget(run_->kept_from());
-        if (!told_foreign && log.end() >= telling_records && !run_->foreign().empty()) {
-            told_foreign = true;
+        if (!warned && log.end() >= records_to_warn && !run_->foreign().empty()) {
+            warned = true;
             write_message(fmt::format("{}: warning: does not belong to {} so far: {}\n", options.log, options.program,
                                       run_->foreign()));
         }

@@ -32,8 +32,8 @@ struct CheckBudget {
 /// The limits of a machine, and those of the budget.
 [[nodiscard]] std::vector<StatedLimit> stated_limits(std::vector<StatedLimit> limits, const CheckBudget& budget);
 
-/// If the passes were not judged, this result takes precedence over exceeded limits on passes, whose values then mean
-/// nothing. `limits` (lines on limits of the machine) always count. A budget of these alone does not need a verdict on
+/// If the passes were not judged, this result takes precedence over exceeded limits on passes, whose values are then
+/// meaningless. `limits` (lines on limits of the machine) always count. A budget of these alone does not need a verdict on
 /// passes.
 [[nodiscard]] ExitCode code_of(bool judged, const std::vector<BudgetLine>& all, const std::vector<BudgetLine>& limits,
                                const CheckBudget& budget);

@@ -18,8 +18,8 @@ namespace {
 /// Without a pose all positions stay in machine coordinates.
 io::ProgramOptions in_coordinates_of(const RunOptions& options, const Log& log) {
     io::ProgramOptions program = options.program_options;
-    const bool told = options.poses.zero || log.work_offset;
-    program.coordinates = told ? Coordinates::workpiece : Coordinates::machine;
+    const bool known = options.poses.zero || log.work_offset;
+    program.coordinates = known ? Coordinates::workpiece : Coordinates::machine;
     return program;
 }
 

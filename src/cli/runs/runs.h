@@ -26,7 +26,7 @@ struct RunOptions {
     FramePoses poses;    ///< --work-offset
     bool force = false;  ///< accept a log that does not belong to `program`
     ToolChoice tool;
-    std::optional<Role> role;  ///< none: commanded if all runs have it
+    std::optional<Role> role;  ///< none: commanded positions if all runs have them
     DerivativeMethod derivative = DerivativeMethod::savgol;
 };
 

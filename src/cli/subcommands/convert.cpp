@@ -45,7 +45,7 @@ std::vector<RunParameter> read_parameters(const po::variables_map& values, const
         sort_parameters(parameters);
         return parameters;
     }
-    // The log may have parameters already: they must obey --parameters, too, and only missing ones are required.
+    // The log may have parameters already: they must also obey --parameters, and only missing ones are required.
     for (RunParameter& known : io::parameters_of_metadata(metadata)) {
         if (std::ranges::find(parameters, known.name, &RunParameter::name) == parameters.end())
             parameters.push_back(std::move(known));

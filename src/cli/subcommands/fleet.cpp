@@ -31,7 +31,7 @@ ExitCode merge(const po::variables_map& values, const std::string& database) {
     }
     if (parts.empty()) throw UsageError("--merge: no database (.db) in the folder");
     std::ranges::sort(parts);
-    // All are opened before anything is written.
+    // All databases are opened before anything is written.
     std::vector<io::HistoryDatabase> opened;
     for (const std::string& part : parts) opened.emplace_back(part);
     static_cast<void>(io::common_rules(nullptr, opened));

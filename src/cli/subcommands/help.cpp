@@ -49,7 +49,7 @@ ExitCode run_help(const po::variables_map& values) {
 }  // namespace
 
 Subcommand help_subcommand() {
-    // Static, because views of them outlive the call.
+    // The texts are static, because views of them outlive the call.
     static const std::string summary = "a subcommand's options; " + vocabulary_names();
     static const std::string description = "TOPIC is a subcommand, or a list of words that options take as values:\n" +
                                            vocabulary_names() + ". Lists can be had as JSON.";

@@ -74,7 +74,7 @@ ExitCode run_info(const po::variables_map& values) {
         const io::Source source = io::open_source(path);
         if (source.bytes.empty())
             throw InputError(Place::of_file(source.name), "is empty, expected a program or a log");
-        // A layout or a mapping determines how a log is read: with them any file could be one.
+        // A layout or a mapping determines how a log is read: with them, any file could be a log.
         const bool is_log = io::recognise_log(source, log_options) != nullptr &&
                             !(io::forces_log(log_options) && io::looks_like_program(source));
         if (!is_log && describe_table(source, values, objects)) {

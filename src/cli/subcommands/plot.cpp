@@ -33,7 +33,7 @@ std::vector<double> x_values(const Part& part, bool over_length) {
     return x;
 }
 
-/// The shown points: from --from to --to, or the section of --line with as much on both sides.
+/// The shown points: from --from to --to, or the section of --line, extended by its own length on both sides.
 PointRange shown_range(const PlotOptions& options, const Part& part, const std::vector<double>& x) {
     const auto last = static_cast<PointIndex>(x.size()) - 1;
     PointRange range{0, last};

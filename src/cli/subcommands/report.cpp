@@ -63,7 +63,7 @@ ExitCode write_page(const ReportOptions& options, const po::variables_map& value
     page.programmed = programmed_path(shown, options);
     if (options.measurement) page.measured = measured_for_report(shown, options, clock);
     std::optional<ReportedForm> as_machined;
-    if (shown.quality.as_machined) {  // not if the axis of the tool is unknown
+    if (shown.quality.as_machined) {  // missing if the axis of the tool is unknown
         as_machined = form_for_report(shown, options, clock);
         page.relief = page_relief_of(*as_machined);
         page.as_machined_options = {"--surface", "formed", "--tool", to_text(*shown.part.tool)};

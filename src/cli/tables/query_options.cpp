@@ -40,8 +40,8 @@ WantedPlace parse_place(const std::string& given) {
     return wanted;
 }
 
-/// The nearest places. If the nearest pass is far away, the place is not on the part: a warning, or without a height an
-/// error.
+/// The nearest places. If the nearest pass is far away, the place is not on the part: a warning, or an error if
+/// no height is given.
 std::vector<FoundPlace> find_on_part(const PointQuery& query, const WantedPlace& wanted, const std::string& text,
                                      Diagnostics& diagnostics) {
     std::vector<FoundPlace> found = query.find_nearest(wanted);
@@ -75,7 +75,7 @@ std::optional<LineNumber> tip_line(const PointQuery& query, WantedPlace wanted, 
     wanted.pieces = 1;
     const std::vector<FoundPlace> tips = query.find_nearest(wanted);
     if (tips.empty() || query.is_off_the_part(tips.front().distance)) return std::nullopt;
-    // With a height the closer one of the two is meant.
+    // If a height is given, the closer of the two places is meant.
     if (!wanted.from_above && tips.front().distance > contact.distance) return std::nullopt;
     const LineMap& lines = *query.part().lines;
     const LineNumber line = lines.line_at(tips.front().point);

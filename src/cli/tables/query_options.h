@@ -13,8 +13,8 @@ void declare_query(po::options_description& options);
 
 struct QueryAnswer {
     std::vector<QueryMatch> matches;
-    /// The line for the case that the numbers of --at are a tool tip read off a map and not a place on the part, if it is
-    /// a different line.
+    /// The line if the numbers of --at are a tool tip read off a map instead of a place on the part; nothing if it is the
+    /// same line.
     std::optional<LineNumber> tip_line;
 };
 
