@@ -16,7 +16,7 @@ struct UsedConfig {
     std::string path;                     ///< empty: there is none
     std::map<std::string, Place> places;  ///< of the keys that this subcommand used
 
-    /// The place of the option that a message is about ("--tool: …"); nullptr: the message is not about an option from the configuration.
+    /// The place of the option that a message is about ("--tool: …"); nullptr: it is about another option.
     [[nodiscard]] const Place* find(std::string_view message) const;
 };
 
