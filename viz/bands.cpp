@@ -18,10 +18,10 @@ using Vec3f = Eigen::Vector3f;
 constexpr std::int64_t longest_gap = 512;  ///< vertices of a pass between two that have a neighbour, and of a seam
 constexpr float longest_seam =
     10.0F;  ///< arc length of both passes along a seam, in band widths; of a gap, in step-overs
-constexpr float widest_seam = 2.2F;          ///< of an edge of a seam, in widths of the adjoining band
+constexpr float widest_seam = 2.2F;          ///< length of an edge of a seam, in widths of the adjoining band
 constexpr double tangent_step_overs = 0.08;  ///< arc length on either side for the tangent at a vertex
 constexpr float most_askew = 0.3F;           ///< cosine of the angle between path and direction to the neighbour
-constexpr float least_width = 0.6F;          ///< of a band, in step-overs; a narrower band is already close to a corner
+constexpr float least_width = 0.6F;          ///< width of a band, in step-overs; a narrower band is already close to a corner
 constexpr float widest_end = 1.5F;           ///< of a seam between two ends, in widths
 constexpr float leading_away = 0.85F;        ///< growth of the edge per arc length from which the paths diverge
 constexpr float corner_tolerance = 1.03F;    ///< growth of an edge that is still at the ends of its passes
@@ -153,7 +153,8 @@ private:
         return vertex;
     }
 
-    /// The first vertex in a direction with a neighbour on a side; −1: none that is connected and close, or a later one.
+    /// The first vertex in a direction with a neighbour on a side; −1: no connected vertex is close enough,
+    /// or the neighbour is on a later part of the path.
     [[nodiscard]] std::int64_t beyond_gap(std::int64_t vertex, int direction, Side side) const {
         float arc_length = 0;
         const float longest = longest_seam * static_cast<float>(s_.step_over);
@@ -317,8 +318,7 @@ private:
     }
 
     /// Triangles from a vertex to the neighbour's vertices from one to another; own_step [mm] is the own path length. False
-    /// if
-    /// these are not on one piece of the path, or far apart: after a jump to another piece there is no neighbour.
+    /// if these vertices are not on one piece of the path, or far apart: after a jump to another piece there is no neighbour.
     bool fan(std::int64_t own, std::int64_t from, std::int64_t to, float own_step,
              Column<std::uint32_t>& triangles) const {
         if (arc_length_but_one_chord(from, to) > longest_fan_arc_length * static_cast<float>(s_.step_over) + own_step)

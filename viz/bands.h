@@ -43,7 +43,7 @@ struct NearnessFrame {
 [[nodiscard]] Bands join_passes(const ClSurface& surface, const SectionVertices& vertices, const NearnessFrame& frame,
                                 float reach);
 
-/// The same in three parts: cells made at vertices before `first`, from there to before `end`, and from `end` on.
+/// The same in three parts: cells made at vertices before `first`, from `first` to before `end`, and from `end` on.
 [[nodiscard]] std::array<Bands, 3> join_passes(const ClSurface& surface, const SectionVertices& vertices,
                                                const NearnessFrame& frame, float reach, std::int64_t first,
                                                std::int64_t end);

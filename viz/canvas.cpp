@@ -26,7 +26,7 @@ FlatText fitted(FlatText text, double width) {
     for (std::size_t keep = whole.size(); keep > 4; --keep) {
         std::size_t head = keep / 2;
         std::size_t tail = whole.size() - (keep - head);
-        // Not inside a UTF-8 sequence, and not inside a number, which would become a different number.
+        // The text is not cut inside a UTF-8 sequence, nor inside a number, which would become a different number.
         const auto inside = [&whole](std::size_t at) {
             const auto in_number = [&whole](std::size_t k) {
                 return (whole[k] >= '0' && whole[k] <= '9') || whole[k] == '.';

@@ -102,7 +102,7 @@ void add_cursor(Sheet& sheet, const ChartFrame& f, const ChartCursor& cursor, co
     if (known != nullptr) note.y = f.rect.y + f.rect.height - 0.9 * text;  // the names of classes are above
     note.x =
         std::max(known != nullptr ? f.rect.x : least, std::min(note.x, f.rect.x + f.rect.width - text_width(note)));
-    // The text is over bands of any colour.
+    // The text may be over bands of any colour.
     if (known != nullptr) sheet.lines.push_back(halo_of(note, sheet.background));
     sheet.texts.push_back(std::move(note));
 }

@@ -40,7 +40,7 @@ struct ChartLook {
     std::string title, subtitle, x_label, footnote;
 };
 
-/// An empty sheet with that look.
+/// An empty sheet with the given look.
 [[nodiscard]] Sheet sheet_of(const ChartLook& look);
 /// The height of its text [px]; `lines` lines of it fit into the picture.
 [[nodiscard]] double text_size_of(const ChartLook& look, double lines);

@@ -214,7 +214,7 @@ Image draw_card(const DefectCard& card, int width, int height, const std::string
     const double margin = text;
     sheet.texts.push_back(fitted({margin, height - 1.5 * text, card.title, 1.35 * text, Align::left, true, chart_ink},
                                  width - 2 * margin));
-    constexpr std::size_t subtitle_lines = 2;  // these fit above the key
+    constexpr std::size_t subtitle_lines = 2;  // number of lines that fit above the key
     (void)add_wrapped(sheet, card.subtitle,
                       {margin, height - 3.2 * text, "", 0.9 * text, Align::left, false, chart_faint},
                       width - 2 * margin, subtitle_lines);

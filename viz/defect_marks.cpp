@@ -22,7 +22,7 @@ constexpr double region_width = 0.08;      ///< of the lines of a region
 constexpr double region_share = 0.5;       ///< of the colour in a region
 constexpr double hidden_width = 0.14;      ///< of the dots of hidden parts
 constexpr double dot_every = 0.4;          ///< distance between dots, in text sizes
-constexpr double axes_height = 6.2;        ///< of the picture's axes next to the key, in text sizes
+constexpr double axes_height = 6.2;        ///< height of the picture's axes next to the key, in text sizes
 constexpr double name_width = 15;          ///< of a name in a column, in text sizes
 constexpr double with_lines = 2.5, with_place = 3.45, with_cause = 4.4;  ///< heights of names in columns, in text sizes
 constexpr double leader_clearance = 0.5;  ///< from a leader to the anchor of another one, in text sizes
@@ -122,27 +122,27 @@ private:
             mixed(kind_of(mark).rgb, mark.region ? region_share : lightest + (1 - lightest) * mark.strength);
         std::optional<Vec2> anchor;
         double highest = -1;
-        bool names_told = false;
+        bool anchor_described = false;
         for (const PointRange& section : mark.sections) {
-            const bool told = mark.point < 0 || (mark.point >= section.first && mark.point <= section.last);
+            const bool described = mark.point < 0 || (mark.point >= section.first && mark.point <= section.last);
             const double least = least_mark_width * layout_.text;
             for (const Stroke& stroke :
                  strokes_of(*map_.surface, section, panel_.camera, corner_, look_, depth_, least)) {
                 // Of the other sections of a region only visible parts are drawn: dots of its many lines would tangle.
-                if (stroke.hidden && mark.region && !told) continue;
+                if (stroke.hidden && mark.region && !described) continue;
                 draw_stroke(mark, stroke, rgb);
-                if (!mark.region) drawn_[index].push_back({stroke, told});
+                if (!mark.region) drawn_[index].push_back({stroke, described});
                 // The anchor is on the longest part, preferably a visible one.
                 const double length = length_of(stroke.band);
-                const double rank = (told ? 2 : 0) + (stroke.hidden ? 0 : 1) + length / (1 + length);
+                const double rank = (described ? 2 : 0) + (stroke.hidden ? 0 : 1) + length / (1 + length);
                 if (rank <= highest) continue;
                 highest = rank;
-                names_told = told;
+                anchor_described = described;
                 anchor = part_of(stroke.band, 0.5 * length, length).centre(0);
             }
         }
         if (!anchor) return anchor;
-        if (!names_told) {
+        if (!anchor_described) {
             mark.lines = "strongest outside the picture";
             mark.place.clear();
         } else if (mark.region && mark.point >= 0) {
@@ -169,7 +169,7 @@ private:
             if (marks_[k].region || !is_covered(k, *anchors[k])) continue;
             int highest = -1;
             for (const DrawnStroke& drawn : drawn_[k]) {
-                const int rank = (drawn.told ? 2 : 0) + (drawn.stroke.hidden ? 0 : 1);
+                const int rank = (drawn.described ? 2 : 0) + (drawn.stroke.hidden ? 0 : 1);
                 if (rank <= highest) continue;
                 const double length = length_of(drawn.stroke.band);
                 for (const double share : {0.5, 0.3, 0.7, 0.1, 0.9}) {
@@ -398,9 +398,9 @@ private:
     std::vector<DefectMark> marks_;  ///< the text says if the strongest section is outside the picture
     struct DrawnStroke {
         Stroke stroke;
-        bool told = false;  ///< the text describes its section
+        bool described = false;  ///< the text describes its section
     };
-    std::vector<std::vector<DrawnStroke>> drawn_;  ///< of each mark that is not a region
+    std::vector<std::vector<DrawnStroke>> drawn_;  ///< strokes of each mark that is not a region
     Rgb ink_;
     Vec2 corner_;
     DepthBuffer depth_;

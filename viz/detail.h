@@ -24,7 +24,7 @@ struct DetailRequest {
     int width = 0, height = 0;  ///< [px]; everything outside is omitted
     double vertex_step = 0.7;   ///< [px] from one vertex of a pass to the next
     Style style = Style::surface;
-    Box3 box;  ///< [mm]; empty: no box, otherwise everything outside is omitted
+    Box3 box;  ///< [mm] everything outside is omitted; empty: no box
     /// Cells are only made at vertices of these points. Normals take all cells into account.
     PointRange own{0, std::numeric_limits<PointIndex>::max()};
 };

@@ -16,7 +16,7 @@ namespace clsurf::viz {
 [[nodiscard]] std::string usual_colour_map_name(const FieldInfo& field);
 
 /// Colours of a field over a range in shown units, in a given map or its default one. A value beyond an end has the colour of
-/// the end if the field does not count it as beyond, or if the difference cannot be read from a legend.
+/// the end if it is within the slack of the field, or if the difference cannot be read from a legend.
 [[nodiscard]] ColourScale scale_of(const FieldInfo& field, double low, double high, int bins = 0);
 [[nodiscard]] ColourScale scale_of(const FieldInfo& field, double low, double high, int bins, ColourMap map);
 

@@ -14,7 +14,7 @@
 namespace clsurf::viz {
 namespace {
 
-// Safe for colour-blind readers (Okabe, Ito 2008); the shapes are distinct in print, too.
+// Safe for colour-blind readers (Okabe, Ito 2008); the shapes are also distinct in print.
 constexpr Rgb front_colour{0, 90, 178};
 constexpr Rgb chosen_colour{213, 94, 0};
 constexpr Rgb dominated_colour{170, 170, 176};
@@ -51,7 +51,7 @@ private:
         add_legend(0.9 * text_);
     }
 
-    /// In a separate line, left-aligned.
+    /// Adds a legend in a separate line, left-aligned.
     void add_legend(double y) {
         double x = 1.5 * text_;
         const auto entry = [&](SymbolShape shape, const Rgb& rgb, const std::string& words) {

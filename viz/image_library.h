@@ -1,7 +1,7 @@
 #pragma once
 // OpenImageIO behind a table of functions in a separate shared library, loaded when the first
 // picture is read or written. Debian's OpenImageIO depends on 250 libraries, which take 0.3 s to
-// load: `query` and `moves` avoid that, and `render` loads them in the background.
+// load: `query` and `moves` do not load them, and `render` loads them in the background.
 
 #include <cstddef>
 #include <cstdint>

@@ -8,12 +8,12 @@ namespace clsurf::viz {
 namespace {
 
 constexpr double cell = 3;             ///< [px]
-constexpr double reach = 12;           ///< in label heights, from the wanted position
-constexpr double ring_distance = 0.5;  ///< in label heights, between rings of tried positions
+constexpr double reach = 12;           ///< largest distance from the wanted position, in label heights
+constexpr double ring_distance = 0.5;  ///< distance between rings of tried positions, in label heights
 constexpr int tries_a_ring = 16;
 constexpr double start_of_line = 2.5 * cell;  ///< [px] occupied by the label's own mark
 
-/// Calls visit(point) in steps of a cell until it returns false. Returns whether it never did.
+/// Calls visit(point) in steps of a cell until a call returns false. Returns whether all calls returned true.
 template <typename Visit>
 bool every_place(const Vec2& from, const Vec2& to, Visit&& visit) {
     const int steps = 1 + static_cast<int>((to - from).norm() / cell);
@@ -35,7 +35,7 @@ LabelPlacer::LabelPlacer(const Rect& panel)
       rows_(static_cast<int>(std::ceil(panel.height / cell)) + 1),
       taken_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), false) {}
 
-/// Calls visit(flag of a cell) until it returns false. Returns whether it never did.
+/// Calls visit(flag of a cell) until a call returns false. Returns whether all calls returned true.
 template <typename Visit>
 bool LabelPlacer::every_cell(const Rect& rect, Visit&& visit) {
     const auto index = [](double from, int most) {

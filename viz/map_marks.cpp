@@ -72,7 +72,7 @@ public:
     }
 
 private:
-    static constexpr double hiding_step_overs = 2;  ///< only what is this far above a line hides it
+    static constexpr double hiding_step_overs = 2;  ///< a surface at least this far above a line hides it
     static constexpr double label_lines = 1.24;     ///< height of a label, in text sizes
     static constexpr Rgb white{255, 255, 255};
     static constexpr Rgb black{0, 0, 0};

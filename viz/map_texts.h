@@ -18,7 +18,7 @@ namespace clsurf::viz {
 inline constexpr std::string_view ramps_note = "paler: ramps at the ends of passes";
 /// A footnote: the meaning of the numbers after the names of values.
 inline constexpr std::string_view shares_note = "shares of the cutting points";
-/// A footnote if the tool is known, because positions on the part are then contact points.
+/// The footnote that positions on the part are contact points, if the tool is known.
 inline constexpr std::string_view tool_tip_note = "axes show the tool tip: `clsurf query --at tip:X,Y`";
 /// The footnotes about a range.
 [[nodiscard]] std::vector<std::string> notes_of(const ShownRange& range);

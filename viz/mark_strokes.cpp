@@ -32,7 +32,7 @@ Vec2 direction_at(const Band& band, std::size_t k, const Vec2& lonely) {
     return direction.norm() > 0 ? Vec2(direction.normalized()) : lonely;
 }
 
-/// The shift [px] that brings both ends of a band's edge onto the part; zero if both ends or none of them are on it.
+/// The shift [px] that brings both ends of a band's edge onto the part; zero if both ends or neither of them is on it.
 template <typename IsOnPart>
 Vec2 to_part(const Vec2& first, const Vec2& last, const IsOnPart& is_on_part) {
     const bool first_on = is_on_part(first);

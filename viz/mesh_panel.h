@@ -16,7 +16,7 @@ struct MeshPanel {
     Rect rect;
     Camera camera;      ///< of the panel's size
     Geometry geometry;  ///< painted; with a ramp, `rgb` only darkens the colours of the ramp
-    /// Colours along a ramp, so that points between two vertices have a colour of the ramp, too, and
+    /// Colours along a ramp, so that points between two vertices also have a colour of the ramp,
     /// not a mixture of the colours of the vertices.
     std::vector<Rgb> ramp;  ///< empty: only `rgb`
     Column<float> along;    ///< per vertex, 0 … 1; clamped

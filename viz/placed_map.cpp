@@ -36,21 +36,21 @@ Framing framing_of(const std::vector<MapPanel>& panels, const Look& look) {
     };
     const bool boxed = has_box(look);
     if (look.box.isEmpty()) return {boxed, extent(boxed ? ViewAxes(ViewAxes::Identity()) : axes_of(look.view))};
-    // If the given box is larger than the part, for example along Z, the part counts.
+    // If the given box is larger than the part, for example along Z, the extent of the part counts.
     const Box3 filled = look.box.intersection(extent(ViewAxes::Identity()));
     const Box3& shown = filled.isEmpty() ? look.box : filled;
     return {boxed, boxed ? shown : extent_along(axes_of(look.view), shown)};
 }
 
 /// `most`, or the size of a part of `needed` pixels with a margin [px].
-int shrunk(int most, double needed, double air) {
-    return std::isfinite(needed) ? std::min(most, static_cast<int>(std::ceil(air * std::max(needed, 1.0)))) : most;
+int shrunk(int most, double needed, double margin) {
+    return std::isfinite(needed) ? std::min(most, static_cast<int>(std::ceil(margin * std::max(needed, 1.0)))) : most;
 }
 
 /// The largest panel of an arrangement. It is made smaller if names or a legend would be far from the part.
 PlacedMap placed_map(Arrangement arrangement, const std::vector<MapPanel>& panels, const Framing& framing,
                      const Look& look) {
-    constexpr double air_of_leaders = 1.4, air_beside = 1.08;
+    constexpr double margin_for_leaders = 1.4, usual_margin = 1.08;
     const MapLayout layout(look, arrangement);
     const Rect rect = widest_rect(panels, 0, look, layout);
     const auto width = static_cast<int>(rect.width);
@@ -69,10 +69,10 @@ PlacedMap placed_map(Arrangement arrangement, const std::vector<MapPanel>& panel
     const double high = framing.boxed ? camera.up.cwiseAbs().dot(size) + room.bottom + room.top : size.y();
     const bool leaders = panels.front().defects != nullptr && arrangement != Arrangement::tall;
     if (leaders)
-        camera.width = shrunk(width, wide, air_of_leaders);
+        camera.width = shrunk(width, wide, margin_for_leaders);
     else if (arrangement == Arrangement::wide && panels.size() == 1)
-        camera.width = shrunk(width, wide, air_beside);
-    if (arrangement == Arrangement::tall) camera.height = shrunk(height, high, air_beside);
+        camera.width = shrunk(width, wide, usual_margin);
+    if (arrangement == Arrangement::tall) camera.height = shrunk(height, high, usual_margin);
     return {layout, camera};
 }
 

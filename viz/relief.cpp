@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-/// Slope from the vertices on both sides, or from the only one.
+/// The slope from the vertices on both sides, or on one side if there is only one.
 float slope(const Relief& r, std::int64_t i, std::int64_t at, std::int64_t count, std::int64_t stride) {
     const auto z = [&](std::int64_t k) { return r.z[static_cast<std::size_t>(k)]; };
     const bool before = at > 0 && z(i - stride) == z(i - stride);

@@ -9,7 +9,7 @@ namespace clsurf::viz {
 
 enum class SymbolShape : std::uint8_t { disc, diamond, square, triangle };
 
-/// `radius`: of the disc [px]; the other symbols appear as large.
+/// `radius` of the disc [px]; the other symbols appear equally large.
 void add_symbol(Sheet& sheet, const Vec2& at, SymbolShape shape, double radius, const Rgb& rgb,
                 Level level = Level::dot);
 

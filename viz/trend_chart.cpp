@@ -12,7 +12,7 @@ namespace {
 
 constexpr Rgb limit_colour{200, 30, 30};
 constexpr Rgb level_colour{120, 120, 126};
-// Safe for colour-blind readers (Okabe, Ito 2008); the shapes are distinct in print, too.
+// Safe for colour-blind readers (Okabe, Ito 2008); the shapes are also distinct in print.
 constexpr Rgb group_colours[] = {{0, 90, 178}, {213, 94, 0}, {0, 130, 95}, {160, 70, 130}, {110, 85, 0}, {70, 70, 75}};
 constexpr std::size_t trend_shapes = 4;
 constexpr double below_symbols =

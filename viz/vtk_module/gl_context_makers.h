@@ -19,7 +19,7 @@ using GlResolver = GlFunction (*)(const char* name);
 
 /// Sets the function that answers glXGetProcAddress (gl_symbols.cpp).
 void set_gl_resolver(GlResolver resolver);
-/// Asks the current resolver.
+/// The answer of the current resolver.
 [[nodiscard]] GlFunction resolve_gl(const char* name);
 /// Whether libraries find this library's glXGetProcAddress: false if the program has loaded VTK before.
 [[nodiscard]] bool gl_symbols_are_ours();

@@ -39,8 +39,8 @@ vtkNew<vtkCellArray> cells(const Column<std::uint32_t>& vertices, int size) {
 
 /// The share by which a lighter tone is moved from the colour to the lightest one of the ramp.
 constexpr double paleness = 0.6;
-constexpr double hatch_period = 8;  ///< [px] between hatching lines, horizontally and vertically
-constexpr int hatch_texels = 8;     ///< one of them is the line
+constexpr double hatch_period = 8;  ///< [px] distance between hatching lines, horizontally and vertically
+constexpr int hatch_texels = 8;     ///< texels in a period, one of which is the line
 
 /// Rows of colours as a texture. VTK multiplies it with the vertex colours.
 vtkSmartPointer<vtkTexture> texture_of(const std::vector<std::vector<Rgb>>& rows, bool stepped, bool repeated) {
@@ -60,7 +60,7 @@ vtkSmartPointer<vtkTexture> texture_of(const std::vector<std::vector<Rgb>>& rows
     return texture;
 }
 
-/// Two rows: the ramp, and the same in a lighter tone.
+/// Two rows: the ramp, and the ramp in a lighter tone.
 vtkSmartPointer<vtkTexture> texture_of_ramp(const MeshPanel& panel) {
     const auto lightness = [](const Rgb& c) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; };
     const Rgb lightest = *std::max_element(panel.ramp.begin(), panel.ramp.end(),

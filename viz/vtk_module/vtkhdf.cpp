@@ -105,7 +105,7 @@ struct OutputFile {
         put_header(root.id());
     }
     [[nodiscard]] H5 point_data() const { return group_in(root, "PointData"); }
-    /// Closing writes, too, but its failures are not reported.
+    /// Closing also writes, but its failures are not reported.
     void flush() const {
         if (H5Fflush(file.id(), H5F_SCOPE_LOCAL) < 0) throw SystemError("HDF5 cannot write: the disk is full?");
     }
