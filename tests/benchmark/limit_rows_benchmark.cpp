@@ -1,5 +1,5 @@
 // Compares rebuilding the rows of a speed problem only for changed cells with a step over all rows: a window of cells
-// with twelve rows each, of which one cell in fifty gets another row, as the planner finds it in dense
+// with twelve rows each; one cell in fifty gets another row, as in the planner for dense
 // programs. The argument is the number of cells.
 #include <cstdint>
 #include <vector>

@@ -79,7 +79,7 @@ void walk_both_neighbours(benchmark::State& state) {
 }
 BENCHMARK(walk_both_neighbours)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// Positions in the form for nanoflann.
+/// Positions in the form that nanoflann needs.
 struct Cloud {
     const Positions& p;
     [[nodiscard]] std::size_t kdtree_get_point_count() const { return static_cast<std::size_t>(p.size()); }

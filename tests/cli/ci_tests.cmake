@@ -19,7 +19,7 @@ clsurf_cli_test(NAME ci_several_logs_sarif SETUP "${two_logs}; $CLSURF check ${p
   ARGS check ${planted} a.biip -o one.sarif FILE one.sarif)
 # A step in the second log only.
 clsurf_cli_test(NAME ci_worst_of_several_logs SETUP "cp ${run} b.biip; head -c 100000 b.biip > a.biip" ARGS check ${part} a.biip b.biip --tool none --max-depth 5um -q EXIT 5 NO_STDOUT ".")
-# A log that cannot be used is a result, too.
+# A log that cannot be used is also a result.
 clsurf_cli_test(NAME ci_one_of_several_logs_missing SETUP "${two_logs}" ARGS check ${planted} nowhere.biip a.biip EXIT 3 STDERR "nowhere.biip: error: cannot open" STDOUT "^nowhere.biip:\nERROR: nowhere.biip: cannot open: [^\n]*\n\na.biip:.*3 defects")
 clsurf_cli_test(NAME ci_one_of_several_logs_foreign SETUP "${two_logs}" ARGS check ${planted} a.biip @LOGS@/bottle_uneven.biip -o report.xml EXIT 3 STDERR "bottle_uneven.biip: error: does not belong to" FILE report.xml)
 foreach(form json csv sarif junit)

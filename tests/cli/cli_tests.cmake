@@ -119,7 +119,7 @@ foreach(sample bottle_uneven.nc bottle_zigzag.nc dome_loops.nc transition_g61.nc
   clsurf_cli_test(NAME info_of_good_${name} ARGS info @DATA@/programs/${sample} @LOGS@/${name}.biip
     STDOUT "togo.*note: [^:]*: positions lie 0.0" NO_STDOUT "log, format.*(warning|error|remark|note:.*note:)")
 endforeach()
-# Generated logs, too, and reproducibly.
+# Generated logs are fine as well, and reproducible.
 set(make_sample $<TARGET_FILE:clsurf_make_sample>)
 foreach(pattern zigzag one-way loops)
   clsurf_cli_test(NAME info_of_made_${pattern}

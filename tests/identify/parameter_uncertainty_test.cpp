@@ -63,7 +63,7 @@ TEST(ParameterUncertainty, ValuesThatExplainTheRunsAlikeAreAlternatives) {
     ASSERT_EQ(rows.size(), 1U);
     EXPECT_EQ(rows[0].key, "lookahead_blocks");
     EXPECT_EQ(rows[0].alternatives, (std::vector<double>{50, 200}));
-    // A single candidate is certain, and words are not numbers.
+    // A single candidate has no uncertainty, and words have none because they are not numbers.
     result.rules = {candidate("50", true), candidate("arc", true), candidate("spline", true)};
     EXPECT_TRUE(uncertainty_of(result).empty());
 }

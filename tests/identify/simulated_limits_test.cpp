@@ -37,7 +37,7 @@ struct Searched {
     std::vector<SimulatedLimit> limits;
 };
 
-/// The result of simulations for the acceleration of an axis or of the path, of which the motion shows `bound` [mm/s²].
+/// The result of simulations for the acceleration of an axis or of the path; the motion shows `bound` [mm/s²].
 Searched searched(const Part& part, const Machine& known, const char* of, double bound) {
     const RecordedRun run(part);
     RuleScores scores({&run, 1});
@@ -136,7 +136,7 @@ Part arcs_on(const Machine& machine, bool in_xy) {
     return assemble(program, simulate_to_log(program, machine, Vec3::Zero()).log);
 }
 
-/// The result of simulations for the highest speeds of all axes, of which the motion shows 3000 and the file has 15,000
+/// The result of simulations for the highest speeds of all axes; the motion shows 3000 mm/min, and the file has 15,000
 /// mm/min.
 Identification speeds_from(const Part& part) {
     const RecordedRun run(part);

@@ -114,7 +114,7 @@ TEST(Edge, AnAxisThatGoesOnAtTheEndOfATurnIsNoLength) {
         EXPECT_EQ(log.find("DES_POS|3")->unit, "deg");
         EXPECT_EQ(log.find("LOAD|3")->unit, "%");
     }
-    // At rest beside the end of a turn.
+    // At rest next to the end of a turn.
     EXPECT_EQ(open_z({{1, 0.001}, {2, 0}, {3, 359.999}, {4, 0}, {5, 0.001}}).find("cmd.z"), nullptr);
     // A length: a jump of another size, a wrong record, a gap in the cycles, a rapid motion within 0 … 360.
     for (const std::vector<std::pair<int, double>>& rows :

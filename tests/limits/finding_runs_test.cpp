@@ -30,7 +30,7 @@ std::vector<LimitFinding> found(const std::vector<Record>& records, std::size_t 
     return findings_of(all, longest_gap, [&](PointIndex point) { return static_cast<LineNumber>(1 + point / line); });
 }
 
-/// A constant 1.003, of which noise lets only every seventh record show.
+/// A constant 1.003, which noise hides in all but every seventh record.
 std::vector<Record> steady(int records) {
     std::vector<Record> made;
     for (int i = 0; i < records; ++i) made.push_back({i % 7 == 3 ? 1.004 : 1.002, 0.0025});
@@ -55,7 +55,7 @@ TEST(FindingRuns, AFactorIsThatOfThePeakWhateverTheBendMakesOfIt) {
     EXPECT_DOUBLE_EQ(found(bend)[0].factor, 1.067);
     EXPECT_DOUBLE_EQ(found(bend)[0].uncertainty, 0.066);
     EXPECT_EQ(found(bend)[0].point, 2);
-    // Noise makes larger values, too, which are not peaks.
+    // Noise also makes larger values, which are not peaks.
     EXPECT_DOUBLE_EQ(found({{1.2, 0.01}, {1.23, 0.05}})[0].factor, 1.2);
 }
 

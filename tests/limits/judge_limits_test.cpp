@@ -243,7 +243,7 @@ TEST(JudgeLimits, RepeatedRecordsAreNoFindings) {
 }
 
 TEST(JudgeLimits, ALostRecordNearStandstillIsNoFinding) {
-    // Each of the records around a start, a stop and a reversal.
+    // Each of the records around a start, a stop and a reversal is lost in turn.
     const Positions whole = driven({{0, 50}, {2000, 20}, {-2000, 40}, {2000, 20}, {0, 50}}, 1e-4);
     ASSERT_TRUE(judged(log_of(whole), {acceleration_of_x}).findings.empty());
     for (std::ptrdiff_t lost = 45; lost < 135; ++lost) {

@@ -82,7 +82,7 @@ private:
     double x_ = 0, y_ = 0;
 };
 
-/// The only finding, with that code; an empty one if their number differs.
+/// The only finding, with that code; an empty one if there is not exactly one.
 Diagnostic only(const Diagnostics& found, const std::string& code, std::uint64_t times = 1) {
     EXPECT_EQ(found.count(code), times);
     for (const Diagnostic& d : found.kept()) EXPECT_EQ(d.code, code) << to_text(d);
@@ -275,7 +275,7 @@ TEST(Health, FindsALineThatIsAlwaysZero) {
 }
 
 TEST(Health, LetsOneMotionTurnToOneSideAsLongAsItLikes) {
-    // A helix of 40 turns is one line; a straight of 2 m is one, too.
+    // A helix of 40 turns is one line, and so is a straight motion of 2 m.
     Made made;
     made.columns.clear();
     for (int i = 0; i < 40'000; ++i) {

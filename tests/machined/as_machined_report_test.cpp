@@ -69,7 +69,7 @@ TEST(AsMachinedReport, APlantedBulgeIsCutDownByItsNeighbours) {
     const double h = scallop_height(3, 0.3, std::numeric_limits<double>::infinity());
     const Planted bulge(recipe_with(0.006, planted::Shape::zigzag, planted::Surface::transition));
     ASSERT_EQ(bulge.report.defects.size(), 1U);
-    // Its cusps are h (1 + δ/4h)², those next to it h: less than half of the 6 µm remain above them.
+    // The cusps of the bulge are h (1 + δ/4h)² high, those next to it h: less than half of the 6 µm remain above them.
     const double cusp = h * (1 + 0.006 / (4 * h)) * (1 + 0.006 / (4 * h));
     EXPECT_NEAR(bulge.result.marks[0].depth, cusp - h, 0.0006);
 }
@@ -203,10 +203,10 @@ TEST(AsMachinedReport, AMarkIsReadAgainstTheUsualValleysAndCusps) {
     z = clean;
     for (std::size_t k = 500; k < 600; ++k) z[k] += 2;
     EXPECT_NEAR(mark_depth(z, 0.01, 1, false).depth, 2, 1e-12);
-    // A linear trend across the row is not part of it.
+    // A linear trend across the row is not part of the mark.
     for (std::size_t k = 0; k < z.size(); ++k) z[k] += 0.005 * static_cast<double>(k);
     EXPECT_NEAR(mark_depth(z, 0.01, 1, false).depth, 2, 0.5);
-    // Far from the middle, it is a different mark.
+    // A mark far from the middle is a different mark.
     z = clean;
     for (std::size_t k = 100; k < 200; ++k) z[k] -= 3;
     EXPECT_NEAR(mark_depth(z, 0.01, 1, true).depth, 0, 1e-12);

@@ -180,7 +180,7 @@ TEST(AsMachinedSurface, APitGoesThroughAndABulgeVanishesAtFourScallops) {
 }
 
 TEST(AsMachinedSurface, SegmentsAreSweptAndNotStampedAtTheirEnds) {
-    // One point per 1 mm: a ball that is only placed there would leave cusps of 42 µm along the feed.
+    // One point per millimetre: a ball placed only at the points would leave cusps of 42 µm along the feed.
     const Made made(test::flat_zigzag(9, 20, 0.3, 1000, {}));
     const std::vector<double> z = profile(made.as_machined(ball(3)), Vec2(5, 1.2), Vec2::UnitX(), 0.01, 1000);
     EXPECT_LT(rise(z), 1e-6);

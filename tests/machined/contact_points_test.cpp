@@ -185,7 +185,7 @@ TEST(ContactPoints, ThePlaceOnThePartNamesItsLine) {
 
 TEST(ContactPoints, AToolThatTurnsTouchesWhereItsOwnAxisSays) {
     Score all;
-    // By some 20°, ahead and to one side, varying from place to place.
+    // The tool leans by some 20°, ahead and to one side, varying from place to place.
     const Lean lean = [](const SurfacePoint& p, const Vec3& along) {
         const double ahead = 0.3 + 0.005 * p.at.y();
         const double aside = 0.2 + 0.05 * std::cos(0.2 * p.at.x());
@@ -296,7 +296,7 @@ TEST(PlaceSearch, UnderAFlatBottomTheNearestPassIsMeant) {
 }
 
 TEST(PlaceSearch, FromAboveTheTopmostLevelIsMeant) {
-    // Two level faces above each other, the lower one cut last, with passes half a step-over beside the others.
+    // Two level faces above each other, the lower one cut last, with passes offset from the others by half a step-over.
     Columns tips;
     Passes passes;
     for (const double z : {0.0, -2.0}) {

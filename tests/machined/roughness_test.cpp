@@ -44,7 +44,7 @@ TEST(Roughness, IsThatOfDistancesAlongTheProfile) {
     std::vector<double> z;
     std::vector<double> along;
     for (double x = 0; x < 6; x += 0.001) {
-        along.push_back(x + 0.05 * x * x);  // arc length of 1 … 1.6 per step of 1
+        along.push_back(x + 0.05 * x * x);  // the arc length increases by 1 … 1.6 per millimetre of x
         z.push_back(0.001 * std::sin(2 * pi * along.back() / 0.8));
     }
     const Roughness r = roughness_of(z, along, 0.8);

@@ -85,7 +85,7 @@ struct Kept {
     [[nodiscard]] double share() const { return static_cast<double>(right) / static_cast<double>(all); }
 };
 
-/// The points whose line still exists, and how many of them have that line.
+/// The number of points whose line still exists, and the number of those that have that line.
 Kept map_edited(const Trajectory& path, const Log& log, const EditedProgram& edited, const LineMap& original) {
     const Program program = parse(edited.text(), "linuxcnc");
     Diagnostics diagnostics;

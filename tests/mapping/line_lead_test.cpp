@@ -116,8 +116,8 @@ std::shared_ptr<const MadeRun> run_of(double period, std::ptrdiff_t lead) {
 struct Edit {
     const char* name;
     const char* finding;  ///< beginning of the message
-    LineNumber at;        ///< line of the old text …
-    int by;               ///< … from which lines are later by this number
+    LineNumber at;        ///< line of the old text from which lines are shifted
+    int by;               ///< number of lines by which they are later
     std::function<void(Text&)> make;
 };
 

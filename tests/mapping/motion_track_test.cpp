@@ -152,7 +152,7 @@ TEST(MotionTrack, RapidsOfACannedCycleAreRapids) {
             const bool rapid = program.motions.kind[static_cast<std::size_t>(run.motion[i])] == MotionKind::rapid;
             wrong += (kind == PointKind::rapid) != rapid ? 1 : 0;
         }
-        // A point at the end of a motion is at the start of the next one, too.
+        // A point at the end of a motion is also at the start of the next one.
         EXPECT_LE(wrong, static_cast<std::size_t>(program.motions.size())) << use_channel;
     }
 }

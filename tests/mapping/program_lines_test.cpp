@@ -144,7 +144,7 @@ TEST(UnknownLines, OfAnotherProgramByItsHashNeedFewerPoints) {
 TEST(UnknownLines, AtRestBehindTheProgramAreNoFinding) {
     Recorded r;
     run(r, 1, 100);
-    for (int i = 0; i < 900; ++i) {  // the tool does not move, on a line of the program that is loaded next
+    for (int i = 0; i < 900; ++i) {  // the tool rests, on a line of the program that is loaded next
         r.x.push_back(100);
         r.line.push_back(500);
     }
@@ -215,7 +215,7 @@ TEST(ProgramCourse, FindsTwoRunsInOneLog) {
 TEST(ProgramCourse, FindsARunThatWentOnFromAnEarlierLine) {
     Recorded r;
     run(r, 1, 60);
-    for (int k = 0; k < 8; ++k) {  // up and back, with the number of the stopped line
+    for (int k = 0; k < 8; ++k) {  // the tool is lifted and moves back, with the number of the stopped line
         r.x.push_back(60 - (k + 1) * 31 / 8.0);
         r.line.push_back(60);
     }

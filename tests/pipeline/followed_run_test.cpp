@@ -101,7 +101,7 @@ TEST(FollowedRun, FindsEachPlantedDefectOnceAndBeforeTheLogIsComplete) {
     EXPECT_EQ(resolved.defects[1], std::vector<std::size_t>{0}) << "the slow section is the first of the report";
 }
 
-// Loops 7 and 8 are too deep, 14 and 16 are slower, 15 and 17, too.
+// Loops 7 and 8 are too deep, 14 and 16 are slower, and so are 15 and 17.
 TEST(FollowedRun, FindsDefectsOfLoops) {
     Listener listener("planted_loops", log_of("planted_loops"));
     while (listener.listen(1000)) {}

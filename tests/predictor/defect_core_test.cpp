@@ -83,7 +83,7 @@ TEST(DefectCore, KeepsAPeakThatIsLessThanHalfOfAnotherOneBeyondADip) {
     EXPECT_EQ(group.core(), (Points{0, 1, 2, 9, 10, 11, 12, 13}));
     EXPECT_TRUE(group.rest().empty());
     EXPECT_EQ(Group::points(group.sites(Quantity::lag).core), (Points{0, 1, 2})) << "heights swing";
-    // In reverse order, too.
+    // The same in reverse order.
     const Group mirrored({4, 1, 4, 1, 4, 0.5, 0.3, 0.2, 0.3, 0.5, 2, 10, 10, 10});
     EXPECT_EQ(mirrored.core(), (Points{0, 1, 2, 3, 4, 11, 12, 13}));
 }

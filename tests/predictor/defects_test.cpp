@@ -312,8 +312,8 @@ TEST(Severity, ComesFromDepthAndFromHowFarItStandsOut) {
 }
 
 TEST(Defects, AreListedByHowFarTheyStandOut) {
-    // A pass 40 % slower has almost no depth here, one 6 µm too deep has: the first exceeds thirteen thresholds, the
-    // other four.
+    // A pass 40 % slower has almost no depth here, unlike one 6 µm too deep: the first exceeds thirteen thresholds, the
+    // second four.
     planted::PlantedLog log =
         plane_zigzag([](int k, double x, double) { return k == 8 && x > 8 && x < 12 ? 30.0 : 50.0; });
     lift(log, -0.006, 10, 14, [](int p) { return p == 16; });

@@ -1,5 +1,5 @@
-// The predictor on kinds of logs that it was not developed on (data/tools/kinds.h): one log with faults and one without
-// of each. `clsurf_planted kinds` runs any number.
+// The predictor on kinds of logs that it was not developed on (data/tools/kinds.h): one log of each with faults,
+// and one without. `clsurf_planted kinds` runs any number.
 #include "kinds.h"
 
 #include <string_view>

@@ -28,7 +28,7 @@ std::vector<float> own_reliefs(const Height& height, double low, double high) {
         if (p.x() < 5 || p.x() > length - 5 || p.y() < low || p.y() > high) continue;
         const Comparison c = comparer.compare({i, 0});
         const float residual = c.residual[index_of(Quantity::relief)];
-        if (c.left >= 2 && c.right >= 2 && residual == residual) own.push_back(residual);  // none at tilted chords
+        if (c.left >= 2 && c.right >= 2 && residual == residual) own.push_back(residual);  // no residual at tilted chords
     }
     EXPECT_GT(own.size(), 100U);
     return own;
@@ -48,7 +48,7 @@ TEST(Relief, OfAPassThatLiesOffIsAMark) {
 
 TEST(Relief, OfEverySecondPassIsAMark) {
     const auto height = [](double, double y) { return std::lround(y / apart) % 2 == 0 ? 0.01 : 0.0; };
-    // Compared with the passes between, which are lower by twice as much as the chords.
+    // The passes are compared with those between them, which are lower by twice as much as the chords.
     for (const float own : own_reliefs(height, 3.9, 4.1)) EXPECT_NEAR(own, 0.02, 1e-5);
 }
 

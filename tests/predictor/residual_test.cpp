@@ -44,7 +44,7 @@ std::vector<float> reliefs_of(const std::vector<float>& heights) {
     return result;
 }
 
-/// The residual of each pass; 0 if unknown.
+/// The residual of each pass; 0 if it is unknown.
 std::vector<float> marks_of(const std::vector<float>& heights) {
     const std::vector<float> reliefs = reliefs_of(heights);
     std::vector<float> result;

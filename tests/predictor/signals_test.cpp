@@ -44,7 +44,7 @@ TEST(Signals, AnOffsetAlongTheNormalIsTheHeight) {
     std::int64_t with = 0;
     for_each_inner(s, [&](PointIndex i) {
         const float lag = s[i].lag;
-        if (!(lag == lag)) return;  // the outermost passes have a normal from one side only, but they have one
+        if (!(lag == lag)) return;  // the outermost passes do have a normal, but from one side only
         EXPECT_NEAR(lag, 0.005F, 1e-6F) << i;
         ++with;
     });

@@ -1,4 +1,4 @@
-// Verdict: which limits of a budget a report meets.
+// The verdict: the limits of a budget that a report meets.
 #include "predictor/verdict.h"
 
 #include <gtest/gtest.h>

@@ -20,7 +20,7 @@ Program parse_with_tool(const std::string& text, const char* dialect) {
 }
 
 TEST(FanucFrame, TurnsAboutItsCentre) {
-    // About (10, 0) by 90°: (20, 0) → (10, 10), (20, 5) → (5, 10). Increments are rotated, too.
+    // About (10, 0) by 90°: (20, 0) → (10, 10), (20, 5) → (5, 10). Increments are also rotated.
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nG68 X10 Y0 R90\nG1 F60 X20 Y0\nG91 Y5\nG90 G69 X1 Y1\n"),
               (Rows{"rapid 0 0 0", "feed 10 10 0", "feed 5 10 0", "feed 1 1 0"}));
     // Without a centre: about the present position.

@@ -22,8 +22,8 @@ TEST(Interpreter, ConvertsInchesAndFeeds) {
     EXPECT_NEAR(p.motions.feed[0], 254.0 / 60, 1e-4);
 }
 
-// For a line that only turns, F counts degrees, with inches, too. Under G93 it takes 1/F minutes: 3 and 4 degrees are 5, and
-// at F2 10 deg/min. A line without movement has a feed, too, because it could not be simulated otherwise.
+// For a line that only turns, F counts degrees, also with inches. Under G93 it takes 1/F minutes: 3 and 4 degrees are 5, and
+// at F2 10 deg/min. A line without movement also has a feed: it could not be simulated otherwise.
 TEST(Interpreter, CountsDegreesWhereOnlyRotaryAxesMove) {
     const Program p = parse("G20 G0 X1 Y0 Z0 A0 C0\nG1 A30 F120\nG93 A33 C4 F2\nX1 F2\nG95 M3 S60 C5 F2\n", "linuxcnc");
     ASSERT_EQ(p.motions.size(), 5);
@@ -169,7 +169,7 @@ TEST(Interpreter, SurvivesBrokenBlocks) {
         for (const Dialect& dialect : dialects()) {
             try {
                 (void)parse(text, dialect.name.data());
-            } catch (const InputError&) {  // a clear error is a valid answer, too
+            } catch (const InputError&) {  // a clear error is also a valid answer
             }
         }
     }

@@ -75,7 +75,7 @@ TEST(RefusedWords, PositioningCodesOfFanucAreCarriedOut) {
     const Program p = parse("G0 X0 Y0 Z0\nG27 X5\nG60 Y5\nG29 X1 Y1\nG1 Z-1 F60\nG31 P1 Z-9 F120\nX3\n", "fanuc");
     EXPECT_EQ(motions(p), (Rows{"rapid 0 0 0", "rapid 5 0 0", "rapid 5 5 0", "rapid 1 1 0", "feed 1 1 -1",
                                 "feed 1 1 -9", "feed 3 1 -9"}));
-    // Its F is modal.
+    // The F of G31 is modal.
     EXPECT_FLOAT_EQ(p.motions.feed[5], 2);
     EXPECT_FLOAT_EQ(p.motions.feed[6], 2);
 }

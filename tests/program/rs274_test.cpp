@@ -166,12 +166,12 @@ TEST(LatheCycles, SayWhatTheyDoNotCut) {
 }
 
 TEST(Probing, IsAMotionToTheProgrammedPoint) {
-    // It touches there, as 5061 … show: the next motion begins there and is level.
+    // The probe touches there, as #5061 … show: the next motion begins there and is level.
     const Program p = parse("G64 P0.1\nG38.2 Z-2 F120\nG0 X#5063\nG0 Z#5070\n", "linuxcnc");
     EXPECT_EQ(motions(p), (Rows{"feed 0 0 -2", "rapid -2 0 -2", "rapid -2 0 0"}));
     EXPECT_FLOAT_EQ(p.motions.feed[0], 2);
     EXPECT_EQ(p.motions.line[0], 2U);
-    // It stops; after that corners are rounded again.
+    // The probe stops; after that, corners are rounded again.
     std::vector<std::pair<std::int64_t, BlockEnd>> modes;
     for (const ProgramEvent& e : p.events) {
         if (e.path_mode()) modes.emplace_back(e.motion, e.path_mode()->block_end);

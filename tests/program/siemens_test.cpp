@@ -186,7 +186,7 @@ TEST(SiemensCycles, DrillOnceOrAfterEveryMotion) {
     EXPECT_EQ(rows("G0 X0 Y0 Z10 F60\nMCALL CYCLE82(10,0,2,,4,0.5)\nX1\nX2\nMCALL\nX3\n"),
               (Rows{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 2", "feed 1 0 -4", "dwell 1 0 -4", "rapid 1 0 10",
                     "rapid 2 0 10", "rapid 2 0 2", "feed 2 0 -4", "dwell 2 0 -4", "rapid 2 0 10", "rapid 3 0 10"}));
-    // Tapping retracts with feed, boring with CYCLE85, too.
+    // Tapping retracts with feed, and so does boring with CYCLE85.
     EXPECT_EQ(rows("G0 X1 Y1 Z10 F60\nCYCLE84(10,0,2,-5,,,,,1)\n"),
               (Rows{"rapid 1 1 10", "rapid 1 1 2", "feed 1 1 -5", "feed 1 1 2", "rapid 1 1 10"}));
     const Program p = parse("G0 X1 Y1 Z10 F60\nCYCLE85(10,0,2,-5,,0,120,240)\n", "siemens");
@@ -260,7 +260,7 @@ TEST(SiemensFlow, RepeatsBlocksAndSections) {
     EXPECT_EQ(rows("G0 X0 Y0 Z0 G91\nBB: X1\nAA: Y1\nREPEATB BB P=2\nREPEAT AA P=1\nM30\n"),
               (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 1 1 0", "rapid 2 1 0", "rapid 3 1 0", "rapid 3 2 0",
                     "rapid 4 2 0", "rapid 5 2 0"}));
-    // A jump out of it ends it: otherwise X3 would return to the second repetition.
+    // A jump out of a section ends its repetition: otherwise X3 would return to the second repetition.
     EXPECT_EQ(
         rows(
             "R1=0\nGOTOF START\nAA: R1=R1+1\nX=R1\nIF R1==2 GOTOF OUT\nENDLABEL:\nM30\nSTART: G0 X0\nREPEAT AA P=5\nM30\nOUT: X3\nM30\n")

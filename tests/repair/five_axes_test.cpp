@@ -262,7 +262,7 @@ double greatest_jump(const Motions& m) {
     return greatest;
 }
 
-// If lines become half as long, jumps of the rates are halved, too, unlike on the old lines.
+// If lines become half as long, jumps of the rates are also halved, unlike on the old lines.
 TEST(FiveAxisResample, TurnsTheToolEvenly) {
     const Resampled r = resampled(tilted_zigzag(
                                       5, 8, [](int, double) { return 0.8; }, 5),

@@ -34,7 +34,7 @@ std::vector<std::uint8_t> worse_motions(const JudgedRun& before, const JudgedRun
     return worse;
 }
 
-/// The value of the cutting motion that ends near a place; −1: none does.
+/// The value of the cutting motion that ends near a place; −1: no motion ends there.
 int value_near(const Program& program, const std::vector<std::uint8_t>& of_motion, double x, double y) {
     for (std::size_t i = 0; i < of_motion.size(); ++i) {
         const Vec3 end = program.motions.end[i].vec();

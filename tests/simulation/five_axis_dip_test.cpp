@@ -1,5 +1,5 @@
 // Blocks of very different lengths with random reversals: next to many joints the speed of the tip falls almost to zero
-// within nanometres. The jerk of the path stays within its limit there, too, for periods that resolve it.
+// within nanometres. The jerk of the path stays within its limit even there, for periods that resolve it.
 
 #include <gtest/gtest.h>
 

@@ -351,7 +351,7 @@ TEST(FiveAxisSimulator, LimitsOfVeryDifferentAxesArePlanned) {
 }
 
 // The chords of a curve are joined within a tolerance, but its bend is programmed: it affects the jerk of an axis. Spans of
-// a spline are blocks, so a few points next to their joints remain; it was 57 of 3,009.
+// a spline are blocks, so a few points next to their joints remain; previously there were 57 of 3,009.
 TEST(FiveAxisSimulator, ABendOfACurveIsNoCorner) {
     std::ifstream file(SAMPLE_DATA "/programs/butterfly_nurbs.nc");
     const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());

@@ -1,5 +1,5 @@
 // Where two arcs nearly reverse, the rounded path almost stops with respect to its programmed arc length: |p′| falls to a
-// minimum and rises again within 0.1 µm. The jerk of the path stays within its limit there, too.
+// minimum and rises again within 0.1 µm. The jerk of the path stays within its limit even there.
 
 #include <gtest/gtest.h>
 

@@ -171,7 +171,7 @@ void write_files(const std::string& text, const Machine& machine) {
     std::ofstream("random.toml") << io::machine_text(machine);
 }
 
-/// Points of a program whose distance from the path is tested: more programs show more than more points.
+/// The number of points of a program whose distance from the path is tested: more programs reveal more than more points.
 constexpr std::size_t places_of_a_program = 200;
 
 TEST_P(RandomPrograms, HoldLimitsToleranceAndEnd) {

@@ -48,7 +48,7 @@ TEST(Passes, AreNotCutWhereTheSpeedIsLow) {
     EXPECT_EQ(passes.size(), 1u);
 }
 
-// 100 points of a contour and a few of finishing: a picture shows the contour, too.
+// 100 points of a contour and a few of finishing: a picture also shows the contour.
 TEST(ShowAllCutting, WhereFinishingIsLessThanATenth) {
     ClSurface surface;
     test::add_line(surface.positions, {0, 0, 0}, {11, 0, 0}, 0.1);

@@ -68,7 +68,7 @@ struct Machine {
             for (int i = 0; i < count; ++i) {
                 const auto f = static_cast<std::size_t>((i + lead_room) * fine);
                 position[k].push_back(table[f]);
-                // Over a tenth of a period: where the table starts and stops there is no better definition.
+                // The speed over a tenth of a period: there is no better definition where the table starts and stops.
                 velocity[k].push_back((table[f + fine / 10] - table[f - fine / 10]) / (0.2 * period));
                 const auto ahead = static_cast<std::size_t>(std::lround((i + lead_room + drive.lead) * fine));
                 const auto rounded = [](double x, double q) { return std::round(x / q) * q; };
@@ -93,7 +93,7 @@ struct Machine {
         return axis == 0 ? circle * std::cos(s / circle) : axis == 1 ? circle * std::sin(s / circle) : 4.0003;
     }
 
-    /// Over half a period on each side [mm/s²].
+    /// The acceleration over half a period on each side [mm/s²].
     static double acceleration(const std::vector<double>& way, std::size_t f, std::size_t axis) {
         constexpr std::size_t half = fine / 2;
         if (f < half || f + half >= way.size()) return 0;

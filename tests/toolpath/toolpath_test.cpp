@@ -98,7 +98,7 @@ TEST(Toolpath, FindsTheFootOnACurve) {
     // κ = 2 at the top; at the beginning the slope is 4.
     EXPECT_NEAR(path.curvature(0), 2, 1e-6);
     EXPECT_LE((path.direction(0, 0) - Vec3(1, 4, 0).normalized()).norm(), 1e-9);
-    // Only from a fraction of the path on.
+    // The projection is searched only from a fraction of the path on.
     EXPECT_NEAR(path.projection(0, Vec3(1, 4, 7), 0.5).fraction, 0.5, 1e-6);
 }
 

@@ -81,7 +81,7 @@ TEST(Weight, CostsWhatThePaperSays) {
     for (const double weight : {0.0, 0.3, 1.0}) EXPECT_DOUBLE_EQ(weighted_cost(reference, reference, weight), 1);
 }
 
-// 0 mm/min of mismatch is not a unit: it must stay, and no rise of it is accepted.
+// A mismatch of 0 mm/min cannot serve as a unit: it must stay at 0, and no rise is accepted.
 TEST(Weight, TakesAReferenceWithoutMismatch) {
     const MotionQuality reference = row(10, 0, 5000).quality;
     EXPECT_DOUBLE_EQ(weighted_cost(row(10, 0, 5000).quality, reference, 0.5), 1);

@@ -45,7 +45,7 @@ TEST(PlanSettings, OfTheMachineFileChangeNothing) {
     machine.fidelity.emplace();
     EXPECT_TRUE(with_settings(machine, {}).fidelity.has_value());
     EXPECT_EQ(with_settings(machine, {}).name, machine.name);
-    // The measured fidelity is that of other settings.
+    // The fidelity was measured with other settings.
     EXPECT_FALSE(with_settings(machine, {0.5}).fidelity.has_value());
 }
 
@@ -59,7 +59,7 @@ TEST(PlanSettings, KnowWhetherThereIsAJerkLimit) {
     Machine machine;
     EXPECT_TRUE(limits_jerk(machine));
     for (MachineAxis& axis : machine.axes) axis.max_jerk = 0;
-    EXPECT_TRUE(limits_jerk(machine));  // that of the path
+    EXPECT_TRUE(limits_jerk(machine));  // the jerk limit of the path
     machine.path.max_jerk = 2 * machine.path.max_acceleration / machine.controller.period;
     EXPECT_FALSE(limits_jerk(machine));
     machine.path.max_jerk = 50000;

@@ -177,7 +177,7 @@ TEST(DefectMarks, NumbersOfANarrowPartStandAboveItOrAreCounted) {
     EXPECT_TRUE(counted);
 }
 
-/// All points that a mark is drawn with.
+/// All points of the lines that draw a mark.
 std::vector<Vec2> drawn_marks(const Sheet& sheet) {
     std::vector<Vec2> all;
     for (const FlatLine& line : sheet.lines) {

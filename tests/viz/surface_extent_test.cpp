@@ -32,7 +32,7 @@ ClSurface wavy() {
     return surface;
 }
 
-/// The boxes of its blocks, as in a survey.
+/// The boxes of a surface's blocks, as in a survey.
 std::vector<Eigen::AlignedBox3f> boxes_of(const ClSurface& surface) {
     std::vector<Eigen::AlignedBox3f> boxes(static_cast<std::size_t>(surface.positions.size() / block_points + 1));
     for (const Pass& pass : surface.passes) {

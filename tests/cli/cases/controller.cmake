@@ -87,7 +87,7 @@ set(crowded_rounds "${crowded_part}; $CLSURF simulate part.nc --machine @DATA@/m
 clsurf_cli_test(NAME optimize_learns_from_rounds SETUP "${crowded_rounds}; sed 's/F3000/F2500/' one.nc > slow.nc; $CLSURF simulate slow.nc --machine @DATA@/machines/linuxcnc_logs.toml -o run2.biip -q"
   ARGS optimize part.nc --log run0.biip --round slow.nc run2.biip -o two.nc FILE two.nc
   STDOUT "fitted to 2 logs" "run 1, the program: [0-9.]+ s" "run 2, slow.nc: [0-9.]+ s, .*no better than the program: it would take" "the fitted runs: 2" "accepted")
-# The same part without the crowded points, made by hand, on a machine with better servo loops: no candidate of the search
+# The same part, made by hand without the crowded points, on a machine with better servo loops: no candidate of the search
 # promises more.
 string(REPLACE "k == 3 && w > 3 && w < 4 ? 0.02 : 0.25" "0.25" even_part "${crowded_part}")
 string(REPLACE "part.nc" "even.nc" even_part "${even_part}")

@@ -66,7 +66,7 @@ clsurf_cli_test(NAME accepted_defects_are_suppressed_in_sarif SETUP "${accept_tw
   ARGS --version)
 clsurf_cli_test(NAME accepted_defects_in_csv SETUP "${accept_two} && $CLSURF check ${part} ${run} --tool none --accepted ok.json -o part.csv && python3 -c \"import csv; rows = list(csv.DictReader(open('part.csv'))); assert all(None not in x for x in rows); assert {x['id'] for x in rows if x['accepted'] == 'true'} == {'1', '2'}\""
   ARGS --version)
-# Only defects that are not accepted count: a budget of all but two is met, one less is not.
+# Only defects that are not accepted count: a budget of all but two is met, a budget of one less is not.
 set(all_but "${accept_two} && python3 -c \"import json; print('max_defects =', len(json.load(open('all.json'))['defects']) - COUNT)\" > budget.toml")
 string(REPLACE COUNT 2 all_but_two "${all_but}")
 string(REPLACE COUNT 3 all_but_three "${all_but}")

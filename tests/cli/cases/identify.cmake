@@ -59,7 +59,7 @@ clsurf_cli_test(NAME identify_limits_of_a_simulation
   STDOUT "max_acceleration +z +199[0-9.]* mm/s² +lower bound" "max_acceleration +path +(199|200)[0-9.]* mm/s² +[0-9.]+ +reached. the motion shows 1996[0-9.]*. simulations with [0-9.]+ explain the runs less well" "max_jerk +path +(49[789]|500)[0-9.]+ mm/s³ .*reached" "max_jerk +z +(79[67][0-9]+|80000) mm/s³ .*reached"
     "max_jerk +x +(79|80)[0-9]+ mm/s³ .*reached. simulations with"
     "planner +time-optimal, corner (arc|spline) .*chosen")
-# Both simulate many machines: on a slow machine with other work, for more than the usual limit.
+# Both tests simulate many machines, which takes longer than the usual limit on a slow computer with other work.
 set_tests_properties(cli.identify_a_kernel cli.identify_limits_of_a_simulation PROPERTIES TIMEOUT 300)
 # The axes have 80000 mm/s³, the path 50000: where the path limits the jerk, it is not attributed to the axes.
 clsurf_cli_test(NAME identify_limits_of_the_path

@@ -117,7 +117,7 @@ clsurf_cli_test(NAME pocket_is_no_finishing_pass SETUP "${with_pocket}" ARGS che
 clsurf_cli_test(NAME lint_of_a_pocket_judges_nothing
   SETUP "(printf 'G21 G90 G17\\nG0 X0 Y0 Z5\\nF3000\\n' && seq 1 3 | awk '{printf \"G0 Z5\\nG0 X60 Y0\\nG1 Z-%d\\nX75 F2000\\nY15\\nG3 X60 I-7.5 F3000\\nG1 Y0\\n\", $1}' && echo M30) > part.nc"
   ARGS lint part.nc STDOUT "no finishing passes to judge: 100 % of the cutting" NO_STDOUT "warning")
-# Levels of a pocket 0.8 mm apart, with lines so long that a coarse search takes passes 2.27 mm apart for adjacent.
+# Levels of a pocket 0.8 mm apart, with lines so long that a coarse search takes passes 2.27 mm apart for adjacent ones.
 clsurf_cli_test(NAME lint_of_long_lines_in_a_pocket_judges_nothing
   ARGS lint @DATA@/programs/mixed.ngc STDOUT "no finishing passes to judge: 99 % of the cutting" NO_STDOUT "warning")
 # Eight turns of a helix of 20 mm, 1 mm deep each, enter the material.
@@ -132,7 +132,7 @@ set(waterlines "(printf 'G21 G90 G17\\nG0 X0 Y0 Z5\\nG1 Z0 F600\\nF3000\\n' && s
 list(JOIN waterlines " && " waterlines)
 clsurf_cli_test(NAME waterlines_are_finishing_passes SETUP "${waterlines}" ARGS check part.nc run.biip --json STDOUT "\"not_finishing_percent\": 0[.]0," "\"judged\": true")
 
-# A point has the line on which it is: the lines of the simulation, also with every twentieth record, and from the middle on.
+# Points have the lines of the simulation, also with only every twentieth record, and from the middle on.
 set(simulated_lines "$CLSURF simulate @DATA@/programs/planted_zigzag.nc -o run.biip -q; $CLSURF export @DATA@/programs/planted_zigzag.nc run.biip --columns line,cmd.x,cmd.y,cmd.z -o all.csv -q")
 set(lines_differ "$CLSURF export @DATA@/programs/planted_zigzag.nc part.csv --period 0.001 --ignore-lines --columns line -o found.csv -q; cut -d, -f1 part.csv | paste -d, - found.csv | awk -F, 'NR > 1 && $1 != $2 { n++ } END { print n + 0, NR; exit !(n < 0.002 * NR) }'")
 clsurf_cli_test(NAME lines_by_geometry_are_those_of_the_simulation SETUP "${simulated_lines} && mv all.csv part.csv && ${lines_differ}" ARGS --version)

@@ -41,7 +41,7 @@ clsurf_cli_test(NAME query_by_the_tool_table
   SETUP "${ramp}; sed -i 's/G21/T7 M6 G21/' ramp.nc; echo 'T7 P1 D6 ; ball nose' > tool.tbl"
   ARGS query ramp.nc ramp.biip --tools tool.tbl --at 10,4.5 STDOUT "contact X (9[.]99|10[.]00).* tool tip X (9[.]99|10[.]00).* Y 3[.]0000")
 clsurf_cli_test(NAME query_by_a_bad_tool ARGS query ${bottle} --tool cone:6 --point 1 EXIT 2 STDERR "cone:6.*not a ball, bull or flat tool")
-# A ball that leans by 20° to alternating sides is beside its contact point: the Y of the plane identifies the pass.
+# The tip of a ball that leans by 20° to alternating sides is not at its contact point: the Y of the plane identifies the pass.
 set(leaning_ball "awk 'BEGIN { t = 20 * atan2(0, -1) / 180; print \"G21 G90 G54\\nG0 X0 Y0 Z20\\nG43.4 H1\"; for (i = 0; i < 6; ++i) { s = i % 2 ? 1 : -1; printf \"G0 X%g Y%.6f Z5 A%g C0\\nG1 Z%.6f F1200\\nX%g\\nG0 Z5\\n\", i % 2 ? 12 : 0, 0.6 * i + s * 3 * sin(t), s * 20, 3 - 3 * cos(t), i % 2 ? 0 : 12 } print \"M30\" }' > plane.nc; $CLSURF simulate plane.nc --machine @DATA@/machines/five_axis_trunnion.toml -o run.biip")
 clsurf_cli_test(NAME query_under_a_leaning_ball SETUP "${leaning_ball}" ARGS query plane.nc run.biip --machine @DATA@/machines/five_axis_trunnion.toml --tool ball:6 --at 6,1.2,0 STDOUT "pass 3, contact X .* Y 1[.](199|200)")
 clsurf_cli_test(NAME check_says_contact ARGS check ${bottle} --tool ball:6 STDOUT "contact X [-0-9.]+ Y [-0-9.]+ Z [-0-9.]+ mm, lines" NO_STDOUT "tool tip")

@@ -26,7 +26,7 @@ foreach(ending png svg pdf csv json)
 endforeach()
 clsurf_cli_test(NAME tradeoff_of_the_kernel SETUP "${waves}" ARGS simulate part.nc --machine @DATA@/machines/linuxcnc_kernel.toml --runs 6 --weight 1 --settings best.toml
   STDOUT "acceleration 90 %" NO_STDOUT "jerk [0-9]+ %" FILE best.toml)
-# On five axes, too.
+# The same on five axes.
 clsurf_cli_test(NAME tradeoff_five_axes ARGS simulate @DATA@/programs/dome_five_axis.nc --machine @DATA@/machines/five_axis_trunnion.toml --runs 3 --weight 1 --settings best.toml
   STDOUT "as the machine file" "feed 95 %" FILE best.toml)
 clsurf_cli_test(NAME tradeoff_output_without_weight ARGS simulate part.nc --tradeoff front.png -o run.biip EXIT 2 STDERR "--output with --tradeoff writes the settings that are chosen" "give --weight" NO_FILE front.png)
