@@ -43,7 +43,7 @@ private:
 
     std::string path_, name_;
     int descriptor_ = -1;
-    int copy_ = -1;  ///< of a stream; −1: a regular file
+    int copy_ = -1;  ///< descriptor of the copy of a stream; −1: a regular file
     std::size_t read_ = 0;
     bool ended_ = false;
 };

@@ -56,7 +56,7 @@ std::string dump_compact(const Json& json) { return json.dump(-1, ' ', false, Js
 Json parse_bounded(std::string_view text) {
     constexpr int most_levels = 64, most_keys = 10'000;
     bool beyond = false;
-    std::vector<int> keys;  // of the objects that are open
+    std::vector<int> keys;  // number of keys of each open object
     Json value = Json::parse(
         text,
         [&](int level, Json::parse_event_t event, const Json&) {

@@ -28,7 +28,7 @@ struct Output {
     std::string path;  ///< as given by the user
     std::optional<Inode> replaced;
     std::optional<Inode> folder;
-    std::string name;  ///< in that folder
+    std::string name;  ///< name in that folder
 };
 
 struct Input {

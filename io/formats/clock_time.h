@@ -11,8 +11,8 @@ namespace clsurf::io {
 /// Day and time of day are separate: seconds since 1970 in one double are rounded to 0.24 µs, which
 /// is visible in differences at 1 ms.
 struct ClockTime {
-    std::optional<std::int64_t> day;  ///< since 1970-01-01, UTC if the text has an offset
-    double second = 0;                ///< of the day; beyond the day if an offset shifts it there
+    std::optional<std::int64_t> day;  ///< days since 1970-01-01, UTC if the text has an offset
+    double second = 0;                ///< second of the day; beyond the day if an offset shifts it there
 
     /// Seconds since midnight of `first_day`; without a date, since midnight.
     [[nodiscard]] double since(std::int64_t first_day) const {

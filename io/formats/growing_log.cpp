@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t text_record_bytes = 100;              ///< approximate size, for one read
 constexpr std::size_t longest_head = std::size_t{1} << 20;  ///< [bytes] length by which the format must be recognised
-constexpr std::size_t lines_to_detect = 4;                  ///< number of records from which the format of a text is detected
+constexpr std::size_t lines_to_detect = 4;  ///< number of records from which the format of a text is detected
 
 std::string_view text_of_bytes(const std::vector<std::byte>& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};

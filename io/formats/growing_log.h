@@ -53,8 +53,8 @@ private:
     std::vector<std::byte> head_;
     std::vector<std::byte> kept_;      ///< complete records from first_ on, and the bytes after them
     std::size_t whole_bytes_ = 0;      ///< bytes of kept_ in complete records
-    std::size_t forgotten_bytes_ = 0;  ///< of the records before first_
-    std::vector<std::size_t> starts_;  ///< of text: the offset of each record in kept_
+    std::size_t forgotten_bytes_ = 0;  ///< size of the records before first_
+    std::vector<std::size_t> starts_;  ///< for text: the offset of each record in kept_
     PointIndex first_ = 0, end_ = 0;
 };
 

@@ -9,7 +9,8 @@ namespace clsurf::io {
 
 struct JoinRules {
     std::optional<double> offset = {};  ///< [s] in the slow log at the first record of the other; none: from `recorded`
-    std::optional<double> age = {};     ///< [s] longest time for which a value is held; none: three periods of the slow log
+    std::optional<double> age =
+        {};  ///< [s] longest time for which a value is held; none: three periods of the slow log
 };
 
 /// Adds the channels of `slow` to `log`; each value is held until the next one (log/held_values.h). Without an offset, the

@@ -17,8 +17,8 @@ struct LogOptions;
 
 /// The position of the first record and the length of each: what is needed to read a growing log.
 struct RecordFrame {
-    std::size_t head_bytes = 0;           ///< before the first record
-    std::size_t record_bytes = 0;         ///< of each record; 0: a record is a line of text that is not a comment
+    std::size_t head_bytes = 0;           ///< number of bytes before the first record
+    std::size_t record_bytes = 0;         ///< size of each record; 0: a record is a line of text that is not a comment
     bool overruns = false;                ///< lines "overrun" are not records
     std::optional<std::size_t> count_at;  ///< byte of the number of records (u64), 0 until the log is closed
 };

@@ -13,9 +13,10 @@ namespace clsurf::io {
 
 struct MapPiece {
     ShardNumber shard;
-    double lowest = 0, highest = 0;                    ///< of the shown values; lowest > highest: there are none
-    std::string_view drawn;                            ///< bytes of the drawn parts (viz/drawn_parts.h)
-    std::shared_ptr<const void> keep_alive = nullptr;  ///< for a piece from a file: the mapped file that contains `drawn`
+    double lowest = 0, highest = 0;  ///< range of the shown values; lowest > highest: no values
+    std::string_view drawn;          ///< bytes of the drawn parts (viz/drawn_parts.h)
+    std::shared_ptr<const void> keep_alive =
+        nullptr;  ///< for a piece from a file: the mapped file that contains `drawn`
 };
 
 /// The bytes of the file: a line of JSON, and the drawn parts. `settings`: what a piece depends on besides the survey.

@@ -69,7 +69,7 @@ bool is_point_section(std::size_t section) {
 
 std::size_t whole_survey_pages(std::size_t bytes) { return (bytes + survey_page - 1) / survey_page * survey_page; }
 
-using Corners = std::array<float, 6>;  ///< of a box: the lowest coordinates, then the highest
+using Corners = std::array<float, 6>;  ///< corners of a box: the lowest coordinates, then the highest
 using SurveyBytes = std::span<const std::byte>;
 
 /// The bytes of block `block` of a section with `width` bytes per point; the last block extends to the end of its page.

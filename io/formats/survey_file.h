@@ -12,8 +12,8 @@ namespace clsurf::io {
 
 /// What a survey was made from.
 struct SurveyOrigin {
-    std::string log_sha256;      ///< of its size, its first and its last megabyte
-    std::string program_sha256;  ///< of the main program; empty: no program
+    std::string log_sha256;      ///< hash of the log's size, its first and its last megabyte
+    std::string program_sha256;  ///< hash of the main program; empty: no program
     std::string options;         ///< the relevant options, as on a command line
 
     friend bool operator==(const SurveyOrigin&, const SurveyOrigin&) = default;

@@ -43,7 +43,7 @@ struct Comment {
 /// The position of a reader of lines.
 struct LineReader {
     std::string_view rest;
-    std::uint64_t number = 1;  ///< of the next line
+    std::uint64_t number = 1;  ///< number of the next line
 
     std::string_view take() {
         ++number;

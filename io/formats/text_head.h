@@ -14,12 +14,13 @@ namespace clsurf::io {
 struct TextHead {
     char separator = ',';
     bool named = false;               ///< a line names the columns
-    std::vector<std::string> titles;  ///< of the columns, as in the text; empty strings if it has none
+    std::vector<std::string> titles;  ///< column titles as in the text; empty strings if there are none
     std::vector<ColumnPlan> columns;  ///< names and units from the titles and the line of units
     std::vector<std::string> first;   ///< fields of the first record; empty: there is none
     std::size_t data_begin = 0;       ///< byte of the first record
     std::uint64_t first_data_line = 1;
-    std::uint64_t line = 1;  ///< number of the line that names the columns, otherwise of the first line that is not a comment
+    std::uint64_t line =
+        1;  ///< number of the line that names the columns, otherwise of the first line that is not a comment
 };
 
 /// `separator` '\0': detected. The names are in the first line that is not a comment. If that line is a record,

@@ -146,7 +146,7 @@ void read_chunk(const Source& source, const TextPlan& plan, Chunk& chunk) {
     std::string_view rest = source.text().substr(chunk.begin, chunk.end - chunk.begin);
     chunk.columns.resize(plan.columns.size());
     const std::size_t columns = plan.columns.size();
-    std::uint64_t number = 0;  // of the line in this section
+    std::uint64_t number = 0;  // number of the line in this section
     const auto warn = [&](const char* code, std::string text) {
         chunk.diagnostics.add({Severity::warning, code, Place::of_line(source.name, number), std::move(text), {}});
     };

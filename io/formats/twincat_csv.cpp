@@ -32,8 +32,9 @@ constexpr double seconds_per_millisecond = 1e-3;
 
 struct ScopeHeader {
     TextPlan plan;
-    std::vector<std::size_t> time_column;  ///< of each column; its own index: a column of times
-    double sample_time = 0;                ///< [ms] the shortest; 0: not given
+    std::vector<std::size_t>
+        time_column;         ///< index of the time column of each column; its own index: a column of times
+    double sample_time = 0;  ///< [ms] the shortest; 0: not given
 };
 
 /// "mm (Length)" → "mm"; "(None)" → nothing.

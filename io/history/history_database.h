@@ -24,7 +24,7 @@ struct RunFilter {
     std::vector<RunParameter> parameters = {};  ///< all of them must match
     std::string since = {};                     ///< UTC; runs from this time on
     bool failed = false;                        ///< only runs that could not be judged
-    std::size_t last = 0;                       ///< at most this many, the latest ones; 0: all
+    std::size_t last = 0;                       ///< number of latest runs to read; 0: all
 };
 
 struct AddedRun {

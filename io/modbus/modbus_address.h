@@ -8,9 +8,9 @@ namespace clsurf::io {
 struct ModbusAddress {
     std::string text;     ///< as given by the user
     bool serial = false;  ///< RTU
-    std::string host;     ///< of TCP: a name, IPv4 or IPv6
+    std::string host;     ///< for TCP: a name, IPv4 or IPv6
     std::string port = "502";
-    std::string device;  ///< of RTU: "/dev/ttyUSB0"
+    std::string device;  ///< for RTU: "/dev/ttyUSB0"
     int baud = 0;
     char parity = 'E';  ///< N, E or O
     int stop_bits = 1;

@@ -17,7 +17,7 @@ namespace clsurf::io {
 struct RecordingRules {
     double rate = 10;                         ///< [Hz]
     std::optional<double> duration = {};      ///< [s]; none: until stopped
-    double timeout = 0.5;                     ///< [s] for an answer
+    double timeout = 0.5;                     ///< [s] longest wait for an answer
     double patience = 30;                     ///< [s] the recording ends after this time without any answer
     std::function<bool()> stopped = nullptr;  ///< polled many times per second; true ends the recording
     Progress progress = nullptr;              ///< only if a duration is given
@@ -31,7 +31,7 @@ struct Recording {
     std::string reason;   ///< why the last failed request has no answer
     std::string started;  ///< time 0, UTC
     PointIndex records = 0;
-    double duration = 0;              ///< [s] from the first record to the last
+    double duration = 0;              ///< [s] time from the first record to the last
     std::int64_t missed_records = 0;  ///< records skipped while waiting for an answer
     std::vector<PointIndex> gaps;     ///< per channel: records without a value
     std::int64_t requests = 0, late = 0, exceptions = 0, damaged = 0, disconnected = 0;

@@ -13,7 +13,7 @@ namespace clsurf::io {
 namespace {
 
 constexpr int last_address = 65535;
-constexpr std::size_t longest_name = 23, longest_unit = 8;  // of BIIP
+constexpr std::size_t longest_name = 23, longest_unit = 8;  // limits of BIIP
 constexpr std::array<std::string_view, 2> functions{"holding", "input"};
 constexpr std::array<std::string_view, 5> types{"u16", "i16", "u32", "i32", "f32"};
 constexpr std::array<std::string_view, 4> orders{"abcd", "cdab", "badc", "dcba"};

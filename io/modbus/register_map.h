@@ -34,7 +34,7 @@ struct RegisterChannel {
     std::string name;
     std::string unit;
     RegisterFunction function = RegisterFunction::holding;
-    int address = 0;  ///< of the first register, from 0, as in the protocol
+    int address = 0;  ///< address of the first register, from 0, as in the protocol
     RegisterType type = RegisterType::u16;
     ByteOrder order = ByteOrder::abcd;
     double scale = 1.0;

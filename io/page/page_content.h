@@ -29,7 +29,7 @@ struct PageClass {
     std::string name;
     double value = 0;  ///< as shown
     std::array<std::uint8_t, 3> rgb{};
-    double share = 0;  ///< of the cutting points
+    double share = 0;  ///< share of the cutting points
 };
 
 /// The view of one log. Everything that it points to must outlive the page.
@@ -37,7 +37,7 @@ struct PageSurface {
     const Log* log = nullptr;
     const LineMap* lines = nullptr;
     const ClSurface* surface = nullptr;
-    const Trajectory* path = nullptr;     ///< of the role of the surface
+    const Trajectory* path = nullptr;     ///< positions of the role of the surface
     std::vector<Trajectory> other_roles;  ///< positions of other roles that can be shown instead
     const KeptPoints* kept = nullptr;
     std::span<const Field> fields;                         ///< one value per point of the log
@@ -46,7 +46,7 @@ struct PageSurface {
     std::span<const std::uint8_t> joined;                  ///< per kept point: connected to the previous one
     std::span<const std::uint32_t> triangles;              ///< indices of kept points
     std::span<const std::uint32_t> segments;
-    const SlowWords* slow = nullptr;                   ///< of the kept points
+    const SlowWords* slow = nullptr;                   ///< reasons why the tool is slow, for the kept points
     std::span<const PathLocation> places_before = {};  ///< per point of the log: the same location in the earlier log
 };
 
@@ -65,7 +65,7 @@ struct PagePicture {
 struct PageDefect {
     std::vector<std::vector<Vec3>> outlines;  ///< lines [mm] on the surface of the tool tips
     std::optional<PagePicture> picture;
-    Vec3 normal = Vec3::Zero();                            ///< of the surface, at this place; zero: not known
+    Vec3 normal = Vec3::Zero();                            ///< surface normal at this place; zero: not known
     std::vector<std::vector<Vec3>> contact_outlines = {};  ///< the same on the part; empty: the tool is not known
     std::string slow = {};                                 ///< why the tool is slow there; empty: it is not slow
 };
@@ -82,9 +82,9 @@ struct PageRelief {
     Vec3 origin = Vec3::Zero();  ///< [mm]
     double pitch = 0;            ///< [mm]
     std::int64_t columns = 0, rows = 0;
-    std::span<const float> z;          ///< [mm] above the origin, row by row; NaN: none
-    std::span<const float> deviation;  ///< [mm] above the form
-    ShownRange range;                  ///< of the deviation [µm]
+    std::span<const float> z;          ///< heights [mm] above the origin, row by row; NaN: none
+    std::span<const float> deviation;  ///< heights [mm] above the form
+    ShownRange range;                  ///< range of the deviation [µm]
     std::string note;
 };
 
@@ -108,10 +108,10 @@ struct PagePercentiles {
 
 struct ReportPage {
     std::string program, log, before;              ///< as given on the command line; `before` empty: none
-    std::string log_date = {};                     ///< of the log's file, "2026-11-24 09:30 UTC"; empty: not known
+    std::string log_date = {};                     ///< time of the log's file, "2026-11-24 09:30 UTC"; empty: not known
     std::vector<std::string> reading_options;      ///< options that `render` needs to read the same
     std::vector<std::string> as_machined_options;  ///< … and to draw the as-machined surface
-    std::vector<PageSurface> surfaces;             ///< of `log`, then of `before`
+    std::vector<PageSurface> surfaces;             ///< surface of `log`, then of `before`
     std::vector<ShownRange> ranges;                ///< per field, of all logs
     std::string first_field;                       ///< shown at first
     ReportedQuality quality;

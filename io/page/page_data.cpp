@@ -18,7 +18,7 @@ constexpr double position_quantum = 1e-4;  ///< [mm]
 constexpr double time_quantum = 1e-6;      ///< [s]
 constexpr double before_steps = 16;        ///< steps in the distance between two points
 constexpr double field_steps = 32768;      ///< steps in the shown range
-constexpr double class_quantum = 1e-3;     ///< of classes that have a unit
+constexpr double class_quantum = 1e-3;     ///< step of classes that have a unit
 
 /// Collects columns and packs them in parallel once all are known.
 class Blocks {

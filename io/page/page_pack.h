@@ -16,7 +16,7 @@ namespace clsurf::io {
 
 struct PackedColumn {
     std::size_t count = 0;  ///< values
-    int order = 0;          ///< of the differences
+    int order = 0;          ///< order of the differences
     int stride = 1;
     int planes = 0;  ///< bytes per value, 0 … 8
     std::string base64;

@@ -14,7 +14,7 @@ namespace clsurf::io {
 struct ShopPage {
     std::string database;                ///< its name
     std::span<const RunRecord> runs;     ///< in order of time
-    std::span<const CauseCount> causes;  ///< of these runs and others
+    std::span<const CauseCount> causes;  ///< causes in these runs and others
     std::span<const RunOutlier> outliers;
 };
 

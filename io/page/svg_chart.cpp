@@ -26,7 +26,7 @@ double round_step(double range) {
 }
 
 struct SvgScale {
-    double high = 1, step = 0.2;  ///< from 0
+    double high = 1, step = 0.2;  ///< end and step of an axis that begins at 0
 
     SvgScale(double most, bool counts) {
         if (!(most > 0)) most = 1;

@@ -7,7 +7,7 @@
 namespace clsurf::io {
 
 struct AcceptedDefect {
-    std::string fingerprint;  ///< of io/reports/defect_fingerprint.h
+    std::string fingerprint;  ///< as in io/reports/defect_fingerprint.h
     bool accepted = true;     ///< false: the entry is only a comment
     int severity = 0;         ///< at the time of acceptance; 0: not known, any severity is accepted
     std::string comment;
@@ -15,7 +15,7 @@ struct AcceptedDefect {
 };
 
 struct AcceptedFile {
-    std::string name;     ///< of the file
+    std::string name;     ///< name of the file
     std::string program;  ///< program of the file; empty: not given
     std::vector<AcceptedDefect> defects;
 };

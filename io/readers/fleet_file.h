@@ -10,13 +10,13 @@ namespace clsurf::io {
 
 struct FleetRun {
     std::string program, log;             ///< program empty: none was found for the log
-    std::vector<ConfigEntry> options;     ///< of this run only
+    std::vector<ConfigEntry> options;     ///< options of this run only
     std::vector<std::string> parameters;  ///< "tool=D6R3"
     std::string time;                     ///< empty: the time of the log's file
 };
 
 struct FleetFile {
-    std::vector<ConfigEntry> options;  ///< for all runs
+    std::vector<ConfigEntry> options;  ///< options for all runs
     std::vector<FleetRun> runs;
 };
 

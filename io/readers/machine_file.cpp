@@ -23,7 +23,7 @@
 namespace clsurf::io {
 namespace {
 
-constexpr double most_dead_periods = 100;  ///< of an axis' dead time
+constexpr double most_dead_periods = 100;  ///< longest dead time of an axis, in periods
 constexpr double no_bound = std::numeric_limits<double>::infinity();
 
 enum class Low : unsigned char { above_zero, zero };

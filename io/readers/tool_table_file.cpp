@@ -10,7 +10,7 @@
 namespace clsurf::io {
 namespace {
 
-constexpr double highest_number = 1e6;  ///< of tools and pockets
+constexpr double highest_number = 1e6;  ///< highest number of tools and pockets
 constexpr int most_orientation = 9;
 
 /// One line of the table, and its error messages.

@@ -25,7 +25,7 @@ struct Acceptance {
     std::vector<AcceptedDefect> unknown;  ///< entries of the file that match no defect
 
     [[nodiscard]] bool accepts(std::size_t defect) const { return of_defect[defect].accepted; }
-    [[nodiscard]] std::size_t count() const;  ///< of accepted ones
+    [[nodiscard]] std::size_t count() const;  ///< number of accepted defects
 };
 
 /// Compares by fingerprint (io/reports/defect_fingerprint.h). O(n log n).

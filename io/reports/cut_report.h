@@ -22,7 +22,7 @@ struct SimulatedCut {
     std::string machine;
     double deviation = 0;  ///< [mm] largest distance between the commanded path and the fit
     double allowed = 0;    ///< [mm] tolerances of the program and of the machine's corners
-    double duration = 0;   ///< [s] with approach and retract
+    double duration = 0;   ///< [s] time with approach and retract
 };
 
 struct CutReport {

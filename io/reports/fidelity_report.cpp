@@ -11,7 +11,7 @@
 namespace clsurf::io {
 namespace {
 
-constexpr double um = 1000;  // in a mm
+constexpr double um = 1000;  // micrometres per mm
 
 Json optional_number(const std::optional<double>& value, double factor, int decimals) {
     return value ? number(*value * factor, decimals) : Json(nullptr);

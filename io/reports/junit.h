@@ -10,13 +10,13 @@ namespace clsurf::io {
 struct JunitCase {
     std::string name;
     std::string failure;  ///< one line; empty: it passed
-    std::string details;  ///< of a failure
+    std::string details;  ///< details of a failure
     std::string error;    ///< why it could not be tested, one line; empty: it was tested
 };
 
 struct JunitSuite {
     std::string name;
-    std::string class_name;  ///< of its cases
+    std::string class_name;  ///< class name of its cases
     std::vector<JunitCase> cases;
     std::string output;  ///< text for people
 };

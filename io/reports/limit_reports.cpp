@@ -11,7 +11,7 @@
 namespace clsurf::io {
 namespace {
 
-constexpr std::size_t most_rows = 20;     ///< in the text; JSON and CSV have all
+constexpr std::size_t most_rows = 20;     ///< number of rows in the text; JSON and CSV have all
 constexpr std::size_t widest_block = 40;  ///< characters of a block in the text
 constexpr double grave = 1.5;             ///< factor from which a finding is an error in SARIF
 

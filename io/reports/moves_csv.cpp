@@ -11,7 +11,7 @@
 namespace clsurf::io {
 namespace {
 
-constexpr double chord_error = 1e-4;  ///< [mm] for the chords of a curve
+constexpr double chord_error = 1e-4;  ///< [mm] error of the chords of a curve
 constexpr std::size_t piece_bytes = std::size_t{1} << 20;
 
 std::string_view name_of(MotionKind kind) {

@@ -26,7 +26,7 @@ struct ReportedQuality {
     const Program* program = nullptr;
     std::string log;  ///< its name
     std::optional<CuttingTool> tool;
-    double scallop = 0;                      ///< [mm] between clean passes; 0: not known
+    double scallop = 0;                      ///< [mm] height of scallops between clean passes; 0: not known
     std::vector<double> colour_differences;  ///< ΔE00 between each defect and the passes next to it, in the speed map
     const AsMachinedReport* as_machined = nullptr;  ///< nullptr: the tool is not known
     std::optional<MotionQuality> motion;            ///< in JSON only; nothing: not asked for

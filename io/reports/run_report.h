@@ -16,13 +16,13 @@ struct ReportedRun {
     std::string name;
     RunReport report;
     std::vector<BudgetLine> budget;
-    std::optional<RoughnessChange> roughness;  ///< from the reference to the run; nothing: the tool is not known
+    std::optional<RoughnessChange> roughness;  ///< change from the reference to the run; nothing: the tool is not known
 };
 
 struct ReportedRuns {
     std::string reference;  ///< all runs are compared with it
     std::vector<ReportedRun> runs;
-    std::vector<RunDeparture> departures;  ///< of the reference, then of the runs; empty: too few runs
+    std::vector<RunDeparture> departures;  ///< departures of the reference, then of the runs; empty: too few runs
     std::optional<std::size_t> drifted;    ///< among `departures`
     const Diagnostics* diagnostics = nullptr;
 
