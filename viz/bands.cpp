@@ -21,11 +21,11 @@ constexpr float longest_seam =
 constexpr float widest_seam = 2.2F;          ///< length of an edge of a seam, in widths of the adjoining band
 constexpr double tangent_step_overs = 0.08;  ///< arc length on either side for the tangent at a vertex
 constexpr float most_askew = 0.3F;           ///< cosine of the angle between path and direction to the neighbour
-constexpr float least_width = 0.6F;          ///< width of a band, in step-overs; a narrower band is already close to a corner
-constexpr float widest_end = 1.5F;           ///< of a seam between two ends, in widths
-constexpr float leading_away = 0.85F;        ///< growth of the edge per arc length from which the paths diverge
-constexpr float corner_tolerance = 1.03F;    ///< growth of an edge that is still at the ends of its passes
-constexpr float closed_seam = 0.5F;          ///< edge length at which a seam is closed, in widths
+constexpr float least_width = 0.6F;    ///< width of a band, in step-overs; a narrower band is already close to a corner
+constexpr float widest_end = 1.5F;     ///< widest seam between two ends, in widths
+constexpr float leading_away = 0.85F;  ///< growth of the edge per arc length from which the paths diverge
+constexpr float corner_tolerance = 1.03F;  ///< growth of an edge that is still at the ends of its passes
+constexpr float closed_seam = 0.5F;        ///< edge length at which a seam is closed, in widths
 constexpr float longest_fan_arc_length =
     8.0F;  ///< arc length of a neighbour spanned by one step, minus that of the step, in step-overs
 constexpr std::int64_t longest_fan = 256;  ///< vertices of a neighbour spanned by one step

@@ -18,10 +18,11 @@ namespace {
 
 constexpr Rgb band_colour{226, 234, 244};
 constexpr Rgb marked_colour{235, 170, 90};
-constexpr double title_share = 0.15;  ///< of the height
-constexpr double map_share = 0.36;    ///< of the width
+constexpr double title_share = 0.15;  ///< share of the height
+constexpr double map_share = 0.36;    ///< share of the width
 constexpr double foot_share = 0.02;
-constexpr double axes_room = 3.2;       ///< from the middle of the axes to the right end of the strip, in text sizes
+constexpr double axes_room =
+    3.2;  ///< distance from the middle of the axes to the right end of the strip, in text sizes
 constexpr double bearings_lines = 3.4;  ///< height of the strip below the map, in text sizes
 
 double text_size(int width, int height) { return std::clamp(std::min(width * 0.4, height * 1.0) / 34.0, 8.0, 40.0); }

@@ -13,7 +13,7 @@ namespace clsurf::viz {
 struct CardCurve {
     std::vector<double> values;  ///< one per x; NaN: a gap
     Rgb rgb{0, 0, 0};
-    double width = 1.5;  ///< [px] at a height of 600
+    double width = 1.5;  ///< [px] width at a height of 600
 };
 
 struct CardChart {
@@ -35,8 +35,8 @@ struct CardKey {
 /// The orientation of a card's map: its scale, and directions in the picture (to the right, up), with their projected
 /// lengths.
 struct CardBearings {
-    double mm_per_pixel = 0;                                             ///< 0: not known
-    Vec2 feed = Vec2::Zero();                                            ///< of the defective pass; zero: not known
+    double mm_per_pixel = 0;   ///< 0: not known
+    Vec2 feed = Vec2::Zero();  ///< direction of the defective pass; zero: not known
     std::array<Vec2, 3> axes{Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};  ///< X, Y, Z of the part
 };
 

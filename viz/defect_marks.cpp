@@ -17,15 +17,15 @@
 namespace clsurf::viz {
 namespace {
 
-constexpr double least_mark_width = 0.22;  ///< of a mark, in text sizes
-constexpr double region_width = 0.08;      ///< of the lines of a region
-constexpr double region_share = 0.5;       ///< of the colour in a region
-constexpr double hidden_width = 0.14;      ///< of the dots of hidden parts
+constexpr double least_mark_width = 0.22;  ///< least width of a mark, in text sizes
+constexpr double region_width = 0.08;      ///< width of the lines of a region
+constexpr double region_share = 0.5;       ///< share of the colour in a region
+constexpr double hidden_width = 0.14;      ///< width of the dots of hidden parts
 constexpr double dot_every = 0.4;          ///< distance between dots, in text sizes
 constexpr double axes_height = 6.2;        ///< height of the picture's axes next to the key, in text sizes
-constexpr double name_width = 15;          ///< of a name in a column, in text sizes
+constexpr double name_width = 15;          ///< width of a name in a column, in text sizes
 constexpr double with_lines = 2.5, with_place = 3.45, with_cause = 4.4;  ///< heights of names in columns, in text sizes
-constexpr double leader_clearance = 0.5;  ///< from a leader to the anchor of another one, in text sizes
+constexpr double leader_clearance = 0.5;  ///< distance from a leader to the anchor of another one, in text sizes
 constexpr double lightest = 0.45;         ///< share of the colour in the weakest mark; the rest is white
 
 Rgb mixed(const Rgb& rgb, double share) {
@@ -252,7 +252,7 @@ private:
 
     /// Names in columns below the part, in decreasing order of strength, row by row.
     void tabulate(std::vector<std::optional<Vec2>>& anchors) {
-        constexpr std::size_t most_numbers = 24;  // on the part; more would cover it
+        constexpr std::size_t most_numbers = 24;  // more numbers would cover the part
         constexpr double rest = 1.6;              // height below the names, in text sizes
         const double t = layout_.text;
         const double top = room_.y + room_.height - 0.8 * t;

@@ -22,7 +22,7 @@ using Projection = Eigen::Matrix<double, 2, 4>;
 struct DetailRequest {
     Projection projection;
     int width = 0, height = 0;  ///< [px]; everything outside is omitted
-    double vertex_step = 0.7;   ///< [px] from one vertex of a pass to the next
+    double vertex_step = 0.7;   ///< [px] distance from one vertex of a pass to the next
     Style style = Style::surface;
     Box3 box;  ///< [mm] everything outside is omitted; empty: no box
     /// Cells are only made at vertices of these points. Normals take all cells into account.

@@ -22,7 +22,7 @@ struct Drawing {
     std::vector<FlatQuad> quads;
     std::vector<FlatLine> lines;  ///< from bottom to top
     std::vector<FlatText> texts;
-    std::vector<double> text_widths;  ///< [px] of each text
+    std::vector<double> text_widths;  ///< [px] width of each text
 };
 
 /// Adds the content of another drawing with its lower left corner at (x, y).

@@ -26,7 +26,7 @@ void write_vtp(const std::string& path, const ClSurface& surface, const std::vec
 /// A part of a surface as .vtp: its own points, and adjacent ones that its triangles need. Every pass and every triangle of
 /// the surface is in exactly one piece.
 struct VtkPiece {
-    Column<PointIndex> points;  ///< of the surface; own points first, in order
+    Column<PointIndex> points;  ///< points of the surface; own points first, in order
     PointIndex own_points = 0;
     Column<double> xyz;                              ///< [mm]
     Column<std::int64_t> line_offsets, line_points;  ///< polylines of the own passes

@@ -17,7 +17,7 @@ struct ShownClass {
     std::string name;
     float value = 0;  ///< NaN: all classes without a colour of their own
     Rgb rgb{0, 0, 0};
-    double share = 0;  ///< of the cutting points, 0 … 1
+    double share = 0;  ///< share of the cutting points, 0 … 1
 };
 
 /// The number of points with each value.

@@ -29,7 +29,7 @@ ColourMap colour_map_of_lines(const FieldInfo& field) {
 }
 
 ColourScale scale_of(const FieldInfo& field, double low, double high, int bins, ColourMap map) {
-    constexpr double readable = 0.005;  // of the range: smallest readable difference
+    constexpr double readable = 0.005;  // smallest readable difference, as a share of the range
     const double slack = std::max(field.slack * std::abs(field.unit.per_inside), readable * (high - low));
     return {std::move(map), low, high, bins, slack};
 }

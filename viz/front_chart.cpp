@@ -193,7 +193,7 @@ private:
     const ChartLook& look_;
     double text_;
     Sheet sheet_;
-    std::vector<Rect> numbers_;  ///< of the present panel
+    std::vector<Rect> numbers_;  ///< rectangles of the numbers on the present panel
 };
 
 }  // namespace

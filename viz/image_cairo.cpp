@@ -14,7 +14,7 @@ namespace clsurf::viz {
 namespace {
 
 constexpr double points_a_pixel = 0.75;
-constexpr double baseline = 0.35;  ///< of a text below the middle of its line, in text sizes
+constexpr double baseline = 0.35;  ///< distance of the baseline below the middle of a line, in text sizes
 constexpr double narrowest = 0.7;  ///< horizontal scale of letters, if the font differs from the measured one
 
 struct Sink {

@@ -15,7 +15,7 @@ struct CompareRule {
 };
 
 struct Comparison {
-    bool equal = false;            ///< within the rule
+    bool equal = false;            ///< equal within the rule
     double max_error = 0;          ///< 0 … 1
     double mean_error = 0;         ///< 0 … 1
     double psnr = 0;               ///< [dB]; infinite: identical

@@ -110,7 +110,7 @@ std::vector<std::size_t> assign_slots(const std::vector<Vec2>& anchors, const st
 
 NameColumn place_names(const std::vector<Vec2>& anchors, double slot, double lowest, double highest, double slot_x,
                        double clearance) {
-    constexpr double step = 0.25;  // of a slot, between two positions
+    constexpr double step = 0.25;  // distance between two positions, as a share of a slot
     constexpr int most_steps = 12;
     const double height = slot * static_cast<double>(anchors.size());
     const double beside = top_of_names(anchors, height, lowest, highest);

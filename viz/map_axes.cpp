@@ -14,10 +14,10 @@ namespace clsurf::viz {
 namespace {
 
 constexpr double tick_length = 0.4;      ///< in small text sizes, like all values below
-constexpr double label_distance = 1.05;  ///< from an edge to the middle of a number
+constexpr double label_distance = 1.05;  ///< distance from an edge to the middle of a number
 constexpr double between_ticks = 5.5;
 constexpr double shortest_scale = 3.0;
-constexpr double frame_gap = 0.6;  ///< between the part and its frame
+constexpr double frame_gap = 0.6;  ///< distance between the part and its frame
 
 /// The axis of the workpiece along a direction; −1: none.
 int axis_along(const Vec3& direction) {

@@ -14,9 +14,9 @@ enum class Arrangement : std::uint8_t { usual, wide, tall };
 struct MapLayout {
     Arrangement arrangement;
     double text, small_text, margin;
-    double title_height;  ///< of one line and the subtitle; in a tall picture of two lines and the subtitle
+    double title_height;  ///< height of one line and the subtitle; in a tall picture of two lines and the subtitle
     double note_height, legend_width;
-    double title_width = 0;    ///< of the column of a wide picture
+    double title_width = 0;    ///< width of the column of a wide picture
     double legend_height = 0;  ///< least height below the part in a tall picture
 
     explicit MapLayout(const Look& look, Arrangement arranged = Arrangement::usual);

@@ -14,7 +14,7 @@
 namespace clsurf::viz {
 namespace {
 
-constexpr double least_step = 0.5;  ///< [px] of a line: shorter steps are invisible
+constexpr double least_step = 0.5;  ///< [px] shortest step of a line: shorter steps are invisible
 
 void add_ring(Sheet& sheet, const Vec2& at, double radius, double width, Rgb rgb, Level level) {
     FlatLine ring{{}, width, rgb, level};
@@ -202,7 +202,7 @@ private:
 
     /// Outlines with their numbers above them.
     void add_outlines() {
-        constexpr double above = 6;  // [px] from an outline to its label
+        constexpr double above = 6;  // [px] distance from an outline to its label
         std::vector<std::optional<Vec2>> tops;
         for (const OutlineMark& mark : map_.outlines) tops.push_back(add_outline(mark));
         for (std::size_t k = 0; k < tops.size(); ++k) {

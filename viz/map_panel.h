@@ -60,7 +60,7 @@ struct MapPanel {
     /// Corners [mm] of lines that are drawn thinly, below all marks and below points and lines of the log; nullptr: none.
     const std::vector<std::vector<Vec3>>* programmed = nullptr;
     const DefectMap* defects = nullptr;     ///< drawn over a grey relief of the surface, for any field
-    const FieldClasses* classes = nullptr;  ///< of a field whose values are names
+    const FieldClasses* classes = nullptr;  ///< classes of a field whose values are names
     const Relief* relief = nullptr;         ///< drawn instead of the surface; the field then has one value per vertex
     std::vector<PointRange> pale = {};      ///< points in a lighter tone, increasing: ramps that all passes have
     std::function<Vec3(PointIndex)> place_of = {};  ///< position of marked points and lines [mm]; empty: on the surface
@@ -68,7 +68,7 @@ struct MapPanel {
 
 struct MapTexts {
     std::string title;               ///< "Path speed, commanded surface"
-    std::string frame;               ///< of the coordinates: "G54"; may be empty
+    std::string frame;               ///< name of the coordinates: "G54"; may be empty
     std::string subtitle;            ///< program · log · counts
     std::vector<std::string> notes;  ///< window, range: in one line if they fit, otherwise one line each
 };

@@ -9,7 +9,7 @@
 namespace clsurf::viz {
 namespace {
 
-constexpr double finest_step = 0.7;  ///< [px] between points of a band
+constexpr double finest_step = 0.7;  ///< [px] distance between points of a band
 
 void append(Band& band, const Band& from, std::size_t k) {
     band.left.push_back(from.left[k]);

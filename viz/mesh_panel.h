@@ -14,7 +14,7 @@ namespace clsurf::viz {
 
 struct MeshPanel {
     Rect rect;
-    Camera camera;      ///< of the panel's size
+    Camera camera;      ///< camera with the panel's size
     Geometry geometry;  ///< painted; with a ramp, `rgb` only darkens the colours of the ramp
     /// Colours along a ramp, so that points between two vertices also have a colour of the ramp,
     /// not a mixture of the colours of the vertices.
@@ -24,8 +24,8 @@ struct MeshPanel {
     bool stepped = false;   ///< the ramp's colours are steps; otherwise they are interpolated
     /// Cells with a corner without a value: triangles are hatched, the others have one colour.
     Column<std::uint32_t> bare_triangles, bare_segments, bare_points;
-    Rgb bare_colour{0, 0, 0};        ///< of hatching lines, and of the other cells
-    Rgb bare_ground{255, 255, 255};  ///< between the lines
+    Rgb bare_colour{0, 0, 0};        ///< colour of hatching lines, and of the other cells
+    Rgb bare_ground{255, 255, 255};  ///< colour between the lines
     double line_width = 1.5;
     double point_size = 2;
 };

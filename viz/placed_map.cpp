@@ -98,7 +98,7 @@ PlacedMap placed_map(const std::vector<MapPanel>& panels, const Look& look) {
 }
 
 Rect panel_rect(const std::vector<MapPanel>& panels, std::size_t k, const Look& look, const PlacedMap& placed) {
-    constexpr double share_above = 0.4;  // of the unused height of a tall picture
+    constexpr double share_above = 0.4;  // share of the unused height of a tall picture
     Rect rect = widest_rect(panels, k, look, placed.layout);
     const double beside = rect.width - placed.camera.width;
     const double above = rect.height - placed.camera.height;

@@ -10,8 +10,8 @@
 namespace clsurf::viz {
 
 struct Relief {
-    Vec3 origin = Vec3::Zero();  ///< [mm] of the first vertex's x and y, and of all heights
-    double pitch = 0;            ///< [mm] between vertices
+    Vec3 origin = Vec3::Zero();  ///< [mm] x and y of the first vertex, and the origin of all heights
+    double pitch = 0;            ///< [mm] distance between vertices
     std::int64_t columns = 0, rows = 0;
     Column<float> z;  ///< [mm] row by row; NaN: no vertex
 

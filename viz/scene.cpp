@@ -18,11 +18,11 @@
 namespace clsurf::viz {
 namespace {
 
-constexpr double shade_dark = 0.80;   ///< of a surface in grazing light
-constexpr double relief_dark = 0.62;  ///< of a grey relief, which shows only its shade
-constexpr double path_width = 3;      ///< [px] of passes without adjacent ones
-constexpr double path_room = 8;       ///< [px] between such a path and its box
-constexpr double relief_grey = 232;   ///< of a grey relief that faces the light
+constexpr double shade_dark = 0.80;   ///< brightness of a surface in grazing light
+constexpr double relief_dark = 0.62;  ///< brightness of a grey relief, which shows only its shade
+constexpr double path_width = 3;      ///< [px] width of passes without adjacent ones
+constexpr double path_room = 8;       ///< [px] distance between such a path and its box
+constexpr double relief_grey = 232;   ///< brightness of a grey relief that faces the light
 const Vec3 light(-0.45, 0.55, 0.70);  ///< from the upper left, in the camera's frame
 
 /// Sets the position of vertices on the ramp, and their shade in grazing light.

@@ -17,7 +17,7 @@ struct TrendSymbol {
 };
 
 struct TrendLevels {
-    std::size_t first = 0;  ///< of the runs after the change
+    std::size_t first = 0;  ///< index of the first run after the change
     double before = 0, after = 0;
     std::string label;  ///< "since run 12"
 };

@@ -15,7 +15,7 @@
 namespace clsurf::viz {
 namespace {
 
-constexpr double baseline = 0.35;  ///< of a text below the middle of its line, in text sizes
+constexpr double baseline = 0.35;  ///< distance of the baseline below the middle of a line, in text sizes
 
 /// RFC 4648.
 std::string base64(std::string_view bytes) {
