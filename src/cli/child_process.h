@@ -11,10 +11,10 @@ namespace clsurf::cli {
 
 /// A program with its arguments and limits.
 struct ChildCommand {
-    std::string file;                ///< of the program
+    std::string file;                ///< file of the program
     std::vector<std::string> words;  ///< its name and its arguments
     std::string output;              ///< file for its output; it has no input
-    std::uint64_t memory = 0;        ///< [bytes] for its data; 0: no limit
+    std::uint64_t memory = 0;        ///< [bytes] largest size of its data; 0: no limit
     bool own_group = false;          ///< so that it can be killed together with its children
 };
 

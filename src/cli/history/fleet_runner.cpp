@@ -235,9 +235,9 @@ private:
     RunFolder folder_;
     std::vector<std::string> common_words_;
     std::map<pid_t, Child> children_;
-    std::uint64_t all_bytes_ = 0, done_bytes_ = 0;  ///< of the planned logs
+    std::uint64_t all_bytes_ = 0, done_bytes_ = 0;  ///< sizes of the planned logs
     FleetClock::time_point began_ = FleetClock::now();
-    std::set<std::string> identities_;  ///< of the units considered so far
+    std::set<std::string> identities_;  ///< identities of the units considered so far
     FleetResult result_;
 };
 

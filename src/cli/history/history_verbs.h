@@ -13,7 +13,7 @@ namespace clsurf::cli {
 /// The words after `clsurf history`.
 struct HistoryCall {
     std::string database;
-    std::vector<std::string> arguments;  ///< of the verb
+    std::vector<std::string> arguments;  ///< arguments of the verb
     const po::variables_map& values;
 };
 

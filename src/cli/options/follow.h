@@ -11,7 +11,7 @@
 namespace clsurf::cli {
 
 struct FollowOptions {
-    double timeout = 0;  ///< [s] without growth after which following ends; 0: no limit
+    double timeout = 0;  ///< [s] time without growth after which following ends; 0: no limit
 };
 
 /// `meaning`: the description of --follow.

@@ -22,7 +22,7 @@ using OutputFormats = std::span<const OutputFormat>;
 [[nodiscard]] OutputFormats front_formats();    ///< drawings, and tables of a Pareto front: CSV and JSON
 [[nodiscard]] OutputFormats page_formats();
 [[nodiscard]] OutputFormats log_formats();
-[[nodiscard]] OutputFormats table_formats();   ///< of per-point columns
+[[nodiscard]] OutputFormats table_formats();   ///< formats of per-point columns
 [[nodiscard]] OutputFormats report_formats();  ///< text, json, csv, sarif
 [[nodiscard]] OutputFormats toml_formats();    ///< mappings, machine files
 [[nodiscard]] OutputFormats motion_formats();  ///< one row per motion, as CSV

@@ -24,7 +24,7 @@ struct PartOptions {
     bool accept_unknown_tips = false;  ///< see PartRules
     ToolChoice tool;
     DerivativeMethod derivative = DerivativeMethod::savgol;
-    std::optional<io::Source> log_source = std::nullopt;  ///< of a followed log; nullopt: read the file `log`
+    std::optional<io::Source> log_source = std::nullopt;  ///< content of a followed log; nullopt: read the file `log`
 };
 
 /// --dialect, --block-delete, --tools, --layout, --mapping, --period, --surface, --work-offset, --machine, --ignore-lines.

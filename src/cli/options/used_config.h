@@ -14,7 +14,7 @@ constexpr const char* config_name = ".clsurf.toml";
 /// The values taken from a configuration.
 struct UsedConfig {
     std::string path;                     ///< empty: there is none
-    std::map<std::string, Place> places;  ///< of the keys that this subcommand used
+    std::map<std::string, Place> places;  ///< places of the keys that this subcommand used
 
     /// The place of the option that a message is about ("--tool: …"); nullptr: it is about another option.
     [[nodiscard]] const Place* find(std::string_view message) const;

@@ -12,7 +12,7 @@
 namespace clsurf::cli {
 namespace {
 
-constexpr double most_cells = 1e8;  ///< of a picture; for larger areas cells are larger
+constexpr double most_cells = 1e8;  ///< largest number of cells of a picture; larger areas have larger cells
 constexpr double least_tilt =
     0.2;  ///< sine of the view's elevation below which the picture does not determine the plan
 

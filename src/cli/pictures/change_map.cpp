@@ -17,7 +17,7 @@
 namespace clsurf::cli {
 namespace {
 
-constexpr double least_share = 0.1;  ///< of the range of both maps: smaller differences are pale
+constexpr double least_share = 0.1;  ///< share of the range of both maps: smaller differences are pale
 
 DefectMatch match_of(const Shown& before, const Shown& after) {
     return match_defects({&before.defects.report.defects, &before.surface.positions, before.surface.step_over},

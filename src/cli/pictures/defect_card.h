@@ -17,7 +17,8 @@ struct JudgedPart {
     const ClSurface& surface;
     const Signals& signals;
     const QualityReport& report;
-    const AsMachinedReport* as_machined = nullptr;  ///< of the report's defects; nullptr: the card has no formed value
+    const AsMachinedReport* as_machined =
+        nullptr;  ///< marks of the report's defects; nullptr: the card has no formed value
 };
 
 /// The card of a defect of the report, from 0; `keep_drawing`: for SVG and PDF. Throws SystemError.

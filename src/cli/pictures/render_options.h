@@ -26,7 +26,7 @@ struct Selection {
 };
 
 struct RenderOptions {
-    PartOptions part;  ///< without a log the program is simulated, or shown as programmed
+    PartOptions part;  ///< without a log, the program is simulated or shown as programmed
     Selection selection;
     std::string before;  ///< log of the other panel; empty: one panel
     std::string output;

@@ -116,7 +116,7 @@ private:
 
     ShardMap& map_;
     Drawn& drawn_;
-    int number_;  ///< of the last shard that was read
+    int number_;  ///< number of the last shard that was read
     int last_, count_;
     SurfacePart part_;
     Field field_;

@@ -21,7 +21,7 @@ namespace clsurf::cli {
 /// The findings of `check`, with outlines on the surface.
 struct ShownDefects {
     QualityReport report;
-    std::vector<viz::OutlineMark> outlines;  ///< of report.defects
+    std::vector<viz::OutlineMark> outlines;  ///< outlines of report.defects
 };
 
 /// The source of the points.
@@ -33,11 +33,12 @@ struct Shown {
     Part part;
     ClSurface surface;
     Field field;
-    viz::FieldClasses classes;          ///< of the field, if its values are names
+    viz::FieldClasses classes;          ///< classes of the field, if its values are names
     std::optional<viz::Relief> relief;  ///< the as-machined surface; the field then has values at its vertices
     ShownDefects defects;
-    std::vector<std::vector<Vec3>> programmed;     ///< path of the program as lines [mm]; empty: not requested
-    std::unique_ptr<const PartContacts> contacts;  ///< of the as-machined surface; once set, `this` does not move
+    std::vector<std::vector<Vec3>> programmed;  ///< path of the program as lines [mm]; empty: not requested
+    std::unique_ptr<const PartContacts>
+        contacts;  ///< contacts of the as-machined surface; once set, `this` does not move
 
     /// The position of a point's mark in the picture [mm].
     [[nodiscard]] Vec3 place_of(PointIndex i) const {

@@ -17,7 +17,7 @@ struct ProfileOptions {
     std::string pass;  ///< program of a finished pass; the scan then has its deviations; empty: the scan is the profile
     bool splines = false;
     double feed = 0;       ///< [mm/min]
-    double clearance = 0;  ///< [mm] above the highest point of the path
+    double clearance = 0;  ///< [mm] height above the highest point of the path
 };
 /// Throws UsageError.
 [[nodiscard]] ProfileOptions read_profile_options(const po::variables_map& values);

@@ -25,7 +25,7 @@ namespace clsurf::cli {
 namespace {
 
 constexpr std::size_t pictured_defects = 6;
-constexpr int relief_pixels = 700;  ///< of the as-machined surface across the page
+constexpr int relief_pixels = 700;  ///< width of the as-machined surface on the page
 
 std::vector<ShownRange> ranges_of(const std::vector<ReportLog>& logs) {
     std::vector<ShownRange> ranges;

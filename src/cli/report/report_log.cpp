@@ -18,8 +18,8 @@ namespace clsurf::cli {
 namespace {
 
 constexpr std::size_t most_fields = 28;          ///< if none are named
-constexpr double usual_bytes = 24;               ///< of a point in the page, as a first estimate
-constexpr std::uint64_t usual_rest = 3'000'000;  ///< [bytes] of pictures, text and script
+constexpr double usual_bytes = 24;               ///< size of a point in the page, as a first estimate
+constexpr std::uint64_t usual_rest = 3'000'000;  ///< [bytes] size of pictures, text and script
 
 /// Chooses at most `most` points of a log for the page.
 void choose_points(ReportLog& shown, PointIndex most) {

@@ -21,7 +21,7 @@ struct ReportLog {
     Part part;
     ClSurface surface;
     Quality quality;
-    std::optional<io::Acceptance> acceptance;  ///< of the shown log, if there is a file
+    std::optional<io::Acceptance> acceptance;  ///< acceptance for the shown log, if there is a file
     std::vector<Field> fields;
     std::vector<std::vector<io::PageClass>> classes;  ///< per field
     std::vector<std::vector<PointRange>> ramps;       ///< per field: points in a lighter tone, increasing

@@ -17,13 +17,13 @@ struct ReportOptions {
     PartOptions part;
     std::optional<Role> measured;
     std::string before, output, gl;
-    std::optional<Measurement> measurement;  ///< of the part, if it was measured
+    std::optional<Measurement> measurement;  ///< measurement of the part, if there is one
     std::optional<io::AcceptedFile> accepted;
     std::vector<std::string> fields;  ///< empty: the default ones
     std::string first_field;
     std::uint64_t most_bytes = 0;
     std::vector<std::string> reading_options;
-    std::optional<MergedShards> merged;  ///< of a log judged in shards
+    std::optional<MergedShards> merged;  ///< findings of a log judged in shards
     int shards = 0;                      ///< number of shards for drawing the map; 0: undivided
 };
 

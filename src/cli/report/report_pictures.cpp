@@ -86,7 +86,7 @@ private:
 
     const viz::MapPanel& whole_;
     int shards_;
-    int number_ = 0;  ///< of the last shard that was drawn
+    int number_ = 0;  ///< number of the last shard that was drawn
     SurfacePart part_;
     Field field_;
 };

@@ -18,7 +18,7 @@ namespace clsurf::cli {
 struct Checked {
     std::string text;
     ExitCode code = ExitCode::done;
-    ResolvedFindings resolved;  ///< of a followed log
+    ResolvedFindings resolved;  ///< findings of a followed log
 };
 
 /// What one log is checked for, besides how it is read.

@@ -17,11 +17,11 @@ namespace clsurf::cli {
 
 struct CheckedRun {
     Part part;                             ///< with all diagnostics
-    std::shared_ptr<const Survey> survey;  ///< of a log judged in shards: the surface borrows from it
+    std::shared_ptr<const Survey> survey;  ///< survey of a log judged in shards: the surface borrows from it
     ClSurface surface;
     Quality quality;
     LimitReport limits;
-    bool states_limits = false;                ///< by a machine file or the budget
+    bool states_limits = false;                ///< a machine file or the budget states limits
     std::optional<io::Acceptance> acceptance;  ///< nothing: no file of accepted defects
     std::vector<BudgetLine> budget;            ///< lines on passes, then lines on limits
     ExitCode code = ExitCode::done;

@@ -15,7 +15,7 @@ struct DiffOptions {
     std::vector<std::string> files;  ///< the reference first
     RunOptions runs;
     RunBudget budget;
-    std::string output;  ///< of the map; empty: none
+    std::string output;  ///< file of the map; empty: none
     RunQuantity shown = RunQuantity::speed;
     LookOptions look;
     bool json = false;

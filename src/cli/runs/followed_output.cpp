@@ -9,7 +9,7 @@
 namespace clsurf::cli {
 namespace {
 
-constexpr double least_seconds = 2;  ///< between two pictures
+constexpr double least_seconds = 2;  ///< shortest time between two pictures
 constexpr double pause_share = 2;
 
 }  // namespace

@@ -19,9 +19,9 @@ namespace clsurf::cli {
 struct RunOptions {
     io::ProgramOptions program_options;
     io::LogOptions log_options;
-    std::string program;                           ///< of logs; empty: their line channel is used
+    std::string program;                           ///< program of the logs; empty: their line channel is used
     Machine machine;                               ///< --machine, otherwise the default one
-    std::shared_ptr<const Kinematics> kinematics;  ///< of --machine; nullptr: three axes
+    std::shared_ptr<const Kinematics> kinematics;  ///< kinematics of --machine; nullptr: three axes
     Vec3 start = Vec3::Zero();
     FramePoses poses;    ///< --work-offset
     bool force = false;  ///< accept a log that does not belong to `program`

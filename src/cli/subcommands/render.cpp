@@ -30,7 +30,7 @@ struct MapScale {
     viz::ColourScale colours;
     std::vector<std::string> notes;
     std::string words;  ///< " 0 to 100 %"
-    double span = 0;    ///< of the range, in shown units; 0 for classes
+    double span = 0;    ///< width of the range, in shown units; 0 for classes
 };
 
 MapScale scale_of_map(const Shown& after, const std::optional<Shown>& before, const RenderOptions& options,
