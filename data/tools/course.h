@@ -37,11 +37,11 @@ struct CourseRecipe {
     double length = 30;      ///< [mm] length of a straight pass; side or diameter of other layouts
     int passes = 30;         ///< number of passes; for contours the maximum
     double step_over = 0.3;  ///< [mm]
-    double angle = 0.5;      ///< [rad] of oblique passes
+    double angle = 0.5;      ///< [rad] angle of oblique passes
     double waviness = 1;     ///< [mm] amplitude of the surface
     double wave = 12;        ///< [mm] its wavelength / 2π
     double draft = 0.1;      ///< [rad] angle of walls and towers from the vertical
-    double spacing = 0.02;   ///< [mm] between points
+    double spacing = 0.02;   ///< [mm] distance between points
     double block = 0.5;      ///< [mm] programmed step
 };
 
@@ -49,7 +49,7 @@ enum class Motion : std::uint8_t { cut, link, rapid };
 
 struct CoursePoint {
     Vec3 at = Vec3::Zero();
-    Vec3 normal = Vec3::UnitZ();  ///< of the surface
+    Vec3 normal = Vec3::UnitZ();  ///< normal of the surface
     int pass = -1;                ///< from 0; −1: on a link or a rapid
     Motion motion = Motion::cut;  ///< motion to the point
 };

@@ -452,9 +452,9 @@ private:
     Generator generator_;
     CourseRecipe shape_;
     Recipe recipe_;
-    double acceleration_ = 1000;  ///< [mm/s²] along and across
+    double acceleration_ = 1000;  ///< [mm/s²] acceleration along and across the path
     std::vector<CoursePoint> course_;
-    std::vector<double> arc_length_;  ///< [mm] at each point of the course
+    std::vector<double> arc_length_;  ///< [mm] arc length at each point of the course
     std::vector<std::pair<std::size_t, std::size_t>> passes_;
     std::vector<Section> sections_;
     std::vector<std::uint32_t> line_of_;

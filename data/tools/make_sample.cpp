@@ -33,11 +33,11 @@ namespace {
 constexpr double period = 0.001;      // [s]
 constexpr double feed = 50;           // [mm/s]
 constexpr double rapid_feed = 250;    // [mm/s]
-constexpr double corner_speed = 5;    // [mm/s] at the ends of passes
+constexpr double corner_speed = 5;    // [mm/s] speed at the ends of passes
 constexpr double acceleration = 500;  // [mm/s²]
 constexpr double step_over = 0.1;     // [mm]
-constexpr double retract = 5;         // [mm] above the surface
-constexpr double slow_feed = 0.5;     // of the feed, at a slow place
+constexpr double retract = 5;         // [mm] height above the surface
+constexpr double slow_feed = 0.5;     // share of the feed at a slow place
 constexpr double slow_length = 30;    // [mm]
 
 enum class Pattern { zigzag, one_way, loops };
@@ -50,7 +50,7 @@ struct Wishes {
     double line = 0.5;                               ///< [mm] length of a programmed line
     double wave = 100;                               ///< [mm] wavelength of the surface
     double height = 3;                               ///< [mm] amplitude of its waves, if the part is larger than a wave
-    std::array<double, 3> lag{0.003, 0.004, 0.005};  ///< [s] of the feedback
+    std::array<double, 3> lag{0.003, 0.004, 0.005};  ///< [s] lag of the feedback
     std::int64_t slow = 0;                           ///< passes with a slow place
 };
 
@@ -290,7 +290,7 @@ void write_log(const std::string& path, const std::string& program, const Part& 
     const ProgramReference ran = io::identify(io::map_file(program));
     LogFile log(path, io::with_programs("", std::span(&ran, 1)), part, wishes.lag);
     constexpr std::uint32_t lines_of_head = 3;
-    std::uint32_t line = lines_of_head + 1;  // of the pass's first waypoint
+    std::uint32_t line = lines_of_head + 1;  // line of the pass's first waypoint
     std::int64_t left = wishes.points;
     Vec3 last = part.start();
     for (std::int64_t k = 0; left > 0; ++k) {

@@ -16,7 +16,7 @@ constexpr double grid_step = 0.01;           ///< [mm] spacing of the points of 
 constexpr double normal_acceleration = 600;  ///< [mm/s²] acceleration that limits the speed in curves …
 constexpr double end_acceleration = 600;     ///< … and at the ends of passes
 constexpr double plan_smoothing = 0.4;       ///< [mm] distance over which the speed plan is smoothed
-constexpr double creep = 1.0;                ///< [mm/s] at the ends
+constexpr double creep = 1.0;                ///< [mm/s] speed at the ends
 constexpr int link_points = 11;
 constexpr double lift = 2;           ///< [mm] height above the passes on the way back
 constexpr double rapid_speed = 200;  ///< [mm/s]
@@ -65,8 +65,8 @@ Facet facet_at(const Recipe& r, double x, double y) {
 /// One pass as closely spaced points with their arc length.
 struct Curve {
     std::vector<Vec3> at;
-    std::vector<double> arc_length;  ///< [mm] from its beginning
-    std::vector<double> coordinate;  ///< [mm] along the pass, the same for adjacent passes
+    std::vector<double> arc_length;  ///< [mm] arc length from the beginning of the pass
+    std::vector<double> coordinate;  ///< [mm] position along the pass, the same for adjacent passes
     std::vector<int> pass;           ///< per point: a spiral has many passes on one curve
 };
 

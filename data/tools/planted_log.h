@@ -31,7 +31,7 @@ struct Defect {
     double edge = 0.5;        ///< [mm] raised-cosine edges outside
     double amplitude =
         0;              ///< speed, oscillation: share of the speed, + slower; lag, offset of the points: [mm], + above
-    double wave = 1.0;  ///< [mm] of an oscillation
+    double wave = 1.0;  ///< [mm] wavelength of an oscillation
 };
 
 struct Recipe {
@@ -40,7 +40,7 @@ struct Recipe {
     Surface surface = Surface::transition;
     double height = 4;   ///< [mm] amplitude of the surface
     double width = 3;    ///< [mm] length over which a transition rises; wavelength / 2π of a wave
-    double length = 24;  ///< [mm] of a straight pass; diameter of loops and spirals
+    double length = 24;  ///< [mm] length of a straight pass; diameter of loops and spirals
     int passes = 30;
     double step_over = 0.3;  ///< [mm]
     double feed = 50;        ///< [mm/s]
@@ -50,7 +50,7 @@ struct Recipe {
     double scatter = 0.004;  ///< relative scatter of the speed from pass to pass
     double delay = 0.001;    ///< [s] delay of measured positions after commanded ones
     double give = 2e-5;      ///< [mm per mm/s²] offset along the normal per normal acceleration
-    double jitter = 0;       ///< of the period, standard deviation
+    double jitter = 0;       ///< standard deviation of the period
     double block = 0.6;      ///< [mm] programmed step
     std::vector<Defect> defects;
 };
@@ -61,7 +61,7 @@ struct PlantedLog {
     std::vector<double> commanded[3], measured[3];
     std::vector<std::uint32_t> line;
     std::vector<int> pass;                       ///< −1: link
-    std::vector<double> speed;                   ///< [mm/s] as planned; empty: not kept
+    std::vector<double> speed;                   ///< [mm/s] planned speed; empty: not kept
     std::vector<std::vector<PointIndex>> truth;  ///< points of each defect at half amplitude or more
 };
 

@@ -16,17 +16,17 @@ namespace clsurf::planted {
 
 struct Score {
     int planted = 0;   ///< defects
-    int found = 0;     ///< with a flagged point within 0.2 mm of 30 % of their points
+    int found = 0;     ///< defects with a flagged point within 0.2 mm of 30 % of their points
     int reported = 0;  ///< regions
-    int right = 0;     ///< with 30 % of their points within 0.8 mm of a planted one
+    int right = 0;     ///< regions with 30 % of their points within 0.8 mm of a planted one
     int natural =
-        0;  ///< others, where the plan itself differs from that of the nearest pass by 5 % of the speed or more at a quarter of the points
+        0;  ///< other regions whose plan differs from the nearest pass by 5 % of the speed or more at a quarter of the points
     PointIndex points = 0;
-    std::vector<double> depth_errors;  ///< relative, of lag defects found
-    int placed = 0;                    ///< found with the position within a step-over of a planted point
-    int lined = 0;                     ///< found with the planted lines inside the reported ones, ±1
-    int named = 0;                     ///< found under their cause
-    int signed_right = 0;  ///< found by one that is slower or faster, above or below, as it is; swings are either
+    std::vector<double> depth_errors;  ///< relative depth errors of the lag defects found
+    int placed = 0;                    ///< defects found with the position within a step-over of a planted point
+    int lined = 0;                     ///< defects found with the planted lines inside the reported ones, ±1
+    int named = 0;                     ///< defects found with their cause
+    int signed_right = 0;  ///< defects found with the right sign (slower, faster, above, below); swings have either
 
     Score& operator+=(const Score& other);
     [[nodiscard]] double recall() const { return planted > 0 ? static_cast<double>(found) / planted : 1.0; }
