@@ -13,7 +13,7 @@ namespace clsurf::five_axis_fields_test {
 namespace {
 
 constexpr double period = 0.001;
-constexpr double step = 0.03;     ///< [mm] of path per record: 30 mm/s
+constexpr double step = 0.03;     ///< [mm] path length per record: 30 mm/s
 constexpr double lift = 0.004;    ///< [mm] offset of the tip along the commanded tool axis
 constexpr double leaning = 2e-4;  ///< [rad] offset of the tilt
 constexpr int late = 3;           ///< records

@@ -24,7 +24,7 @@ namespace {
 using test::read_file;
 using test::TemporaryFolder;
 
-constexpr std::size_t count_at = 24;  ///< of a BIIP log (docs/formats/biip.md)
+constexpr std::size_t count_at = 24;  ///< offset of the record count in a BIIP log (docs/formats/biip.md)
 
 std::string sample(const std::string& name) { return std::string(SAMPLE_LOGS) + "/" + name; }
 std::string data(const std::string& name) { return std::string(SAMPLE_DATA) + "/logs/" + name; }

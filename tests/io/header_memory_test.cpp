@@ -31,7 +31,7 @@ constexpr bool sanitized = false;
 #endif
 
 constexpr rlim_t most_address_space = rlim_t{2} << 30;
-constexpr long most_growth = 24 * 1024;  ///< of the resident memory [KiB], for any small file
+constexpr long most_growth = 24 * 1024;  ///< largest growth of the resident memory [KiB], for any small file
 constexpr double huge = 9e18;
 
 /// Reads in a child process. Returns how many KiB its memory grew, −1: it ended without an answer.

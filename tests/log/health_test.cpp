@@ -143,7 +143,7 @@ TEST(Health, DoesNotCallTheArcLengthOfAGapAJump) {
     Made made;
     for (auto& [name, values] : made.columns) values.erase(values.begin() + 1000, values.begin() + 1040);
     expect_says(only(made.check(), "log.time-gap"), "40 records are missing");
-    made.columns.erase("time");  // without a clock it is one
+    made.columns.erase("time");  // without a clock it is a jump
     EXPECT_EQ(made.check().count("log.jump"), 2u);
 }
 

@@ -50,8 +50,8 @@ struct Columns {
 };
 
 constexpr double step_over = 0.3;
-constexpr double spacing = 0.04;      ///< of points
-constexpr double line_length = 0.25;  ///< of the program's lines
+constexpr double spacing = 0.04;      ///< distance between points
+constexpr double line_length = 0.25;  ///< length of the program's lines
 
 /// Zigzag passes along u, v a step-over apart, 0.04 mm between points.
 struct Milled {

@@ -26,7 +26,7 @@ struct OracleCase {
     std::string name, kind, part;
     CuttingTool tool{};
     double a = 0, b = 0;
-    double error = 0;  ///< [µm] of the machine
+    double error = 0;  ///< [µm] position error of the machine
     Vec2 from, to;
     double apart = 0;                       ///< [mm] contacts of adjacent passes, in plan view
     double ra = 0, rz = 0, sa = 0, sz = 0;  ///< µm
@@ -74,7 +74,7 @@ double tip_of(const OracleCase& c, double x, double y) {
     const double direction = c.a * per_degree;
     const double aside = (x - 6.0) * -std::sin(direction) + (y - 3.6) * std::cos(direction);
     if (c.part == "cylinder") {
-        const double r = c.b + radius;  // of the ball's centres; < 0: a groove
+        const double r = c.b + radius;  // radius of the path of the ball's centre; < 0: a groove
         return std::copysign(std::sqrt(r * r - aside * aside), c.b) - r;
     }
     if (c.part == "fillet") return groove(std::max(c.b, radius) - radius, aside);

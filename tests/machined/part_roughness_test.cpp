@@ -20,7 +20,7 @@ using test::MadeSurface;
 
 constexpr double radius = 3, apart = 0.4;
 constexpr int passes = 30;
-constexpr double tilt = 0.5;  ///< [rad] of the plane about X
+constexpr double tilt = 0.5;  ///< [rad] tilt of the plane about X
 
 /// A plane, tilted across the feed, with every second pass measured `lower` mm below the commanded one, along the normal.
 MadeSurface alternating(double lower) {
@@ -130,7 +130,7 @@ AreaHeights scallop_of(double step_over) {
 TEST(PartRoughness, IsThatOfWholeScallopsForAnyStepOverAndIncline) {
     struct Plane {
         double step_over = 0, angle = 0;
-        double ra = 0;  ///< [mm] of the scallops after a Gaussian filter of 0.8 mm along the plane; NumPy
+        double ra = 0;  ///< [mm] Ra of the scallops after a Gaussian filter of 0.8 mm along the plane, by NumPy
     };
     for (const Plane& plane : {Plane{0.35, 0, 0.0012764}, Plane{0.25, 0.26, 0.0006679}, Plane{0.4, 0.785, 0.0016080}}) {
         const AreaHeights expected = scallop_of(plane.step_over);

@@ -19,7 +19,7 @@ constexpr double length = 8;
 constexpr int passes = 16;
 
 struct Lifted {
-    double apart = 0.45, degrees = 20;  ///< in plan view; slope of the plane, which rises across the feed
+    double apart = 0.45, degrees = 20;  ///< step-over in plan view; slope of the plane, which rises across the feed
     double shorter = 0;                 ///< [mm] length by which every second pass is shorter
     double beside = 0;                  ///< [mm] shift along the feed while the tool lifts
     bool zigzag = false;

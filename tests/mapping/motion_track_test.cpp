@@ -19,7 +19,7 @@
 namespace clsurf::motion_track_test {
 namespace {
 
-constexpr double step = 0.4;  ///< [mm] from point to point
+constexpr double step = 0.4;  ///< [mm] distance from point to point
 
 /// A log along motions of a program, with the true motion of each point.
 struct Drive {

@@ -28,7 +28,8 @@ std::vector<float> own_reliefs(const Height& height, double low, double high) {
         if (p.x() < 5 || p.x() > length - 5 || p.y() < low || p.y() > high) continue;
         const Comparison c = comparer.compare({i, 0});
         const float residual = c.residual[index_of(Quantity::relief)];
-        if (c.left >= 2 && c.right >= 2 && residual == residual) own.push_back(residual);  // no residual at tilted chords
+        if (c.left >= 2 && c.right >= 2 && residual == residual)
+            own.push_back(residual);  // no residual at tilted chords
     }
     EXPECT_GT(own.size(), 100U);
     return own;

@@ -14,7 +14,7 @@ namespace {
 constexpr double apart = 0.4, length = 40;
 constexpr int passes = 21;
 constexpr double dip = 0.5;   ///< share of the speed lost at the slowest place
-constexpr double wide = 1.5;  ///< [mm] of arc length
+constexpr double wide = 1.5;  ///< [mm] half width of the slow section
 
 /// Passes along X at 50 mm/s. Each is slow around x = 20 + slope (y − 4), and the middle one again at x = 30.
 test::MadeSurface made(double slope, bool fault) {

@@ -102,7 +102,7 @@ TEST(LineEditor, WritesInTheFrameThatIsActive) {
 TEST(LineEditor, WritesWhatIsTurnedShiftedAndScaledAsTheProgramCountsIt) {
     struct Case {
         const char *dialect, *frame, *end;
-        Vec3 at;  ///< of X1.5 Y0 there
+        Vec3 at;  ///< position of X1.5 Y0 in these frames
     };
     const Case cases[] = {{"fanuc", "G68 X0 Y0 R90", "G69", {0, 1.5, 0}},
                           {"fanuc", "G52 X10 Y20", "G52 X0 Y0", {11.5, 20, 0}},

@@ -144,7 +144,7 @@ struct FedSection {
     const char *dialect, *before, *after;
     SplineForm form;
     std::vector<std::string> with_words;  ///< lines with an F word if a line that may be rewritten follows
-    std::vector<float> feeds;             ///< [mm/s] of lines, spans and line, as read back
+    std::vector<float> feeds;             ///< [mm/s] feeds of the lines, the spans and the last line, as read back
 };
 
 const std::vector<FedSection>& fed_sections() {

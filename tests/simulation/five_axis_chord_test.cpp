@@ -19,8 +19,8 @@
 namespace clsurf::five_axis_chord_test {
 namespace {
 
-constexpr double width = 10;    ///< of the zigzag [mm]
-constexpr double across = 0.1;  ///< of each line [mm]
+constexpr double width = 10;    ///< width of the zigzag [mm]
+constexpr double across = 0.1;  ///< distance between lines [mm]
 
 Machine machine_at(double period) {
     Machine machine = io::read_machine(SAMPLE_DATA "/machines/five_axis_trunnion.toml");

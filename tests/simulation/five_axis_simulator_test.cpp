@@ -271,7 +271,7 @@ double share_along(const FiveAxisPath& path, const Machine& machine, int places)
             }
             PathDerivatives tip;
             const AxisSample<5> d = path.derivatives(u, tip);
-            const double pace = tip.first.norm();  // of the tip: its normal acceleration is (v pace)² / radius
+            const double pace = tip.first.norm();  // pace of the tip, whose normal acceleration is (v pace)² / radius
             if (pace > 1e-9)
                 worst = std::max(worst,
                                  b * tip.first.cross(tip.second).norm() / pace / machine.path.max_normal_acceleration);

@@ -39,7 +39,7 @@ struct MadeLog {
     std::vector<double> axes[5];  ///< x, y, z [mm], a, c [deg], commanded
     std::vector<double> feedback[5];
     std::vector<double> line;
-    double tilt_sign = 1;  ///< of the control's angles
+    double tilt_sign = 1;  ///< sign of the control's angles
     Log log;
 
     void add(const Vec3& linear, const RotaryAngles& angles, double at_line) {
@@ -73,7 +73,7 @@ inline MadeLog run(const Program& program, const Kinematics& kinematics, const V
     const Toolpath path(program.motions, Vec3::Zero());
     made.tilt_sign = kinematics.tilt.sign;
     RotaryAngles before;
-    Vec3 at = zero + kinematics.zero_position();  // of the axes
+    Vec3 at = zero + kinematics.zero_position();  // position of the axes
     Vec3 word = Vec3::Zero();
     for (std::int64_t m = 0; m < path.size(); ++m) {
         const RotaryAngles after = kinematics.angles_of(

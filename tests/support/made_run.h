@@ -23,19 +23,19 @@ struct RunRecipe {
     double begin = 0, end = 100;                                        ///< [mm] of arc length
     double period = 0.001;                                              ///< [s]
     std::function<double(double)> speed = [](double) { return 30.0; };  ///< [mm/s] by arc length
-    std::vector<std::pair<double, double>> pauses;                      ///< at an arc length [mm], for a time [s]
+    std::vector<std::pair<double, double>> pauses;  ///< pauses at an arc length [mm], for a time [s]
     std::function<Vec3(double)> off = [](double) -> Vec3 {
         return Vec3::Zero();
     };  ///< measured minus commanded, by arc length
     std::function<Vec3(double)> shift = [](double) -> Vec3 {
         return Vec3::Zero();
-    };                 ///< of all positions, by arc length
-    double phase = 0;  ///< of a period, after which sampling begins
+    };                 ///< displacement of all positions, by arc length
+    double phase = 0;  ///< share of a period after which sampling begins
 };
 
 struct MadeRun {
     Log log;
-    std::vector<double> arc_length;  ///< of every point
+    std::vector<double> arc_length;  ///< arc length of every point
     std::shared_ptr<std::vector<double>> columns = std::make_shared<std::vector<double>>();
 
     [[nodiscard]] ComparedRun run() const {

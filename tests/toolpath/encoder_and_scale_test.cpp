@@ -37,8 +37,8 @@ ChannelView view_of(const std::vector<double>& x) {
 struct Drive {
     double backlash = 0.010, pitch_error = 0.002, pitch = 10, heat = 0.0004;  ///< [mm], [mm], [mm], [mm/s]
     double encoder_quantum = 1e-4, scale_quantum = 1e-3;                      ///< [mm]
-    double noise = 2e-4;                                                      ///< of the scale before rounding [mm]
-    double lead = 0;                                                          ///< of the encoder [records]
+    double noise = 2e-4;    ///< noise of the scale before rounding [mm]
+    double lead = 0;        ///< lead of the encoder [records]
     double compliance = 0;  ///< lead of the motor over the screw per acceleration [s²]
 };
 

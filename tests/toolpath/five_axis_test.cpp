@@ -200,7 +200,7 @@ TEST(TiltedPlanes, AreWaysOfTheTipWithTheToolUprightOnThem) {
         make_tip_motions(program, k, Vec3::Zero(), Vec3::Zero());
         ToolCentrePoint control(program);
         std::int64_t in_plane = 0;
-        Vec3 axes = Vec3::Zero();  // of the last motion of the line after the plane: axis positions again
+        Vec3 axes = Vec3::Zero();  // end of the last motion of the line after the plane: axis positions again
         for (std::size_t i = 0; i < m.kind.size(); ++i) {
             in_plane += control.on(static_cast<std::int64_t>(i)) ? 1 : 0;
             if (m.line[i] == after) axes = k.to_axes(m.end[i].vec(), k.angles_of(m.rotary[i].vec()));
