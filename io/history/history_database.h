@@ -80,7 +80,7 @@ public:
     AddedRun add(const RunRecord& run);
     /// Adds the runs of other histories that are missing here, in order of time, as recorded. If both have a run,
     /// the judged one is kept, and of two judged ones the later. Parameter rules are copied if there are
-    /// none. One transaction. Returns how many were added or replaced. Throws InputError: rules that differ. O(defects).
+    /// none. One transaction. Returns the number of runs added or replaced. Throws InputError: rules that differ. O(defects).
     std::size_t merge(std::span<const HistoryDatabase> others);
     /// Replaces the rules; existing rows are not changed.
     void set_parameter_rules(const ParameterRules& rules);

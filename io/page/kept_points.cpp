@@ -49,7 +49,7 @@ void for_each_section(const Defect& defect, const Take& take) {
     }
 }
 
-/// Marks all points of the defects that fit into `room`; returns how many do. A defect that is too large does not
+/// Marks all points of the defects that fit into `room`; returns the number of these defects. A defect that is too large does not
 /// stop smaller ones.
 std::size_t mark_whole_defects(Marks& marks, std::span<const Defect> defects, PointIndex room) {
     std::size_t whole = 0;

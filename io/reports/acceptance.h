@@ -14,10 +14,10 @@ namespace clsurf::io {
 
 struct Acceptance {
     struct Entry {
-        bool listed = false;    ///< the file has an entry for it
+        bool listed = false;    ///< the file has an entry for the defect
         bool accepted = false;  ///< it does not count
-        bool worse = false;     ///< it was accepted with a lower severity
-        int severity = 0;       ///< when it was accepted; 0: not known
+        bool worse = false;     ///< the defect was accepted with a lower severity
+        int severity = 0;       ///< severity when the defect was accepted; 0: not known
         std::string comment;
     };
     std::string file;                     ///< its name
