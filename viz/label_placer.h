@@ -1,5 +1,5 @@
 #pragma once
-// LabelPlacer: finds room for labels on a panel, so that they do not overlap.
+// LabelPlacer: finds room for labels on a panel, without overlaps.
 
 #include <optional>
 #include <vector>
