@@ -13,9 +13,9 @@ namespace clsurf::cli {
 struct ChildCommand {
     std::string file;                ///< file of the program
     std::vector<std::string> words;  ///< its name and its arguments
-    std::string output;              ///< file for its output; it has no input
+    std::string output;              ///< file for the program's output; the program has no input
     std::uint64_t memory = 0;        ///< [bytes] largest size of its data; 0: no limit
-    bool own_group = false;          ///< so that it can be killed together with its children
+    bool own_group = false;  ///< own process group, so that the program can be killed together with its children
 };
 
 /// Starts the program. It is killed when this program ends; its exit code is 127 if the file cannot be run. `name`: a

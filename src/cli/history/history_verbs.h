@@ -22,7 +22,7 @@ struct HistoryVerb {
     std::string_view arguments;                         ///< "PROGRAM LOG", for messages
     std::size_t least = 0, most = 0;                    ///< arguments
     void (*declare)(po::options_description& options);  ///< declares its options, except --json and --output
-    bool json = true, output = false;                   ///< whether it has these options
+    bool json = true, output = false;                   ///< whether the verb has these options
     ExitCode (*run)(const HistoryCall& call);
 };
 [[nodiscard]] std::span<const HistoryVerb> history_verbs();

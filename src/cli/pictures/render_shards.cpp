@@ -74,7 +74,7 @@ struct NamedPiece {
     io::MapPiece piece;
 };
 
-/// The pieces of all shards, in order. Throws UsageError: one is missing, duplicate, or of another division into shards.
+/// The pieces of all shards, in order. Throws UsageError: a piece is missing, duplicate, or of another division into shards.
 std::vector<NamedPiece> read_pieces(const std::vector<std::string>& paths, const io::SurveyOrigin& origin,
                                     const std::string& settings) {
     std::vector<NamedPiece> pieces;

@@ -13,7 +13,7 @@
 namespace clsurf::cli {
 namespace {
 
-/// The plane of the cut: the Y of the scan, if it has one.
+/// The plane of the cut: the Y of the scan, if the scan has a Y.
 double plane_of(const MeasuredData& data) {
     if (data.kind == MeasuredKind::profile) return 0;
     const auto [least, most] = std::minmax_element(data.points.begin(), data.points.end(),

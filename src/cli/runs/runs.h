@@ -34,7 +34,7 @@ struct RunOptions {
 void declare_runs(po::options_description& options);
 [[nodiscard]] RunOptions read_run_options(const po::variables_map& values);
 
-/// A log, and its program if it was simulated, as simulated.
+/// A log, and the program that was simulated or that --program names.
 struct LoadedRun {
     std::string name;
     Log log;
