@@ -268,7 +268,7 @@ private:
             const auto& range = passes_[static_cast<std::size_t>(pass)];
             sections.push_back({recipe_.defects.size(), range.first, range.second, arc_length_[at]});
         }
-        // Waves have at least a fixed length in time: with a period of 4 ms a visible one is longer.
+        // Waves have at least a fixed length in time: with a period of 4 ms, a visible wave is longer.
         d.wave = std::max({1.0, 0.02 * recipe_.feed, 6 * recipe_.period * recipe_.feed});
         if (d.kind == Kind::oscillation) {
             const double middle = 0.5 * (d.from + d.to);

@@ -17,7 +17,7 @@ constexpr double true_within = 0.8;   ///< [mm]
 constexpr double share_enough = 0.3;
 constexpr double planned_enough = 0.05;
 
-/// Points by cell, to test whether one is within a radius.
+/// Points by cell, to test whether a point is within a radius.
 class Near {
 public:
     Near(const PlantedLog& log, const std::vector<PointIndex>& points, double radius)
