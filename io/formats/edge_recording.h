@@ -17,7 +17,7 @@ struct EdgeEvent {
     std::int64_t cycle = -1;  ///< HFProbeCounter; < 0: missing
     std::int64_t line = -1;   ///< SeekOffset; < 0: missing
     std::int64_t level = 0;   ///< CallStackLevel of a call
-    std::string path;         ///< path of the called program
+    std::string path;         ///< path of the program in a call
 };
 
 struct EdgeRecording {

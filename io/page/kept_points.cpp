@@ -49,8 +49,8 @@ void for_each_section(const Defect& defect, const Take& take) {
     }
 }
 
-/// Marks all points of the defects that fit into `room`; returns the number of these defects. A defect that is too large does not
-/// stop smaller ones.
+/// Marks all points of the defects that fit into `room`; returns the number of these defects. A defect that is too large does
+/// not stop smaller ones.
 std::size_t mark_whole_defects(Marks& marks, std::span<const Defect> defects, PointIndex room) {
     std::size_t whole = 0;
     for (const Defect& defect : defects) {
