@@ -9,9 +9,9 @@ namespace clsurf {
 namespace {
 
 constexpr PointIndex most_samples = 20'000;
-constexpr double least_motion = 0.01;  ///< of the squared speed: the delay of an axis that moves less is not determined
-constexpr double least_explained = 0.5;  ///< of the variance of the lag
-constexpr double same_order = 0.5;       ///< of the largest effect that a pair of axes has
+constexpr double least_motion = 0.01;    ///< share of the squared speed: an axis with less has no known delay
+constexpr double least_explained = 0.5;  ///< share of the variance of the lag
+constexpr double same_order = 0.5;       ///< share of the largest effect of a pair of axes
 
 struct MovedAxis {
     std::size_t axis = 0;
@@ -73,8 +73,8 @@ double explained(const std::vector<FollowedPoint>& points, const std::vector<Mov
     return all > 0 ? 1 - left / all : 0;
 }
 
-/// The delays of the axes of all pairs whose difference moves the tool off its path about as much as that of the strongest
-/// pair.
+/// The delays of the axes of all pairs whose difference moves the tool off its path about as much as the difference of the
+/// strongest pair.
 std::vector<AxisDelay> differing(const std::vector<FollowedPoint>& points, const std::vector<MovedAxis>& moved) {
     constexpr std::array<char, 3> letters{'x', 'y', 'z'};
     const auto effect = [&](const MovedAxis& a, const MovedAxis& b) {

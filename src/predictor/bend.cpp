@@ -15,28 +15,28 @@ constexpr float slight_cosine = 0.996F;  ///< cos 5°: enough if the adjacent pa
 constexpr float own_share = 0.7F;        ///< … turn by less than this share of its turn
 constexpr float beside_every = 0.5F;     ///< step-overs between the places where these are examined
 constexpr float turn_reach = 1;          ///< step-overs on either side, over which a turn is measured
-/// Step-overs on either side, within which a link leads to the next pass. A long slanting link is detected over the longest. In
-/// a curve the runs turn against each other over that length, so a short link is detected over a shorter one.
+/// Step-overs on either side, within which a link leads to the next pass. A long slanting link is detected over the longest
+/// of them. In a curve the runs turn against each other over that length, so a short link is detected over a shorter length.
 constexpr std::array link_reaches{5.0F, 3.0F, 2.0F};
 constexpr float link_cosine = 0.94F;      ///< cos 20°: the runs that a link joins turn less against each other …
 constexpr float link_aside = 0.6F;        ///< … and are so many step-overs apart
-constexpr float link_sine = 0.24F;        ///< sin 14°: of the link against these runs
+constexpr float link_sine = 0.24F;        ///< sin 14°: sine of the least angle between the link and these runs
 constexpr float closing_reach = 5;        ///< step-overs on either side, within which a loop closes …
 constexpr float closing_nearest = 0.5F;   ///< … if the distance to the adjacent pass falls below this …
 constexpr float closing_farthest = 0.8F;  ///< … and exceeds this before or after it [step-overs]
 constexpr float long_link = 20;           ///< step-overs: longest link …
 constexpr float link_nearest = 0.65F;     ///< … which comes this near to one of the adjacent passes [step-overs] …
 constexpr float own_turn = 0.035F;    ///< … and turns at either corner by 2° more or less than the adjacent passes
-constexpr float beside_reach = 1.5F;  ///< step-overs along the feed, within which an adjacent pass has its bend
+constexpr float beside_reach = 1.5F;  ///< step-overs along the feed: farthest bend of an adjacent pass
 constexpr float look_every = 0.1F;    ///< step-overs between examined points
-constexpr float accelerates = 0.35F;  ///< of the usual acceleration, at least: jerk limits and windows reduce it
+constexpr float accelerates = 0.35F;  ///< least share of the usual acceleration, which jerk limits and windows reduce
 constexpr float link_accelerates = 0.15F;  ///< the same at a link, whose two corners share the turn
 constexpr float ramp_share = 0.2F;         ///< the same along the path, between the bend and the end of its ramp
-constexpr float accelerates_more = 1.35F;  ///< a bend that is taken 16 % faster
-constexpr float rises_again = 1.03F;       ///< of the least speed: beyond a higher one, another slow place begins
+constexpr float accelerates_more = 1.35F;  ///< ratio of accelerations in a bend that is taken 16 % faster
+constexpr float rises_again = 1.03F;       ///< times the least speed: above it, another slow place begins
 /// [s] No mill needs longer to brake for a bend. This limits the search in logs with hardly any acceleration.
 constexpr float longest_braking = 0.5F;
-constexpr float hardly_slower = 0.5F;  ///< of the threshold
+constexpr float hardly_slower = 0.5F;  ///< share of the threshold
 
 }  // namespace
 
@@ -114,7 +114,7 @@ Bends::Turn Bends::turn_at(PointIndex point) const {
     return turn;
 }
 
-/// Whether an adjacent pass takes a similar bend, and takes it faster.
+/// Whether an adjacent pass takes a similar bend faster.
 bool Bends::taken_faster_beside(PointIndex bend, const Turn& turn) const {
     for (const Side side : {Side::left, Side::right}) {
         const PathLocation at = beside(surface_, {bend, 0}, signals_.feed(bend), side);

@@ -5,7 +5,7 @@
 // sharply, so the tool slows down for it, while the adjacent passes need not. The look-ahead of the controller explains such a
 // difference, so it is expected. A bend explains a difference only if the tool takes it about as fast as the acceleration of
 // the machine allows, brakes for it and speeds up right after it, and is no slower than an adjacent pass in a similar bend. The
-// two corners of a link between loops are bends too, and so is a slight bend that the adjacent passes do not have.
+// two corners of a link between loops are also bends, and so is a slight bend that the adjacent passes do not have.
 
 #include <optional>
 
@@ -25,8 +25,8 @@ public:
 private:
     /// How the path turns around a point.
     struct Turn {
-        float cosine = 1;        ///< of the angle between the feeds one step-over before and after it, on the surface
-        float acceleration = 0;  ///< [mm/s²] that the turn takes at the speed there
+        float cosine = 1;  ///< cosine of the angle between the feeds one step-over before and after it, on the surface
+        float acceleration = 0;  ///< [mm/s²] acceleration of the turn at the speed there
     };
 
     [[nodiscard]] bool slows_for_bend(PointIndex point) const;

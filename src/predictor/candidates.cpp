@@ -16,10 +16,10 @@ namespace clsurf {
 namespace {
 
 constexpr int fewest_alike = 2;          ///< passes of one direction on each side, to distinguish a zigzag from a fault
-constexpr float candidate_share = 0.5F;  ///< of a threshold
+constexpr float candidate_share = 0.5F;  ///< share of a threshold
 constexpr double ends_apart = 1;         ///< step-overs along the feed: closer ends of passes are side by side
 constexpr double ramp_room = 1.5;        ///< times the change of speed of the steeper ramp over that distance
-constexpr float joined_beside = 1.0F;    ///< step-overs along the feed between candidates of two passes
+constexpr float joined_beside = 1.0F;  ///< step-overs along the feed: largest distance between candidates of two passes
 
 /// Sets share and score of a candidate.
 void measure(DefectCandidate& candidate, const Thresholds& thresholds) {
@@ -68,7 +68,7 @@ private:
     std::vector<std::atomic<std::size_t>> parent_;
 };
 
-/// Index of the first of `points`, which ascend, that is not below `point`. The search starts at `hint` and doubles its steps,
+/// Index of the first one of `points` (ascending) that is not below `point`. The search starts at `hint` and doubles its steps,
 /// because consecutive queries are close to each other.
 std::size_t lower_bound_near(const std::vector<PointIndex>& points, std::size_t hint, PointIndex point) {
     std::size_t low = std::min(hint, points.size());
@@ -191,7 +191,7 @@ private:
         return std::abs(along) / std::max(signals_[point].speed, thresholds_.least_speed);
     }
 
-    /// [mm] to the nearer end of the judged section of the pass.
+    /// Distance [mm] to the nearer end of the judged section of the pass.
     [[nodiscard]] double arc_length_to_end(PointIndex point) const {
         const std::vector<PointRange>& pieces = signals_.pieces;
         const auto piece = range_at(pieces, point);
@@ -212,7 +212,7 @@ private:
                            ends_elsewhere(candidate.point, c.beside_left) ||
                            ends_elsewhere(candidate.point, c.beside_right);
         if (candidate.border) {
-            // A ramp makes its pass the slower one. If it is the faster one, there is another cause.
+            // A ramp makes its pass the slower one. If its pass is the faster one, there is another cause.
             constexpr std::size_t q = index_of(Quantity::speed);
             const bool ramps = signals_[candidate.point].zone == Zone::ramp;
             candidate.border = candidate.share[q] < candidate_share || (c.residual[q] < 0) == ramps;
@@ -225,7 +225,7 @@ private:
         measure(candidate, thresholds_);
     }
 
-    /// If one of the passes turns, the chord over it is not straight across, so the height above it is no relief.
+    /// If one of the passes turns, the chord over it is not straight across, so the height above it is not a relief.
     void forget_relief_in_corner(DefectCandidate& candidate) const {
         constexpr std::size_t q = index_of(Quantity::relief);
         if (candidate.share[q] < candidate_share) return;

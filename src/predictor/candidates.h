@@ -25,7 +25,7 @@ struct DefectCandidate {
     [[nodiscard]] bool expected(Quantity q) const { return border || bends(q); }
 };
 
-/// Counts those of `points` that can be compared. O(points).
+/// Counts the ones of `points` that can be compared. O(points).
 [[nodiscard]] ComparedPoints count_compared(const ClSurface& surface, const Signals& signals, const PointRange& points);
 
 /// Pointers to some candidates, in the order of their points. Candidates are not copied: each has 150 bytes, and a bad part has

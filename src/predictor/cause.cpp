@@ -12,20 +12,20 @@ namespace clsurf {
 namespace {
 
 constexpr double uneven_spacing = 1.5;       ///< ratio of the programmed steps
-constexpr LineNumber most_lines = 10'000;    ///< of a run that are examined
-constexpr double corner_arc_length = 0.3;    ///< [mm] in which a corner turns
+constexpr LineNumber most_lines = 10'000;    ///< most lines of a run that are examined
+constexpr double corner_arc_length = 0.3;    ///< [mm] over which a corner turns
 constexpr float corner_cosine = 0.906F;      ///< cos 25°
 constexpr double reversal_arc_length = 0.3;  ///< [mm] around the beginning of the run
-constexpr float axis_moves = 0.01F;          ///< of the feed; less is noise
-constexpr float lobe = 0.4F;                 ///< of the peak: a half-wave that counts
+constexpr float axis_moves = 0.01F;          ///< share of the feed; less is noise
+constexpr float lobe = 0.4F;                 ///< share of the peak that a half-wave must reach
 constexpr int lobes_of_oscillation = 3;
-constexpr double share_of_control = 0.5;  ///< of a relief: its share by deviations from the program
-constexpr double share_of_peak = 0.9;     ///< of the depth: the places that count as highest
-constexpr std::size_t looked_at = 16;     ///< of these places that are examined, about
+constexpr double share_of_control = 0.5;  ///< share of a relief that deviations from the program cause
+constexpr double share_of_peak = 0.9;     ///< share of the depth from which on places count as highest
+constexpr std::size_t examined = 16;      ///< approximate number of these places that are examined
 constexpr std::int64_t merged =
-    110;  ///< motions searched before and after that of a point: a controller may merge so many into one
+    110;  ///< number of motions searched before and after that of a point, because a controller may merge so many
 
-/// The largest number of half-waves of the speed about that of the neighbours, within one run.
+/// The largest number of half-waves of the speed about the speed of the neighbours, within one run.
 int count_lobes(std::span<const DefectCandidate* const> sites) {
     float peak = 0;
     for (const DefectCandidate* s : sites) {
@@ -132,7 +132,7 @@ bool CauseFinder::leaves_program(const Defect& defect, std::span<const DefectCan
         if ((defect.pit ? -height(s) : height(s)) >= share_of_peak * defect.depth) highest.push_back(s);
     }
     std::vector<double> shares;
-    const std::size_t stride = 1 + highest.size() / looked_at;
+    const std::size_t stride = 1 + highest.size() / examined;
     for (std::size_t k = 0; k < highest.size(); k += stride) {
         const Comparison& c = highest[k]->comparison;
         double beside = 0;

@@ -22,7 +22,7 @@ public:
           toolpath_(program.motions, Vec3::Zero()),
           arc_length_(arc_length) {}
 
-    /// `sites`: those of the defect's sections, in order. The neighbours of the defect must be known.
+    /// `sites`: the sites of the defect's sections, in order. The neighbours of the defect must be known.
     [[nodiscard]] Cause cause_of(const Defect& defect, std::span<const DefectCandidate* const> sites) const;
 
 private:

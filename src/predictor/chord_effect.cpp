@@ -11,8 +11,8 @@ namespace clsurf {
 namespace {
 
 constexpr std::size_t of_relief = index_of(Quantity::relief);
-/// Of the stronger relief: −h/2 next to h, with some margin for noise.
-/// A pass that is itself off by −p has (p + h/2) of (h + p/2).
+/// Share of the stronger relief: a relief h causes −h/2 next to it; with some margin for noise.
+/// A pass that is itself off by −p has a share of (p + h/2) / (h + p/2).
 constexpr float most_of_chord = 0.6F;
 
 class ChordEffects {

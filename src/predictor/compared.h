@@ -24,7 +24,7 @@ struct Compared {
 /// Numbers of points of cut passes.
 struct ComparedPoints {
     PointIndex away_from_ends = 0;  ///< away from the ends of their passes, so that they are judged
-    PointIndex compared = 0;        ///< of these, with a neighbour on both sides
+    PointIndex compared = 0;        ///< number of these with a neighbour on both sides
 
     ComparedPoints& operator+=(const ComparedPoints& other) {
         away_from_ends += other.away_from_ends;

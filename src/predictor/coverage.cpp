@@ -41,8 +41,8 @@ void judge_records(double record, QualityReport& report) {
         record, report.step_over));
 }
 
-/// Refuses a verdict if the heights of adjacent passes differ by as much as the step-over all over the part. The surface of one
-/// operation has no such heights; a semi-finish and a finish with one tool, one above the other, have.
+/// Refuses a verdict if the heights of adjacent passes differ by as much as the step-over all over the part. The surface of
+/// one operation has no such heights, unlike a semi-finish and a finish with one tool, one above the other.
 void judge_heights(QualityReport& report) {
     constexpr double most_of_step_over = 0.5;
     const double height = report.thresholds.of[index_of(Quantity::relief)];

@@ -16,7 +16,7 @@ namespace clsurf {
 
 enum class Cause : std::uint8_t {
     feed_drop,       ///< slower (or faster) than its neighbours over a section
-    oscillation,     ///< the speed oscillates about that of the neighbours
+    oscillation,     ///< the speed oscillates about the neighbours' speed
     lag_step,        ///< the axes deviate from the commanded path differently from adjacent passes
     point_spacing,   ///< the program's own points differ from those of adjacent passes
     corner,          ///< the programmed path turns there
@@ -47,13 +47,13 @@ struct AxisDelay {
 struct Defect {
     int severity = 1;  ///< 1 to 4 (severity.h)
     Cause cause = Cause::feed_drop;
-    Quantity quantity = Quantity::speed;  ///< in which the defect is strongest
+    Quantity quantity = Quantity::speed;  ///< quantity in which the defect is strongest
     float score = 0;                      ///< peak over threshold
     bool systematic = false;              ///< lag that alternates with the direction of travel (systematic_lag.h)
-    double share = 0;                     ///< of a systematic one: share of the path of all cut passes, 0 … 1
-    std::vector<AxisDelay> delays;  ///< of a systematic one: the axes that differ, slowest first; empty: not known
-    CutterPlace place;              ///< where it is strongest; the contact point if the tool is known
-    PointIndex point = 0;           ///< there
+    double share = 0;                     ///< of a systematic defect: share of the path of all cut passes, 0 … 1
+    std::vector<AxisDelay> delays;  ///< of a systematic defect: the axes that differ, slowest first; empty: not known
+    CutterPlace place;              ///< place where it is strongest; the contact point if the tool is known
+    PointIndex point = 0;           ///< point at that place
     Box3 bounds;                    ///< [mm] of tips
     Box3 contact_bounds;            ///< [mm] of contact points; empty: not known
     double area = 0;                ///< [mm²]
@@ -61,12 +61,12 @@ struct Defect {
     double depth = 0;               ///< [mm] ≥ 0, predicted step against the neighbours along the normal
     bool pit = false;               ///< below its neighbours; else a bulge, which the neighbours cut down again
     double speed = 0;               ///< [mm/s] where it is strongest
-    double adjacent_speed = 0;      ///< [mm/s] of the adjacent passes, there
+    double adjacent_speed = 0;      ///< [mm/s] of the adjacent passes at the same place
     double speed_jump = 0;          ///< [mm/s] signed, against the neighbours
     double speed_mismatch = 0;      ///< the same relative to the neighbours' speed, ≥ −1
     double acceleration_jump = 0;   ///< [mm/s²] ≥ 0
-    std::vector<DefectSection> sections;    ///< on the passes at fault, sorted by their points
-    std::vector<DefectSection> neighbours;  ///< on the adjacent clean passes
+    std::vector<DefectSection> sections;    ///< sections on the causing passes, in the order of their points
+    std::vector<DefectSection> neighbours;  ///< sections on the adjacent clean passes
 };
 
 /// The section where a defect is strongest. Of a defect with many sections only the longest are stored; if none of these
@@ -78,7 +78,7 @@ struct Defect {
 /// How a mark differs from the adjacent passes: a pit is deep, a bulge is high.
 [[nodiscard]] constexpr std::string_view deep_or_high(bool pit) { return pit ? "deep" : "high"; }
 
-/// What was found in the shards of a log before defects are built.
+/// Findings in the shards of a log, before defects are built.
 struct FoundInShards {
     ComparedPoints points;           ///< count_compared() of all points
     std::vector<PointIndex> starts;  ///< find_starts() of all points, in order
@@ -90,16 +90,16 @@ struct QualityRules {
     ThresholdRule thresholds;
     std::optional<Thresholds> fixed;  ///< thresholds of another run, used instead of the run's own
     SeverityRule severity;
-    std::optional<FoundInShards> found;  ///< of the whole log; nullopt: it is computed
+    std::optional<FoundInShards> found;  ///< findings in the whole log; nullopt: they are computed
 };
 
 struct QualityReport {
     std::vector<Defect> defects;   ///< in falling order of score
-    std::vector<Defect> expected;  ///< at the outermost passes: differences that the border of a part always shows
+    std::vector<Defect> expected;  ///< differences at the outermost passes, which every border of a part has
     Thresholds thresholds;
-    PointIndex points = 0;          ///< of cut passes
-    PointIndex away_from_ends = 0;  ///< of them, away from the ends of their passes
-    PointIndex compared = 0;        ///< of these, with a neighbour on both sides
+    PointIndex points = 0;          ///< number of points of cut passes
+    PointIndex away_from_ends = 0;  ///< number of them away from the ends of their passes
+    PointIndex compared = 0;        ///< number of these with a neighbour on both sides
     PointIndex not_finishing = 0;   ///< cutting points of pockets, drilling, single contours: not compared
     std::int64_t passes = 0;        ///< cut passes
     double step_over = 0;           ///< [mm]
@@ -115,7 +115,7 @@ struct QualityReport {
         return not_finishing > 0 ? static_cast<double>(not_finishing) / static_cast<double>(points + not_finishing) : 0;
     }
     [[nodiscard]] int worst_severity() const;  ///< 0: no defects
-    /// The sections at fault of all defects, defect by defect.
+    /// The sections of all defects on the passes that cause them, defect by defect.
     [[nodiscard]] std::vector<PointRange> sections() const;
 };
 

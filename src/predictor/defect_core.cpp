@@ -6,8 +6,8 @@
 namespace clsurf {
 namespace {
 
-constexpr float weak_peak = 0.25F;  ///< of the strongest of its group
-constexpr float dip_share = 0.5F;   ///< of the lower of its two peaks: a deeper dip separates them
+constexpr float weak_peak = 0.25F;  ///< share of the strongest peak of its group
+constexpr float dip_share = 0.5F;   ///< share of the lower of two peaks: a deeper dip separates them
 constexpr float peak_of_its_own =
     3.0;  ///< share of the threshold that a second peak must reach; weaker ones are after-effects of strong ones
 
@@ -24,7 +24,7 @@ public:
 
     CoreSites find() {
         const float peak = peak_of(group_, quantity_);
-        // A pass whose peak is lower than this is not at fault.
+        // A pass with a lower peak does not cause the defect.
         const float enough = std::max(std::min(1.0F, half_of_peak * peak), weak_peak * peak);
         CoreSites sites;
         for (const CandidateSpan run : runs_of(group_, arc_length_, joined_)) {

@@ -60,7 +60,7 @@ float height_at(HeightOf of, const PathLocation& at, const Compared& there, cons
     return of == HeightOf::measured ? there.lag + above : above;
 }
 
-/// The sections of passes at fault, extended: places on them are no reference.
+/// The extended sections of the passes that cause the defect. Places on them are no reference.
 class Faults {
 public:
     Faults(const Defect& defect, const ClSurface& surface, double room) {
@@ -76,8 +76,7 @@ private:
     std::vector<PointRange> ranges_;
 };
 
-/// The nearest places on passes that are not at fault, up to `most` on each side. If there are none, the nearest places of all
-/// passes.
+/// The nearest places on clean passes, up to `most` on each side. If there are none, the nearest places of all passes.
 std::vector<PathLocation> comparable_beside(const ClSurface& surface, const Signals& signals, PointIndex i, int most,
                                             const Faults& faults) {
     constexpr int farthest = 8;  // passes on each side
@@ -94,7 +93,7 @@ std::vector<PathLocation> comparable_beside(const ClSurface& surface, const Sign
     return clean.empty() ? nearest : clean;
 }
 
-/// The usual height at a point; `height` returns that of a place.
+/// The usual height at a point; `height` returns the height of a place.
 template <typename Height>
 float usual_height_at(const ClSurface& surface, const Signals& signals, PointIndex point, HeightPeers peers,
                       const Faults& faults, const Height& height) {

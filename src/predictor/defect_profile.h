@@ -1,5 +1,5 @@
 #pragma once
-// DefectProfile: speed and height of a pass at fault and of the adjacent passes, over the same path. These numbers are the
+// DefectProfile: speed and height of the causing pass and of the adjacent passes, over the same path. These numbers are the
 // evidence for a mark.
 
 #include <array>
@@ -13,13 +13,13 @@
 namespace clsurf {
 
 struct DefectProfile {
-    /// The pass at fault and two on each side, from left to right in its direction of travel.
+    /// The causing pass and two on each side, from left to right in its direction of travel.
     static constexpr int aside = 2;
     static constexpr std::size_t passes = 2 * aside + 1;
     static constexpr std::size_t at_fault = aside;  ///< index
 
     std::vector<double>
-        along;  ///< [mm] along the pass at fault; 0 where its section begins, with a margin on both sides
+        along;  ///< [mm] along the causing pass; 0 where its section begins, with a margin on both sides
     double section_length = 0;                      ///< [mm]
     std::array<std::vector<float>, passes> speed;   ///< [mm/s] of each pass, one value per place; NaN: no pass there
     std::array<std::vector<float>, passes> height;  ///< [mm] along the normal, measured from what `height_of` states
@@ -28,16 +28,16 @@ struct DefectProfile {
         double along = 0;  ///< [mm]
         LineNumber line = 0;
     };
-    std::vector<LineStart> lines;  ///< where each line of the pass at fault begins
+    std::vector<LineStart> lines;  ///< start of each line of the causing pass
 
     std::vector<double> across;        ///< [mm] to the left (−) and right of the strongest place, pass by pass
-    std::vector<float> across_height;  ///< [mm] there
+    std::vector<float> across_height;  ///< [mm] at these places
     float usual_across = 0;            ///< [mm] what `usual_height` is at the strongest place; NaN: not known
     /// What heights are measured from. For a programmed mark, clean passes give the height that the program should have there.
     enum class HeightOf : std::uint8_t {
         measured,    ///< measured positions above the programmed ones, plus those above the clean passes
         programmed,  ///< programmed positions above the clean passes; for a relief, or without measured positions
-        relief,      ///< above the chord between both adjacent passes; if there is no programmed mark either
+        relief,      ///< above the chord between both adjacent passes; if there is also no programmed mark
     };
     HeightOf height_of = HeightOf::relief;
 };

@@ -29,7 +29,7 @@ constexpr float strong_alone = 1.5F;       ///< … and its score of the acceler
 constexpr std::size_t fewest_sites = 2;
 constexpr int of_stops = 3;   ///< severity by speed alone from which on a motion may have any length …
 constexpr int of_spikes = 4;  ///< … and that of a height
-constexpr std::size_t most_systematic_sections = 300;  ///< that are listed: the longest
+constexpr std::size_t most_systematic_sections = 300;  ///< number of listed sections, which are the longest
 constexpr double systematic_depth = 0.99;              ///< quantile of the steps of a systematic lag
 
 /// The largest of values; NaN are left out.
@@ -233,7 +233,7 @@ private:
         const double height = plateau(heights, largest_of(heights));
         defect.depth = std::abs(height);
         defect.pit = height < 0;
-        // Both on the side with the largest difference to the neighbours: a loss of 80 % is no gain of 400 %.
+        // Both have the sign of the largest relative difference: a loss of 80 % is no gain of 400 %.
         const double side = largest_of(mismatches);
         defect.speed_jump = plateau(speeds, side);
         defect.speed_mismatch = plateau(mismatches, side);
@@ -269,7 +269,7 @@ private:
         return arc_length;
     }
 
-    /// The sections adjacent to `sections` on passes that are not at fault.
+    /// The sections adjacent to `sections` on clean passes.
     [[nodiscard]] std::vector<DefectSection> neighbours_of(CandidateSpan core,
                                                            const std::vector<DefectSection>& sections) const {
         std::map<std::size_t, PointRange> found;  // by pass

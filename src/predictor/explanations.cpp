@@ -25,7 +25,7 @@ public:
         sorted_ = false;
     }
 
-    /// Whether at least half of the sites, in the order of their points, are inside of added sections, of one defect or of
+    /// Whether at least half of the sites, in the order of their points, are inside added sections, of one defect or of
     /// several. O(sites log sections), and at the first call O(sections log sections).
     [[nodiscard]] bool explain(CandidateSpan sites) {
         sort();
@@ -42,7 +42,7 @@ private:
         PointIndex first, last;
         PointIndex farthest;  ///< last of this one and all before
     };
-    /// Quick test: before all sections or after them, as most sites are.
+    /// Quick test: most sites are before or after all sections.
     [[nodiscard]] bool lies_elsewhere(CandidateSpan sites) const {
         if (sites.empty()) return false;
         return sections_.empty() || sites.back()->point < sections_.front().first ||
@@ -63,7 +63,7 @@ private:
     bool sorted_ = true;
 };
 
-/// Whether a height is one of the program, not of the controller.
+/// Whether a height comes from the program, not from the controller.
 bool is_programmed(const BuiltDefect& built) {
     return built.listed && !built.expected && built.defect.quantity == Quantity::relief &&
            built.defect.cause != Cause::path_tolerance;

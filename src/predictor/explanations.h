@@ -1,6 +1,6 @@
 #pragma once
-// Explanations: which of the differences at one place are effects of another one. The motion causes heights of the machine. The
-// program has heights of its own, and the controller may slow down for them.
+// Explanations: which differences at a place are effects of another difference there. The motion causes heights of the
+// machine. The program has heights of its own, and the controller may slow down for them.
 
 #include <span>
 #include <vector>

@@ -8,8 +8,8 @@
 
 namespace clsurf {
 
-/// Of at most ten values. NaN are left out; of an even number it is the mean of the middle two. NaN if there are fewer than
-/// `fewest`.
+/// The median of at most ten values. NaNs are left out; for an even number it is the mean of the middle two. NaN if fewer
+/// than `fewest` remain.
 template <typename T, typename Read>
 [[nodiscard]] float median_of(std::span<const T> places, std::size_t fewest, Read&& read) {
     std::array<float, 10> values;

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t sampled_points = 50'000;
 constexpr float round_a_corner = 0.5F;    ///< cos 60°: straight across a corner, passes turn by more than this
-constexpr float slack_step_overs = 0.5F;  ///< along the feed, between the ends of passes that end side by side
+constexpr float slack_step_overs = 0.5F;  ///< along the feed: largest distance between ends that are side by side
 constexpr float clear_of_scatter = 3;  ///< times the scatter of the motions of the passes around a place near a border
 
 /// The compared quantities of a missing pass.
@@ -240,7 +240,7 @@ Comparison Comparer::compare_at_end(const PathLocation& here) const {
     Comparison result = compare_with(Peers::same_direction, here, passes_aside);
     const float reference = std::max(signals_[point].speed, least_speed_);
     result.slack = change_nearby(point, reference);
-    // A change that the other passes do not have is no slack.
+    // A change that the other passes do not have does not count as slack.
     std::array<float, quantities> others{};
     for (const Side side : {Side::left, Side::right}) {
         for_each_judged_beside(surface_, signals_, here, side, passes_aside, along_or_against,

@@ -16,16 +16,16 @@
 
 namespace clsurf {
 
-/// Speeds relative to that of the neighbours, accelerations [mm/s²], heights [mm].
+/// Speeds relative to the neighbours' speed, accelerations [mm/s²], heights [mm].
 struct Comparison {
     std::array<float, quantities> step;           ///< ≥ 0; NaN: not known
-    std::array<float, quantities> lesser_step{};  ///< the smaller one of both sides: zero at the edge of a band
+    std::array<float, quantities> lesser_step{};  ///< the smaller step of the two sides: zero at the edge of a band
     std::array<float, quantities> residual;       ///< signed; of the acceleration the length; NaN: not known
     std::array<float, quantities> uncertainty{};  ///< of the step, because log and place may be one period apart
     std::array<float, quantities> slack{};  ///< of step and residual, because passes end at slightly different places
     float speed_jump = 0;                   ///< residual of the speed [mm/s]
-    int left = 0, right = 0;                ///< numbers of passes that it was compared with
-    bool ramp = false;  ///< in the ramp of its pass, of an adjacent one, or of the next with its direction
+    int left = 0, right = 0;                ///< numbers of passes with which it was compared
+    bool ramp = false;  ///< it is in the ramp of its pass, of an adjacent pass, or of the next one with its direction
     PathLocation beside_left, beside_right;  ///< on the adjacent passes
 };
 
@@ -39,7 +39,7 @@ public:
 
     [[nodiscard]] const ClSurface& surface() const { return surface_; }
 
-    /// O(1): up to `aside` passes on each side. With one, steps are the same, but residuals mean little.
+    /// O(1): up to `aside` passes on each side. If `aside` is 1, steps are the same, but residuals mean little.
     [[nodiscard]] Comparison compare(const PathLocation& here, int aside = passes_aside) const;
 
     /// Comparison with the passes of the same direction of travel, for places where all passes begin or end. They end at
@@ -47,7 +47,7 @@ public:
     [[nodiscard]] Comparison compare_at_end(const PathLocation& here) const;
 
     /// If the passes around a place do the same as it one after the other, its motion is also compared along their obliquity
-    /// (oblique_alignment.h), in corners its relief too. The lesser of both differences counts.
+    /// (oblique_alignment.h), and so is its relief in corners. The lesser of both differences counts.
     void compare_obliquely_around(const PathLocation& here, Comparison& comparison) const;
 
 private:
@@ -81,7 +81,7 @@ struct ThresholdRule {
     float acceleration =
         0.15F;  ///< least threshold, relative to the usual acceleration; at least the effect of rounding (as for the speed),
                 ///< and at least the acceleration of a sharp change of the speed by its least threshold
-    float least_speed = 0.25F;   ///< of the usual speed; higher if rounding alone reaches the threshold there
+    float least_speed = 0.25F;   ///< share of the usual speed; more if rounding alone reaches the threshold there
     float height = 0.0015F;      ///< least threshold [mm] …
     float lag_quanta = 1.5F;     ///< … and in steps of the positions: a whole pass may be rounded in one direction,
     float relief_quanta = 2.4F;  ///< and a relief depends on three passes

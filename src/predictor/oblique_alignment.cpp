@@ -17,10 +17,10 @@ constexpr float sampled_every = 0.25F;           ///< step-overs
 constexpr int tries = 24;                        ///< obliquities on either side of zero …
 constexpr int halvings = 3;                      ///< … and how often their distance is halved around the best one
 constexpr int most_passes = 3;                   ///< on either side
-constexpr std::size_t fewest = 4;                ///< passes, if both sides have some …
+constexpr std::size_t fewest = 4;                ///< fewest passes if both sides have some …
 constexpr std::size_t fewest_of_one_side = 3;    ///< … and at a border
 constexpr float oblique_corner_cosine = 0.906F;  ///< cos 25°
-constexpr float same_speed = 0.01F;              ///< of the speed: smaller differences need no oblique comparison
+constexpr float same_speed = 0.01F;              ///< share of the speed: smaller differences need no oblique comparison
 constexpr float clearly_better = 0.5F;           ///< share of the disagreement straight across
 
 /// A pass around a location: speeds at even distances along the feed of the examined point.

@@ -12,10 +12,10 @@ namespace {
 
 constexpr std::size_t fewest_alternating = 3;
 constexpr double alternating_share = 0.9;
-constexpr float clear_share = 0.5F;  ///< of the run's peak; a weaker site takes the sign of the one before it
+constexpr float clear_share = 0.5F;  ///< share of the run's peak; a weaker site takes the sign of the one before it
 constexpr int changes_of_swing =
-    2;  ///< of sign of a height along one pass (three half-waves); of a speed one: it falls and rises again
-constexpr float stands_alone = 0.5F;  ///< of its residual, by which a pass differs from the passes on both sides
+    2;  ///< changes of sign of a height along a pass (three half-waves); for a speed one is enough: it falls and rises
+constexpr float stands_alone = 0.5F;  ///< share of its residual by which a pass differs from the passes on both sides
 
 /// Connected sites of one pass with one sign.
 struct SignedRun {

@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::size_t records = 5;
 constexpr std::array<double, records> fourth_difference{1, -4, 6, -4, 1};
-constexpr double gain = 8.3666;              ///< √70: of a fourth difference, for independent errors
-constexpr double calm_share = 0.25;          ///< of all fourth differences
-constexpr double calm_deviation = 0.318639;  ///< standard deviations; this share of normal errors is smaller
+constexpr double gain = 8.3666;              ///< √70: factor from independent errors to their fourth difference
+constexpr double calm_share = 0.25;          ///< share of all fourth differences
+constexpr double calm_deviation = 0.318639;  ///< standard deviations: a quarter of normal errors is smaller
 constexpr PointIndex most_noise_samples = 20'000;
 constexpr std::size_t fewest_samples = 100;
 

@@ -12,11 +12,11 @@ namespace clsurf {
 namespace {
 
 constexpr float room = 6;  ///< step-overs before and after a defect, within which the pass returns to the others
-constexpr float returned = 3e-4F;  ///< [mm] that rounding leaves after the return
-constexpr int farthest_pass = 8;   ///< from a mark to the first pass without it
+constexpr float returned = 3e-4F;  ///< [mm] offset that rounding leaves after the return
+constexpr int farthest_pass = 8;   ///< number of passes from a mark to the first one without it
 constexpr std::size_t clean_aside = 2;
 
-/// Whether the depth of a defect is that of the program.
+/// Whether the depth of a defect comes from the program.
 bool is_programmed(const Defect& defect, const Signals& signals, const Thresholds& thresholds) {
     if (defect.quantity == Quantity::relief) return true;
     return !signals.measured && defect.depth > static_cast<double>(thresholds.of[index_of(Quantity::relief)]);

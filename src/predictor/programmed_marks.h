@@ -16,7 +16,7 @@ class ProgrammedMarks {
 public:
     ProgrammedMarks() = default;
 
-    /// Of the defects of a report whose depth is that of the programmed positions. At each point of their passes the height is
+    /// For the defects of a report whose depth is in the programmed positions. At each point of their passes the height is
     /// interpolated across the feed from the two nearest passes on either side without such a defect. A point without passes on
     /// both sides has no offset. O(points of these defects).
     ProgrammedMarks(const ClSurface& surface, const Signals& signals, const QualityReport& report);

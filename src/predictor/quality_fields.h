@@ -16,7 +16,7 @@ namespace clsurf {
 
 struct QualityFieldRow {
     std::string_view name, label;
-    std::string_view label_unmeasured;  ///< if measured positions are not known; empty: the same
+    std::string_view label_unmeasured;  ///< label if measured positions are not known; empty: the same label
     Unit unit;
     FieldScale scale = FieldScale::sequential;
     std::string Signals::*windows = nullptr;  ///< note with the smoothing windows of the compared quantities

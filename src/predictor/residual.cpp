@@ -11,8 +11,8 @@
 namespace clsurf {
 namespace {
 
-constexpr std::size_t most_values = 10;   ///< around a place
-constexpr std::size_t fewest_values = 2;  ///< for a median
+constexpr std::size_t most_values = 10;   ///< most values around a place
+constexpr std::size_t fewest_values = 2;  ///< fewest values for a median
 constexpr std::size_t fewest_clean = 3;   ///< reliefs that outvote one that an adjacent fault has changed
 constexpr std::size_t beside_border = 2;  ///< passes on one side; the outermost one has no relief
 constexpr float shape_left = 0.35F;   ///< share of a relief: if more remains in the sum, it is the shape of the part
@@ -59,7 +59,7 @@ struct KnownPasses {
 struct Reliefs {
     float own = 0;
     std::array<std::array<float, 2>, 2> beside{};  ///< of the nearest two on each side; 0: no chord
-    float largest = 0;                             ///< of all around
+    float largest = 0;                             ///< largest relief of all around
 
     [[nodiscard]] bool is_beside_larger() const { return std::abs(own) < shape_beside * largest; }
     [[nodiscard]] bool adds_up(float sum) const { return std::abs(sum) <= shape_left * std::abs(own); }
@@ -82,7 +82,7 @@ Reliefs reliefs_from(float base, float own, std::span<const float> left, std::sp
 /// Whether a relief is the part's own. If one pass is displaced, its neighbours' reliefs have the opposite sign, and the three
 /// reliefs sum to about zero. The same holds for two adjacent displaced passes and for every second pass, with four reliefs.
 /// At an edge or a fillet the sum is half a step-over times the angle by which the surface turns. Next to one, reliefs can
-/// have any sum, but they are smaller than that of the edge. Reliefs count from the mean of all around.
+/// have any sum, but they are smaller than the relief of the edge. Reliefs count from the mean of all around.
 bool is_shape(float relief, std::span<const float> left, std::span<const float> right) {
     float sum = relief;
     int count = 1;

@@ -14,7 +14,7 @@ inline constexpr int severities = 4;
 [[nodiscard]] std::string_view meaning_of_severity(int severity);
 
 struct SeverityRule {
-    std::array<double, 3> depth{0.002, 0.005, 0.020};  ///< [mm] from which on 2, 3, 4 apply …
+    std::array<double, 3> depth{0.002, 0.005, 0.020};  ///< [mm] least depths for 2, 3, 4 …
     std::array<float, 3> stands_out{1, 1.5F, 6};       ///< … if the score is at least this
     std::array<float, 2> motion{2, 15};                ///< scores from which on a motion is 2 or 3, whatever its depth
     int most_systematic = 3;  ///< a difference of all passes calls for tuning the machine, not for rejecting the part

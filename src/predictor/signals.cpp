@@ -29,20 +29,20 @@ constexpr double speed_seconds = 0.010;  ///< longest window: of an oscillation 
 constexpr double speed_arc_length =
     0.4;  ///< [mm] … and on fast passes, of one of 0.8 mm, because marks are seen by their length
 constexpr double speed_steps = 150;         ///< steps of the positions in the window: rounding is then 1 % of the speed
-constexpr double scatter_deviations = 6;    ///< by which two passes differ at most from scatter alone
+constexpr double scatter_deviations = 6;    ///< standard deviations: largest difference of two passes by scatter alone
 constexpr double acceleration_windows = 2;  ///< times the window of the speed, for accelerations of slow passes
 constexpr double height_window = 0.015;     ///< [s] window of the mean that smooths heights
 constexpr PointIndex relief_every = 3;      ///< normals and reliefs are computed at every third point
-constexpr double longest_lag = 0.1;         ///< [s] by which the measured position may follow the commanded one
+constexpr double longest_lag = 0.1;         ///< [s] longest delay of the measured position after the commanded one
 constexpr PointIndex shortest_reach = 64;   ///< points
 constexpr float least_upward = 0.013F;      ///< sin 0.75°: on a steeper wall, the side that faces up is not determined
 constexpr float least_chord_share =
-    0.33F;  ///< of the chord between both neighbours: least distance of a point from either, for a relief
+    0.33F;  ///< share of the chord between both neighbours: least distance of a point from either for a relief
 constexpr PointIndex longest_reach = 4096;
-constexpr PointIndex lead = 16;       ///< points by which the measured position may precede it, in merged logs
+constexpr PointIndex lead = 16;       ///< points by which the measured position may come first, in merged logs
 constexpr float farthest_lag = 2.0F;  ///< step-overs: paths that are farther apart are unrelated
 constexpr double end_step_overs = 2;  ///< least length at the ends of passes that is not judged
-constexpr float slowest = 1e-3F;      ///< [mm/s]; slower, the feed has no direction
+constexpr float slowest = 1e-3F;      ///< [mm/s]: below this speed, the feed has no direction
 
 /// Standard deviation of a derivative [1/s^d] for independent errors of the positions with a standard deviation of 1.
 double noise_gain(const DerivativeFilter& filter) {
@@ -374,7 +374,7 @@ std::vector<std::string> reasons_against(const Trajectory& path) {
 
 namespace {
 
-/// Excludes step-over moves, whose sideways speed is not that of the pass.
+/// Excludes step-over moves, whose sideways speed differs from the speed of the pass.
 std::vector<PointRange> without_moves(const ClSurface& surface, const std::vector<PointRange>& smooth) {
     std::vector<PointRange> pieces;
     StepOverMoveCutter cutter(surface.step_over_moves);
@@ -398,7 +398,7 @@ EndZone end_zone_of(const Deriver& deriver, double usual, double step_over) {
     return {usual, std::min(usual, std::max(end_step_overs * step_over, deriver.window_reach()))};
 }
 
-/// Sets what concerns the whole log.
+/// Sets the members that concern the whole log.
 void note_facts(const Deriver& deriver, const SignalFacts& facts, Signals& signals) {
     signals.quantum = facts.quantum;
     signals.unfit = facts.unfit;

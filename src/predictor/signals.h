@@ -33,7 +33,7 @@ struct Signals {
     /// For signals that are derived when they are read, each stage from the one before; else nullptr. Code that reads `samples`
     /// directly must request them first.
     BlockFillPointer motion, zones, heights;
-    std::shared_ptr<ArcLength> arc_length;  ///< of these signals, from which zones are derived
+    std::shared_ptr<ArcLength> arc_length;  ///< arc length of these signals, used to derive zones
 
     [[nodiscard]] PointIndex size() const { return static_cast<PointIndex>(samples.size()); }
     [[nodiscard]] const Sample& operator[](PointIndex i) const {

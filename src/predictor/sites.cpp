@@ -11,7 +11,7 @@ namespace {
 constexpr double site_length = 0.2;    ///< [mm] because marks are seen by their length; halved where the tool …
 constexpr float slow_from = 70.7107F;  ///< [mm/s] … moves at half of this or less, and so on: 3 to 6 ms between sites
 constexpr double site_arc_length = 0.1;  ///< step-overs between sites, at least
-constexpr PointIndex farthest = 128;     ///< points from a point to its site, at most
+constexpr PointIndex farthest = 128;     ///< largest number of points between a point and its site
 
 static_assert(block_points % 64 == 0);  // blocks share no word
 

@@ -44,7 +44,7 @@ public:
 private:
     struct Crossing {
         bool crosses = false;
-        float fraction = 0;  ///< of the path, from the point before
+        float fraction = 0;  ///< fraction of the step from the point before
     };
     [[nodiscard]] Crossing crossing(PointIndex point) const;
     static Crossing crossing(const ClSurface& surface, const Signals& signals, int most_halvings, PointIndex point);

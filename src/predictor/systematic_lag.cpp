@@ -15,14 +15,14 @@
 namespace clsurf {
 namespace {
 
-constexpr int lag_passes_aside = 8;     ///< compared on each side; narrower faults on every second pass do not count
+constexpr int lag_passes_aside = 8;     ///< passes compared per side; narrower faults on every second one do not count
 constexpr float one_sided_bend = 1.5F;  ///< extrapolation from the two rings of passes on one side to the place
-constexpr float alternates = 0.5F;      ///< of the threshold
-constexpr std::size_t fewest_of_a_kind = 2;  ///< passes of each direction, for a median
-constexpr std::size_t fewest_passes = 8;     ///< that a region spans
-constexpr double least_share = 0.05;         ///< of the path of all cut passes, that is systematic
+constexpr float alternates = 0.5F;      ///< share of the threshold
+constexpr std::size_t fewest_of_a_kind = 2;  ///< fewest passes of each direction for a median
+constexpr std::size_t fewest_passes = 8;     ///< fewest passes that a region spans
+constexpr double least_share = 0.05;         ///< least share of the path of all cut passes that is systematic
 constexpr float shift_step_overs =
-    2;  ///< along the feed: next to an edge at 45°, the next pass of its direction changes so much later
+    2;  ///< step-overs along the feed: next to an edge at 45°, the next pass of its direction changes so much later
 
 /// The lag of a place among the passes around it.
 struct LagAround {
@@ -164,7 +164,7 @@ double arc_length_of(std::span<const AlternatingSite> sites, const ArcLength& ar
     return sum;
 }
 
-/// Whether places, in the order of their points, spread over so many passes that they are no fault of a few.
+/// Whether places, in the order of their points, spread over so many passes that not a few of them are the cause.
 bool is_wide(std::span<const std::size_t> region, const std::vector<Candidate>& candidates) {
     std::size_t passes = 0;
     const DefectCandidate* before = nullptr;

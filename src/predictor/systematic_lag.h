@@ -19,7 +19,7 @@ namespace clsurf {
 struct AlternatingSite {
     PointIndex point = 0;
     std::size_t pass = 0;  ///< index into surface.passes
-    float step = 0;        ///< [mm] of the lag, from the other direction to its own; signed as the lag
+    float step = 0;        ///< [mm] change of the lag from the other direction to its own; signed as the lag
 };
 
 struct SystematicLag {

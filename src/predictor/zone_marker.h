@@ -35,7 +35,7 @@ private:
     const std::vector<PointRange>& pieces_;
     const ArcLength& arc_length_;
     EndZone end_zone_;
-    double reach_;  ///< [mm] from an end that is examined
+    double reach_;  ///< [mm] examined length from an end
     PointIndex stride_;
     SamplesInWork samples_;
 };
