@@ -7,7 +7,7 @@ namespace clsurf {
 
 namespace {
 
-/// Arc lengths [mm] at places `step` mm apart, seen from above, on a line with these slopes; not finite: horizontal.
+/// Arc lengths [mm] at places `step` mm apart, seen from above, on a line with these slopes; if not finite, it counts as 0.
 std::vector<double> arc_lengths(std::span<const float> slopes, double step) {
     std::vector<double> along(slopes.size());
     const auto steepness = [&](std::size_t k) {

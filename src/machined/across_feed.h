@@ -10,17 +10,17 @@
 
 namespace clsurf {
 
-inline constexpr double steps_per_pass = 200;  ///< of a profile: within a hundredth of the height of a cusp at its tip
+inline constexpr double steps_per_pass = 200;  ///< values of a profile; they meet a cusp's tip to 1 % of its height
 
 /// A place and a direction, seen from above.
 struct AcrossFeed {
     Vec2 at = Vec2::Zero();  ///< [mm] contact of the tool with the surface
     Vec2 direction = Vec2::UnitY();
-    double step_over = 0;  ///< [mm] on a slope shorter than along the surface
+    double step_over = 0;  ///< [mm] seen from above: on a slope, shorter than along the surface
     bool known = false;
 };
 
-/// Of a point. Not known if its normal or its feed is not known, or if the feed is vertical.
+/// The direction across the feed at a point. Not known if its normal or its feed is unknown, or if the feed is vertical.
 [[nodiscard]] AcrossFeed across_feed(const AsMachinedSurface& as_machined, const Signals& signals, PointIndex point);
 
 /// A row of `count` places: the first place [mm], the direction of the row, and the spacing.

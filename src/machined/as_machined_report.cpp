@@ -14,15 +14,15 @@ namespace clsurf {
 namespace {
 
 constexpr PointIndex scallop_places = 10'000;
-constexpr double passes_aside = 6.5;  ///< of a mark's profile: most of its pairs are then outside a mark of two passes
-constexpr double mark_within = 1.0;   ///< step-overs from the middle, within which the mark is
+constexpr double passes_aside = 6.5;  ///< step-overs per side of a mark's profile: most pairs miss a mark of two passes
+constexpr double mark_within = 1.0;   ///< step-overs: largest distance of a mark from the middle
 constexpr double coarse_spread = 0.001;   ///< [mm] sections of an even surface differ by less
-constexpr double certain_share = 0.5;     ///< of a depth: largest spread of the level that it is measured from
-constexpr double mark_tolerance = 0.25;   ///< of a mark's depth: tolerance of contact points about the form
+constexpr double certain_share = 0.5;     ///< share of a depth: largest spread of its reference level
+constexpr double mark_tolerance = 0.25;   ///< share of a mark's depth: tolerance of contact points about the form
 constexpr double agreement = 0.002;       ///< [mm] between the depth of a pass alone and the as-machined one …
 constexpr double agreement_share = 0.3;   ///< … or this share of it
-constexpr std::size_t fewest_pairs = 2;   ///< of a mark's profile …
-constexpr std::size_t fewest_pieces = 4;  ///< … or pieces of one
+constexpr std::size_t fewest_pairs = 2;   ///< fewest pairs in a mark's profile …
+constexpr std::size_t fewest_pieces = 4;  ///< … or pieces of one pair
 
 /// The usual value around the middle of a row, and its uncertainty.
 struct Level {
@@ -35,9 +35,9 @@ Level level_of(std::vector<double> values) {
 }
 
 /// The usual value in the middle of a row: the median of means of two values at equal distances on both sides, so that an even
-/// change across the row cancels. If these scatter by more than `coarse`, only those of every second pass count, which has the
-/// direction of the one in the middle. At a border, with too few of these, it is the median of all known values; NaN if those
-/// are too few.
+/// change across the row cancels. If these scatter by more than `coarse`, only every second pass counts, because it has the
+/// direction of the middle one. If a border leaves too few of them, the level is the median of all known values; NaN if these
+/// are also too few.
 Level usual(const std::vector<double>& row, double coarse) {
     std::vector<double> means;
     std::vector<double> alike;
@@ -60,7 +60,7 @@ Level usual(const std::vector<double>& row, double coarse) {
     return middle_level;
 }
 
-/// Whether the depth in the as-machined surface is that of the pass alone.
+/// Whether the depth in the as-machined surface is what the pass alone would leave.
 bool agree(double as_machined, double alone) {
     return std::abs(as_machined - alone) <= std::max(agreement, agreement_share * alone);
 }
@@ -105,7 +105,7 @@ Form::Of form_about_mark(const AsMachinedSurface& as_machined, PointIndex point)
     // Contact points with the mark subtracted still have the normals of the marked program.
     if (as_machined.knows_program() && !as_machined.marks().at(point).isZero(0)) return Form::Of::program;
     // A form of the program includes programmed marks that were not found, so a form of the contacts is better where there is
-    // one. If the measured passes are those of the program, the contacts are the only form.
+    // one. If the measured passes are the programmed ones, the contacts are the only form.
     return as_machined.follows_surface() ? Form::Of::contacts : Form::Of::contacts_and_program;
 }
 

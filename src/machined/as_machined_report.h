@@ -49,10 +49,10 @@ struct AsMachinedReport {
 
 /// The usual height [mm] of the cusp between adjacent passes of a ball: the median over places spread over the part, each
 /// computed from the distance between its contact points and the curvature of the surface across the feed (scallop.h). 0: the
-/// tool is no ball, or no place has neighbours. O(10⁴ points).
+/// tool is not a ball, or no place has neighbours. O(10⁴ points).
 [[nodiscard]] double usual_scallop(const AsMachinedSurface& as_machined, const Signals& signals);
 
-/// The heights [mm] whose median is usual_scallop(), at those of its places that are among `points`.
+/// The heights [mm] whose median is usual_scallop(), but only at places among `points`.
 [[nodiscard]] std::vector<double> scallop_heights(const ClSurface& surface, const Signals& signals,
                                                   const CuttingTool& tool, const PointRange& points);
 

@@ -22,9 +22,9 @@ constexpr PointIndex section_points = 64;
 constexpr std::int64_t section_group = 256;  ///< sections that are measured together
 constexpr float rough_room = 1;              ///< [mm] largest distance of smoothed positions from the original ones
 constexpr std::int64_t tile_cells = 256;     ///< per side: 256 kB, which fit into the L2 cache
-constexpr std::int64_t tile_of_row = 4096;   ///< cells if there are hardly any rows: all of them use the same sections
+constexpr std::int64_t tile_of_row = 4096;   ///< cells if there are hardly any rows: all cells use the same sections
 constexpr std::int64_t few_rows = 4;
-constexpr double passes_apart = 2;  ///< step-overs, seen from above, from interpolated passes to the two around them
+constexpr double passes_apart = 2;  ///< step-overs, from above: farthest of interpolated passes from their neighbours
 constexpr std::size_t most_kept = 1000;  ///< sections whose interpolated passes are stored: 25 MB
 constexpr double most_between = 1000;    ///< contact points between two positions
 
@@ -71,7 +71,7 @@ void AsMachinedSurface::cut_sections() {
         const bool joined = k + 1 < pieces_.size() && pieces_[k + 1].first == piece.last + 1;
         for (PointIndex first = piece.first; first <= piece.last; first += section_points) {
             Section section;
-            section.first = std::max(piece.first, first - 1);  // the previous segment is needed, too
+            section.first = std::max(piece.first, first - 1);  // the previous segment is also needed
             section.last = std::min(piece.last, first + section_points - 1);
             section.piece = k;
             section.goes_on = section.last < piece.last || joined;

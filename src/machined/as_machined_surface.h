@@ -5,9 +5,9 @@
 //
 // The tool is swept along the straight segments between positions. Positions are smoothed over a stated window inside one
 // section, because the rounding of an encoder is not cut. Every segment within a tool radius of a cell counts; segments that
-// cannot be the lowest are excluded for a block of cells at a time (swept_pieces.h). Passes are swept, and links between passes
-// of one cutting run that stay low (at most a step-over above their ends). Rapids, approaches and high links remove no
-// material.
+// cannot be the lowest are excluded for a block of cells at a time (swept_pieces.h). Passes are swept, and so are links
+// between passes of one cutting run if they stay low (at most a step-over above their ends). Rapids, approaches and high links
+// remove no material.
 //
 // Three axes, tool axis +z. A height map has one height over each place.
 
@@ -49,7 +49,7 @@ public:
     [[nodiscard]] double level() const { return surface_.positions.origin.z(); }
     [[nodiscard]] const ClSurface& surface() const { return surface_; }
     [[nodiscard]] const CuttingTool& tool() const { return tool_; }
-    /// Whether `surface` is that of the commanded positions.
+    /// Whether `surface` has the commanded positions.
     [[nodiscard]] bool knows_program() const { return surface_role_ == Role::commanded; }
     /// Whether the tool is swept along the surface's own positions.
     [[nodiscard]] bool follows_surface() const { return swept_.role == surface_role_; }
@@ -105,9 +105,9 @@ private:
     const Trajectory& swept_;
     CuttingTool tool_;
     ProgrammedMarks marks_;
-    std::vector<PointRange> pieces_;  ///< that are swept
+    std::vector<PointRange> pieces_;  ///< swept pieces of the path
     mutable std::vector<Section> sections_;
-    BlockFillPointer measured_;  ///< of a surface that is read in parts: sections are measured when they are requested
+    BlockFillPointer measured_;  ///< measures sections when they are requested, if a surface is read in parts
     Differentiator smoother_;
     bool smoothed_ = false;
     Box2 bounds_;

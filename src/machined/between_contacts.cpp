@@ -6,7 +6,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double farthest = 2.2;  ///< tool radii between contact points, along the path or across
+constexpr double farthest = 2.2;  ///< tool radii: largest distance between contact points, along the path or across it
 
 /// Contact points of a point and of its neighbour, seen from above [mm].
 struct ContactPair {

@@ -6,7 +6,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double level = 1e-9;  ///< sine of a normal's tilt, below which it is taken as the axis
+constexpr double level = 1e-9;  ///< sine of a tilt: a normal with a smaller tilt counts as the axis
 
 }  // namespace
 

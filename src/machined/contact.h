@@ -1,6 +1,7 @@
 #pragma once
 // Contact: where a rotating tool touches the surface, computed from its tip (the CL point) and the surface normal. Three axes:
-// the tool axis is +z. A ball is a torus whose tube radius is that of the tool, and a flat tool is a torus with tube radius 0,
+// the tool axis is +z. A ball is a torus whose tube radius is the tool's radius, and a flat tool is a torus with tube radius
+// 0,
 // so one formula covers all three tools.
 
 #include "core/geometry.h"

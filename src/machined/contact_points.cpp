@@ -11,14 +11,14 @@
 namespace clsurf {
 namespace {
 
-constexpr double carried_along = 3;        ///< step-overs along the path, over which a normal may be carried
-constexpr PointIndex longest_walk = 4096;  ///< points: the tool may rest
-constexpr double straight = 0.35;          ///< [rad] between directions across, for an extrapolation
+constexpr double carried_along = 3;        ///< step-overs along the path: farthest that a normal is carried
+constexpr PointIndex longest_walk = 4096;  ///< number of points; a limit because the tool may rest
+constexpr double straight = 0.35;          ///< sine of the largest angle between directions across for an extrapolation
 constexpr double rounding = 1e-6;          ///< [mm] of positions without a grid
 constexpr double level_steps = 1.5;        ///< quanta per step-over by which rounding tilts a level surface
-constexpr double least_square = 0.1;       ///< sine between a normal and the feed, to make it perpendicular
+constexpr double least_square = 0.1;       ///< least sine of the angle between normal and feed for a projection
 constexpr int most_iterations = 12;        ///< of a normal under a tool that turns
-constexpr double near_end = 0.5;           ///< of the other half of the chord: a shorter half is at an end of the pass
+constexpr double near_end = 0.5;           ///< share of the other half of the chord: a shorter half is at an end
 constexpr double settled = 1e-5;           ///< change of a normal that ends the iterations
 
 double finest_quantum(const Trajectory& path) {
@@ -146,7 +146,8 @@ Vec3 ContactPoints::axis_at(const PathLocation& at) const {
     return (axis + static_cast<double>(at.fraction) * (axes_->at(at.point + 1) - axis)).normalized();
 }
 
-/// The point of the tool whose surface has the given normal (head of the header) [mm], from the positions' origin.
+/// The point of the tool that moves on a surface with the given normal (see the top of the header) [mm], relative to the
+/// origin of the positions.
 Vec3 ContactPoints::tool_point(const PathLocation& at, const Vec3& normal) const {
     const Vec3 tip = position_at(surface_.positions, at).cast<double>();
     if (!axes_) return tip;
@@ -192,7 +193,7 @@ Vec3 ContactPoints::normal_by_neighbours(PointIndex point, PointRange pass) cons
     return normal;
 }
 
-/// For links, and for points without an adjacent pass.
+/// The normal for links, and for points without an adjacent pass.
 Vec3 ContactPoints::normal_from_along(PointIndex point, PointRange piece) const {
     const Positions& p = surface_.positions;
     const Eigen::Vector3f chord = p[walk(point, piece, half_chord_)] - p[walk(point, piece, -half_chord_)];

@@ -6,10 +6,11 @@
 // extrapolated from the passes on the other side. A point without an adjacent pass gets the normal of the nearest points on its
 // path that have one, made perpendicular to its own feed.
 //
-// With an upright tool, the surface of its tips has the normal of the part. With a tool that turns it has not, because a point
-// of the torus in contact moves as the rigid tool does. Let n be the normal of the part, a the tool axis, c the corner radius,
-// R the radius of the tool and e the direction of n across a. For fixed n, the points tip + c a − (R − c) e of all positions
-// form a surface whose normal there is n. This is solved by iteration. For a ball (R = c) this is the surface of its centres.
+// With an upright tool, the surface of its tips has the normal of the part. With a tool that turns it does not, because the
+// touching point of the torus also moves with the rigid tool. Let n be the normal of the part, a the tool axis, c the corner
+// radius, R the radius of the tool and e the direction of n across a. For fixed n, the points tip + c a − (R − c) e of all
+// positions form a surface whose normal there is n. This is solved by iteration. For a ball (R = c) this is the surface of its
+// centres.
 //
 // Nothing is stored per point: each contact point is computed when it is requested.
 
@@ -29,7 +30,7 @@ namespace clsurf {
 
 class ContactPoints {
 public:
-    /// `surface`: that of the positions of `path`; it must outlive this. `axes`: nullopt: the tool axis is always +z.
+    /// `surface`: made from the positions of `path`; it must outlive this. `axes`: nullopt: the tool axis is always +z.
     /// O(passes).
     ContactPoints(const ClSurface& surface, const Trajectory& path, std::optional<ToolAxes> axes,
                   const CuttingTool& tool);
@@ -51,7 +52,7 @@ private:
     /// Places on the path that give a direction at one place.
     struct Direction {
         PathLocation from, to;         ///< the direction is from → to …
-        PathLocation before, towards;  ///< … extrapolated from before → towards, if that exists: at a border
+        PathLocation before, towards;  ///< … or, at a border, extrapolated from before → towards
     };
     /// The directions along the pass of a point and across it, which give its normal.
     struct Frame {

@@ -17,7 +17,7 @@ struct WeighedPlace {
 
 struct Fold {
     LocalQuadratic::Terms one = LocalQuadratic::Terms::Zero(), two = LocalQuadratic::Terms::Zero();
-    bool ridge = true;  ///< the form is the lower sheet; false: a valley, it is the higher one
+    bool ridge = true;  ///< the form is the lower sheet; false: it is the higher one, in a valley
 
     [[nodiscard]] bool is_on_one(double x, double y) const;
     /// Height of the form.

@@ -17,15 +17,15 @@
 namespace clsurf {
 namespace {
 
-constexpr double fit_reach = 3;          ///< step-overs around a knot, within which places are fitted
-constexpr double least_spread = 0.0003;  ///< [mm] left by rounding to a micrometre
+constexpr double fit_reach = 3;          ///< step-overs: radius around a knot for the fitted places
+constexpr double least_spread = 0.0003;  ///< [mm] spread that rounding to a micrometre leaves
 constexpr double least_scatter = 0.001;  ///< [mm] tolerance for contact points of a smooth form …
 constexpr double knots_differ = 2;       ///< most_scatter_ between fits of neighbouring knots at one place
 constexpr double scallop_share = 0.5;    ///< … or this share of a scallop, if larger
 constexpr double most_off = 1.0 / 3;     ///< share of the contact points' weight that may be off a smooth form
-constexpr double crease_off = 0.06;      ///< share off a smooth form from which on a crease is searched …
-constexpr double fold_off = 0.2;         ///< … and that may be off its two sheets
-constexpr double fold_gain = 0.5;        ///< of the share off the smooth form: two sheets must leave less
+constexpr double crease_off = 0.06;      ///< share off a smooth form that starts the search for a crease …
+constexpr double fold_off = 0.2;         ///< … and largest share off its two sheets
+constexpr double fold_gain = 0.5;        ///< two sheets must leave less than this part of the share off a smooth form
 
 constexpr double sharp_edge = 2;   ///< step-overs: least corner radius of a tool whose scallops are flat arcs
 constexpr double covered = 1.1;    ///< step-overs from the nearest contact point in space; beyond, no pass has cut
@@ -84,7 +84,7 @@ private:
 /// Height of a sheet at a place [mm], and its slopes per pitch.
 struct Form::Height {
     double z = 0, zx = 0, zy = 0;
-    bool reached = true;  ///< by the tool
+    bool reached = true;  ///< the tool reaches it
 };
 
 struct Form::Workspace {
@@ -95,7 +95,7 @@ struct Form::Workspace {
 Form::Form(const AsMachinedSurface& as_machined, const Box2& region, Of of, double tolerance)
     : level_(as_machined.level()),
       pitch_(as_machined.surface().step_over > 0 ? as_machined.surface().step_over : 10 * as_machined.usual_cell()),
-      // By the formula for flat surfaces with the tool's radius, as an estimate.
+      // Estimated by the formula for flat surfaces with the tool's radius.
       most_scatter_(
           std::max({least_scatter, tolerance, scallop_share * pitch_ * pitch_ / (8 * as_machined.tool().radius)})),
       reach_(as_machined.tool().radius) {
@@ -115,7 +115,7 @@ Form::Form(const AsMachinedSurface& as_machined, const Box2& region, Of of, doub
     } else {
         find_contradictions();
     }
-    // Slopes need places next to the region too.
+    // Slopes also need places next to the region.
     const Vec2 room = Vec2::Constant(2 * as_machined.usual_cell());
     between_ = std::make_unique<PassesBetween>(
         as_machined.passes_between(Box2(region.min() - room, region.max() + room), of == Of::program));
@@ -240,7 +240,7 @@ void Form::fit(std::int64_t column, std::int64_t row, const Samples& samples, Wo
     Knot& knot = knots_[static_cast<std::size_t>(row * columns_ + column)];
     const Vec2 here = corner_ + pitch_ * Vec2(static_cast<double>(column), static_cast<double>(row));
     constexpr std::int64_t squares =
-        static_cast<std::int64_t>(fit_reach) + 1;  // a knot is at the corner of four of them
+        static_cast<std::int64_t>(fit_reach) + 1;  // a knot is at the corner of four squares
     double nearest = std::numeric_limits<double>::infinity();
     double base = 0;
     samples.for_each_near(column, row, squares, [&](const Vec3& p) {
@@ -285,7 +285,7 @@ void Form::fit(std::int64_t column, std::int64_t row, const Samples& samples, Wo
 }
 
 bool Form::is_below_tool(const Height& one, const Height& two) const {
-    // With planes as sheets: a ball on both touches them where they meet their normals through its centre.
+    // If the sheets are planes, a ball on both touches each where the normal from its centre meets it.
     const Vec2 slope_one = Vec2(one.zx, one.zy) / pitch_;
     const Vec2 slope_two = Vec2(two.zx, two.zy) / pitch_;
     const double bend = (slope_one - slope_two).norm();
@@ -402,7 +402,7 @@ bool Form::has_gaps(const Box2& box) const {
 /// Rows of a frame with a margin on every side, from which slopes are computed.
 struct Form::Programmed {
     std::int64_t columns = 0, margin = 0, row_margin = 0;
-    double reach = 0;  ///< [mm] from a place to those that its slopes are computed from
+    double reach = 0;  ///< [mm] distance from a place to the two places that give its slope
     Vec2 along = Vec2::UnitX(), across = Vec2::UnitY();
     std::vector<float> z;
 

@@ -28,8 +28,8 @@ namespace clsurf {
 class Form {
 public:
     enum class Of : std::uint8_t {
-        program,               ///< if the surface is that of commanded positions; else the contacts
-        contacts_and_program,  ///< the contacts, and the program where these have no form
+        program,               ///< only with commanded positions; otherwise the contacts are used
+        contacts_and_program,  ///< the contacts, and the program where they have no form
         contacts,
     };
 
@@ -57,14 +57,14 @@ public:
 
     /// Whether contact points are on all sides of a place. Beyond the outermost pass there is only the flank of the tool.
     [[nodiscard]] bool is_among_contacts(const Vec2& place) const;
-    /// A strict version of is_among_contacts(), which counts squares of a quarter of a step-over. Those may extend by as much
-    /// beyond the end of a pass, where cusps are higher.
+    /// Stricter than is_among_contacts(), whose squares of a quarter of a step-over may extend by as much beyond the end of a
+    /// pass, where cusps are higher.
     [[nodiscard]] bool is_well_among_contacts(const Vec2& place) const;
 
 private:
     enum class Kind : std::uint8_t {
         none,     ///< no contact points
-        unknown,  ///< there are some, but they have no form
+        unknown,  ///< there are contacts, but they have no form
         smooth,
         ridge,
         valley,
@@ -96,7 +96,7 @@ private:
 
     const AsMachinedSurface* program_ = nullptr;  ///< nullptr: the program is not used
     std::unique_ptr<const PassesBetween> between_;
-    double level_ = 0;  ///< [mm] from which its heights are counted
+    double level_ = 0;  ///< [mm] level from which its heights are counted
     Vec2 corner_ = Vec2::Zero();
     double pitch_ = 1;
     std::int64_t columns_ = 0, rows_ = 0;

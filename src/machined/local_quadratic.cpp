@@ -12,8 +12,8 @@
 namespace clsurf {
 namespace {
 
-constexpr int fits = 3;             ///< the first, and two with weights from its residuals
-constexpr double outlying = 4.685;  ///< robust standard deviations, from which on the weight of a place is 0
+constexpr int fits = 3;             ///< number of fits: the first, and two with weights from residuals
+constexpr double outlying = 4.685;  ///< robust standard deviations: a place at this distance or farther has weight 0
 constexpr double stiffness = 1e-6;  ///< regularisation of terms that the places do not determine
 
 constexpr std::size_t width = 4;

@@ -15,7 +15,7 @@ namespace clsurf {
 namespace {
 
 constexpr std::size_t patches_wanted = 24;
-constexpr double profile_cutoffs = 6;  ///< five sampling lengths, and half of one at both ends
+constexpr double profile_cutoffs = 6;  ///< five sampling lengths, and half of one at each end
 constexpr double patch_cutoffs = 2;    ///< side of a patch
 constexpr int lines_across = 6;        ///< profiles through a patch
 constexpr int rows_in_two = 41;        ///< rows of a patch's cells in two step-overs
@@ -35,9 +35,9 @@ public:
           half_across_(apart_ * std::max(1.0, std::round(half_along_ / apart_))) {}
 
     [[nodiscard]] const Vec2& across() const { return across_; }
-    /// [mm] along the feed.
+    /// Extent [mm] along the feed.
     [[nodiscard]] double length() const { return 2 * half_along_; }
-    /// [mm] across the feed, where the weight is at least a half.
+    /// Extent [mm] across the feed with a weight of at least a half.
     [[nodiscard]] double width() const { return 2 * half_across_; }
     [[nodiscard]] Vec2 at(double along, double across) const {
         return middle_ + along * Vec2(across_.y(), -across_.x()) + across * across_;
@@ -51,9 +51,9 @@ public:
         return {at(-static_cast<double>(columns) * cell, -static_cast<double>(rows) * cell),
                 Vec2(across_.y(), -across_.x()), cell, 2 * columns + 1, 2 * rows + 1};
     }
-    /// [mm] between contacts of adjacent passes, seen from above.
+    /// Distance [mm] between contacts of adjacent passes, seen from above.
     [[nodiscard]] double apart() const { return apart_; }
-    /// Weights of the cells of such a frame: 0 if passes end before they have cut them.
+    /// Weights of the cells of such a frame: 0 for cells that the passes do not cut completely before they end.
     [[nodiscard]] std::vector<float> weights(const MapFrame& frame, const BeforePassEnds& before_ends) const {
         std::vector<float> result;
         for (std::int64_t row = 0; row < frame.rows; ++row) {
@@ -75,7 +75,7 @@ public:
     }
 
 private:
-    /// [mm] to the edge of the window, where the weight is 0.
+    /// Distance [mm] from the middle to the edge of the window, where the weight is 0.
     [[nodiscard]] double reach_across() const { return half_across_ + 0.5 * apart_; }
 
     Vec2 middle_, across_;

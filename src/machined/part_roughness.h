@@ -34,14 +34,13 @@ struct RoughPatch {
 };
 
 struct PartRoughness {
-    std::vector<RoughPatch>
-        patches;               ///< that could be measured, in the order of their points; none: no value below is known
-    double ra = 0, rz = 0;     ///< [mm] mean over the patches' profiles across the feed
-    std::size_t roughest = 0;  ///< patch whose profile has the greatest Rz
-    double sa = 0, sq = 0;     ///< [mm] mean over the patches, form subtracted
-    double sz = 0;             ///< [mm] of the roughest patch
-    double cutoff = 0;         ///< [mm] of the profiles' filter
-    double unknown = 0;        ///< share of the patches' cut cells without a known form: these are not measured
+    std::vector<RoughPatch> patches;  ///< measured patches in the order of their points; none: no value below is known
+    double ra = 0, rz = 0;            ///< [mm] mean over the patches' profiles across the feed
+    std::size_t roughest = 0;         ///< patch whose profile has the greatest Rz
+    double sa = 0, sq = 0;            ///< [mm] mean over the patches, form subtracted
+    double sz = 0;                    ///< [mm] of the roughest patch
+    double cutoff = 0;                ///< [mm] of the profiles' filter
+    double unknown = 0;               ///< share of the patches' cut cells without a known form: these are not measured
     /// [mm] The contribution of the machine: sa and sq are means over all patches, sz is the largest; no cells: not known.
     AreaHeights machine;
 };
@@ -57,7 +56,7 @@ struct RoughnessSurfaces {
 };
 
 /// Cells of a map of `measured` minus those of the same map of `commanded`, along the normal of the latter [mm]: what following
-/// errors add to scallops and form. It needs no form, so it is known at creases and in fillets too.
+/// errors add to scallops and form. It needs no form, so it is also known at creases and in fillets.
 [[nodiscard]] std::vector<float> deviation_from(const AsMachinedSurface& commanded, const AsMachinedSurface& measured,
                                                 const MapFrame& frame);
 

@@ -8,7 +8,7 @@
 namespace clsurf {
 namespace {
 
-constexpr std::int64_t stride = 3;     ///< in rows and columns, between cells that are used for the quadratic
+constexpr std::int64_t stride = 3;     ///< rows or columns between the cells that are used for the quadratic
 constexpr double rounded_by = 0.0003;  ///< [mm] scatter of positions that are rounded to a micrometre
 
 }  // namespace

@@ -12,11 +12,11 @@ namespace {
 
 constexpr double most_uneven = 3;       ///< times the distance of the two passes; farther passes are not used
 constexpr double most_jump = 4;         ///< times the step along the pass; a longer step leads to another pass
-constexpr float least_between = 0.25F;  ///< of the distance of two passes; a pass this far from both is between them
-constexpr double jump_fits = 0.15;   ///< of a step-over, between the positions of a jump of curvature from both sides
-constexpr double least_jump = 2e-4;  ///< [mm] second difference: below it a cubic is as good
-constexpr double least_turn = 3e-3;  ///< [mm] of second differences: smaller changes may be rounding and uneven heights
-constexpr double smoother_side = 0.25;  ///< of the change of second differences in a gap, on a side without a turn
+constexpr float least_between = 0.25F;  ///< share of a gap: a pass this far from both sides is between them
+constexpr double jump_fits = 0.15;      ///< of a step-over: a jump of curvature is found there from both sides
+constexpr double least_jump = 2e-4;     ///< [mm] second difference: below it a cubic is as good
+constexpr double least_turn = 3e-3;     ///< [mm] change of second differences; less may be rounding or uneven heights
+constexpr double smoother_side = 0.25;  ///< share of the change in a gap, on a side without a turn
 constexpr double corner_turns = 8;      ///< times the adjacent bends: the sides of a valley are nearly straight
 
 /// Passes around the gap between two passes, numbered from the first of these.
@@ -160,7 +160,7 @@ private:
     Vec3 from_, chord_;
     Vec3 bend_ = Vec3::Zero(), turn_ = Vec3::Zero();
     Vec3 corner_ = Vec3::Zero();  ///< change of direction …
-    double meets_ = -1;           ///< … or of the bend at this fraction; < 0: none
+    double meets_ = -1;           ///< … or of the bend, at this fraction of the gap; < 0: none
 };
 
 }  // namespace
@@ -269,14 +269,14 @@ bool PassesBetween::between(PointIndex point, Side side, Row& row) const {
     return std::all_of(row.begin(), row.end(), [](const Vec3& p) { return p.allFinite(); });
 }
 
-/// Calls take(from, to) for the straight motions along the passes between those of points and the adjacent ones.
+/// Calls take(from, to) for the straight motions along the passes between the passes of points and the adjacent ones.
 template <typename Take>
 void PassesBetween::motions_beside(PointRange points, Side side, Take&& take) const {
     std::optional<Row> before;
     PointIndex last = points.first;
     for (PointIndex i = points.first; i <= points.last; ++i) {
         Row row;
-        // If points are merged, so are their neighbours, which are on a line too.
+        // If points are merged, so are their neighbours, which are also on a line.
         if (before && i < points.last &&
             (surface_.positions[i] - surface_.positions[last]).norm() < static_cast<float>(least_))
             continue;

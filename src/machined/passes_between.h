@@ -4,7 +4,7 @@
 // from one value to another between the two (a ball that rolls around an edge), by two parabolas that meet there. If the path
 // across the passes has a corner or an edge at a pass or in the adjacent gap, only the passes on the other side count. If two
 // sides of a valley meet in a corner between the two passes, both are extended to that corner. A tool that follows all passes
-// leaves the programmed surface without its scallops, at creases and in fillets too.
+// leaves the programmed surface without its scallops, also at creases and in fillets.
 
 #include <array>
 #include <span>
@@ -48,7 +48,7 @@ private:
     struct Motion {
         Vec3 from, to;
     };
-    /// Stored motions of the points from one on.
+    /// Stored motions of the points from `first` on.
     struct Kept {
         PointIndex first = 0;
         std::vector<Motion> motions;

@@ -15,14 +15,14 @@
 namespace clsurf {
 namespace {
 
-constexpr double beside_places = 0.6;  ///< step-overs in the plane, within which places belong to one column of levels
+constexpr double beside_places = 0.6;  ///< step-overs in the plane: places this close belong to one column of levels
 constexpr double level_ends = 2;       ///< step-overs of height between two levels
 constexpr double longest_jump = 0.25;  ///< step-overs: contact points farther apart are not joined …
 constexpr double jump_of_tips = 4;     ///< … unless their tips are a quarter as far apart
 constexpr double near_the_part = 0.5;  ///< step-overs: a place this near to the cut surface is on the part
 constexpr double own_contact = 0.6;    ///< step-overs: a contact farther away does not touch the place
-/// Weight of the distance of a contact point relative to that of the cutter. Under a flat bottom all passes touch the place,
-/// and the nearest contact point decides.
+/// Weight of the distance to a contact point relative to the distance to the cutter. Under a flat bottom all passes touch the
+/// place, and the nearest contact point decides.
 constexpr double by_contact = 0.003;
 constexpr double most_by_contact = 1.5;  ///< step-overs: upper limit of the distance that counts
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -139,7 +139,7 @@ private:
         double score = infinite;
     };
 
-    /// The better one of the point with the nearest cutter and the point with the nearest contact, if that is known.
+    /// The better of two points: that with the nearest cutter, and that with the nearest contact if it is known.
     [[nodiscard]] Touching touching(const CutterTouch& touch, PointRange piece, const FoundPlace* by_contacts) const {
         Touching best;
         const auto look = [&](const CutterTouch& here, const FoundPlace& place) {

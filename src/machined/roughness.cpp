@@ -13,8 +13,7 @@
 namespace clsurf {
 namespace {
 
-const double alpha =
-    std::sqrt(std::numbers::ln2 / std::numbers::pi);  ///< a wave with the length of the cut-off is halved
+const double alpha = std::sqrt(std::numbers::ln2 / std::numbers::pi);  ///< a wave as long as the cut-off is halved
 constexpr int most_lengths = 5;
 
 struct CutoffClass {
@@ -23,7 +22,7 @@ struct CutoffClass {
 };
 constexpr std::array<CutoffClass, 2> wide_cutoffs{{{1.3, 8}, {0.4, 2.5}}};
 constexpr double usual_cutoff = 0.8;  ///< [mm]
-constexpr double scatter = 1.02;      ///< of a step-over that is estimated from positions
+constexpr double scatter = 1.02;      ///< factor for the error of a step-over that is estimated from positions
 
 /// Adds to each place the values `off` steps before and after it, with a weight.
 CLSURF_VECTORISED void add_beside(std::span<const double> z, std::size_t off, double weight,
@@ -35,7 +34,7 @@ CLSURF_VECTORISED void add_beside(std::span<const double> z, std::size_t off, do
     for (std::size_t k = 0; k < count; ++k) to[k] += weight * from[k + off];
 }
 
-/// z(along) at other distances. Both increase, and the others are within the ends of `along`, except for rounding.
+/// z(along) at other distances. Both lists increase; except for rounding, the others are within the ends of `along`.
 std::vector<double> interpolated(std::span<const double> z, std::span<const double> along,
                                  std::span<const double> others) {
     std::vector<double> result(others.size());

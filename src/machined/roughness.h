@@ -8,7 +8,7 @@
 
 namespace clsurf {
 
-/// Of an unfiltered profile, about its mean. Rz is the height from lowest to highest.
+/// Heights of an unfiltered profile about its mean. Rz is the height from lowest to highest.
 struct ProfileHeights {
     double ra = 0, rq = 0, rz = 0;
 };
@@ -23,9 +23,9 @@ struct ProfileHeights {
 [[nodiscard]] std::vector<double> gaussian_mean_line(std::span<const double> z, std::span<const double> along,
                                                      double cutoff);
 
-/// The cut-off [mm] for scallops at a given spacing: 0.8 mm, or for wider ones what ISO 4288 (now ISO 21920-3) gives for such a
-/// spacing of profile elements: 2.5 mm above 0.4 mm, 8 mm above 1.3 mm. A step-over up to 2 % above such a limit counts as the
-/// limit: it is estimated from logged positions, and runs of one program must not get different cut-offs.
+/// The cut-off [mm] for scallops at a given spacing: 0.8 mm, or for wider spacings the cut-off that ISO 4288 (now ISO 21920-3)
+/// gives for profile elements of that width: 2.5 mm above 0.4 mm, 8 mm above 1.3 mm. A step-over up to 2 % above such a limit
+/// counts as the limit: it is estimated from logged positions, and runs of one program must not get different cut-offs.
 [[nodiscard]] double cutoff_for(double step_over);
 /// A cut-off in words, with the step-overs for which it is used.
 [[nodiscard]] std::string cutoff_text(double cutoff);
@@ -34,7 +34,7 @@ struct ProfileHeights {
 struct Roughness {
     double ra = 0, rq = 0;
     double rz = 0;      ///< mean over the sampling lengths of the height from lowest to highest
-    double length = 0;  ///< that was evaluated; 0: nothing was
+    double length = 0;  ///< evaluated length; 0: nothing was evaluated
     int sampling_lengths = 0;
     double cutoff = 0;
 };
@@ -48,7 +48,7 @@ struct Roughness {
 /// Of an area about its mean; NaN: no value. Sz is the height from lowest to highest.
 struct AreaHeights {
     double sa = 0, sq = 0, sz = 0;
-    std::size_t cells = 0;  ///< that have a value
+    std::size_t cells = 0;  ///< number of cells with a value
 };
 /// `weights`, 0 … 1, one for each value; empty: all are 1. Sz counts values with a weight of at least a half. O(cells).
 [[nodiscard]] AreaHeights area_heights(std::span<const float> z, std::span<const float> weights = {});

@@ -16,7 +16,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double least_cosine = 0.866;  ///< 30°: passes that turn by more neither continue nor are adjacent
+constexpr double least_cosine = 0.866;  ///< cos 30°: passes that turn by more neither continue nor are adjacent
 constexpr double shortest_piece = 2;    ///< step-overs
 
 /// Whether the path has a corner between two steps.
@@ -28,7 +28,7 @@ bool turns(const Vec3& before, const Vec3& after) {
 struct Place {
     Vec3 feed = Vec3::Constant(missing<double>);
     Vec3 normal = Vec3::Constant(missing<double>);
-    double length = 0;  ///< [mm] of the path that the point represents
+    double length = 0;  ///< [mm] length of path that the point represents
     /// The point whose neighbours are used. At the end of a pass the adjacent pass may already have ended, and the neighbour
     /// found there belongs to another pass.
     PointIndex inner = 0;

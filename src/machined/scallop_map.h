@@ -10,12 +10,13 @@ namespace clsurf {
 
 struct ScallopMap {
     Column<float> height;  ///< [mm] per point, the higher one of both sides; uncut: the radius; NaN: no adjacent pass
-    /// [mm] Quantiles over the cut path that has a height; NaN: none has one.
+    /// [mm] Quantiles over the cut path with a known height; NaN: no height is known.
     double median = 0, p95 = 0, most = 0;
-    double uncut = 0;  ///< [mm²] between adjacent passes farther apart than the tool diameter: not cut at all
+    double uncut = 0;  ///< [mm²] area left uncut, because adjacent passes are farther apart than the tool diameter
 };
 
-/// Of passes that cut. Points must be as close as those of a log or of a programmed surface. Throws UsageError: no ball.
+/// The map of passes that cut. Points must be as close as those of a log or of a programmed surface. Throws UsageError: the
+/// tool is not a ball.
 /// O(points log points), parallel.
 [[nodiscard]] ScallopMap scallop_map(const ClSurface& surface, const CuttingTool& tool);
 

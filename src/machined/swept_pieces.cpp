@@ -14,13 +14,13 @@ namespace clsurf {
 namespace {
 
 constexpr int side = 4;              ///< cells of a block that is not divided further
-constexpr std::size_t few = 8;       ///< pieces that are not worth a division
-constexpr double kept_share = 0.9;   ///< of pieces: a division that keeps more is useless
+constexpr std::size_t few = 8;       ///< number of pieces that is not worth a division
+constexpr double kept_share = 0.9;   ///< share of pieces: a division that keeps more is useless
 constexpr float gentle = 0.04F;      ///< of the corner radius squared: a steeper outline has no useful tangent plane
 constexpr float rounding = 2e-6F;    ///< [mm] of heights
-constexpr double corner_share = 4;   ///< pieces of a bull-nose tool to its corner radius
+constexpr double corner_share = 4;   ///< number of pieces per corner radius of a bull-nose tool
 constexpr double longest_cells = 8;  ///< cells per piece, or more if the tool is large compared with the cells
-constexpr double standing = 1e-6;    ///< [mm] in the plane, below which a motion is vertical
+constexpr double standing = 1e-6;    ///< [mm] in the plane: a shorter motion is vertical
 
 struct Block {
     int column, row, columns, rows;
@@ -228,7 +228,7 @@ private:
             lower(level.kept, part, depth + 1);
     }
 
-    /// Multiples of whole blocks, as long as there are two.
+    /// A multiple of whole blocks if there are at least two.
     static int half_of(int cells) { return cells > side ? (cells / side + 1) / 2 * side : (cells + 1) / 2; }
 
     /// The largest height of the tool in the middle of a piece above the plane at the corners of the block. The outline is

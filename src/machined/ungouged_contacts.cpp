@@ -12,8 +12,8 @@ namespace clsurf {
 namespace {
 
 constexpr double tips_aside = 12;  ///< squares from a contact point to the tool's radius, each with one tested tip
-constexpr double cut_away = 0.02;  ///< [mm] inside the tool elsewhere, from which on a contact point is cut away
-constexpr double distance_rounding = 1e-9;  ///< [mm] of distances
+constexpr double cut_away = 0.02;  ///< [mm] depth inside the tool elsewhere from which on a contact point is cut away
+constexpr double distance_rounding = 1e-9;  ///< [mm] error of distances
 
 /// A grid of squares, with the lowest tip and the contact points in each.
 class SquareGrid {
@@ -32,7 +32,7 @@ public:
             Vec3& lowest = lowest_[square_of(contact.tip)];
             if (contact.tip.z() < lowest.z()) lowest = contact.tip;
         }
-        // Those outside the region are in a group after the last square.
+        // Contact points outside the region are in a group after the last square.
         places_ = group_numbers(found.size(), squares + 1, [&](std::size_t k) {
             return region.contains(found[k].at.head<2>()) ? square_of(found[k].at) : squares;
         });
