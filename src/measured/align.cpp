@@ -20,20 +20,20 @@ constexpr std::size_t most_fitted = 5000;   ///< points; more do not improve the
 constexpr std::size_t most_searched = 600;  ///< points
 constexpr double usual_search = 1;          ///< [mm]
 constexpr double search_passes = 3;         ///< step-overs
-constexpr double search_steps = 8;          ///< of a step-over
+constexpr double search_steps = 8;          ///< steps per step-over
 constexpr double same_place = 0.25;         ///< step-overs: poses closer than this are the same
-constexpr double surface_error = 5e-5;      ///< [mm] of heights between cells: lower limit of any error
+constexpr double surface_error = 5e-5;      ///< [mm] error of heights between cells: lower limit of any error
 constexpr double most_error = 0.25;         ///< step-overs: largest standard error of a determined degree of freedom
 constexpr double much_farther = 1.25;       ///< times the least median distance: such a pose is unlikely
-constexpr double clear_difference = 12;     ///< of squares, relative to their variance: less than 1 in 1,000 by chance
-constexpr double clear_share = 0.2;         ///< of the squares of points that are far off in both poses
-constexpr double far_off = 4.5;             ///< median distances: three standard deviations
-constexpr double least_far_off = 2e-4;      ///< [mm]
-constexpr double unknown_error = 1e6;       ///< [mm] for a degree of freedom that changes no distance
-constexpr double main_share = 0.4;          ///< of a direction's length: a smaller component of an axis is not named
-constexpr std::size_t fewest_each = 4;      ///< points for each degree of freedom that scallops determine
-constexpr double above_scatter = 3;         ///< rms over scatter, from which on a profile may be at a wrong place
-constexpr double far_above_scatter = 10;    ///< … which scatter does not explain
+constexpr double clear_difference = 12;   ///< difference of squares over their variance: less than 1 in 1,000 by chance
+constexpr double clear_share = 0.2;       ///< share of the squares of points that are far off in both poses
+constexpr double far_off = 4.5;           ///< median distances: three standard deviations
+constexpr double least_far_off = 2e-4;    ///< [mm]
+constexpr double unknown_error = 1e6;     ///< [mm] for a degree of freedom that changes no distance
+constexpr double main_share = 0.4;        ///< share of a direction's length: a smaller component is not named
+constexpr std::size_t fewest_each = 4;    ///< points for each degree of freedom that scallops determine
+constexpr double above_scatter = 3;       ///< ratio of rms to scatter from which on a profile may be misplaced
+constexpr double far_above_scatter = 10;  ///< … and the ratio that scatter does not explain
 
 std::size_t known_points(const MeasuredData& measured) {
     return measured.points.size() - (measured.kind == MeasuredKind::areal ? measured.missing : 0);
@@ -98,7 +98,7 @@ double variance_of(const FittedPose& fit, std::size_t unknowns, double correlate
 std::size_t known_of(const FittedPose& fit) { return fit.distances.known_ones().size(); }
 
 /// Squares of all points with a distance, each limited to that of `most` [mm], because it does not matter how far off a missing
-/// mark or dirt is. `cut`: the share of the limited ones.
+/// mark or dirt is. `cut`: the share of the limited squares.
 struct CutSquares {
     double sum = 0, cut = 0;
 };

@@ -4,9 +4,10 @@
 // The first fit uses the form alone, from the stated start. Then poses around it are tried, an eighth of a step-over apart,
 // because a surface with scallops fits nearly as well one step-over away from the right place. The best of them are fitted to
 // the surface with its scallops. The best of these is fitted again without outliers: if a mark is missing, the other points
-// determine the pose. A profile is only shifted along itself. If its residuals exceed its scatter, poses across it are tried
-// too, and the best is used if the surface determines it. A result is refused if the data do not determine it: too few points,
-// a degree of freedom that the surface does not constrain (a plane can be shifted), or a second pose that fits as well.
+// determine the pose. A profile is only shifted along itself. If its residuals exceed its scatter, poses across it are also
+// tried, and the best is used if the surface determines it. A result is refused if the data do not determine it: too few
+// points, a degree of freedom that the surface does not constrain (a plane can be shifted), or a second pose that fits as
+// well.
 
 #include <optional>
 #include <string>
@@ -25,8 +26,8 @@ struct MeasuredPlace {
 };
 
 struct AlignRules {
-    std::optional<MeasuredPlace> start;  ///< nullopt: points are in the axes of the part; others need one
-    std::optional<FreeAxes> free;        ///< nullopt: all; of a profile x, z and b
+    std::optional<MeasuredPlace> start;  ///< nullopt: only for points in the axes of the part
+    std::optional<FreeAxes> free;        ///< nullopt: all; for a profile x, z and b
     double search = 0;                   ///< [mm] around the start; 0: 1 mm or three step-overs, whichever is larger
 };
 
@@ -35,15 +36,15 @@ struct PoseParameter {
     PoseAxis axis = PoseAxis::x;
     bool fitted = false;
     double value = 0;           ///< [mm or rad] relative to the start
-    double standard_error = 0;  ///< of a fitted one; allows for correlated scatter of neighbouring points
+    double standard_error = 0;  ///< of a fitted value; allows for correlated scatter of neighbouring points
 };
 
 struct Alignment {
     Pose pose;
     std::vector<PoseParameter> parameters;
     std::size_t points = 0;            ///< measured points
-    std::size_t used = 0;              ///< in the fit; more than 5,000 points are evenly thinned
-    std::size_t left_out = 0;          ///< of those: outliers, or where nothing was cut
+    std::size_t used = 0;              ///< points used in the fit; more than 5,000 points are evenly thinned
+    std::size_t left_out = 0;          ///< excluded points of these: outliers, or where nothing was cut
     double rms = 0;                    ///< [mm] distances of the used points from the surface, along its normal
     double worst = 0;                  ///< [mm] the largest of all distances
     double scatter = 0;                ///< [mm] between neighbours along a profile or a row of a map; points: 0

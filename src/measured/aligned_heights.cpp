@@ -9,7 +9,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double most_gap = 3;       ///< spacings between two places, for an interpolation
+constexpr double most_gap = 3;       ///< spacings: largest gap between two places for an interpolation
 constexpr int map_steps = 4;         ///< iterations for a map's column and row; few, because the tilt of a map is small
 constexpr double most_values = 1e6;  ///< of a row
 

@@ -34,7 +34,7 @@ private:
     Vec2 middle_ = Vec2::Zero();
     double spacing_ = 0;
     Vec2 from_ = Vec2::Zero(), along_ = Vec2::UnitX();  ///< of a profile
-    std::vector<double> distance_, height_;             ///< of its points; distances increase
+    std::vector<double> distance_, height_;             ///< of the profile's points; distances increase
 };
 
 }  // namespace clsurf

@@ -11,9 +11,9 @@
 namespace clsurf {
 namespace {
 
-constexpr double steps_of_pass = 1000;  ///< of a profile: more have no effect
+constexpr double steps_of_pass = 1000;  ///< most steps of a profile per step-over: more have no effect
 constexpr int map_profiles = 11;
-constexpr double map_share = 0.9;          ///< of the extent of a map, over which its profiles are distributed
+constexpr double map_share = 0.9;          ///< share of the extent of a map over which its profiles are distributed
 constexpr double steps_of_short_wave = 2;  ///< steps that a filter of a short wave needs
 
 /// The deviations of heights along a row [mm] from a form.

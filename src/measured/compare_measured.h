@@ -31,7 +31,7 @@ struct MeasuredComparison {
     std::string reason;                     ///< why nothing was compared; empty: it was
 };
 
-/// The cut-off λs below which waves are removed before a roughness is measured: that of ISO 3274 for a cut-off λc [mm].
+/// The cut-off λs below which waves are removed before a roughness is measured: the value in ISO 3274 for a cut-off λc [mm].
 [[nodiscard]] double short_cutoff_for(double cutoff);
 
 /// The deviations of both along a row; `of` and `tolerance` as for Form.

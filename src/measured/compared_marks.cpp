@@ -20,7 +20,7 @@ constexpr double least_across = 0.5;     ///< cosine between a profile and the d
 constexpr double mark_tolerance = 0.25;  ///< of a mark's depth, as for its predicted depth
 constexpr double times_noise = 3;        ///< times the noise: least depth of a judged mark
 constexpr double least_depth = 1e-4;     ///< [mm] and at least this depth
-constexpr double present = 0.5;          ///< of the predicted depth
+constexpr double present = 0.5;          ///< least share of the predicted depth
 
 /// A measured point of a mark, and the passes there.
 struct Crossing {

@@ -27,7 +27,7 @@ struct ComparedMark {
     std::string reason;
 };
 
-/// The marks that the measurement crosses, in the order of `report`. `noise` [mm]: that of MeasuredComparison; marks of less
+/// The marks that the measurement crosses, in the order of `report`. `noise` [mm]: as in MeasuredComparison; marks of less
 /// than three times the noise are not judged.
 [[nodiscard]] std::vector<ComparedMark> compare_marks(const MeasuredData& data, const AlignedHeights& measured,
                                                       const AsMachinedSurface& as_machined, const Signals& signals,

@@ -11,7 +11,7 @@ namespace clsurf {
 namespace {
 
 constexpr double least_correlation = 0.3;
-constexpr double most_times = 3;        ///< between measured and predicted Rq, if they are alike
+constexpr double most_times = 3;        ///< largest ratio of measured and predicted Rq if they are alike
 constexpr double least_rough = 0.0002;  ///< [mm] Rq of the rougher one; heights are not known more precisely
 
 }  // namespace

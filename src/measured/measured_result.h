@@ -13,11 +13,11 @@ namespace clsurf {
 struct MeasuredResult {
     Alignment alignment;
     MeasuredComparison comparison;    ///< empty with a reason if the pose is not determined
-    std::vector<ComparedMark> marks;  ///< that the measurement crosses
+    std::vector<ComparedMark> marks;  ///< marks that the measurement crosses
 };
 
-/// Why the place of a measurement is doubtful after the comparison: its roughness is not that of the surface there. nullopt: it
-/// is, or both are too smooth for a decision.
+/// Why the place of a measurement is doubtful after the comparison: its roughness differs from the roughness of the surface
+/// there. nullopt: it does not, or both are too smooth for a decision.
 [[nodiscard]] std::optional<std::string> doubt_of(const MeasuredComparison& comparison);
 
 /// Aligns and compares the roughness, without marks. The pose counts as not determined if the roughness of both does not match.

@@ -13,18 +13,18 @@ namespace clsurf {
 namespace {
 
 constexpr int most_steps = 60;
-constexpr double least_step = 1e-7;     ///< [mm] of motion of a point, below which the fit ends
-constexpr double first_damping = 1e-4;  ///< of the mean diagonal
+constexpr double least_step = 1e-7;     ///< [mm] motion of a point below which the fit ends
+constexpr double first_damping = 1e-4;  ///< share of the mean diagonal
 constexpr double least_damping = 1e-6;
 constexpr double most_damping = 1e8;
 constexpr double surface_reach = 0.125;  ///< step-overs, for slopes with scallops
 constexpr double least_known = 0.5;      ///< share of the points that must be over the part: others have no distance
-constexpr double kept_share = 0.95;     ///< of the points with a distance for one pose, that must have one for the next
-constexpr double outlier = 3;           ///< standard deviations
-constexpr double least_outlier = 2e-4;  ///< [mm]
+constexpr double kept_share = 0.95;      ///< share of the points with a distance in one pose that keep one in the next
+constexpr double outlier = 3;            ///< standard deviations
+constexpr double least_outlier = 2e-4;   ///< [mm]
 constexpr int most_rounds = 8;
 constexpr int level_rounds = 12;
-constexpr double nearest_share = 0.75;    ///< of the points, from which height and tilt are determined
+constexpr double nearest_share = 0.75;    ///< share of the points from which height and tilt are determined
 constexpr double height_rounding = 6e-8;  ///< relative, of float heights over level()
 
 }  // namespace

@@ -26,7 +26,7 @@ struct Distances {
     double squares = 0;  ///< their sum [mm²]
 
     [[nodiscard]] double mean_square() const { return squares / static_cast<double>(known); }
-    /// Those that are not NaN, including points that a fit excludes.
+    /// The distances that are not NaN, including points that a fit excludes.
     [[nodiscard]] std::vector<double> known_ones() const;
 };
 
@@ -38,7 +38,7 @@ struct FittedPose {
 /// The information of a fit about its degrees of freedom along `axes`, in mm of motion of a point (rotations: at the root mean
 /// square distance of the points from their centre).
 struct PoseInformation {
-    std::vector<PoseAxis> axes;  ///< that were free
+    std::vector<PoseAxis> axes;  ///< axes that were free
     Eigen::MatrixXd normal;      ///< JᵀJ over them
     double rotation_radius = 1;  ///< [mm]
     double slope_noise = 0;      ///< of the surface's slopes, from the rounding of its heights

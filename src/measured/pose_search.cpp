@@ -9,7 +9,7 @@ namespace clsurf {
 namespace {
 
 constexpr std::size_t best_minima = 6;
-constexpr double searched_share = 0.8;  ///< of the points
+constexpr double searched_share = 0.8;  ///< share of the points
 
 }  // namespace
 

@@ -18,7 +18,8 @@ public:
         : points_(points), heights_(heights), axes_(axes), free_(free) {}
 
     /// Local minima over a grid around a pose, `steps` of `step` [mm] to each side along the free ones of x and y: of the mean
-    /// square of all points, and of that of the nearest four fifths, which a missing mark does not affect. Returns the best of
+    /// square of all points, and of the mean square of the nearest four fifths, which a missing mark does not affect. Returns
+    /// the best of
     /// both, at most six each. O(grid · points).
     [[nodiscard]] std::vector<Pose> around(const Pose& middle, double step, std::int64_t steps);
 
