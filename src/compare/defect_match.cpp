@@ -11,8 +11,8 @@ namespace {
 
 constexpr double reach_of_step_over = 0.75;
 constexpr double usual_reach = 0.5;      ///< [mm] if no step-over is known
-constexpr double least_overlap = 0.25;   ///< of the shorter one
-constexpr double sample_spacing = 0.25;  ///< of the reach, between samples along a run
+constexpr double least_overlap = 0.25;   ///< share of the shorter defect
+constexpr double sample_spacing = 0.25;  ///< share of the reach between samples along a run
 
 bool is_height(const Defect& d) { return d.quantity == Quantity::lag || d.quantity == Quantity::relief; }
 

@@ -1,5 +1,6 @@
 #pragma once
-// Field difference: difference of a field between two runs of a part, place by place, for a picture next to those of both runs.
+// Field difference: difference of a field between two runs of a part, place by place, for a picture next to the pictures of
+// both runs.
 
 #include "compare/run_alignment.h"
 #include "field/field.h"

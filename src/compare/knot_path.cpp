@@ -8,8 +8,8 @@ namespace clsurf {
 namespace {
 
 // Lengths in mm.
-constexpr float spacing = 0.005F;    ///< between knots, at least: coarser than the noise of resting axes
-constexpr float same_place = 1e-6F;  ///< of a chord
+constexpr float spacing = 0.005F;    ///< least distance between knots, above the noise of resting axes
+constexpr float same_place = 1e-6F;  ///< share of a chord
 constexpr float same_spot = 1e-6F;
 
 }  // namespace

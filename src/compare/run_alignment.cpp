@@ -12,23 +12,23 @@ namespace clsurf {
 namespace {
 
 // Lengths in mm.
-constexpr float off_distance = 0.1F;               ///< from here on, the walk may be on the wrong path
-constexpr float lost_distance = 0.5F;              ///< from here on, it is
-constexpr float lost_length = 1.0F;                ///< arc length off the path, after which the walk is lost
-constexpr float near_distance = 0.1F;              ///< a walk must begin within this distance, and keep it …
-constexpr float trial_arc_length = 5.0F;           ///< … over this arc length
-constexpr float same_fit = 0.002F;                 ///< smaller differences of mean distances do not count
-constexpr double cell = 0.25;                      ///< of the grid for the search of beginnings
-constexpr float search_arc_length = 0.1F;          ///< between two searches at first; doubled after each failure …
+constexpr float off_distance = 0.1F;       ///< from this distance on, the walk may be on the wrong path
+constexpr float lost_distance = 0.5F;      ///< from this distance on, it certainly is
+constexpr float lost_length = 1.0F;        ///< arc length off the path after which the walk is lost
+constexpr float near_distance = 0.1F;      ///< a walk must begin within this distance, and keep it …
+constexpr float trial_arc_length = 5.0F;   ///< … over this arc length
+constexpr float same_fit = 0.002F;         ///< smaller differences of mean distances do not count
+constexpr double cell = 0.25;              ///< side of the cells in the grid that finds beginnings
+constexpr float search_arc_length = 0.1F;  ///< arc length between two searches at first; doubled after each failure …
 constexpr float longest_search_arc_length = 5.0F;  ///< … up to this
 constexpr float one_place = 1.0F;                  ///< points of B with less arc length between them are one place
-constexpr std::size_t most_places = 32;            ///< at which a walk may be tried
+constexpr std::size_t most_places = 32;            ///< number of places at which a walk may be tried
 constexpr std::int64_t work_per_point = 8;         ///< limit for repeated walks
 
 /// A tentative walk.
 struct Trial {
     PathProjection begin, projected;
-    float arc_length = 0;  ///< near the path
+    float arc_length = 0;  ///< arc length near the path
     double cost = 0;       ///< distance times arc length; `near_distance` times arc length if it is off
     bool alive = true;
 };
@@ -68,7 +68,7 @@ private:
         float to_search = 0;  // arc length until the next search for a beginning
         float search_step = search_arc_length;
         PathLocation last{};
-        PointIndex last_point = -1;  // of A, on the path; −1: there is no walk
+        PointIndex last_point = -1;  // last point of A on the path; −1: there is no walk
         Eigen::Vector3f before = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
         for (PointIndex i = 0; i < a_.size(); ++i) {
             const Eigen::Vector3f p = a_[i];
@@ -203,7 +203,7 @@ private:
                 --alive;
             }
         }
-        // A trial that is still near when all others are off is right, however well those fitted before.
+        // A trial that is still near when all others are off is right, however well the others fitted before.
         const bool to_the_end = k == a_.size();
         const Trial* best = nullptr;
         for (const Trial& trial : trials) {
@@ -246,7 +246,7 @@ private:
     std::unique_ptr<ArcLength> arc_length_;
     std::unique_ptr<PathGrid> grid_;
     std::int64_t trial_steps_;        ///< points left for several walks at the same time
-    std::vector<PointIndex> begins_;  ///< of A, where a walk began
+    std::vector<PointIndex> begins_;  ///< points of A where a walk began
     PointIndex rewinds_;              ///< points left for repeated walks
 };
 

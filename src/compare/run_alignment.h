@@ -17,7 +17,7 @@ namespace clsurf {
 
 struct RunAlignment {
     Column<PathLocation> locations;    ///< on B, per point of A; exists() is false where B has no such place
-    std::vector<PointRange> sections;  ///< of A: aligned throughout and without a jump on B, in order
+    std::vector<PointRange> sections;  ///< sections of A, in order: aligned throughout, without a jump on B
     double aligned = 0;                ///< [mm] arc length of A with a location
     double arc_length = 0;             ///< [mm] total arc length of A
 };

@@ -22,7 +22,7 @@ constexpr double jerk_jump_seconds = 0.0475;  ///< half of both windows of the j
 constexpr PointIndex feed_reach = 8;          ///< points before and after one that determine the feed there
 constexpr double least_feed = 1e-4;           ///< [mm] least arc length for a direction
 constexpr float least_tilt = 0.1F;  ///< sine of the angle between feed and Z: a steeper feed has no upper side
-constexpr std::int64_t points_for_usual = 200'000;  ///< for the computation of usual values
+constexpr std::int64_t points_for_usual = 200'000;  ///< points for the computation of usual values
 
 constexpr auto quantity_table = std::to_array<RunQuantityInfo>({
     {RunQuantity::speed, "speed", "Path speed", unit::mm_min, "mm_min"},
@@ -227,7 +227,7 @@ float jerk_of_steps(const ComparedRun& run, const Derivation& derivation) {
 }
 
 /// The shortest window [s] in which the steps of the positions of both runs have little effect on the jerk; 0: the usual one. A
-/// window hides vibrations that are shorter.
+/// window hides shorter vibrations.
 double shortest_jerk_window(const ComparedRun& a, const ComparedRun& b, float usual_jerk) {
     constexpr float little = 0.05F;
     constexpr double growth = 1.4;

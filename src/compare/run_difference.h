@@ -20,7 +20,7 @@ enum class RunQuantity : std::uint8_t {
     speed,         ///< path speed [mm/s]
     acceleration,  ///< its magnitude [mm/s²]
     lag,           ///< how far the measured position trails the commanded one along the feed [mm]
-    height,        ///< of B's path above that of A along the surface normal [mm]
+    height,        ///< height of B's path above A's path along the surface normal [mm]
     jerk,          ///< root mean square of its magnitude over 50 ms [mm/s³]: roughness of the motion
 };
 inline constexpr std::size_t run_quantities = 5;
@@ -45,14 +45,14 @@ struct ComparedRun {
 };
 
 struct RunThresholds {
-    float speed = 0.03F;         ///< of the speed at the place …
+    float speed = 0.03F;         ///< share of the speed at the place …
     float least_speed = 0.25F;   ///< … which counts as at least this share of the usual speed
     float period = 0.25F;        ///< plus the change of speed by the usual acceleration in this fraction of a period
-    float acceleration = 0.15F;  ///< of the usual acceleration
+    float acceleration = 0.15F;  ///< share of the usual acceleration
     float height = 0.0015F;      ///< [mm], for lags and heights …
     float lag_quanta = 1.5F;     ///< … and at least this many steps of the positions
     float height_quanta = 2.4F;
-    float jerk = 0.5F;         ///< of the jerk of the smoother run at the place …
+    float jerk = 0.5F;         ///< share of the jerk of the smoother run at the place …
     float usual_jerk = 0.05F;  ///< … plus this share of the usual jerk, and the effect of the steps of the positions
 };
 
@@ -61,7 +61,7 @@ struct RunDifferences {
     std::array<Column<float>, run_quantities>
         of;  ///< per point of A, inside units; NaN: not compared; empty: not known
     std::array<float, run_quantities>
-        threshold{};  ///< above which a place differs; of speed and jerk: at their usual values
+        threshold{};  ///< limits above which a place differs; for speed and jerk at their usual values
     RunThresholds rules;
     float usual_speed = 0;         ///< [mm/s] 95th percentile of A where it cuts
     float usual_acceleration = 0;  ///< [mm/s²] 99th percentile

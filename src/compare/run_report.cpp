@@ -8,12 +8,12 @@
 namespace clsurf {
 namespace {
 
-constexpr double joined_arc_length = 1.0;          ///< [mm] between two sections that are joined
+constexpr double joined_arc_length = 1.0;          ///< [mm] largest distance between joined sections
 constexpr double least_seconds = 0.005;            ///< least duration of a section …
 constexpr PointIndex least_points = 3;             ///< … and its least number of points
 constexpr double sampled_by_arc_length = 200'000;  ///< places along the path, for percentiles
-constexpr std::size_t most_kept = 1000;            ///< sections of a quantity
-constexpr double end_share = 0.1;                  ///< of the path, for the estimate of a drift
+constexpr std::size_t most_kept = 1000;            ///< number of kept sections of a quantity
+constexpr double end_share = 0.1;                  ///< share of the path for the estimate of a drift
 
 bool worse(const RunDifferenceSection& x, const RunDifferenceSection& y) { return x.score > y.score; }
 
@@ -76,7 +76,7 @@ public:
         return summary;
     }
 
-    /// Adds the worst sections to `report`. Returns the number of all.
+    /// Adds the worst sections to `report`. Returns the number of all sections.
     [[nodiscard]] PointIndex find_sections(RunQuantity q, RunReport& report) const {
         std::vector<RunDifferenceSection> found;
         PointIndex count = 0;
@@ -177,7 +177,7 @@ private:
             const double step = i < points.last ? arc_length_.step(i) : 0;
             d.length += step;
             if (!(value == value)) continue;
-            // A small weight for resting, so that a pause has a mean too.
+            // A small weight for resting, so that a pause also has a mean.
             const double weight = step + 1e-9;
             weights += weight;
             d.mean += weight * value;

@@ -15,7 +15,7 @@ namespace clsurf {
 struct RunDifferenceSection {
     RunQuantity quantity = RunQuantity::speed;
     PointRange points, points_of_b;
-    PointIndex point = 0;                         ///< of A, where the difference is largest
+    PointIndex point = 0;                         ///< point of A with the largest difference
     CutterPlace place;                            ///< of A there
     double peak = 0, mean = 0;                    ///< B − A, inside units; the mean by arc length
     double relative_peak = 0, relative_mean = 0;  ///< of a speed: relative to A's
