@@ -13,9 +13,9 @@
 namespace clsurf {
 namespace {
 
-constexpr double kept_promise = 0.05;  ///< of the run before, by which mismatch and defects may differ
+constexpr double kept_promise = 0.05;  ///< share of the run before by which mismatch and defects may differ
 constexpr double most_missing = 0.02;  ///< share of the program's motions that may be missing in a log
-constexpr double kept_time = 0.005;    ///< of the time
+constexpr double kept_time = 0.005;    ///< the same for the time
 
 bool keeps(const RunMeasures& before, const RunMeasures& promised, const RunMeasures& measured) {
     const double mismatch = std::abs(measured.mismatch - promised.mismatch) / std::max(before.mismatch, 1e-9),
@@ -94,7 +94,7 @@ private:
         return result;
     }
 
-    /// `reason`: why a run is not better than that of the program; empty: it is.
+    /// `reason`: why a run is not better than the run of the program; empty: it is.
     [[nodiscard]] double gain_over_program(const Comparison& runs, LineNumber lines, std::string& reason) const {
         const auto& [before, after, roughness] = runs;
         const double ratio = static_cast<double>(lines) / static_cast<double>(program_.main().line_count());
@@ -179,8 +179,8 @@ private:
         }
     }
 
-    /// Runs candidates until one meets the prediction of the simulation. Returns true if one did not, so that the machine can
-    /// be fitted again.
+    /// Runs candidates until one meets the prediction of the simulation. Returns true if a candidate did not, so that the
+    /// machine can be fitted again.
     bool try_finalists(const Optimized& found, Optimized& result) {
         for (const Finalist& finalist : found.finalists) {
             if (!has_runs()) return false;
@@ -212,8 +212,8 @@ private:
         return take(finalist, found, std::move(after), run, result);
     }
 
-    /// Accepts a candidate whose log is better than that of the program, and than those of the previous candidates. Returns why
-    /// it is not accepted.
+    /// Accepts a candidate whose log is better than the logs of the program and of the previous candidates. Returns why it is
+    /// not accepted.
     std::string take(const Finalist& finalist, const Optimized& found, JudgedRun after, ControllerRun& run,
                      Optimized& result) {
         Comparison runs = compare(after);

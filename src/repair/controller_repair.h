@@ -25,13 +25,13 @@ struct ControllerLog {
     std::string text;
     Log log;
 };
-/// Fits a machine to the logs so far; parameters that they do not determine are those of `known`.
+/// Fits a machine to the logs so far; parameters that they do not determine keep the values of `known`.
 using FitMachine = std::function<Machine(const std::vector<ControllerLog>& logs, const Machine& known)>;
 
 struct ControllerJudge {
     RunOnController run;  ///< nullptr: there is no controller; the simulation decides on the next candidate
     FitMachine fit;
-    int runs = 3;  ///< at most, including that of the program itself if it has no log
+    int runs = 3;  ///< largest number of runs, including the program's own if it has no log
 };
 
 /// A repaired program of an earlier round, and its run.

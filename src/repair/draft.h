@@ -20,7 +20,7 @@ using ReadProgram = std::function<Program(const std::string& text)>;
 /// Limits of the lines of a draft [mm].
 struct DraftLines {
     double chord_error = 0;    ///< largest distance of a line from the smooth curve
-    double shortest_line = 0;  ///< shorter lines only to keep the tolerance
+    double shortest_line = 0;  ///< shorter lines are used only to keep the tolerance
 };
 
 struct Draft {

@@ -74,7 +74,7 @@ Ensemble::Ensemble(const Program& program, std::vector<Machine> machines, const 
     : program_(program), machines_(std::move(machines)), rules_(rules), kinematics_(std::move(kinematics)) {}
 
 JudgedRun Ensemble::judged(const Program& program, const Machine& machine) const {
-    Diagnostics of_mapping;  // not reported: those of the nominal machine are
+    Diagnostics of_mapping;  // not reported, unlike the diagnostics of the nominal machine
     const std::shared_ptr<const Kinematics> kinematics =
         kinematics_ == nullptr ? nullptr : std::make_shared<const Kinematics>(machine.kinematics);
     return judge_run(simulate_to_log(program, machine, rules_.start, {}, rules_.zero).log, program, of_mapping,

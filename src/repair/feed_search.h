@@ -15,7 +15,7 @@ namespace clsurf {
 struct FeedReduction {
     static constexpr double usual_step = 0.7;
     TriedProposal from;             ///< the last one kept
-    double share = 0;               ///< of the available time, that the next round may use
+    double share = 0;               ///< share of the available time that the next round may use
     double step = usual_step;       ///< step of the speed around defects that is accepted, in thresholds
     std::vector<Vec3> abandoned{};  ///< [mm] places of defects that are no longer repaired
 };

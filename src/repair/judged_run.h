@@ -29,7 +29,7 @@ struct JudgedRun {
     double duration = 0;              ///< [s] from the first to the last motion
     double mismatch = 0;              ///< [mm/s] 95th percentile of the speed difference to the adjacent passes
     Column<float> speed_differences;  ///< [mm/s] per point, to the adjacent pass that differs most; NaN: there is none
-    double greatest_mismatch = 0;     ///< [mm/s] 99.9th percentile of it
+    double greatest_mismatch = 0;     ///< [mm/s] 99.9th percentile of the same difference
     std::optional<MotionQuality> motion{};  ///< if it was requested
 
     [[nodiscard]] GaugedRun gauged() const { return {log, path, *lines, surface, &report}; }

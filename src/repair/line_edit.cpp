@@ -17,7 +17,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double same_coordinate = 1e-7;  ///< [mm] between a word and the end of its motion
+constexpr double same_coordinate = 1e-7;  ///< [mm] tolerance between a word and the end of its motion
 constexpr double same_axis_angle = 1e-9;  ///< [rad]
 constexpr std::string_view letters = "XYZABC";
 constexpr std::size_t linear = 3, axes = 6;  ///< words: X, Y, Z and then A, B, C
@@ -116,7 +116,7 @@ struct Replaced {
           old(read_old(program.main(), first, last, straight_word)) {}
 
     [[nodiscard]] std::size_t count() const { return last - first + 1; }
-    /// The line number for new line k: that of old line k, and for the last one that of the last; empty: not all had one.
+    /// The line number for new line k: taken from old line k, or from the last one for the last; empty: not all had a number.
     [[nodiscard]] std::string number(std::size_t k, bool is_last) const {
         if (old.numbers.size() != count()) return {};
         if (is_last) return std::string(old.numbers.back());

@@ -36,7 +36,7 @@ struct PlainLine {
 /// The angles at the end of a new line.
 struct LineAngles {
     Vec3 programmed = Vec3::Zero();  ///< A, B, C [rad]
-    std::int64_t motion = -1;        ///< whose line has them, so that its words are copied; −1: none
+    std::int64_t motion = -1;        ///< old motion with these angles, so that its words are copied; −1: none
 };
 
 class LineEditor {
@@ -72,11 +72,11 @@ public:
     /// last, like the other replace(). Returns the number of its motions. Domain: may_be_spline(); weights of 1.
     std::size_t replace(std::int64_t first, std::int64_t last, const Nurbs& spline);
 
-    /// Sets feeds [mm/s], one entry per motion of the program, 0: unchanged. Only lines that may be rewritten get one, and the
-    /// blocks that replace() wrote for the spans of a spline; the program must then have been read back from text(). `spans`:
-    /// one entry per motion, not 0 if it may be such a span; empty: there is none. After them the programmed feed is restored:
-    /// on the next such line, on the G1 after a spline, else on a separate line. G06.2 has only one feed, in its first block:
-    /// the lowest of its spans. Use either this or replace(), not both.
+    /// Sets feeds [mm/s], one entry per motion of the program, 0: unchanged. Only lines that may be rewritten get a feed, and
+    /// so do the blocks that replace() wrote for the spans of a spline; the program must then have been read back from text().
+    /// `spans`: one entry per motion, not 0 if it may be such a span; empty: there is none. After them the programmed feed is
+    /// restored: on the next such line, on the G1 after a spline, else on a separate line. G06.2 has only one feed, in its
+    /// first block: the lowest of its spans. Use either this or replace(), not both.
     void set_feeds(const std::vector<float>& feeds, const std::vector<std::uint8_t>& spans = {});
 
     /// The new text, with a comment near its beginning (empty: none).

@@ -11,7 +11,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double growth_weight = 0.03;    ///< of a program's growth, relative to shares of mismatch and defects
+constexpr double growth_weight = 0.03;    ///< weight of a program's growth relative to shares of mismatch and defects
 constexpr double goal_of_mismatch = 0.5;  ///< remaining share, below which …
 constexpr double beyond_goal = 0.1;       ///< … less mismatch counts less
 

@@ -51,7 +51,7 @@ inline constexpr double least_gain = 0.02;
 [[nodiscard]] double objective(const RunMeasures& before, const RunMeasures& after, double line_ratio,
                                double more_time);
 
-/// The share by which the objective falls from that of the unchanged program; negative: it rises.
+/// The share by which the objective is lower than for the unchanged program; negative: it is higher.
 [[nodiscard]] double gain_of(const RunMeasures& before, const RunMeasures& after, double line_ratio, double more_time);
 
 /// "`what` is 1.3 %, less than 2 %"; empty: it is at least least_gain.

@@ -26,15 +26,15 @@ struct OptimizeRules {
     FeedChoice feeds = FeedChoice::searched;
     bool splines = false;       ///< sections are written as splines if the dialect has them; three axes
     double tolerance = 0.005;   ///< [mm] from the programmed path
-    double more_time = 0;       ///< as a share: how much longer the new program may take
+    double more_time = 0;       ///< permitted additional time of the new program, as a share
     int least_decimals = 0;     ///< of new coordinates; 0: as many as the program has
     Vec3 start = Vec3::Zero();  ///< [mm] where the axes stand before the program
     Vec3 zero = Vec3::Zero();   ///< [mm] machine position of its zero, on five axes
     DerivativeMethod derivative = DerivativeMethod::savgol;  ///< of the runs that are judged
-    std::optional<CuttingTool> tool;                         ///< whose surface must not get rougher; three axes
+    std::optional<CuttingTool> tool;                         ///< tool whose surface must not get rougher; three axes
     int machines = 4;                ///< of the ensemble that must be better; 0: the nominal machine alone decides
     bool keeps_front = false;        ///< all candidates that pass are compared by time, mismatch and jerk
-    std::optional<double> weight{};  ///< selects one of these (tradeoff/front.h); nullopt: the objective selects
+    std::optional<double> weight{};  ///< selects one of them (tradeoff/front.h); nullopt: the objective selects
     bool all_finalists = false;      ///< lists all, instead of only the best that the ensemble accepts
     ProgramIdentity identity = ProgramIdentity::unknown;  ///< of the program that a recorded run ran
     std::string header;                                   ///< text of the comment that states the origin of the program

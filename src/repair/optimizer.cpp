@@ -20,25 +20,25 @@ namespace clsurf {
 namespace {
 
 constexpr std::array<double, 3> shares_of_tolerance{0.2, 0.1, 0.4};  ///< distance of lines from the curve
-constexpr double reserve = 1.1;                       ///< of the arc length in a block time or in periods
-constexpr double periods_a_line = 2;                  ///< of the trapezoidal planner
+constexpr double reserve = 1.1;                       ///< factor for the arc length in a block time or in periods
+constexpr double periods_a_line = 2;                  ///< periods per line with the trapezoidal planner
 constexpr RepairMaskRules worst_alone{0.5, 2, 2};     ///< a draft that changes less
 constexpr RepairMaskRules slow_as_well{.slow = 0.9};  ///< a draft that saves time
-constexpr std::size_t most_mixed = 2;                 ///< drafts of which regions are reset …
+constexpr std::size_t most_mixed = 2;                 ///< drafts whose regions are reset …
 constexpr int mixing_rounds = 3;                      ///< … so many times …
 constexpr int most_mixing_rounds = 6;                 ///< … or more, while the run is refused
-constexpr std::size_t most_sections_alone = 24;       ///< that are tried one by one if nothing else is accepted
-constexpr double share_of_drafts = 0.35;              ///< of all runs, for points alone; the others are for feeds
+constexpr std::size_t most_sections_alone = 24;       ///< sections that are tried alone if nothing else is accepted
+constexpr double share_of_drafts = 0.35;              ///< share of all runs for points alone; the others are for feeds
 constexpr double most_time_to_regain = 0.01;          ///< as a share, by motions that get their old points back
 constexpr std::size_t most_fed = 5;                   ///< drafts for which feeds are searched
-constexpr std::size_t most_equalised_early = 2;       ///< of them
+constexpr std::size_t most_equalised_early = 2;       ///< drafts of these that are equalised early
 constexpr double most_behind = 0.2;   ///< by score, after the first rounds: drafts farther behind the best are dropped
-constexpr double small_share = 0.3;   ///< of the time, for a reduction that begins with inexpensive defects …
+constexpr double small_share = 0.3;   ///< share of the time for a reduction that begins with inexpensive defects …
 constexpr double large_share = 0.65;  ///< … and for one that uses as much as it can
 constexpr int first_rounds = 2, more_rounds = 8;
 constexpr std::size_t most_listed = 8;                    ///< accepted finalists, if all are listed
-constexpr std::array<double, 2> other_steps{0.85, 0.55};  ///< with which feed reductions are also tried …
-constexpr std::size_t most_drafts_of_other_steps = 2;     ///< … for so many drafts
+constexpr std::array<double, 2> other_steps{0.85, 0.55};  ///< other steps for feed reductions …
+constexpr std::size_t most_drafts_of_other_steps = 2;     ///< … for at most this many drafts
 /// Steps for the best proposal, one after the other …
 constexpr std::array<double, 4> polishing_steps{FeedReduction::usual_step, 0.85, 0.55, 0.4};
 constexpr double least_polished = 1e-3;  ///< … repeated while the score falls by this much
@@ -362,7 +362,7 @@ private:
         return draft.run.duration > evaluator_.before().duration * (1 + rules_.more_time + most_time_to_regain);
     }
 
-    /// Sorts by score, but with the best accepted one first, and those that are late last, because the score ignores that.
+    /// Sorts by score, but puts the best accepted one first and the late ones last, because the score ignores delays.
     void sort(std::vector<TriedProposal>& drafts) const {
         std::stable_sort(drafts.begin(), drafts.end(), [&](const TriedProposal& a, const TriedProposal& b) {
             return is_late(*a) != is_late(*b) ? is_late(*b) : evaluator_.score(*a) < evaluator_.score(*b);

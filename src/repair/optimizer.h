@@ -44,9 +44,9 @@ struct Optimized {
     Evaluation evaluation;   ///< by simulation, also where a recorded run was given
     bool five_axes = false;  ///< the program was run on them
     std::optional<Measured> measured;
-    std::string text;  ///< of the new program; of the best proposal if none was accepted
+    std::string text;  ///< text of the new program, or of the best proposal if none was accepted
     JudgedRun before, after;
-    /// Of both runs, at the same places; nullopt: the tool is not known, or the program was run on five axes.
+    /// Roughness of both runs at the same places; nullopt: the tool is not known, or the program was run on five axes.
     std::optional<PartRoughness> roughness_before, roughness_after;
     SimulationSummary run_before, run_after;
     std::string machine;               ///< origin of its values: a file, or the log to which they were fitted
@@ -58,7 +58,7 @@ struct Optimized {
     /// one with this text.
     TradeoffFront front;
     std::vector<ControllerRun> controller_runs;
-    bool on_controller = false;  ///< runs on it decided; false: the simulation did
+    bool on_controller = false;  ///< runs on the controller decided; false: the simulation decided
 };
 
 /// Simulates the program, makes proposals, simulates and judges them. With a recorded run `measured` of the program, only

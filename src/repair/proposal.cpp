@@ -14,13 +14,13 @@ namespace clsurf {
 namespace {
 
 constexpr double interval_width =
-    0.005;  ///< of the speeds in a constant-speed interval: adjacent passes may differ by as much
+    0.005;  ///< share of the speeds in a constant-speed interval: adjacent passes may differ by as much
 constexpr double most_run_points = 16e6;            ///< of all runs together; then the search ends …
 constexpr double large_run = 1e6;                   ///< … or less, down to a share, if a run has so many points …
 constexpr double share_of_large = 0.25;             ///< … this share
 constexpr int most_in_vain = 192;                   ///< consecutive proposals without an improvement
 constexpr std::size_t most_finalists = 16;          ///< of each kind …
-constexpr double most_finalist_points = 4e6;        ///< … or as many as have so many points together …
+constexpr double most_finalist_points = 4e6;        ///< … or as many as have this number of points together …
 constexpr std::size_t most_finalists_of_large = 1;  ///< … and if runs are large, no more than this
 /// Share of the time that feeds leave unused for the other machines. For candidates that use all of the time, the mean of the
 /// machines is up to 0.03 % longer than before.
@@ -40,7 +40,7 @@ std::string no_splines(SplineForm form) {
                : "no section can be written as a spline with fewer blocks than its lines";
 }
 
-/// Whether two proposals are variants of one program, which other machines would run alike, too.
+/// Whether two proposals are variants of one program, which other machines would also run alike.
 bool runs_alike(const Proposal& a, const Proposal& b) {
     return a.evaluation.lines_after == b.evaluation.lines_after && a.run.duration == b.run.duration &&
            a.run.mismatch == b.run.mismatch && a.evaluation.defects_after == b.evaluation.defects_after;
@@ -224,7 +224,7 @@ std::vector<TriedProposal> Evaluator::finalists() const {
 
 bool Evaluator::better(const Proposal& a, const Proposal& b) const {
     if (a.evaluation.accepted != b.evaluation.accepted) return a.evaluation.accepted;
-    // A proposal without splines would be refused for that reason, which says nothing about those that have some.
+    // A proposal without splines would be refused for that reason, which says nothing about proposals with splines.
     const bool has = a.evaluation.splines > 0, other_has = b.evaluation.splines > 0;
     if (rules_.splines && has != other_has) return has;
     return score(a) < score(b);

@@ -23,9 +23,9 @@ struct Evaluation {
     std::string reason;  ///< why it was not accepted, or empty
     Deviation deviation;
     std::size_t intervals = 0;  ///< number of changed sections
-    std::size_t splines = 0;    ///< of them, written as splines
+    std::size_t splines = 0;    ///< number of them that are written as splines
     LineNumber lines_before = 0, lines_after = 0;
-    std::size_t changed_lines = 0;  ///< of the old program
+    std::size_t changed_lines = 0;  ///< number of changed lines of the old program
     std::size_t defects_before = 0, defects_after = 0;
 };
 
@@ -63,11 +63,11 @@ public:
     /// nullptr: the program is not run on five axes.
     [[nodiscard]] const Orientation* orientation() const { return orientation_.get(); }
     [[nodiscard]] const std::shared_ptr<const Kinematics>& kinematics() const { return kinematics_; }
-    /// Whether one more proposal may be tried (always for the first one). The total number of simulated points is limited, of
-    /// which a share may be used, and so is the number of consecutive proposals without improvement.
+    /// Whether one more proposal may be tried (always for the first one). The total number of simulated points is limited, and
+    /// a share of it may be used now. The number of consecutive proposals without improvement is also limited.
     [[nodiscard]] bool has_time(double share = 1) const;
 
-    /// `targets`: as those of a Proposal, or empty.
+    /// `targets`: as in a Proposal, or empty.
     TriedProposal propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
     [[nodiscard]] const TriedProposal& best() const { return best_; }
     /// The accepted proposals with the lowest scores, the lowest first; those that measure_roughness() refused come last. Few
@@ -87,8 +87,8 @@ public:
     /// nullopt: it is not measured.
     [[nodiscard]] const std::optional<PartRoughness>& roughness_before() const { return roughness_before_; }
 
-    /// Accepted proposals are better than others; if splines are requested, those that have some; then the one with less
-    /// remaining mismatch and fewer defects; of two nearly equal ones the shorter.
+    /// Accepted proposals are better than others; then, if splines are requested, proposals with splines; then the one with
+    /// less remaining mismatch and fewer defects; of two nearly equal ones the shorter.
     [[nodiscard]] bool better(const Proposal& a, const Proposal& b) const;
 
     /// Reports the present step as progress. Thread-safe.
@@ -136,7 +136,7 @@ private:
     std::optional<PartRoughness> roughness_before_;
     TriedProposal best_;
     std::vector<TriedProposal> with_feeds_, without_feeds_;  ///< finalists
-    std::vector<TriedProposal> preferred_;                   ///< selected by a weight, instead of those
+    std::vector<TriedProposal> preferred_;                   ///< finalists selected by a weight, used instead of these
     std::vector<Candidate> candidates_;                      ///< all, with OptimizeRules::keeps_front
     double more_time_ = 0;                                   ///< a share
     double points_ = 0;                                      ///< simulated so far

@@ -25,10 +25,10 @@ struct CellSum {
 using CellSums = std::vector<CellSum>;  ///< one per run
 
 constexpr double least_loss = 1e-4;    ///< as a share of the total: smaller losses do not count
-constexpr double counted_from = 0.5;   ///< of the mismatch of the first run: smaller differences do not count
-constexpr int most_prices = 24;        ///< of time, each twice the previous one …
+constexpr double counted_from = 0.5;   ///< share of the mismatch of the first run: smaller differences do not count
+constexpr int most_prices = 24;        ///< prices of time, each twice the previous one …
 constexpr int price_steps = 24;        ///< … and number of halvings between the last two
-constexpr double lowest_price = 1e-3;  ///< of all the time of the first run, relative to all its defects
+constexpr double lowest_price = 1e-3;  ///< price of the whole time of the first run, relative to all its defects
 
 /// The limit above which a difference of speed counts, and the total of a run above it [mm/s].
 struct Mismatch {

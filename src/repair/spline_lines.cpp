@@ -12,7 +12,7 @@ namespace {
 
 constexpr int degree = 3;
 constexpr int knot_decimals = 3;   ///< section_spline() has knots on these steps
-constexpr int finer_decimals = 3;  ///< more than for coordinates: of directions and coefficients, for smooth joints
+constexpr int finer_decimals = 3;  ///< additional decimals of directions and coefficients, for smooth joints
 
 std::string point(const Vec3& p, const SplineWords& w) {
     std::string text;

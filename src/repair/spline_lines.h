@@ -32,11 +32,11 @@ struct SplineWords {
 /// Number of blocks of spline_lines(). O(1).
 [[nodiscard]] std::size_t blocks_of_spline(const Nurbs& spline, SplineForm form);
 
-/// Number of blocks of a section before that of its first span (docs/formats/programs.md): the points that only define its
-/// shape.
+/// Number of blocks of a section before the block of its first span (docs/formats/programs.md): the points that only define
+/// its shape.
 [[nodiscard]] std::size_t blocks_before_spans(SplineForm form);
-/// Number of blocks of a section after that of its last span: the last knots, and the one that restores the mode of lines,
-/// which is the last; 0: there is none.
+/// Number of blocks of a section after the block of its last span: the last knots, and finally the block that restores the
+/// mode of lines; 0: there is none.
 [[nodiscard]] std::size_t blocks_behind_spans(SplineForm form);
 
 }  // namespace clsurf

@@ -10,8 +10,8 @@
 namespace clsurf {
 namespace {
 
-constexpr int halvings = 10;                          ///< for the search of a step
-constexpr LineNumber most_lines_between_points = 50;  ///< that may be traversed between two points
+constexpr int halvings = 10;                          ///< number of halvings in the search for a step
+constexpr LineNumber most_lines_between_points = 50;  ///< most lines that may be traversed between two points
 
 /// Lowers speeds pass by pass.
 class Sweep {

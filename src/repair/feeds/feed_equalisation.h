@@ -65,7 +65,7 @@ private:
     const JudgedRun& run_;
     std::vector<float> own_;
     std::vector<Beside> beside_;                           ///< one entry per point
-    std::vector<std::vector<std::size_t>> passes_beside_;  ///< per pass, those adjacent to its points
+    std::vector<std::vector<std::size_t>> passes_beside_;  ///< per pass, the passes adjacent to its points
 };
 
 /// The maximum of the values over the points of each motion of the program; NaN: it has no point with a value. A motion between

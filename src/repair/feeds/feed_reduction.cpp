@@ -13,9 +13,9 @@
 namespace clsurf {
 namespace {
 
-constexpr double equalised_reach = 1;  ///< [mm] of arc length before and after a defect that is equalised with it
-constexpr double lag_aim = 0.95;       ///< of the threshold, to which a lag step is reduced
-constexpr double slowest = 0.6;        ///< of its speed: a place is slowed to no less for that
+constexpr double equalised_reach = 1;  ///< [mm] arc length before and after a defect that is equalised with it
+constexpr double lag_aim = 0.95;       ///< share of the threshold to which a lag step is reduced
+constexpr double slowest = 0.6;        ///< least share of its speed to which a place is slowed for this
 constexpr double most_equalised =
     2;  ///< times the cost of slowing alone: limit of the cost of a lag step with equalisation
 
@@ -163,7 +163,7 @@ private:
         }
     }
 
-    /// The difference of the lag to that of the adjacent pass that differs most [mm].
+    /// The difference of the lag from the lag of the adjacent pass that differs most [mm].
     [[nodiscard]] double lag_step(PointIndex i) const {
         double most = 0;
         for (const Side side : {Side::left, Side::right}) {

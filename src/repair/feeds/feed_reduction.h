@@ -11,7 +11,7 @@ namespace clsurf {
 
 struct FeedReductionRules {
     double step = 0.02;    ///< as a share: how much faster than the adjacent pass a place in or next to a defect may be
-    double budget = 0;     ///< [s] that may be lost
+    double budget = 0;     ///< [s] time that may be lost
     double lag_power = 0;  ///< exponent of the speed with which lag steps grow
     Ramp ramp{};           ///< of the machine
     std::vector<Vec3> abandoned{};  ///< [mm] places of defects that are no longer repaired

@@ -7,7 +7,7 @@
 namespace clsurf {
 namespace {
 
-constexpr float speed_rounding = 0.001F;  ///< of a speed: peaks are not lowered by less
+constexpr float speed_rounding = 0.001F;  ///< share of a speed: peaks are not lowered by less
 
 class RampKeeper {
 public:
@@ -83,7 +83,7 @@ private:
     static std::vector<float> lowered_by_parabolas(const std::vector<float>& values, float bend) {
         struct Lowest {
             std::size_t apex = 0;
-            double from = 0;  ///< where its section begins
+            double from = 0;  ///< beginning of its section
         };
         std::vector<Lowest> lowest;
         for (std::size_t i = 0; i < values.size(); ++i) {

@@ -20,17 +20,18 @@ struct Phases {
 [[nodiscard]] Phases run_phases(const ProgrammedSurface& programmed, double spacing);
 
 inline constexpr double nearest_aligned_point =
-    0.35;  ///< of a line: aligned points nearer to a fixed point are omitted
+    0.35;  ///< share of a line: aligned points nearer to a fixed point are omitted
 
 /// An aligned point on a section of a pass.
 struct AlignedPoint {
-    double arc_length = 0;    ///< [mm] from where the section begins
+    double arc_length = 0;    ///< [mm] from the beginning of the section
     std::int64_t number = 0;  ///< its phase in quarters
     double part = 0;          ///< [mm] of arc length per quarter
 };
 
 /// Aligned points between two points of the surface, from a margin after the first one to a margin before the last one, which
-/// is `length` [mm] of arc length away. Where passes diverge, halves and quarters of a phase are aligned points too. O(points).
+/// is `length` [mm] of arc length away. Where passes diverge, halves and quarters of a phase are also aligned points.
+/// O(points).
 [[nodiscard]] std::vector<AlignedPoint> aligned_points_between(const ProgrammedSurface& programmed,
                                                                const Phases& phases, PointIndex first, PointIndex last,
                                                                double length);

@@ -14,13 +14,13 @@ constexpr double window = 1.0;       ///< [mm] of arc length to both sides of th
 constexpr double same_place = 1e-9;  ///< [mm]
 constexpr double most_pieces = 1e6;  ///< of one motion
 constexpr double turn_step = rad_per_deg;
-constexpr double most_wound = 90 * rad_per_deg;  ///< of a rotary axis, for the same direction of the tool
+constexpr double most_wound = 90 * rad_per_deg;  ///< most that a rotary axis turns for the same tool direction
 
 /// The distance of a place from another path.
 struct Apart {
     double distance = std::numeric_limits<double>::infinity();  ///< [mm]
     double turned = 0;                                          ///< [rad] the tool axis there
-    double wound = 0;                                           ///< [rad] of the rotary axis that differs most there
+    double wound = 0;  ///< [rad] difference of the rotary axis that differs most there
 };
 
 /// A place to be compared with another path.
@@ -56,7 +56,8 @@ public:
                 if (inside != projection.fraction)
                     projection = {(path_.at(m, inside) - sample.position).norm(), inside};
             }
-            // Of two equally near projections the later one, so that the walk does not move back on a path that reverses.
+            // Of two equally near projections the later one counts, so that the walk does not move back on a path that
+            // reverses.
             if (projection.distance <= apart.distance + same_place) {
                 if (orientation_ != nullptr) compare_axes(sample, m, projection, apart);
                 apart.distance = std::min(apart.distance, projection.distance);

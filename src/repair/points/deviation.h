@@ -18,7 +18,7 @@ struct Deviation {
 
     double greatest = 0;           ///< [mm]
     LineOfEither line;             ///< of the program that is farthest from the other there
-    Vec3 position = Vec3::Zero();  ///< [mm] there
+    Vec3 position = Vec3::Zero();  ///< [mm] place of the largest distance
     double turned = 0;             ///< [rad] greatest angle between the tool axes
     LineOfEither turned_line;      ///< there
     /// The line of the second program with the first rapid, dwell, arc or rotation in place that differs between both, or with

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t reach_of_bends = 5;  ///< aligned points to both sides whose bends determine the length of a line
 constexpr double most_doublings = 6;       ///< of a part
-constexpr double short_share = 0.5;        ///< of both adjacent lines: shorter lines are dropped
+constexpr double short_share = 0.5;        ///< share of both adjacent lines: shorter lines are dropped
 
 class NewLines {
 public:
@@ -62,7 +62,7 @@ private:
     /// Of two aligned points closer to each other than the shortest line, drops the one with fewer trailing zero bits in its
     /// number.
     void drop_close(std::vector<std::uint8_t>& kept) const {
-        std::size_t before = 0;  // last kept one
+        std::size_t before = 0;  // last kept point
         for (std::size_t k = 1; k + 1 < kept.size(); ++k) {
             if (kept[k] == 0) continue;
             if (before > 0 && curve_.arc_length[k] - curve_.arc_length[before] < rules_.shortest_line) {

@@ -10,8 +10,8 @@ namespace clsurf {
 
 struct OldSegment {
     std::vector<Vec3> points;          ///< [mm] ends of lines; the first is the beginning of the section
-    std::vector<double> arc_length;    ///< [mm] to each
-    std::vector<std::int64_t> motion;  ///< that ends at each
+    std::vector<double> arc_length;    ///< [mm] arc length to each point
+    std::vector<std::int64_t> motion;  ///< motion that ends at each point
 
     [[nodiscard]] double length() const { return arc_length.back(); }
     /// The position on the lines at an arc length [mm]; before and after them, their start and end.

@@ -6,7 +6,7 @@ namespace clsurf {
 namespace {
 
 constexpr double least_from_pole = 2 * rad_per_deg;
-constexpr double most_by_a_line = 30 * rad_per_deg;  ///< larger turns are no finishing, or wind up an axis
+constexpr double most_by_a_line = 30 * rad_per_deg;  ///< larger turns do not belong to finishing, or wind up an axis
 constexpr double same_angle = 1e-9;                  ///< [rad] as programmed
 constexpr int judged_places = 8;                     ///< of a line
 

@@ -17,7 +17,7 @@ namespace clsurf {
 struct ResampleRules {
     double tolerance = 0.005;    ///< [mm] largest distance from the programmed path, rounding included
     double spacing = 0;          ///< [mm] of arc length between points where the path bends most; 0: fitting_spacing()
-    double chord_error = 0.001;  ///< [mm] of lines to the curve; where it bends less, lines are 2, 4 or 8 spacings long
+    double chord_error = 0.001;  ///< [mm] from lines to curve; where it bends less, lines are 2, 4 or 8 spacings long
     double shortest_line =
         0;  ///< [mm] for the selection of aligned points: a controller slows down for blocks that it cannot read in time
     double corner_angle = 0.5;  ///< [rad] points where the path turns by more are not moved
@@ -31,7 +31,7 @@ struct ResampledSegment {
     std::int64_t first = 0, last = 0;
     std::vector<Vec3> points;          ///< [mm]
     std::vector<LineAngles> angles{};  ///< one per point; none in programs without rotary axes
-    std::optional<Nurbs> spline{};     ///< that needs fewer blocks than the old lines; nullopt: lines to the points
+    std::optional<Nurbs> spline{};  ///< spline that needs fewer blocks than the old lines; nullopt: lines to the points
 };
 
 /// The spacing of lines where the path bends most [mm]: for a chord error at the 98th percentile of curvature, between

@@ -14,7 +14,7 @@ namespace {
 constexpr int degree = 3;
 constexpr std::size_t width = 3;             ///< diagonals on each side of the normal matrix
 constexpr double samples_a_spacing = 4;      ///< at least; a span is no shorter than a spacing
-constexpr double spacings_a_span = 64;       ///< initially, before spans are halved
+constexpr double spacings_a_span = 64;       ///< spacings per span before spans are halved
 constexpr std::size_t samples_at_least = 8;  ///< of a section
 constexpr double most_samples = 1e6;
 /// Times the chord error: largest distance of a spline from the smooth curve. With one chord error, it would copy the scatter

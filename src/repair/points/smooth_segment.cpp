@@ -8,8 +8,8 @@
 namespace clsurf {
 namespace {
 
-constexpr double knot_share = 0.6;     ///< of the usual spacing: closer points are no knots of the initial curve
-constexpr double knot_distance = 0.5;  ///< of the spacing: least distance between knots of the curve
+constexpr double knot_share = 0.6;     ///< share of the usual spacing: closer points are not knots of the initial curve
+constexpr double knot_distance = 0.5;  ///< share of the spacing: least distance between knots of the curve
 
 /// A place on spans whose knots are at given arc lengths, by linear interpolation of the parameter.
 Vec3 at_arc_length(const std::vector<CubicSpan>& spans, const std::vector<double>& arc_lengths, double arc_length) {
@@ -82,7 +82,7 @@ SmoothCurve::SmoothCurve(const OldSegment& old, const std::vector<AlignedPoint>&
                                                   : old.points.back());
     }
     std::vector<double> radii(arc_length_.size(), rules.radius);
-    // The ends keep their direction too.
+    // The ends also keep their direction.
     for (const std::size_t k : {std::size_t{0}, std::size_t{1}, arc_length_.size() - 2, arc_length_.size() - 1})
         radii[k] = 0;
     spans_ = akima_spans(smoothest_in_tube(places, arc_length_, radii, start));

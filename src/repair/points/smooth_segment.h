@@ -13,7 +13,7 @@ namespace clsurf {
 /// The curve at all aligned points of a section, with its ends as first and last point.
 struct SmoothSegment {
     std::vector<double> arc_length;  ///< [mm] along the old lines
-    std::vector<Vec3> places;        ///< [mm] there on the old lines
+    std::vector<Vec3> places;        ///< [mm] places on the old lines at these arc lengths
     std::vector<Vec3> points;        ///< [mm] on the curve; the ends are the old ones
 };
 

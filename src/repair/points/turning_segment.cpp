@@ -7,7 +7,7 @@ namespace {
 
 /// Millimetres per radian in `drawn_`: the tube for angles is then about as wide as that for points.
 constexpr double lever = 30;
-constexpr double tube_share = 0.5;  ///< of the tolerance of the axis; the other half is for chords
+constexpr double tube_share = 0.5;  ///< share of the tolerance of the axis; the other half is for chords
 
 LineRules drawn_rules(const LineRules& rules) {
     LineRules drawn = rules;
