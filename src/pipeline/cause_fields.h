@@ -1,5 +1,5 @@
 #pragma once
-// The field `cause`: the cause of a defect, as `check` finds it, at the points of the passes at fault.
+// The field `cause`: the cause of a defect, as `check` finds it, at the points of the passes that cause it.
 
 #include "field/field_provider.h"
 #include "pipeline/part.h"

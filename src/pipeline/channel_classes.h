@@ -1,5 +1,5 @@
 #pragma once
-// The meaning of values of channels whose values are classes.
+// The meaning of the values of channels that contain classes.
 
 #include <vector>
 

@@ -25,7 +25,7 @@ PartContacts::PartContacts(const Log& log, const Trajectory& path, const LineMap
     std::optional<ToolAxes> axes;  // for a tool with changing axis
     if (!path.axis_known || (!path.kinematics && find_rotary_motion(log, path.role))) return;
     if (tilts(log, path)) {
-        // On tilted planes the axis is constant, and the surface of the tips is that of the centres, shifted.
+        // On tilted planes the axis is constant, and the surface of the tips is the shifted surface of the centres.
         if (tool.kind == ToolKind::ball && path.stated_axes == nullptr) {
             upright_path_ = upright_ball(log, path, tool.radius);
             upright_surface_ = stitch(gather(*upright_path_), lines);

@@ -24,7 +24,7 @@ FieldInfo feed_share_info() {
         "feed_share", "Path speed as a share of the programmed feed", unit::percent, FieldScale::sequential, {}};
     info.preference = FieldPreference::higher;
     info.usual_range = ValueRange{0, 1};
-    // Excess from overshoot and noise of positions is no higher speed.
+    // An excess from overshoot or noise of positions does not count as a higher speed.
     info.slack = 0.05;
     info.report_rank = 1;
     return info;

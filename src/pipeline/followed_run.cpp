@@ -11,7 +11,7 @@
 namespace clsurf {
 namespace {
 
-constexpr std::int64_t most_edge_passes = 6;  ///< at the start of a window, whose neighbours it no longer has
+constexpr std::int64_t most_edge_passes = 6;  ///< passes at the start of a window without their earlier neighbours
 
 PartRules without_refusal(PartRules rules) {
     rules.accept_foreign = true;

@@ -3,7 +3,7 @@
 // detector for complete logs (pipeline/judge.h). Each defect is reported once, when it is settled (settled_defect.h).
 //
 // These findings are provisional: the thresholds of a window are those of its passes, not of the whole run, and later
-// passes may be adjacent to passes that the window no longer has. The complete log gives the verdict; resolve() compares
+// passes may be adjacent to passes that have left the window. The complete log gives the verdict; resolve() compares
 // both.
 
 #include <cstdint>
@@ -19,10 +19,10 @@ struct FollowRules {
     PartRules part;
     std::optional<Role> measured;  ///< positions from which heights are measured
     QualityRules quality;
-    std::int64_t passes = 18;     ///< that are kept as neighbours of later passes …
-    PointIndex points = 100'000;  ///< … fewer if these have more points
+    std::int64_t passes = 18;     ///< number of passes kept as neighbours of later passes …
+    PointIndex points = 100'000;  ///< … or fewer if these have more points than this
     std::int64_t least_passes = 10;
-    PointIndex most_points = 400'000;  ///< that are kept in any case
+    PointIndex most_points = 400'000;  ///< largest number of points kept in any case
 };
 
 /// A defect that was found while the log was being written. Points and passes are counted from the start of the log.
@@ -35,7 +35,7 @@ struct ProvisionalDefect {
 
 /// The result of the complete log for the provisional findings.
 struct ResolvedFindings {
-    std::vector<std::vector<std::size_t>> defects;  ///< of each finding: indices of the report's defects at its place
+    std::vector<std::vector<std::size_t>> defects;  ///< for each finding: indices of the report's defects at its place
     std::vector<std::size_t> late;                  ///< indices of the report's defects without a finding
 
     [[nodiscard]] std::size_t withdrawn() const;  ///< number of findings without a defect in the complete log
@@ -79,7 +79,7 @@ private:
     PointIndex kept_from_ = 0;
     std::int64_t findings_ = 0;
     std::int64_t systematic_ = 0;    ///< number of the finding that is a systematic lag; 0: none
-    std::vector<Section> sections_;  ///< of findings within the window …
+    std::vector<Section> sections_;  ///< sections of findings within the window …
     std::vector<Section> left_;      ///< … and before it
 };
 

@@ -31,7 +31,7 @@ struct Quality {
 /// Adds a warning `quality.not-judged` for each reason in a report.
 void note_reasons(const QualityReport& report, const Part& part, Diagnostics& diagnostics);
 
-/// The complete quality, at contact points if the tool is known. `surface` is that of the part; `measured`: the positions
+/// The complete quality, at contact points if the tool is known. `surface` is the part's surface; `measured`: the positions
 /// from which heights are measured (pipeline/roles.h). `with_motion`: requests Quality::motion. O(points), parallel; the
 /// as-machined surface is the most expensive part.
 [[nodiscard]] Quality judge(const Part& part, const ClSurface& surface, std::optional<Role> measured = std::nullopt,

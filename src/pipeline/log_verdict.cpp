@@ -15,7 +15,7 @@ LogVerdict log_verdict(const Log& log, const Diagnostics& diagnostics, const std
     if (warnings > 0) return {false, fmt::format("usable with care: {}, see below", counted(warnings, "warning"))};
     std::string text = "OK: ";
     if (!program.empty() && diagnostics.count("map.distance") > 0) {
-        // If it covered only a part of the program, or belonged to another one, there would be a warning.
+        // If the log covered only a part of the program, or belonged to another program, there would be a warning.
         text += fmt::format("a run of {}{}, all of it, ", identity == ProgramIdentity::same ? "the unmodified " : "",
                             program);
     } else if (!program.empty()) {

@@ -14,7 +14,8 @@ struct LogVerdict {
     std::string text;  ///< "OK: a run of part.nc, all of it, a record every 1 ms, no gaps"
 };
 
-/// From the diagnostics of check_health() and, if the log was compared with a program (`map.distance`), of match_log().
+/// The verdict from the diagnostics of check_health() and, if the log was compared with a program (`map.distance`), of
+/// match_log().
 /// `program`: its name; empty: none was given.
 [[nodiscard]] LogVerdict log_verdict(const Log& log, const Diagnostics& diagnostics, const std::string& program,
                                      ProgramIdentity identity);

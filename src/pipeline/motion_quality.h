@@ -23,7 +23,7 @@ struct MotionQuality {
     double jerk_rms = missing<double>;      ///< [mm/s³]
 };
 
-/// [s] from the first to the last motion: a recording may begin before it and end after it.
+/// [s] from the first to the last motion: a recording may begin earlier and end later.
 [[nodiscard]] double time_in_motion(const ClSurface& surface, double period);
 
 /// `speed_differences` [mm/s]: one value per point (predictor/quality_fields.h). `estimate`: gives the jerk; nullptr: least
@@ -32,7 +32,7 @@ struct MotionQuality {
                                            const Column<float>& speed_differences,
                                            std::shared_ptr<const MotionEstimate> estimate = nullptr);
 
-/// The distributions behind percentiles and rms values, for a part of the points; those of all parts can be added.
+/// The distributions behind percentiles and rms values, for a part of the points; the distributions of all parts can be added.
 struct MotionSizes {
     Distribution mismatch;  ///< [mm/s]
     Distribution jerk;      ///< [mm/s³]

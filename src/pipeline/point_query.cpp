@@ -41,7 +41,7 @@ std::optional<std::int64_t> pass_at(const Passes& passes, PointIndex point) {
     return std::nullopt;
 }
 
-/// The points around one that have the same line, or the same kind.
+/// The points around a point that have the same line, or the same kind of motion.
 template <typename Same>
 PointRange spread(PointIndex point, PointIndex count, PointIndex reach, Same&& same) {
     PointRange range{point, point};

@@ -54,7 +54,7 @@ public:
     /// The nearest point of each of the nearest passes, or of each of the nearest lines if there is only one pass. Uses
     /// contact points if the tool is known and WantedPlace::of_tip is not set. Needs the surface.
     [[nodiscard]] std::vector<FoundPlace> find_nearest(const WantedPlace& wanted) const;
-    /// Whether places on the part are contact points and therefore differ from those of the tool tip.
+    /// Whether places on the part are contact points and therefore differ from the places of the tool tip.
     [[nodiscard]] bool knows_contacts() const { return contacts_ && contacts_->known(); }
     /// Whether a place is off the part, from its distance [mm] to the nearest point found. Needs the surface.
     [[nodiscard]] bool is_off_the_part(double distance) const;

@@ -21,8 +21,8 @@ inline constexpr std::array all_roles{Role::commanded, Role::feedback, Role::act
 [[nodiscard]] Role mapping_role(const Log& log, Role shown);
 
 /// The positions from which heights are measured while `path` is compared: `wanted`, else the first one of actual and
-/// feedback that can be transformed into the workpiece like `path`. nullopt: the positions of `path` itself, because it is
-/// not the commanded one or is wanted.
+/// feedback that can be transformed into the workpiece like `path`. nullopt: the positions of `path` itself, because they are
+/// not commanded or are the wanted ones.
 [[nodiscard]] std::optional<Role> measured_role(const Log& log, const Trajectory& path,
                                                 std::optional<Role> wanted = std::nullopt);
 

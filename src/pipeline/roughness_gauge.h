@@ -1,6 +1,5 @@
 #pragma once
-// RoughnessGauge: the roughness of runs of a part, measured at the same places and relative to the same form, which are
-// those of the first run.
+// RoughnessGauge: the roughness of runs of a part, measured at the places of the first run and relative to its form.
 
 #include <memory>
 #include <optional>
@@ -25,7 +24,7 @@ struct GaugedRun {
 struct RoughnessChange {
     PartRoughness before, after;
 
-    /// Whether both are known at some place.
+    /// Whether both values are known at some place.
     [[nodiscard]] bool is_known() const { return !before.patches.empty() && !after.patches.empty(); }
 };
 
@@ -63,7 +62,7 @@ private:
 
 /// The roughness of both runs at the places of the first one where both can be measured: a log may contain only a part of
 /// the program. Uses positions that both logs have: `role`, else as common_measured_role(). nullopt: a tilted tool that is
-/// no ball, or a run without adjacent passes. O(points), parallel.
+/// not a ball, or a run without adjacent passes. O(points), parallel.
 [[nodiscard]] std::optional<RoughnessChange> roughness_change(const GaugedRun& before, const GaugedRun& after,
                                                               const CuttingTool& tool,
                                                               std::optional<Role> role = std::nullopt);

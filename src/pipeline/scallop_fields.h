@@ -18,7 +18,7 @@ public:
     [[nodiscard]] std::vector<FieldInfo> fields() const override;
     /// Whether the tool is a ball.
     [[nodiscard]] bool can_compute(std::string_view name) const override;
-    /// Throws UsageError: the tool is not known, or is no ball. O(points log points), parallel.
+    /// Throws UsageError: the tool is not known, or is not a ball. O(points log points), parallel.
     [[nodiscard]] std::vector<Field> compute(std::span<const std::string_view> names, PointRange points) const override;
 
     /// Whether a field belongs to this provider.

@@ -10,9 +10,9 @@
 namespace clsurf {
 namespace {
 
-constexpr std::size_t passes_that_tell = 3;       ///< on one side, to find which of two passes is at fault
-constexpr std::size_t passes_that_tell_lag = 8;   ///< on one side, to find whether a lag is systematic
-constexpr std::size_t passes_beside_a_fault = 3;  ///< on both sides, if one of them is at fault, too
+constexpr std::size_t passes_for_cause = 3;       ///< on one side, to find which of two passes causes the defect
+constexpr std::size_t passes_for_lag = 8;         ///< on one side, to find whether a lag is systematic
+constexpr std::size_t passes_beside_a_fault = 3;  ///< on both sides, if one of these passes also causes a defect
 
 /// The points next to a place on the passes of one side, the adjacent pass first.
 std::vector<PointIndex> points_aside(const DefectSurroundings& around, PointIndex point, Side side) {
@@ -21,7 +21,7 @@ std::vector<PointIndex> points_aside(const DefectSurroundings& around, PointInde
     walk_aside(around.surface, {point, 0}, side, feed, [&](const PathLocation& at, const PathLocation&) {
         if (around.signals[at.nearest()].zone == Zone::outside) return false;
         points.push_back(at.nearest());
-        return points.size() < passes_that_tell_lag;
+        return points.size() < passes_for_lag;
     });
     return points;
 }
@@ -31,7 +31,7 @@ PointIndex last_of(const std::vector<PointIndex>& points, std::size_t count) {
     return *std::max_element(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
-/// The last one of a point and the points next to it on the adjacent passes.
+/// The last one of a point and its neighbours on the adjacent passes.
 PointIndex last_beside(const ClSurface& surface, PointIndex point) {
     PointIndex last = point;
     for (const Side side : {Side::left, Side::right}) {
@@ -40,17 +40,17 @@ PointIndex last_beside(const ClSurface& surface, PointIndex point) {
     return last;
 }
 
-/// The last of the points around the strongest place that show which pass is at fault; nullopt: there are too few passes.
-std::optional<PointIndex> last_that_tells(const Defect& defect, const DefectSurroundings& around) {
+/// The last point that is needed around the strongest place to find the causing pass; nullopt: there are too few passes.
+std::optional<PointIndex> last_for_cause(const Defect& defect, const DefectSurroundings& around) {
     const std::array<std::vector<PointIndex>, 2> sides{points_aside(around, defect.point, Side::left),
                                                        points_aside(around, defect.point, Side::right)};
     const bool lag = defect.quantity == Quantity::lag && !defect.systematic;
     const bool beside_fault = std::any_of(sides.begin(), sides.end(), [&](const std::vector<PointIndex>& side) {
-        const std::size_t looked_at = std::min<std::size_t>(side.size(), passes_beside_a_fault - 1);
-        return std::any_of(side.begin(), side.begin() + static_cast<std::ptrdiff_t>(looked_at), around.at_fault);
+        const std::size_t count = std::min<std::size_t>(side.size(), passes_beside_a_fault - 1);
+        return std::any_of(side.begin(), side.begin() + static_cast<std::ptrdiff_t>(count), around.at_fault);
     });
     const std::size_t on_both = lag || beside_fault ? passes_beside_a_fault : 1;
-    const std::size_t on_one = lag ? passes_that_tell_lag : passes_that_tell;
+    const std::size_t on_one = lag ? passes_for_lag : passes_for_cause;
     if (std::min(sides[0].size(), sides[1].size()) < on_both) return std::nullopt;
     std::optional<PointIndex> last;
     for (const std::vector<PointIndex>& side : sides) {
@@ -67,9 +67,9 @@ double settling_distance(const ClSurface& surface, double record) {
 }
 
 std::optional<PointIndex> last_point_needed(const Defect& defect, const DefectSurroundings& around) {
-    const std::optional<PointIndex> tells = last_that_tells(defect, around);
-    if (!tells) return std::nullopt;
-    PointIndex last = std::max(*tells, defect.point);
+    const std::optional<PointIndex> needed = last_for_cause(defect, around);
+    if (!needed) return std::nullopt;
+    PointIndex last = std::max(*needed, defect.point);
     for (const DefectSection& section : defect.sections)
         last = std::max({last, last_beside(around.surface, section.points.first),
                          last_beside(around.surface, section.points.last)});

@@ -1,11 +1,11 @@
 #pragma once
-// Settled defects: defects of a running recording for which all data that judge them are known.
+// Settled defects: defects of a running recording whose data are complete enough to judge them.
 //
-// A defect is judged by its surroundings: by an adjacent pass on either side and, to find which pass is at fault, by three
-// passes on one side. Next to another fault, three passes are needed on both sides. The same holds for a lag, with eight
-// passes on one side, which show whether it is systematic. The signals of the newest points are not known yet, because
-// windows reach beyond them, and the end zone of a pass is not compared. Therefore a defect is settled when the tool has
-// moved on by a settling distance after the last of these points.
+// A defect is judged by its surroundings: by an adjacent pass on either side and, to find which pass causes it, by three
+// passes on one side. Next to another defect, three passes are needed on both sides. For a lag, these three are also needed,
+// and eight passes on one side, to find whether it is systematic. The signals of the newest points are not known yet, because
+// windows reach beyond them, and the end zone of a pass is not compared. Therefore a defect is settled when the tool has moved
+// on by a settling distance after the last of these points.
 
 #include <functional>
 #include <optional>

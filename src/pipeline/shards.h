@@ -35,7 +35,7 @@ struct ShardFindings {
 [[nodiscard]] QualityRules rules_of_shards(std::vector<ShardFindings> shards, const Survey& survey);
 
 /// For QualityRules::found: after more than `most` points were read, releases the memory of positions and signals (about 85
-/// bytes per point). Both must be those of a survey and outlive the result.
+/// bytes per point). Both must come from a survey and outlive the result.
 [[nodiscard]] ForgetBlocks forget_when_many(Positions& positions, Signals& signals, PointIndex most = 1 << 23);
 
 }  // namespace clsurf

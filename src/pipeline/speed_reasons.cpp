@@ -19,13 +19,13 @@
 namespace clsurf {
 namespace {
 
-constexpr double slow = 0.95;               ///< of the programmed feed
+constexpr double slow = 0.95;               ///< share of the programmed feed
 constexpr double short_block_time = 0.01;   ///< [s] at the programmed feed
 constexpr std::int64_t blocks_nearby = 10;  ///< to each side
 constexpr double least_corner = 20;         ///< [deg]
 constexpr double corner_time = 0.02;        ///< [s] at the programmed feed: range of corners before and after a point
-constexpr double least_share = 0.9;         ///< of a limit
-constexpr PointIndex points_at_once = 16 * block_points;  ///< whose shares of limits are in memory at once
+constexpr double least_share = 0.9;         ///< share of a limit
+constexpr PointIndex points_at_once = 16 * block_points;  ///< points whose shares are in memory at once
 
 /// The reasons from the channels `limit` and `override`.
 class LogReasons {
@@ -102,7 +102,7 @@ private:
     std::vector<Field> shares_;  ///< of the points that were read
 };
 
-/// The motions around one, and the corners between them.
+/// The motions around a motion, and the corners between them.
 class BlocksNearby {
 public:
     BlocksNearby(const Motions& motions, std::int64_t motion, double feed)

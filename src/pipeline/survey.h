@@ -1,5 +1,5 @@
 #pragma once
-// Survey: the data of a long log as a whole that allow its parts to be judged without the rest: passes, neighbours of each
+// Survey: the data about a whole log with which its parts can be judged without the rest: passes, neighbours of each
 // point, thresholds (docs/design/shards.md).
 
 #include <optional>
@@ -35,7 +35,7 @@ struct Survey {
     SignalFacts facts;
     Thresholds thresholds;
     bool lines_of_log = false;         ///< lines are those of the log's channel
-    Column<std::uint32_t> lines;       ///< if not: line numbers; empty: only motions
+    Column<std::uint32_t> lines;       ///< line numbers if lines_of_log is false; empty: only motions
     Column<std::uint32_t> motions;     ///< LineMap::point_motions()
     Column<std::uint8_t> confidences;  ///< LineMap::confidences()
     ProgramMatch match;
@@ -63,7 +63,7 @@ struct Survey {
 [[nodiscard]] PartSignals surveyed_signals(const Part& part, const ClSurface& surface, const Survey& survey,
                                            std::optional<Role> wanted = std::nullopt);
 
-/// Throws UsageError if the program tilts the tool: contact points of shards are those of a tool along z.
+/// Throws UsageError if the program tilts the tool: contact points of shards assume a tool along z.
 void refuse_tilted_tool(const Part& part);
 
 }  // namespace clsurf
