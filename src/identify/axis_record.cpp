@@ -9,7 +9,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double gap = 1.5;               ///< periods between two records from which they are not consecutive
+constexpr double gap = 1.5;               ///< periods: records this far apart are not consecutive
 constexpr PointIndex piece_size = 32768;  ///< records of a piece
 
 /// Marks the jumps of a channel. `at(i)`: the value of a record.

@@ -19,7 +19,7 @@ struct IdentifiedParameter {
     double value = 0;                      ///< in `unit`
     std::string unit;                      ///< empty: a ratio
     std::optional<double> standard_error;  ///< in `unit`
-    std::optional<bool> reached;           ///< of limits; false: a lower bound
+    std::optional<bool> reached;           ///< for limits only; false: a lower bound
     std::string note;                      ///< evidence, a few words; may be empty
     double shown = 0;  ///< for lower bounds: the value including what rounding may have added, in `unit`
 };

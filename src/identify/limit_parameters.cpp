@@ -19,7 +19,7 @@ constexpr PointIndex most_records = 4'000'000;
 constexpr std::size_t least_places = 3;
 constexpr double parallel = 0.98;  ///< share of the path's value that counts as parallel to the axis
 
-/// Commanded positions of a piece of a run, by axis; with rotary axes also those of the tool tip; and which records are
+/// Commanded positions of a piece of a run, by axis; with rotary axes also positions of the tool tip; and which records are
 /// rapids.
 struct MotionPiece {
     std::vector<std::vector<double>> positions, tips;
@@ -38,7 +38,7 @@ struct Motion {
     [[nodiscard]] std::size_t linear() const {
         return static_cast<std::size_t>(std::count_if(letters.begin(), letters.end(), [](char c) { return c >= 'x'; }));
     }
-    /// The resolution of a quantity's positions: those of an axis, or of the path.
+    /// The resolution of a quantity's positions, on an axis or on the path.
     [[nodiscard]] double resolution_along(std::size_t q) const {
         if (q < resolution.size()) return resolution[q];
         const auto end = resolution.begin() + static_cast<std::ptrdiff_t>(linear());
@@ -47,18 +47,18 @@ struct Motion {
     }
 };
 
-/// The step to which positions were rounded when they were written: that of the channel, or a power of ten.
+/// The step to which positions were rounded when they were written: the step of the channel, or a power of ten.
 double rounding_of(const ChannelView& channel, std::span<const PointRange> sections) {
     if (const double step = quantum_of(channel); step > 0) return step;
     for (const double step : {1e-5, 1e-6, 1e-7}) {
-        PointIndex on_grid = 0, looked_at = 0;
+        PointIndex on_grid = 0, examined = 0;
         for (const PointRange& section : sections) {
-            for (PointIndex i = section.first; i <= section.last && looked_at < 4000; ++i, ++looked_at) {
+            for (PointIndex i = section.first; i <= section.last && examined < 4000; ++i, ++examined) {
                 const double ratio = channel.at(i) / step;
                 on_grid += std::abs(ratio - std::round(ratio)) < 1e-3 ? 1 : 0;
             }
         }
-        if (on_grid > looked_at * 99 / 100) return step;
+        if (on_grid > examined * 99 / 100) return step;
     }
     return 1e-12;
 }
@@ -119,7 +119,7 @@ std::vector<double> differences(std::vector<double> values, int order, std::size
     return values;
 }
 
-/// Sets the values of the path to 0 if it bends within the records of a difference: there a change of speed along chords is
+/// Sets the values of the path to 0 if it bends within the records of a difference: a change of speed along chords is then
 /// not one along the path.
 void drop_bends(const std::vector<std::vector<double>>& velocities, std::span<const double> speeds, std::size_t reach,
                 std::vector<double>& values) {
@@ -132,7 +132,7 @@ void drop_bends(const std::vector<std::vector<double>>& velocities, std::span<co
     }
 }
 
-/// All quantities of an order: one per axis, then that of the path, which is its speed or the change of the speed.
+/// All quantities of an order: one per axis, then one for the path: its speed or the change of the speed.
 struct Quantities {
     std::vector<std::vector<double>> values;
     std::vector<double> speeds;
@@ -349,7 +349,7 @@ private:
         result.parameters.push_back(std::move(p));
     }
 
-    /// The lower bound of an unknown limit that the motion shows, reduced by the rounding of positions and of the result.
+    /// The lower bound that the motion gives for an unknown limit, reduced by the rounding of positions and of the result.
     [[nodiscard]] double lower_bound(std::size_t q) const {
         constexpr double part = 1e-3;
         const double rounding = std::max(rounding_[q], error_of(motion_.rounding, time_, kind_.order));

@@ -18,7 +18,7 @@ namespace clsurf {
 namespace {
 
 constexpr int most_passes = 4;                 // over all rules
-constexpr double gain_of_later_passes = 0.25;  // of the speed error: they correct what other rules hid, not details
+constexpr double gain_of_later_passes = 0.25;  // share of the speed error: these passes correct what other rules hid
 
 /// The value that leaves the rule of the machine unchanged.
 std::size_t present_value(const Rule& rule, const Machine& machine) {

@@ -7,13 +7,13 @@
 namespace clsurf {
 namespace {
 
-constexpr double level_width = 0.003;    ///< the values of a plateau differ by at most this share, and rounding
+constexpr double level_width = 0.003;    ///< the values of a plateau differ by at most this share plus rounding
 constexpr double most_exceeding = 0.01;  ///< share of the large values that may exceed a level
 constexpr double least_large = 0.25;     ///< share of a level from which a value is large
 constexpr double most_of_level = 1.02;   ///< factor of a level from which a value exceeds it
 
 /// Whether values rise to [first, last) and fall after it no faster than within it. The top of a ramp up and a ramp down,
-/// which a jerk limit causes, is no level.
+/// which a jerk limit causes, is not a level.
 bool is_peak(const std::vector<double>& values, std::size_t first, std::size_t last) {
     constexpr double steeper = 4;
     const std::size_t reach = (last - first) / 2;

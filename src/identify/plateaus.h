@@ -26,12 +26,12 @@ struct Plateau {
 class PlateauFinder {
 public:
     /// `error`: greatest error of a value by rounding; `least`: fewest records of a plateau; `greatest`: of all values.
-    /// `ramps`: the next derivative has a limit, too, so the top of two ramps may look like a plateau.
+    /// `ramps`: the next derivative also has a limit, so the top of two ramps may look like a plateau.
     PlateauFinder(double error, PointIndex least, double greatest, bool ramps)
         : error_(error), least_(least), greatest_(greatest), ramps_(ramps), bins_(bin_count, 0) {}
 
-    /// Adds a piece of consecutive values. `all[q][i]`: every quantity; `own`: the number of this one; `speeds`: of the
-    /// path. `allowed`: where a plateau counts; empty: everywhere. O(values).
+    /// Adds a piece of consecutive values. `all[q][i]`: every quantity; `own`: the number of this quantity; `speeds`: speeds
+    /// along the path. `allowed`: where a plateau counts; empty: everywhere. O(values).
     void add(std::span<const std::vector<double>> all, std::size_t own, std::span<const double> speeds,
              std::span<const char> allowed);
 

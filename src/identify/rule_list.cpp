@@ -130,7 +130,7 @@ Rule path_acceleration_rule(const PathLimits& identified) {
 
 /// Possible values of an axis acceleration, the present one first. A limit that the runs never reached may be the greatest
 /// acceleration that they show. Where blocks overlap, each has half of the acceleration, and the runs may show half of a
-/// limit as if it were one: this concerns all blocks of a planner without arc blends, and with `some_overlap` the blocks
+/// limit as if it were the limit: this concerns all blocks of a planner without arc blends, and with `some_overlap` the blocks
 /// that no arc joins.
 std::vector<double> possible_accelerations(std::size_t axis, bool some_overlap, const Identification& found) {
     const double now = found.machine.axes[axis].max_acceleration;
@@ -231,7 +231,7 @@ Rule axis_tolerance_rule(const Machine& machine) {
 std::vector<std::function<Rule(const Machine&)>> rules_of_five_axes(const Machine& machine) {
     std::vector<std::function<Rule(const Machine&)>> rules;
     if (rounds_corners(machine.controller)) {
-        // The roundings of the angles show more than those of the tip, which could hide them: they come first.
+        // The roundings of the angles show more than the roundings of the tip, which could hide them, so they come first.
         rules.emplace_back(axis_tolerance_rule);
         rules.emplace_back(tolerance_rule);
         rules.emplace_back([](const Machine&) { return curve_rule(); });
@@ -305,7 +305,7 @@ std::vector<std::function<Rule(const Machine&)>> rules_of(const Machine& machine
         rules.emplace_back([](const Machine&) { return feed_rule(); });
         rules.emplace_back([](const Machine&) { return whole_periods_rule(); });
     }
-    // Last, because a short look-ahead or a block time slows short lines, too.
+    // Last, because a short look-ahead or a block time also slows short lines.
     if (is_trapezoidal(machine) || rounds_corners(machine.controller)) rules.emplace_back(merging_rule);
     return rules;
 }

@@ -237,7 +237,7 @@ bool RuleScores::explains(double mean_error) const {
 
 double RuleScores::resolution() const {
     constexpr double of_positions = 0.005;   // mm/s: the resolution of differences of rounded positions …
-    constexpr double of_the_model = 0.0005;  // … and of any model, of the speed
+    constexpr double of_the_model = 0.0005;  // … and of any model, as a share of the speed
     return std::max(of_positions, of_the_model * usual_speed());
 }
 

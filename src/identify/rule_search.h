@@ -48,7 +48,7 @@ public:
     [[nodiscard]] double mean_error(const Machine& machine);
     /// Simulates the machines that are not known yet, in parallel, for use by residuals().
     void prepare(std::span<const Machine> machines);
-    /// The error that a sample counts with if the simulation does not pass it [mm/s].
+    /// The error of a sample that the simulation does not pass [mm/s].
     [[nodiscard]] double usual_speed() const { return static_cast<double>(usual_speed_); }
     /// Smaller mean differences do not distinguish planners [mm/s].
     [[nodiscard]] double resolution() const;

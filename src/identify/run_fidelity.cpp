@@ -140,7 +140,7 @@ private:
         CellGrid::for_each_near(at, 1, [&](CellGrid::Key cell) { found = found || cells_.contains(cell); });
         return found;
     }
-    /// Calls f(cell) for each point at fault, until it returns true.
+    /// Calls f(cell) for each point of the defect's sections, until it returns true.
     template <typename F>
     bool visit(const Defect& defect, F&& f) const {
         for (const DefectSection& section : defect.sections)

@@ -15,7 +15,7 @@ namespace {
 constexpr int dead_periods_searched = 8;
 constexpr PointIndex least_records = 200;  ///< fewest compared records
 constexpr double least_quantum = 1e-6;     ///< [unit] positions in a log are rounded at least to this step
-constexpr double least_change = 1e-4;      ///< [unit] of the following error without the lag: less is an encoder step
+constexpr double least_change = 1e-4;      ///< [unit] least following error without the lag: less is an encoder step
 
 /// Number of records after which the state before a piece has no influence.
 PointIndex settling_of(const ServoParameters& p, double period) {
@@ -69,7 +69,7 @@ ConstantLag constant_lag(std::span<const AxisRecord> records, double period) {
     return {ve / vv, residual / std::sqrt(vv), residual};
 }
 
-/// Sets gain and feed-forward from the lag, which alone is known.
+/// Sets gain and feed-forward from the lag, the only known value.
 void take_lag(const ConstantLag& known, double period, ServoFit& fit) {
     ServoModel model;
     model.velocity_feedforward = 1 - known.lag * model.position_gain;

@@ -18,7 +18,7 @@ struct ServoStart {
 /// regression of the following error by speed, acceleration and direction. They are valid for any loop.
 [[nodiscard]] ServoParameters lags_of(const ServoProblem& problem);
 
-/// One start per dead time of 0, 1, … `most_dead_periods` periods, the best first. Starts that are no valid loop are left
+/// One start per dead time of 0, 1, … `most_dead_periods` periods, the best first. Starts without a valid loop are left
 /// out. O(records · most_dead_periods).
 [[nodiscard]] std::vector<ServoStart> servo_starts(const ServoProblem& problem, int most_dead_periods);
 

@@ -163,16 +163,16 @@ private:
         return best;
     }
 
-    /// Above 0 if a value cannot be the true one. What the best value leaves unexplained has other causes, which may have
-    /// moved the best value, too: the error of `value` must also exceed the least error by as much.
+    /// Above 0 if a value cannot be the true one. What the best value leaves unexplained has other causes, which may also
+    /// have moved the best value: the error of `value` must also exceed the least error by as much.
     [[nodiscard]] double beyond_doubt(double value, double best) const {
         const double left = mean_error(best), resolution = scores_.resolution();
         const double other = std::sqrt(std::max(0.0, left * left - resolution * resolution));
         return std::min(excess(value, best) / decisive, mean_error(value) / (left + other) - 1);
     }
 
-    /// The end of the interval of values that explain the runs as well as the best one, in the direction of `worse`, which
-    /// does not.
+    /// The end of the interval of values that explain the runs as well as the best one, towards `worse`, a value that does
+    /// not.
     [[nodiscard]] double end_between(double worse, double best, double exact) const {
         const auto beyond = [&](double share) {
             const double value = worse > best ? best * (1 + share) : best / (1 + share);
@@ -221,7 +221,7 @@ std::vector<const IdentifiedParameter*> searched_limits(const RuleScores& scores
     return limits;
 }
 
-/// The relative error of every slice: it assumes that the other limits are right, and a slightly wrong one shifts it.
+/// The relative error of every slice: a slice assumes that the other limits are right, and a slightly wrong limit shifts it.
 double error_of_fixed(const Identification& result) {
     double error = smallest_error;
     for (const IdentifiedParameter& p : result.parameters) {
