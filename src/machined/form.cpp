@@ -33,7 +33,7 @@ constexpr double covered = 1.1;    ///< step-overs from the nearest contact poin
 constexpr std::int64_t finer = 4;  ///< squares per side of a knot's square, each inside or outside
 constexpr double sample_spacing = 0.25;  ///< step-overs along the passes
 constexpr double on_line = 0.15;         ///< step-overs: places this near to a contact point are inside
-constexpr double opposite = -0.9;        ///< cosine to the nearest contact point, for points on the other side: along
+constexpr double opposite = -0.9;        ///< cosine that puts a point on the other side of the nearest one: along
                                          ///< an outermost pass, points to both sides of the nearest one do not count
 
 }  // namespace

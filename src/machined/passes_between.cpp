@@ -13,10 +13,10 @@ namespace {
 constexpr double most_uneven = 3;       ///< times the distance of the two passes; farther passes are not used
 constexpr double most_jump = 4;         ///< times the step along the pass; a longer step leads to another pass
 constexpr float least_between = 0.25F;  ///< share of a gap: a pass this far from both sides is between them
-constexpr double jump_fits = 0.15;      ///< of a step-over: a jump of curvature is found there from both sides
+constexpr double jump_fits = 0.15;      ///< share of a gap by which a jump's positions from both sides may differ
 constexpr double least_jump = 2e-4;     ///< [mm] second difference: below it a cubic is as good
 constexpr double least_turn = 3e-3;     ///< [mm] change of second differences; less may be rounding or uneven heights
-constexpr double smoother_side = 0.25;  ///< share of the change in a gap, on a side without a turn
+constexpr double smoother_side = 0.25;  ///< share of the change of second differences on a side without a turn
 constexpr double corner_turns = 8;      ///< times the adjacent bends: the sides of a valley are nearly straight
 
 /// Passes around the gap between two passes, numbered from the first of these.

@@ -20,7 +20,7 @@ constexpr float turn_reach = 1;          ///< step-overs on either side, over wh
 constexpr std::array link_reaches{5.0F, 3.0F, 2.0F};
 constexpr float link_cosine = 0.94F;      ///< cos 20°: the runs that a link joins turn less against each other …
 constexpr float link_aside = 0.6F;        ///< … and are so many step-overs apart
-constexpr float link_sine = 0.24F;        ///< sin 14°: sine of the least angle between the link and these runs
+constexpr float link_sine = 0.24F;        ///< sin 14°: least angle between the link and these runs
 constexpr float closing_reach = 5;        ///< step-overs on either side, within which a loop closes …
 constexpr float closing_nearest = 0.5F;   ///< … if the distance to the adjacent pass falls below this …
 constexpr float closing_farthest = 0.8F;  ///< … and exceeds this before or after it [step-overs]
@@ -32,7 +32,7 @@ constexpr float look_every = 0.1F;    ///< step-overs between examined points
 constexpr float accelerates = 0.35F;  ///< least share of the usual acceleration, which jerk limits and windows reduce
 constexpr float link_accelerates = 0.15F;  ///< the same at a link, whose two corners share the turn
 constexpr float ramp_share = 0.2F;         ///< the same along the path, between the bend and the end of its ramp
-constexpr float accelerates_more = 1.35F;  ///< ratio of accelerations in a bend that is taken 16 % faster
+constexpr float accelerates_more = 1.35F;  ///< ratio of accelerations if a bend is taken 16 % faster
 constexpr float rises_again = 1.03F;       ///< times the least speed: above it, another slow place begins
 /// [s] No mill needs longer to brake for a bend. This limits the search in logs with hardly any acceleration.
 constexpr float longest_braking = 0.5F;

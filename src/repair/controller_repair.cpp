@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kept_promise = 0.05;  ///< share of the run before by which mismatch and defects may differ
 constexpr double most_missing = 0.02;  ///< share of the program's motions that may be missing in a log
-constexpr double kept_time = 0.005;    ///< the same for the time
+constexpr double kept_time = 0.005;    ///< the same as kept_promise, for the time
 
 bool keeps(const RunMeasures& before, const RunMeasures& promised, const RunMeasures& measured) {
     const double mismatch = std::abs(measured.mismatch - promised.mismatch) / std::max(before.mismatch, 1e-9),
