@@ -8,7 +8,7 @@
 
 namespace clsurf {
 
-/// The median of at most ten values. NaNs are left out; for an even number it is the mean of the middle two. NaN if fewer
+/// The median of at most ten values. A NaN is left out; for an even number it is the mean of the middle two. NaN if fewer
 /// than `fewest` remain.
 template <typename T, typename Read>
 [[nodiscard]] float median_of(std::span<const T> places, std::size_t fewest, Read&& read) {
