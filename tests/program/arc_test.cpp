@@ -1,5 +1,6 @@
 #include "program/interpret/arc.h"
 #include "program/dialects/known_dialects.h"
+#include "program/interpret/dialect_rules.h"
 
 #include <cmath>
 #include <numbers>
@@ -9,7 +10,7 @@
 namespace clsurf::arc_test {
 namespace {
 
-const ArcTolerance usual = fanuc_rules.arc_tolerance_in(1);
+const ArcTolerance usual = fanuc_dialect.rules->arc_tolerance_in(1);
 
 ArcWords from_to(Vec3 begin, Vec3 end, bool clockwise) {
     ArcWords words;
@@ -73,20 +74,20 @@ std::string error_of_radii(double first, double second, const ArcTolerance& tole
 
 TEST(Arc, RadiiMayDifferAsMuchAsTheControlTakes) {
     // LinuxCNC: 2·√2 hundredths of a millimetre or thousandths of an inch; up to a hundred times more within 0.1 %.
-    const ArcTolerance metric = linuxcnc_rules.arc_tolerance_in(1);
+    const ArcTolerance metric = linuxcnc_dialect.rules->arc_tolerance_in(1);
     EXPECT_EQ(error_of_radii(5, 5.028, metric), "");
     EXPECT_NE(error_of_radii(5, 5.029, metric), "");
     EXPECT_EQ(error_of_radii(2802, 2804.7, metric), "");
     EXPECT_NE(error_of_radii(5000, 5002.9, metric), "");
-    const ArcTolerance inches = linuxcnc_rules.arc_tolerance_in(25.4);
+    const ArcTolerance inches = linuxcnc_dialect.rules->arc_tolerance_in(25.4);
     EXPECT_EQ(error_of_radii(5, 5.071, inches), "");
     EXPECT_NE(error_of_radii(5, 5.073, inches), "");
     // Siemens: 0.01 mm or 0.1 %. Heidenhain: 0.016 mm.
-    const ArcTolerance siemens = siemens_rules.arc_tolerance_in(1);
+    const ArcTolerance siemens = siemens_dialect.rules->arc_tolerance_in(1);
     EXPECT_EQ(error_of_radii(5, 5.009, siemens), "");
     EXPECT_NE(error_of_radii(5, 5.011, siemens), "");
     EXPECT_EQ(error_of_radii(100, 100.09, siemens), "");
-    const ArcTolerance heidenhain = heidenhain_iso_rules.arc_tolerance_in(1);
+    const ArcTolerance heidenhain = heidenhain_iso_dialect.rules->arc_tolerance_in(1);
     EXPECT_EQ(error_of_radii(100, 100.015, heidenhain), "");
     EXPECT_NE(error_of_radii(100, 100.017, heidenhain), "");
     EXPECT_EQ(error_of_radii(5, 5.029, usual), "");
@@ -97,7 +98,7 @@ TEST(Arc, SiemensMovesTheCentreSoThatOneCircleRunsThroughBothEnds) {
     ArcWords words = from_to({5, 0, 0}, {0, 5.008, 0}, false);
     words.centre = {0, 0, 0};
     std::string error;
-    const Arc arc = resolve_arc(words, siemens_rules.arc_tolerance_in(1), error);
+    const Arc arc = resolve_arc(words, siemens_dialect.rules->arc_tolerance_in(1), error);
     ASSERT_EQ(error, "");
     EXPECT_NEAR(std::hypot(5 - arc.centre.x, arc.centre.y), 5, 1e-12);
     EXPECT_NEAR(std::hypot(arc.centre.x, 5.008 - arc.centre.y), 5, 1e-12);

@@ -8,23 +8,18 @@
 #include "program/text/block.h"
 
 namespace clsurf {
-namespace {
-
-const std::array<Dialect, 5> table{{
-    {"fanuc", "Fanuc, HNC and most others: G-code with custom macro B", &fanuc_rules},
-    {"siemens", "SINUMERIK: X=AC(…), TRAORI, CYCLE832, R parameters", &siemens_rules},
-    {"linuxcnc", "LinuxCNC: RS274/NGC with O-words and named parameters", &linuxcnc_rules},
-    {"heidenhain-iso", "Heidenhain DIN/ISO: blocks ending in *, Q parameters", &heidenhain_iso_rules},
-    {"klartext", "Heidenhain Klartext (.h): L, CC, C, CYCL DEF, Q parameters, PLANE", &klartext_rules},
-}};
-
-}  // namespace
-
-std::span<const Dialect> dialects() { return table; }
+std::span<const Dialect> dialects() {
+    static const auto table = std::to_array<Dialect>({
+#define DIALECT(name, sources) name##_dialect,
+#include "program/dialects/dialects.def"
+#undef DIALECT
+    });
+    return table;
+}
 
 const Dialect* find_dialect(std::string_view name) {
-    const auto* found = std::find_if(table.begin(), table.end(), [&](const Dialect& d) { return d.name == name; });
-    return found == table.end() ? nullptr : found;
+    const auto found = std::ranges::find(dialects(), name, &Dialect::name);
+    return found == dialects().end() ? nullptr : &*found;
 }
 
 std::string where_code_is_known(int code) {

@@ -1,15 +1,12 @@
 #pragma once
-// The rules of the dialects that clsurf reads: the only part of a dialect that is used outside its folder. Listed in
-// dialect_table.cpp.
+// The dialects that clsurf reads, listed in dialects.def: the only part of a dialect that is used outside its folder.
 
-#include "program/interpret/dialect_rules.h"
+#include "program/dialect.h"
 
 namespace clsurf {
 
-extern const DialectRules fanuc_rules;           // fanuc/fanuc.cpp
-extern const DialectRules siemens_rules;         // siemens/siemens.cpp
-extern const DialectRules linuxcnc_rules;        // rs274.cpp
-extern const DialectRules heidenhain_iso_rules;  // heidenhain/heidenhain.cpp
-extern const DialectRules klartext_rules;        // klartext/klartext.cpp
+#define DIALECT(name, sources) extern const Dialect name##_dialect;
+#include "program/dialects/dialects.def"
+#undef DIALECT
 
 }  // namespace clsurf

@@ -13,6 +13,7 @@
 #include "program/dialects/known_dialects.h"
 #include "program/interpret/compensated_motions.h"
 #include "program/interpret/curves.h"
+#include "program/interpret/dialect_rules.h"
 #include "program/interpret/flow.h"
 #include "program/interpret/interpreter_state.h"
 #include "program/interpret/kept_modes.h"
@@ -407,5 +408,7 @@ const DialectRules linuxcnc_rules{
     .named_parameter = rs274::named_parameter,
     .work_system_name = rs274::work_system_name,
 };
+
+const Dialect linuxcnc_dialect{"linuxcnc", "LinuxCNC: RS274/NGC with O-words and named parameters", &linuxcnc_rules};
 
 }  // namespace clsurf

@@ -12,6 +12,7 @@
 #include "program/dialects/known_dialects.h"
 #include "program/interpret/axis_words.h"
 #include "program/interpret/codes.h"
+#include "program/interpret/dialect_rules.h"
 #include "program/interpret/flow.h"
 #include "program/interpret/interpreter_state.h"
 #include "program/interpret/offsets.h"
@@ -452,5 +453,7 @@ const DialectRules fanuc_rules{
                           double value) { return fanuc::write_parameter(in, number, value); },
     .about_pole = fanuc::move_about_pole,
 };
+
+const Dialect fanuc_dialect{"fanuc", "Fanuc, HNC and most others: G-code with custom macro B", &fanuc_rules};
 
 }  // namespace clsurf

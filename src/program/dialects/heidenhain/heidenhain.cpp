@@ -14,6 +14,7 @@
 #include "program/dialects/heidenhain/heidenhain_codes.h"
 #include "program/dialects/known_dialects.h"
 #include "program/interpret/axis_words.h"
+#include "program/interpret/dialect_rules.h"
 #include "program/interpret/flow.h"
 #include "program/interpret/interpreter_state.h"
 #include "program/interpret/path_modes.h"
@@ -413,5 +414,8 @@ const DialectRules heidenhain_iso_rules{
             put_about_pole(in.polar_, in.state_, word('R'), word('H'), false, in.state_.incremental, end);
         },
 };
+
+const Dialect heidenhain_iso_dialect{"heidenhain-iso", "Heidenhain DIN/ISO: blocks ending in *, Q parameters",
+                                     &heidenhain_iso_rules};
 
 }  // namespace clsurf

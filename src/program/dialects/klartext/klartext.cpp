@@ -379,4 +379,7 @@ const DialectRules klartext_rules{
         },
 };
 
+const Dialect klartext_dialect{"klartext", "Heidenhain Klartext (.h): L, CC, C, CYCL DEF, Q parameters, PLANE",
+                               &klartext_rules};
+
 }  // namespace clsurf

@@ -8,6 +8,7 @@
 #include "program/dialects/heidenhain/heidenhain_codes.h"
 #include "program/dialects/klartext/klartext_words.h"
 #include "program/dialects/known_dialects.h"
+#include "program/interpret/dialect_rules.h"
 #include "program/interpret/interpreter_state.h"
 
 namespace clsurf::klartext {

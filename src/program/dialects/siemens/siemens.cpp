@@ -15,6 +15,7 @@
 #include "program/dialects/siemens/siemens_words.h"
 #include "program/interpret/axis_words.h"
 #include "program/interpret/codes.h"
+#include "program/interpret/dialect_rules.h"
 #include "program/interpret/flow.h"
 #include "program/interpret/interpreter_state.h"
 #include "program/interpret/offsets.h"
@@ -408,5 +409,7 @@ const DialectRules siemens_rules{
         },
     .work_system_name = siemens::work_system_name,
 };
+
+const Dialect siemens_dialect{"siemens", "SINUMERIK: X=AC(…), TRAORI, CYCLE832, R parameters", &siemens_rules};
 
 }  // namespace clsurf
