@@ -26,7 +26,8 @@ struct EnsembleResult {
     [[nodiscard]] EnsembleRun mean() const;
 };
 
-/// Longest additional time on one machine of the ensemble, as a share. The mean must not be longer at all.
+/// Longest additional time on one machine of the ensemble, as a share. The mean must not be longer at all
+/// (docs/optimize.md#the-ensemble).
 inline constexpr double most_time_on_one_machine = 0.005;
 
 /// Why the new program is not better. On the mean it must be better in mismatch, defects and time, and by least_gain; on every

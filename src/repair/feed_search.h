@@ -13,6 +13,7 @@ namespace clsurf {
 
 /// The state of a feed reduction over several rounds.
 struct FeedReduction {
+    // Speeds are equalised to this share of the threshold (docs/experiments/repair.md#the-search-in-detail, step 1).
     static constexpr double usual_step = 0.7;
     TriedProposal from;             ///< the last one kept
     double share = 0;               ///< share of the available time that the next round may use

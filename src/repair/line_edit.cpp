@@ -17,6 +17,8 @@
 namespace clsurf {
 namespace {
 
+// The tolerances are above the rounding of doubles, 10^-10 mm at 1 km and 10^-15 rad, and below half a step of six decimals,
+// 5·10^-7 mm and 9·10^-9 rad.
 constexpr double same_coordinate = 1e-7;  ///< [mm] tolerance between a word and the end of its motion
 constexpr double same_axis_angle = 1e-9;  ///< [rad]
 constexpr std::string_view letters = "XYZABC";

@@ -14,7 +14,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double feed_steps = 10;  ///< per unit and minute of a feed word
+constexpr double feed_steps = 10;  ///< per unit and minute of a feed word; one decimal changes F100 by at most 0.05 %
 
 }  // namespace
 

@@ -11,6 +11,7 @@
 namespace clsurf {
 namespace {
 
+// The weights of docs/optimize.md#the-objective; half of the mismatch is the goal of docs/optimize.md#results.
 constexpr double growth_weight = 0.03;    ///< weight of a program's growth relative to shares of mismatch and defects
 constexpr double goal_of_mismatch = 0.5;  ///< remaining share, below which …
 constexpr double beyond_goal = 0.1;       ///< … less mismatch counts less

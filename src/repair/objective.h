@@ -24,10 +24,11 @@ struct RunMeasures {
 /// The measures of a run with its roughness, if that is known.
 [[nodiscard]] RunMeasures with_roughness(RunMeasures measures, const PartRoughness& roughness);
 
-/// Relative rise of the roughness that is not significant, because it is measured at some places only.
+/// Relative rise of the roughness that is not significant, because it is measured at some places only (docs/optimize.md#method,
+/// step 8).
 inline constexpr double roughness_agrees = 0.01;
 
-/// Mismatch, as a share of the speed, below which it counts as zero.
+/// Mismatch, as a share of the speed, below which it counts as zero (docs/optimize.md#the-objective).
 inline constexpr double least_mismatch = 0.002;
 
 /// Whether RunMeasures::mismatch of the run before counts as zero. A few sections may still differ; then defect_mismatch
@@ -41,7 +42,7 @@ inline constexpr double least_mismatch = 0.002;
     return defects_alone_count(before) ? std::max(run.mismatch, run.defect_mismatch) : run.mismatch;
 }
 
-/// Smaller gains are not worth a new program.
+/// Smaller gains are not worth a new program (docs/optimize.md#the-objective).
 inline constexpr double least_gain = 0.02;
 
 /// The objective, relative to the run before: m + d + t + r + 0.03 g. m is the remaining share of mismatch_that_counts(), both

@@ -19,6 +19,9 @@
 namespace clsurf {
 namespace {
 
+// The search to which these numbers belong is described in docs/experiments/repair.md#the-search-in-detail, the masks of drafts
+// in docs/optimize.md#method, step 2. Two periods for a line: planners that put arcs into corners slow down at shorter ones
+// (docs/experiments/kernel.md#what-made-the-difference).
 constexpr std::array<double, 3> shares_of_tolerance{0.2, 0.1, 0.4};  ///< distance of lines from the curve
 constexpr double reserve = 1.1;                       ///< factor for the arc length in a block time or in periods
 constexpr double periods_a_line = 2;                  ///< periods per line with the trapezoidal planner
@@ -36,7 +39,9 @@ constexpr double most_behind = 0.2;   ///< by score, after the first rounds: dra
 constexpr double small_share = 0.3;   ///< share of the time for a reduction that begins with inexpensive defects …
 constexpr double large_share = 0.65;  ///< … and for one that uses as much as it can
 constexpr int first_rounds = 2, more_rounds = 8;
-constexpr std::size_t most_listed = 8;                    ///< accepted finalists, if all are listed
+constexpr std::size_t most_listed = 8;  ///< accepted finalists, if all are listed
+// Remaining defects depend on the ramps of others, so another step is another attempt:
+// docs/experiments/repair.md#the-search-in-detail, steps 7 and 9.
 constexpr std::array<double, 2> other_steps{0.85, 0.55};  ///< other steps for feed reductions …
 constexpr std::size_t most_drafts_of_other_steps = 2;     ///< … for at most this many drafts
 /// Steps for the best proposal, one after the other …

@@ -13,17 +13,20 @@
 namespace clsurf {
 namespace {
 
+// A sixth of the least threshold of a speed step, 3 % (docs/experiments/repair.md#the-search-in-detail, step 3).
 constexpr double interval_width =
     0.005;  ///< share of the speeds in a constant-speed interval: adjacent passes may differ by as much
-constexpr double most_run_points = 16e6;            ///< of all runs together; then the search ends …
-constexpr double large_run = 1e6;                   ///< … or less, down to a share, if a run has so many points …
-constexpr double share_of_large = 0.25;             ///< … this share
-constexpr int most_in_vain = 192;                   ///< consecutive proposals without an improvement
+// Bounds on time and memory; the results depend on them (docs/experiments/repair.md#the-search-in-detail, Evaluation).
+constexpr double most_run_points = 16e6;  ///< of all runs together; then the search ends …
+constexpr double large_run = 1e6;         ///< … or less, down to a share, if a run has so many points …
+constexpr double share_of_large = 0.25;   ///< … this share
+constexpr int most_in_vain = 192;         ///< consecutive proposals without an improvement
+// Four were too few: one machine of an ensemble refused them all (docs/experiments/kernel.md#what-made-the-difference).
 constexpr std::size_t most_finalists = 16;          ///< of each kind …
 constexpr double most_finalist_points = 4e6;        ///< … or as many as have this number of points together …
 constexpr std::size_t most_finalists_of_large = 1;  ///< … and if runs are large, no more than this
 /// Share of the time that feeds leave unused for the other machines. For candidates that use all of the time, the mean of the
-/// machines is up to 0.03 % longer than before.
+/// machines is up to 0.03 % longer than before (docs/optimize.md#the-ensemble).
 constexpr double time_reserve = 0.001;
 
 std::string text_of(const LineOfEither& place) {

@@ -24,8 +24,9 @@ struct CellSum {
 
 using CellSums = std::vector<CellSum>;  ///< one per run
 
-constexpr double least_loss = 1e-4;    ///< as a share of the total: smaller losses do not count
-constexpr double counted_from = 0.5;   ///< share of the mismatch of the first run: smaller differences do not count
+constexpr double least_loss = 1e-4;   ///< as a share of the total: smaller losses do not count
+constexpr double counted_from = 0.5;  ///< share of the mismatch of the first run: smaller differences do not count
+// The last price is 2^24 times the lowest one: all time then counts 17,000 times as much as all defects.
 constexpr int most_prices = 24;        ///< prices of time, each twice the previous one …
 constexpr int price_steps = 24;        ///< … and number of halvings between the last two
 constexpr double lowest_price = 1e-3;  ///< price of the whole time of the first run, relative to all its defects

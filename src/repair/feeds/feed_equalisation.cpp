@@ -10,6 +10,7 @@
 namespace clsurf {
 namespace {
 
+// Halvings of the interval from 0 to twice the greatest mismatch, to 0.1 % of it.
 constexpr int halvings = 10;                          ///< number of halvings in the search for a step
 constexpr LineNumber most_lines_between_points = 50;  ///< most lines that may be traversed between two points
 

@@ -9,10 +9,11 @@
 namespace clsurf {
 namespace {
 
+// The limits of the slope are reciprocals of each other.
 constexpr double steepest = 2.2, flattest = 0.45;  ///< of a phase along a pass, in phases per spacing
 constexpr double jump_tolerance = 0.05;            ///< share of a phase: smaller differences are not a jump
 constexpr double fewest_taken = 0.2;  ///< share of a pass's points: less overlap with earlier passes is not used
-constexpr int parts = 4;              ///< resolution of a phase
+constexpr int parts = 4;              ///< resolution of a phase; halves and quarters
 
 class PhaseRunner {
 public:

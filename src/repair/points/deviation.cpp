@@ -10,10 +10,12 @@
 namespace clsurf {
 namespace {
 
+// The same as in docs/experiments/repair.md#the-search-in-detail, Deviation.
 constexpr double window = 1.0;       ///< [mm] of arc length to both sides of the present position
-constexpr double same_place = 1e-9;  ///< [mm]
-constexpr double most_pieces = 1e6;  ///< of one motion
+constexpr double same_place = 1e-9;  ///< [mm]; ten times the rounding of doubles at 1 km
+constexpr double most_pieces = 1e6;  ///< of one motion; a guard: 50 m in steps of 0.05 mm
 constexpr double turn_step = rad_per_deg;
+// A quarter turn: docs/optimize.md#five-axes.
 constexpr double most_wound = 90 * rad_per_deg;  ///< most that a rotary axis turns for the same tool direction
 
 /// The distance of a place from another path.

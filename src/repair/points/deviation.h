@@ -14,6 +14,7 @@ struct LineOfEither {
 };
 
 struct Deviation {
+    // The same as in docs/experiments/repair.md#the-search-in-detail, Deviation.
     static constexpr double usual_step = 0.05;  ///< [mm] of arc length between measured points
 
     double greatest = 0;           ///< [mm]

@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t reach_of_bends = 5;  ///< aligned points to both sides whose bends determine the length of a line
 constexpr double most_doublings = 6;       ///< of a part
-constexpr double short_share = 0.5;        ///< share of both adjacent lines: shorter lines are dropped
+// Planners that put arcs into corners stop at lines much shorter than their neighbours: docs/optimize.md#method, step 4.
+constexpr double short_share = 0.5;  ///< share of both adjacent lines: shorter lines are dropped
 
 class NewLines {
 public:

@@ -5,9 +5,10 @@
 namespace clsurf {
 namespace {
 
+// Both angles: docs/optimize.md#five-axes, points that stay.
 constexpr double least_from_pole = 2 * rad_per_deg;
 constexpr double most_by_a_line = 30 * rad_per_deg;  ///< larger turns do not belong to finishing, or wind up an axis
-constexpr double same_angle = 1e-9;                  ///< [rad] as programmed
+constexpr double same_angle = 1e-9;                  ///< [rad] as programmed; six decimals of a degree are 1.7e-8
 constexpr int judged_places = 8;                     ///< of a line
 
 }  // namespace

@@ -12,13 +12,13 @@ namespace clsurf {
 namespace {
 
 constexpr int degree = 3;
-constexpr std::size_t width = 3;             ///< diagonals on each side of the normal matrix
+constexpr std::size_t width = 3;             ///< diagonals on each side of the normal matrix; as many as the degree
 constexpr double samples_a_spacing = 4;      ///< at least; a span is no shorter than a spacing
 constexpr double spacings_a_span = 64;       ///< spacings per span before spans are halved
 constexpr std::size_t samples_at_least = 8;  ///< of a section
 constexpr double most_samples = 1e6;
 /// Times the chord error: largest distance of a spline from the smooth curve. With one chord error, it would copy the scatter
-/// that the curve keeps, in spans nearly as short as lines.
+/// that the curve keeps, in spans nearly as short as lines (docs/optimize.md#splines).
 constexpr double curve_share = 3;
 
 /// The four B-splines of degree 3 that are not zero in the span between knots k and k + 1, at u (the NURBS Book, A2.2).

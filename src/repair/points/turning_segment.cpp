@@ -5,7 +5,8 @@
 namespace clsurf {
 namespace {
 
-/// Millimetres per radian in `drawn_`: the tube for angles is then about as wide as that for points.
+/// Millimetres per radian in `drawn_`: the tube for angles is then about as wide as that for points. 30 mm times most_turned
+/// (0.01°) is 5.2 µm, about the usual tolerance of 5 µm.
 constexpr double lever = 30;
 constexpr double tube_share = 0.5;  ///< share of the tolerance of the axis; the other half is for chords
 
