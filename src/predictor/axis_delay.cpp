@@ -9,7 +9,8 @@ namespace clsurf {
 namespace {
 
 constexpr PointIndex most_samples = 20'000;
-constexpr double least_motion = 0.01;    ///< share of the squared speed: an axis with less has no known delay
+constexpr double least_motion = 0.01;  ///< share of the squared speed: an axis with less has no known delay
+// The rule of docs/design/predictor.md#5-separate-systematic-lag, point 4.
 constexpr double least_explained = 0.5;  ///< share of the variance of the lag
 constexpr double same_order = 0.5;       ///< share of the largest effect of a pair of axes
 

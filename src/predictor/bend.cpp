@@ -8,6 +8,8 @@
 namespace clsurf {
 namespace {
 
+// The rules of docs/design/predictor.md#4-join-places-into-defects, Bends. Logs with islands, links and triangles test them
+// (docs/experiments/predictor.md#kinds-of-logs-that-were-not-used-for-development).
 constexpr float bend_cosine = 0.906F;  ///< cos 25°: the path bends if it turns by more than this …
 constexpr float net_reach =
     2;  ///< … and is still turned so many step-overs away on both sides, unlike at a step-over move
@@ -32,7 +34,7 @@ constexpr float look_every = 0.1F;    ///< step-overs between examined points
 constexpr float accelerates = 0.35F;  ///< least share of the usual acceleration, which jerk limits and windows reduce
 constexpr float link_accelerates = 0.15F;  ///< the same at a link, whose two corners share the turn
 constexpr float ramp_share = 0.2F;         ///< the same along the path, between the bend and the end of its ramp
-constexpr float accelerates_more = 1.35F;  ///< ratio of accelerations if a bend is taken 16 % faster
+constexpr float accelerates_more = 1.35F;  ///< ratio of accelerations if a bend is taken 16 % faster; 1.16²
 constexpr float rises_again = 1.03F;       ///< times the least speed: above it, another slow place begins
 /// [s] No mill needs longer to brake for a bend. This limits the search in logs with hardly any acceleration.
 constexpr float longest_braking = 0.5F;

@@ -8,11 +8,13 @@
 namespace clsurf {
 namespace {
 
+// The rule of docs/design/predictor.md#4-join-places-into-defects, Expected.
 constexpr float clear_score = 2;
 constexpr int passes_enough = 3;  ///< number of passes on the side that has some
 constexpr std::size_t sites_enough = 3;
 constexpr float steady_share = 0.1F;  ///< share of the usual acceleration along the path: below it, the speed is steady
 constexpr double flank_seconds = 0.020;  ///< a height may last so much longer than the motion that causes it
+// The rule for heights in docs/design/predictor.md#4-join-places-into-defects, Expected.
 constexpr float falls_to =
     0.7F;  ///< share of the height at the border: a flank must be lower, except for the sites next to the border
 constexpr double flank_ramps = 1.5;  ///< jerk makes ramps longer than the acceleration alone

@@ -15,6 +15,7 @@
 namespace clsurf {
 namespace {
 
+// Both rules: docs/design/predictor.md#4-join-places-into-defects.
 constexpr int fewest_alike = 2;          ///< passes of one direction on each side, to distinguish a zigzag from a fault
 constexpr float candidate_share = 0.5F;  ///< share of a threshold
 constexpr double ends_apart = 1;         ///< step-overs along the feed: closer ends of passes are side by side
@@ -355,6 +356,7 @@ std::vector<DefectCandidate*> FoundCandidates::with_share_of(Quantity quantity) 
 
 double joined_along(const ClSurface& surface, double record) {
     constexpr double least = 1.0;  // [mm]
+    // The limits of docs/design/predictor.md#4-join-places-into-defects, connected places.
     constexpr double step_overs = 2, records = 2.5;
     return std::max({least, step_overs * surface.step_over, records * record});
 }
@@ -394,6 +396,7 @@ std::vector<DefectCandidates> group_candidates(const DefectCandidates& candidate
             }
         }
     };
+    // A size of portions for threads; results do not depend on it.
     constexpr std::int64_t grain = 4096;
     for_each_portion(
         points.size(), forget, [&](std::size_t k) { return points[k]; },

@@ -11,6 +11,7 @@
 namespace clsurf {
 namespace {
 
+// The causes of docs/predictor.md#output.
 constexpr double uneven_spacing = 1.5;       ///< ratio of the programmed steps
 constexpr LineNumber most_lines = 10'000;    ///< most lines of a run that are examined
 constexpr double corner_arc_length = 0.3;    ///< [mm] over which a corner turns
@@ -22,6 +23,7 @@ constexpr int lobes_of_oscillation = 3;
 constexpr double share_of_control = 0.5;  ///< share of a relief that deviations from the program cause
 constexpr double share_of_peak = 0.9;     ///< share of the depth from which on places count as highest
 constexpr std::size_t examined = 16;      ///< approximate number of these places that are examined
+// LinuxCNC joins up to 101 lines (docs/simulate.md#the-trapezoidal-planner).
 constexpr std::int64_t merged =
     110;  ///< number of motions searched before and after that of a point, because a controller may merge so many
 

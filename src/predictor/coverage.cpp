@@ -44,6 +44,7 @@ void judge_records(double record, QualityReport& report) {
 /// Refuses a verdict if the heights of adjacent passes differ by as much as the step-over all over the part. The surface of
 /// one operation has no such heights, unlike a semi-finish and a finish with one tool, one above the other.
 void judge_heights(QualityReport& report) {
+    // See docs/design/predictor.md#6-decide-whether-the-data-allow-a-verdict, Several tools.
     constexpr double most_of_step_over = 0.5;
     const double height = report.thresholds.of[index_of(Quantity::relief)];
     if (report.step_over <= 0 || !std::isfinite(height) || height <= most_of_step_over * report.step_over) return;

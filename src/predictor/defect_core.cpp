@@ -8,6 +8,7 @@ namespace {
 
 constexpr float weak_peak = 0.25F;  ///< share of the strongest peak of its group
 constexpr float dip_share = 0.5F;   ///< share of the lower of two peaks: a deeper dip separates them
+// With one threshold instead of three, a repaired program had 15 more defects, and none of them said anything new.
 constexpr float peak_of_its_own =
     3.0;  ///< share of the threshold that a second peak must reach; weaker ones are after-effects of strong ones
 

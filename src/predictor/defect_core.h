@@ -7,6 +7,7 @@
 
 namespace clsurf {
 
+// See docs/design/predictor.md#4-join-places-into-defects.
 constexpr float half_of_peak = 0.5F;
 
 /// Splits `sites` into sections along one pass whose sites are less than `joined` mm apart. O(sites).

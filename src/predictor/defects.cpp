@@ -22,13 +22,15 @@
 namespace clsurf {
 namespace {
 
-constexpr double shown_share = 0.9;        ///< quantile that is the height of a plateau, without peaks of noise
+constexpr double shown_share = 0.9;  ///< quantile that is the height of a plateau, without peaks of noise
+// The sizes of docs/design/predictor.md#4-join-places-into-defects.
 constexpr double smallest_area = 1.0;      ///< squared step-overs
 constexpr float least_speed_share = 0.6F;  ///< share of the speed that a defect of the acceleration needs …
 constexpr float strong_alone = 1.5F;       ///< … and its score of the acceleration
 constexpr std::size_t fewest_sites = 2;
 constexpr int of_stops = 3;   ///< severity by speed alone from which on a motion may have any length …
 constexpr int of_spikes = 4;  ///< … and that of a height
+// Both numbers: docs/design/predictor.md#5-separate-systematic-lag.
 constexpr std::size_t most_systematic_sections = 300;  ///< number of listed sections, which are the longest
 constexpr double systematic_depth = 0.99;              ///< quantile of the steps of a systematic lag
 

@@ -9,7 +9,8 @@
 
 namespace clsurf {
 
-/// Share of the cutting points that must be compared with the passes on both sides, 0 … 1.
+/// Share of the cutting points that must be compared with the passes on both sides, 0 … 1
+/// (docs/design/predictor.md#6-decide-whether-the-data-allow-a-verdict).
 inline constexpr double least_coverage = 0.5;
 
 struct Judgement {

@@ -21,6 +21,7 @@ namespace {
 constexpr std::size_t sampled_points = 50'000;
 constexpr float round_a_corner = 0.5F;    ///< cos 60°: straight across a corner, passes turn by more than this
 constexpr float slack_step_overs = 0.5F;  ///< along the feed: largest distance between ends that are side by side
+// Three times, as in docs/design/predictor.md#1-compare-adjacent-passes, Residual.
 constexpr float clear_of_scatter = 3;  ///< times the scatter of the motions of the passes around a place near a border
 
 /// The compared quantities of a missing pass.

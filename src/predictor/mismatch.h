@@ -31,6 +31,7 @@ struct Comparison {
 
 class Comparer {
 public:
+    // As in docs/design/predictor.md#1-compare-adjacent-passes, Residual.
     static constexpr int passes_aside = 5;
 
     /// Both must outlive it. `least_speed` [mm/s]: differences of lower speeds are relative to it.
@@ -76,6 +77,7 @@ struct Thresholds {
     float usual_acceleration = 0;            ///< [mm/s²] 99th percentile
 };
 
+/// The numbers of docs/design/predictor.md#2-apply-thresholds.
 struct ThresholdRule {
     float speed = 0.03F;  ///< least threshold, relative to the neighbours' speed
     float acceleration =

@@ -12,8 +12,10 @@
 namespace clsurf {
 namespace {
 
-constexpr float steepest = 1.5F;                 ///< step-overs along the feed per pass: an edge at 34° to the feed
-constexpr float sampled_every = 0.25F;           ///< step-overs
+// The range, the passes and the corner of docs/design/predictor.md#1-compare-adjacent-passes, Oblique comparison.
+constexpr float steepest = 1.5F;        ///< step-overs along the feed per pass: an edge at 34° to the feed
+constexpr float sampled_every = 0.25F;  ///< step-overs
+// Directions are 1.5/24 = 1/16 step-over apart, around the best one 1/128.
 constexpr int tries = 24;                        ///< obliquities on either side of zero …
 constexpr int halvings = 3;                      ///< … and how often their distance is halved around the best one
 constexpr int most_passes = 3;                   ///< on either side

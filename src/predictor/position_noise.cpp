@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t records = 5;
 constexpr std::array<double, records> fourth_difference{1, -4, 6, -4, 1};
+// The squares 1² + 4² + 6² + 4² + 1² add up to 70.
 constexpr double gain = 8.3666;              ///< √70: factor from independent errors to their fourth difference
 constexpr double calm_share = 0.25;          ///< share of all fourth differences
 constexpr double calm_deviation = 0.318639;  ///< standard deviations: a quarter of normal errors is smaller

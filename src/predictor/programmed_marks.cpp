@@ -12,8 +12,9 @@ namespace clsurf {
 namespace {
 
 constexpr float room = 6;  ///< step-overs before and after a defect, within which the pass returns to the others
-constexpr float returned = 3e-4F;  ///< [mm] offset that rounding leaves after the return
+constexpr float returned = 3e-4F;  ///< [mm] offset that rounding leaves after the return; 1 µm/√12 is 2.9e-4
 constexpr int farthest_pass = 8;   ///< number of passes from a mark to the first one without it
+// As in docs/formed.md#definitions, Form.
 constexpr std::size_t clean_aside = 2;
 
 /// Whether the depth of a defect comes from the program.

@@ -7,7 +7,8 @@
 namespace clsurf {
 
 /// Total number of passes that a place is compared with if one side has fewer than the usual number. It is odd, so that passes
-/// that alternate do not balance.
+/// that alternate do not balance. With nine, a band of up to four passes is outvoted
+/// (docs/design/predictor.md#1-compare-adjacent-passes).
 inline constexpr int passes_around_border = 9;
 
 /// The value that a pass should have according to the passes on its two sides, the adjacent one first; NaN: unknown.

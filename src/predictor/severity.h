@@ -13,6 +13,8 @@ inline constexpr int severities = 4;
 /// "in the data only: at the edge of what can be measured" …
 [[nodiscard]] std::string_view meaning_of_severity(int severity);
 
+/// Chosen on recorded runs: a program without planted unevenness gets no reject
+/// (docs/experiments/predictor.md#severities-of-recorded-runs).
 struct SeverityRule {
     std::array<double, 3> depth{0.002, 0.005, 0.020};  ///< [mm] least depths for 2, 3, 4 …
     std::array<float, 3> stands_out{1, 1.5F, 6};       ///< … if the score is at least this

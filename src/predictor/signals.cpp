@@ -25,10 +25,13 @@
 namespace clsurf {
 namespace {
 
+// The windows and limits of docs/design/predictor.md#1-compare-adjacent-passes.
 constexpr double speed_seconds = 0.010;  ///< longest window: of an oscillation of 20 ms it keeps four fifths …
 constexpr double speed_arc_length =
     0.4;  ///< [mm] … and on fast passes, of one of 0.8 mm, because marks are seen by their length
-constexpr double speed_steps = 150;         ///< steps of the positions in the window: rounding is then 1 % of the speed
+// 1.5 steps of rounding in a window of 150 steps (docs/design/predictor.md#2-apply-thresholds).
+constexpr double speed_steps = 150;  ///< steps of the positions in the window: rounding is then 1 % of the speed
+// Stated in docs/design/predictor.md#2-apply-thresholds.
 constexpr double scatter_deviations = 6;    ///< standard deviations: largest difference of two passes by scatter alone
 constexpr double acceleration_windows = 2;  ///< times the window of the speed, for accelerations of slow passes
 constexpr double height_window = 0.015;     ///< [s] window of the mean that smooths heights

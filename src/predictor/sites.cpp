@@ -8,6 +8,7 @@
 namespace clsurf {
 namespace {
 
+// Distances of docs/design/predictor.md#3-judge-sites. 50√2 mm/s: 4 ms pass between two sites, within a factor of √2.
 constexpr double site_length = 0.2;    ///< [mm] because marks are seen by their length; halved where the tool …
 constexpr float slow_from = 70.7107F;  ///< [mm/s] … moves at half of this or less, and so on: 3 to 6 ms between sites
 constexpr double site_arc_length = 0.1;  ///< step-overs between sites, at least

@@ -12,8 +12,9 @@ namespace {
 constexpr double longest_ramp = 20.0;   ///< [mm] 100 mm/s are reached over 17 mm at 300 mm/s²
 constexpr double rise_seconds = 0.005;  ///< [s] time within which the speed of a ramp rises …
 constexpr float least_rise = 0.005F;    ///< … by at least this share
-constexpr double end_share = 0.1;       ///< largest share of a pass that is not judged at either end
-constexpr double sum_rounding = 1;      ///< [mm] tolerance for arc lengths that are summed from different points
+// A tenth of a short pass: docs/design/predictor.md#4-join-places-into-defects, not judged.
+constexpr double end_share = 0.1;   ///< largest share of a pass that is not judged at either end
+constexpr double sum_rounding = 1;  ///< [mm] tolerance for arc lengths that are summed from different points
 
 }  // namespace
 
