@@ -7,6 +7,7 @@
 namespace clsurf {
 namespace {
 
+// Without it, a run with exact stops had 10,603 findings with a factor of 1.00000004.
 constexpr double arithmetic = 1e-6;  ///< share of a limit: rounding errors of sums of doubles, also those of a planner
 
 double proved(const JudgedLimit& limit) { return limit.factor - limit.uncertainty; }

@@ -55,7 +55,8 @@ Comparison compare_following_error(const StatedLimit& limit, const ChannelView& 
             }};
 }
 
-/// Contribution of the program's rounding to a distance from its path [mm].
+/// Contribution of the program's rounding to a distance from its path [mm]. Half a step of four decimals
+/// (docs/limits.md#how-certain).
 constexpr double program_rounding = 5e-5;
 
 /// Whether the offset was stated; a fitted one has other digits.

@@ -7,6 +7,7 @@
 
 namespace clsurf {
 
+// Twice the lead of LinuxCNC (docs/limits.md#how-certain).
 inline constexpr PointIndex longest_line_lead = 4;
 
 /// The lead for which positions are nearest to the motions of their lines, on at most 10^5 records; 0 if lines were found

@@ -10,9 +10,11 @@
 namespace clsurf {
 namespace {
 
+// Differences over 2 to 16 periods, if rounding is more than 1 % of a limit: docs/limits.md#how-certain.
 constexpr std::array<std::size_t, 8> stride_steps{1, 2, 3, 4, 6, 8, 12, 16};
 constexpr double small_share = 0.01;  ///< of a limit
-/// Greatest error of a difference of each order, in multiples of the resolution.
+/// Greatest error of a difference of each order, in multiples of the resolution. Positions are off by half a step, and the
+/// weights of differences add up to 2, 4 and 8.
 constexpr std::array<double, 4> roundings{1, 1, 2, 4};
 /// Rounding error of double arithmetic, relative to the greatest coordinate.
 constexpr double last_places = 4 * std::numeric_limits<double>::epsilon();

@@ -8,7 +8,8 @@
 namespace clsurf {
 namespace {
 
-/// A kernel may report one line for many merged lines, or be ahead on short lines.
+/// A kernel may report one line for many merged lines, or be ahead on short lines. LinuxCNC joins up to 101 lines
+/// (docs/simulate.md#the-trapezoidal-planner).
 constexpr std::int64_t reach = 128;  ///< motions to each side
 
 }  // namespace

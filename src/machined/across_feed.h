@@ -10,6 +10,7 @@
 
 namespace clsurf {
 
+// A cusp of height h = s²/(8 R) has the slope s/(2 R) at its tip, so that half a step away, at s/400, it is h/100 lower.
 inline constexpr double steps_per_pass = 200;  ///< values of a profile; they meet a cusp's tip to 1 % of its height
 
 /// A place and a direction, seen from above.

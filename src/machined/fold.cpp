@@ -13,7 +13,7 @@ using Terms = LocalQuadratic::Terms;
 
 constexpr std::array crease_offsets{-1.6, -0.8, 0.0, 0.8, 1.6};  ///< offsets of the first crease from the knot
 constexpr int lloyd_rounds = 4;              ///< rounds of Lloyd's iteration, which usually converges in two or three
-constexpr std::size_t fewest_on_sheet = 12;  ///< places per sheet
+constexpr std::size_t fewest_on_sheet = 12;  ///< places per sheet; two for each term of a quadratic
 constexpr double most_counted = 8;  ///< times `most`: larger distances count as this; a third sheet must not decide
 
 /// The quadratic through the places of one side.

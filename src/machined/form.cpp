@@ -17,8 +17,9 @@
 namespace clsurf {
 namespace {
 
+// The form of the contacts of docs/formed.md#definitions.
 constexpr double fit_reach = 3;          ///< step-overs: radius around a knot for the fitted places
-constexpr double least_spread = 0.0003;  ///< [mm] spread that rounding to a micrometre leaves
+constexpr double least_spread = 0.0003;  ///< [mm] spread that rounding to a micrometre leaves; 1 µm/√12
 constexpr double least_scatter = 0.001;  ///< [mm] tolerance for contact points of a smooth form …
 constexpr double knots_differ = 2;       ///< most_scatter_ between fits of neighbouring knots at one place
 constexpr double scallop_share = 0.5;    ///< … or this share of a scallop, if larger

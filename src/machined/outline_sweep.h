@@ -22,6 +22,7 @@ struct SweptPiece {
 
 /// Cells near each other, in any order. They are padded to a multiple of `width` with cells that do not count.
 struct CellGroup {
+    // Eight floats fill a register of 32 bytes.
     static constexpr int most = 64, width = 8;
 
     alignas(32) std::array<float, most> x, y;   ///< [mm] positions

@@ -9,7 +9,7 @@ namespace clsurf {
 namespace {
 
 constexpr std::int64_t stride = 3;     ///< rows or columns between the cells that are used for the quadratic
-constexpr double rounded_by = 0.0003;  ///< [mm] scatter of positions that are rounded to a micrometre
+constexpr double rounded_by = 0.0003;  ///< [mm] scatter of positions that are rounded to a micrometre; 1 µm/√12
 
 }  // namespace
 

@@ -20,7 +20,7 @@ namespace clsurf {
 
 class PassesBetween {
 public:
-    /// Odd, so that one of them is over the cusp. Scallops become (seven + 1)² times lower.
+    /// Odd, so that one of them is over the cusp. Scallops become (seven + 1)² times lower (docs/formed.md#definitions, Form).
     static constexpr int count = 7;
 
     /// `smoother`: for the positions inside one of `pieces`; nullptr: none. `near`: points that will be requested, in order;

@@ -14,6 +14,7 @@ namespace clsurf {
 namespace {
 
 const double alpha = std::sqrt(std::numbers::ln2 / std::numbers::pi);  ///< a wave as long as the cut-off is halved
+// Sampling lengths and cut-offs of ISO 4288, and the tolerance of the step-over: docs/formed.md#definitions, Ra.
 constexpr int most_lengths = 5;
 
 struct CutoffClass {
@@ -147,6 +148,7 @@ Roughness roughness_of(std::span<const double> z, std::span<const double> along,
 
 AreaHeights area_heights(std::span<const float> z, std::span<const float> weights) {
     AreaHeights h;
+    // As in docs/formed.md#definitions, Sz.
     constexpr float counts = 0.5F;
     const auto weight = [&](std::size_t k) { return weights.empty() ? 1.0F : weights[k]; };
     double sum = 0;

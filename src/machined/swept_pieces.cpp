@@ -13,11 +13,12 @@
 namespace clsurf {
 namespace {
 
+// Time alone depends on how blocks are divided, heights do not (rounding excepted).
 constexpr int side = 4;              ///< cells of a block that is not divided further
 constexpr std::size_t few = 8;       ///< number of pieces that is not worth a division
 constexpr double kept_share = 0.9;   ///< share of pieces: a division that keeps more is useless
 constexpr float gentle = 0.04F;      ///< of the corner radius squared: a steeper outline has no useful tangent plane
-constexpr float rounding = 2e-6F;    ///< [mm] of heights
+constexpr float rounding = 2e-6F;    ///< [mm] of heights; 2^-24 of 32 mm
 constexpr double corner_share = 4;   ///< number of pieces per corner radius of a bull-nose tool
 constexpr double longest_cells = 8;  ///< cells per piece, or more if the tool is large compared with the cells
 constexpr double standing = 1e-6;    ///< [mm] in the plane: a shorter motion is vertical

@@ -12,6 +12,7 @@ namespace clsurf {
 namespace {
 
 constexpr double tips_aside = 12;  ///< squares from a contact point to the tool's radius, each with one tested tip
+// As in docs/formed.md#definitions, Form of the contacts.
 constexpr double cut_away = 0.02;  ///< [mm] depth inside the tool elsewhere from which on a contact point is cut away
 constexpr double distance_rounding = 1e-9;  ///< [mm] error of distances
 

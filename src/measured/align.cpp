@@ -18,16 +18,18 @@ namespace {
 
 constexpr std::size_t most_fitted = 5000;   ///< points; more do not improve the pose beyond the accuracy of the surface
 constexpr std::size_t most_searched = 600;  ///< points
-constexpr double usual_search = 1;          ///< [mm]
-constexpr double search_passes = 3;         ///< step-overs
-constexpr double search_steps = 8;          ///< steps per step-over
-constexpr double same_place = 0.25;         ///< step-overs: poses closer than this are the same
-constexpr double surface_error = 5e-5;      ///< [mm] error of heights between cells: lower limit of any error
-constexpr double most_error = 0.25;         ///< step-overs: largest standard error of a determined degree of freedom
-constexpr double much_farther = 1.25;       ///< times the least median distance: such a pose is unlikely
+// Distances, ratios and least number of points of docs/howto/measured.md#the-pose.
+constexpr double usual_search = 1;      ///< [mm]
+constexpr double search_passes = 3;     ///< step-overs
+constexpr double search_steps = 8;      ///< steps per step-over
+constexpr double same_place = 0.25;     ///< step-overs: poses closer than this are the same
+constexpr double surface_error = 5e-5;  ///< [mm] error of heights between cells: lower limit of any error
+constexpr double most_error = 0.25;     ///< step-overs: largest standard error of a determined degree of freedom
+constexpr double much_farther = 1.25;   ///< times the least median distance: such a pose is unlikely
+// By chance: chi-square with one degree of freedom exceeds 12 with a probability of 0.0005.
 constexpr double clear_difference = 12;   ///< difference of squares over their variance: less than 1 in 1,000 by chance
 constexpr double clear_share = 0.2;       ///< share of the squares of points that are far off in both poses
-constexpr double far_off = 4.5;           ///< median distances: three standard deviations
+constexpr double far_off = 4.5;           ///< median distances: three standard deviations; 3 · 1.4826
 constexpr double least_far_off = 2e-4;    ///< [mm]
 constexpr double unknown_error = 1e6;     ///< [mm] for a degree of freedom that changes no distance
 constexpr double main_share = 0.4;        ///< share of a direction's length: a smaller component is not named

@@ -12,6 +12,7 @@ namespace clsurf {
 namespace {
 
 constexpr double steps_of_pass = 1000;  ///< most steps of a profile per step-over: more have no effect
+// See docs/howto/measured.md#the-comparison.
 constexpr int map_profiles = 11;
 constexpr double map_share = 0.9;          ///< share of the extent of a map over which its profiles are distributed
 constexpr double steps_of_short_wave = 2;  ///< steps that a filter of a short wave needs

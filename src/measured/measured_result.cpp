@@ -11,6 +11,7 @@ namespace clsurf {
 namespace {
 
 constexpr double least_correlation = 0.3;
+// As in docs/howto/measured.md#the-pose, the last message.
 constexpr double most_times = 3;        ///< largest ratio of measured and predicted Rq if they are alike
 constexpr double least_rough = 0.0002;  ///< [mm] Rq of the rougher one; heights are not known more precisely
 

@@ -20,12 +20,13 @@ constexpr double most_damping = 1e8;
 constexpr double surface_reach = 0.125;  ///< step-overs, for slopes with scallops
 constexpr double least_known = 0.5;      ///< share of the points that must be over the part: others have no distance
 constexpr double kept_share = 0.95;      ///< share of the points with a distance in one pose that keep one in the next
-constexpr double outlier = 3;            ///< standard deviations
-constexpr double least_outlier = 2e-4;   ///< [mm]
+// Three standard deviations: docs/howto/measured.md#the-pose.
+constexpr double outlier = 3;           ///< standard deviations
+constexpr double least_outlier = 2e-4;  ///< [mm]
 constexpr int most_rounds = 8;
 constexpr int level_rounds = 12;
 constexpr double nearest_share = 0.75;    ///< share of the points from which height and tilt are determined
-constexpr double height_rounding = 6e-8;  ///< relative, of float heights over level()
+constexpr double height_rounding = 6e-8;  ///< relative, of float heights over level(); 2^-24
 
 }  // namespace
 

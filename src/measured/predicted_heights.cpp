@@ -11,7 +11,7 @@ namespace clsurf {
 namespace {
 
 constexpr std::int64_t tile_cells = 64;                     ///< a side
-constexpr std::int64_t most_tiles = std::int64_t{1} << 30;  ///< in a row, of either sign
+constexpr std::int64_t most_tiles = std::int64_t{1} << 30;  ///< in a row, of either sign; keys then fit into 64 bits
 
 std::int64_t floor_div(std::int64_t a, std::int64_t b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 
