@@ -15,7 +15,7 @@ namespace clsurf {
 
 class ArcSteps {
 public:
-    // Shares of the axes' jerk limits that remain next to a step:
+    // Shares of the axes' jerk limits that remain next to the 3/4 of a step (docs/simulate.md#speed-of-arcs):
     static constexpr double jerk_share = 0.15;  ///< for changes of the speed
     static constexpr double twist_share = 0.1;  ///< for a block that is itself curved
 

@@ -10,6 +10,7 @@
 namespace clsurf {
 namespace {
 
+// As LinuxCNC 2.9 (docs/simulate.md#the-trapezoidal-planner, point 2).
 constexpr std::size_t most_merged = 101;
 
 bool mergeable(const PathElement& element) {

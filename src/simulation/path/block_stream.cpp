@@ -13,6 +13,7 @@
 namespace clsurf {
 namespace {
 
+// As in docs/simulate.md#1-sections-between-stops.
 constexpr double reversal_angle = 179.0 * rad_per_deg;
 constexpr double cusp_length = 0.001;  ///< [mm] a curve that turns by more than 90° within it has a corner there
 

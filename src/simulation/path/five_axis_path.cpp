@@ -8,7 +8,8 @@
 namespace clsurf {
 namespace {
 
-constexpr double length_of_angle = 10;      ///< [mm/rad] of u, for blocks that only turn
+constexpr double length_of_angle = 10;  ///< [mm/rad] of u, for blocks that only turn
+// As on three axes (docs/simulate.md#2-corner-rounding).
 constexpr std::size_t joints_reached = 20;  ///< joints to each side that a rounding may cross
 constexpr double at_joint = 15.0 / 96.0;    ///< G(0)
 constexpr double inside_chords = 4;         ///< width of a rounding inside a curved block, in chords

@@ -12,6 +12,7 @@
 
 namespace clsurf {
 
+// As in docs/simulate.md#special-cases.
 inline constexpr double straight_on = 1e-9;      ///< [rad] a smaller turn moves no axis
 inline constexpr double least_bend_jump = 1e-9;  ///< [1/mm] a smaller jump of curvature is ignored
 // Between spans of splines, because programs round control points.

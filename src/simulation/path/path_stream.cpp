@@ -10,6 +10,7 @@
 namespace clsurf {
 namespace {
 
+// Both shares: docs/simulate.md#2-corner-rounding.
 constexpr double share_of_bends = 0.25;  ///< share of the tolerance for jumps of curvature if the path has arcs
 constexpr double top_share = 0.25;       ///< share of a rounding's width if only the path limits the jerk
 

@@ -94,7 +94,8 @@ struct Span {
 
 class PathStream {
 public:
-    /// Number of joints to each side that a rounding may cross. It bounds how many blocks must be known.
+    /// Number of joints to each side that a rounding may cross. It bounds how many blocks must be known
+    /// (docs/simulate.md#2-corner-rounding).
     static constexpr std::int64_t reach_of_a_joint = 20;
 
     /// Both references must outlive the object; the source is at its start. `start`: position of the axes; coordinates that

@@ -10,6 +10,7 @@ namespace clsurf {
 
 class SplineSections final : public ElementSource {
 public:
+    // See docs/simulate.md#special-cases, splines.
     static constexpr double error = 1e-4;  ///< [mm] greatest distance of a section from its span
 
     /// Must outlive the object.

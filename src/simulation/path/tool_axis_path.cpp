@@ -39,6 +39,7 @@ PoleWindow pole_window(double least_tilt, double ratio) {
     double low = 0;
     double high = 0.5 * std::numbers::pi;
     if (window_of(high, least_tilt).greatest_speed > ratio) return window_of(high, least_tilt);
+    // 2^-60 of a quarter turn is less than the rounding of doubles.
     constexpr int halvings = 60;
     for (int k = 0; k < halvings; ++k) {
         const double middle = 0.5 * (low + high);

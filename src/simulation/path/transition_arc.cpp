@@ -11,6 +11,7 @@
 namespace clsurf {
 namespace {
 
+// Limits of docs/simulate.md#2-corner-rounding (arcs) and docs/simulate.md#1-sections-between-stops.
 constexpr double collinear = 0.01 * rad_per_deg;
 constexpr double reversal = 179.0 * rad_per_deg;
 constexpr double least_arc_length = 1e-7;  ///< [mm] a shorter tangent is rounding

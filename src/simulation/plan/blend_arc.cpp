@@ -14,7 +14,8 @@ constexpr double least_arc = 1e-6;            ///< [mm]
 constexpr double least_radius = 1e-12;        ///< [mm]
 constexpr double sharpest_of_arcs = pi / 12;  ///< smallest half angle of a corner between two arcs [rad]
 constexpr double tangent_share = 0.25;        ///< share of the normal acceleration for direction errors of a blend
-constexpr double tolerance_share = 0.25;      ///< deviation of a parabola over half of a block, relative to the block
+// A quarter of the shorter block: docs/simulate.md#the-trapezoidal-planner, point 4.
+constexpr double tolerance_share = 0.25;  ///< deviation of a parabola over half of a block, relative to the block
 
 /// One of the two blocks of a corner.
 struct Side {

@@ -8,10 +8,12 @@ namespace clsurf {
 namespace {
 
 constexpr double near_limit = 0.95;  ///< share from which a maximum is refined
-constexpr int peak_halvings = 3;     ///< halvings of the two intervals next to a local maximum of the share
-constexpr int dip_halvings = 24;     ///< halvings to find the minimum of the pace
-constexpr double dip_step = 0.125;   ///< distance of places, as a share of the width of the dip
-constexpr int dip_places = 16;       ///< places on each side of the minimum
+// Without these halvings, 24 of 60 random programs exceeded a limit at 0.25 ms, by up to 3 %.
+constexpr int peak_halvings = 3;  ///< halvings of the two intervals next to a local maximum of the share
+constexpr int dip_halvings = 24;  ///< halvings to find the minimum of the pace
+// 33 places within 2 widths of the minimum. Without places in dips, 9 of 12 random programs exceeded a limit at 0.5 ms.
+constexpr double dip_step = 0.125;  ///< distance of places, as a share of the width of the dip
+constexpr int dip_places = 16;      ///< places on each side of the minimum
 
 }  // namespace
 

@@ -17,8 +17,10 @@
 namespace clsurf {
 namespace {
 
-constexpr double first_share = 0.5;      ///< share of the limits for the first speeds
-constexpr double cells_in_ramp = 10;     ///< cells in the time in which the jerk limit reaches the acceleration limit
+constexpr double first_share = 0.5;   ///< share of the limits for the first speeds
+constexpr double cells_in_ramp = 10;  ///< cells in the time in which the jerk limit reaches the acceleration limit
+// With cells that grow away from corners and turns, forty lines of 200 mm take 0.18 instead of 5.5 s
+// (docs/experiments/simulation.md#run-time).
 constexpr double cell_growth = 0.15;     ///< longest cell, as a share of the time from or to a rest or a rounding
 constexpr double most_cell_turn = 0.05;  ///< [rad] turn of the angles in a cell that is longer than the shortest
 constexpr double slow_approach = 0.5;    ///< longest cell before a slow place, as a share of the distance to it
@@ -26,6 +28,7 @@ constexpr std::size_t window_cells = 1500;
 constexpr std::size_t least_cells = 100;                                       ///< cells of a window that is shortened
 constexpr double kept_share = 0.6;                                             ///< share of a window that is run
 constexpr std::array<double, 6> slower_tries{1, 0.5, 0.25, 0.1, 0.03, 0.003};  ///< shares of the first v² to try
+// Without this bound, three programs with random limits had not ended after a minute.
 constexpr std::size_t most_cells = 12000;  ///< cells of a window; if there are more, a shorter window is planned
 constexpr double held_share = 0.7;         ///< share of the greatest v² that satisfies every limit
 constexpr int most_halvings = 30;          ///< number of times that v² is halved if it exceeds a limit between samples

@@ -12,6 +12,7 @@ namespace {
 constexpr double least_coefficient = 0.2;  ///< share of the first value of a coefficient
 // The spline satisfies the limits at samples; a margin is left for the places between them.
 constexpr double acceleration_share = 0.9995, jerk_share = 0.997;
+// With 0.9995, one of 14,000 random programs exceeded the acceleration along the path by 0.2 %.
 constexpr double path_acceleration_share = 0.998;  ///< on a rounded path, whose pace varies fast on sharp bends
 constexpr double lowering = 0.998;                 ///< additional factor for a limit that is exceeded between its rows
 // Rows from the beginning: limits that are nearly reached at the first speeds, or could be at somewhat more speed and

@@ -18,6 +18,7 @@ struct SimulatedPoint {
     LimitingFactor limit = LimitingFactor::none;
 };
 
+// Random programs are tested with this tolerance (docs/experiments/simulation.md#random-programs).
 inline constexpr double limit_tolerance = 1.001;  ///< a limit counts as kept within it, because values are differences
 
 /// Measurements of a run, from differences of its points.
