@@ -16,6 +16,7 @@ namespace clsurf {
 namespace {
 
 constexpr PointIndex most_records = 4'000'000;
+// As in docs/design/identify.md#limits.
 constexpr std::size_t least_places = 3;
 constexpr double parallel = 0.98;  ///< share of the path's value that counts as parallel to the axis
 

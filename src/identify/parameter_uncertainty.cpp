@@ -11,7 +11,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double limits_no_path = 1e6;  ///< mm/s²: only the axes limit the path
+constexpr double limits_no_path = 1e6;  ///< mm/s²: only the axes limit the path; as no_path_limit
 
 std::optional<double> number_in(const std::string& text) {
     double value = 0;

@@ -31,7 +31,8 @@ void score(const std::vector<std::vector<float>>& residuals, const RuleScores& s
     }
 }
 
-/// Share of the mean error by which a value must be better than the present one if the criterion does not distinguish them.
+/// Share of the mean error by which a value must be better than the present one if the criterion does not distinguish them. The
+/// right one of two overrides that the criterion did not distinguish was better by 16 %.
 constexpr double gain_of_equal = 0.1;
 
 /// The candidates that explain the runs about as well as the best one.
@@ -45,6 +46,7 @@ std::vector<std::size_t> equal_to_best(std::span<const RuleCandidate> candidates
 }
 
 double rounded(double value) {
+    // As in docs/design/identify.md#rules-of-the-planner.
     constexpr int digits = 3;
     const double scale = std::pow(10.0, digits - 1 - std::floor(std::log10(value)));
     return std::round(value * scale) / scale;
@@ -65,6 +67,7 @@ void refine(const Rule& rule, std::size_t chosen, RuleScores& scores, Machine& m
     };
     const double below = chosen > 0 ? numbers[chosen - 1] : 0.5 * numbers[chosen],
                  above = chosen + 1 < numbers.size() ? numbers[chosen + 1] : 2 * numbers[chosen];
+    // Ten bits are about three digits.
     constexpr int bits = 10;
     std::uintmax_t runs = 16;
     const double shown = rounded(
@@ -231,12 +234,14 @@ bool RuleScores::has_arcs() const {
 }
 
 bool RuleScores::explains(double mean_error) const {
+    // As in docs/design/identify.md#rules-of-the-planner.
     constexpr double share = 0.002;  // of the speed
     return mean_error <= share * usual_speed();
 }
 
 double RuleScores::resolution() const {
-    constexpr double of_positions = 0.005;   // mm/s: the resolution of differences of rounded positions …
+    constexpr double of_positions = 0.005;  // mm/s: the resolution of differences of rounded positions …
+    // As in docs/design/identify.md#rules-of-the-planner.
     constexpr double of_the_model = 0.0005;  // … and of any model, as a share of the speed
     return std::max(of_positions, of_the_model * usual_speed());
 }

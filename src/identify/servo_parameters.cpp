@@ -198,6 +198,7 @@ private:
 
     /// Whether the loop leaves a larger residual than quantum and noise explain.
     [[nodiscard]] bool another_form() const {
+        // As in docs/identify.md#servo-loops.
         constexpr double most = 2;  // factor of what quantum and noise explain
         return axis_.fit.residual > most * axis_.fit.explained;
     }

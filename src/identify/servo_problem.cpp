@@ -11,7 +11,7 @@ namespace {
 
 constexpr PointIndex most_fit_records = 1'000'000;
 /// Size of the groups whose sums of scores give the covariance: residuals of an inexact model are correlated over some
-/// records.
+/// records (docs/design/identify.md#servo-loops).
 constexpr PointIndex group_size = 512;
 
 /// The change of a parameter over which its derivative is taken. An axis sticks and comes loose at the end of a period.

@@ -9,6 +9,7 @@
 namespace clsurf {
 namespace {
 
+// The same evidence as `decisive` (rule_search.h).
 constexpr double needless = 10;  ///< decrease of the criterion that an uncertain term must exceed
 // The integral is last: it is tried only if no loop without it explains the records.
 constexpr std::array optional_terms{ServoTerm::friction, ServoTerm::backlash, ServoTerm::dead_time,

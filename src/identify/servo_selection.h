@@ -10,7 +10,7 @@
 
 namespace clsurf {
 
-/// Number of standard errors above zero from which an optional term is certain.
+/// Number of standard errors above zero from which an optional term is certain (docs/identify.md#servo-loops).
 inline constexpr double certain_errors = 4;
 
 /// The evidence for an additional term of the loop.

@@ -158,7 +158,8 @@ ServoParameters stepped(const ServoSolution& at, std::span<const ServoTerm> boun
     }
 }
 
-/// The recorded commands are also rounded, in phase with the motion: no stated error is smaller than this share.
+/// The recorded commands are also rounded, in phase with the motion: no stated error is smaller than this share
+/// (docs/design/identify.md#servo-loops).
 constexpr double least_error = 1e-5;
 
 /// The covariance of parameters whose residuals are correlated within groups of records, by the derivatives of `sums`.
