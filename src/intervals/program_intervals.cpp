@@ -14,7 +14,8 @@ namespace clsurf {
 namespace {
 
 constexpr double shared_reach = 2;  ///< scatter of boundaries of adjacent passes along the path, in step-overs
-constexpr double alike = 0.15;      ///< adjacent speeds that differ by less (relative) become one
+// As in docs/optimize.md#intervals, points 5 and 7.
+constexpr double alike = 0.15;  ///< adjacent speeds that differ by less (relative) become one
 
 bool are_alike(double a, double b) { return std::max(a, b) < (1 + alike) * std::min(a, b); }
 

@@ -10,6 +10,7 @@
 namespace clsurf {
 namespace {
 
+// As in docs/optimize.md#intervals, point 5.
 constexpr int passes_on_a_side = 2;
 constexpr std::array<Side, 2> sides{Side::left, Side::right};
 

@@ -207,6 +207,7 @@ std::vector<PointRange> LineMap::points_of(LineNumber first, LineNumber last) co
 }
 
 double LineMap::confidence_at(PointIndex point) const {
+    // As in docs/design/predictor.md#6-decide-whether-the-data-allow-a-verdict, An edited program.
     constexpr double edited_confidence = 0.95;  // the text has been edited since the run
     const double least = match_.edited ? edited_confidence : 1.0;
     if (from_log()) return line_at(point) > 0 ? least : 0.0;

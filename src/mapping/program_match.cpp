@@ -5,6 +5,7 @@
 namespace clsurf {
 
 std::vector<std::string> ProgramMatch::doubts() const {
+    // As in docs/design/predictor.md#6-decide-whether-the-data-allow-a-verdict, A partial log.
     constexpr double most_missing = 0.5;
     std::vector<std::string> sentences;
     if (!foreign.empty()) sentences.push_back("The log does not belong to this program: " + foreign + ".");

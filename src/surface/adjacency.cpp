@@ -15,8 +15,9 @@ namespace {
 using Vec3f = Eigen::Vector3f;
 
 // All in step-overs.
-constexpr float nearest_neighbour = 0.2F;   ///< nearer neighbours are the same pass cut again
-constexpr float usual_neighbour = 1.6F;     ///< beyond this a nearer neighbour may have begun and is searched for
+constexpr float nearest_neighbour = 0.2F;  ///< nearer neighbours are the same pass cut again
+constexpr float usual_neighbour = 1.6F;    ///< beyond this a nearer neighbour may have begun and is searched for
+// The farthest is stated in docs/predictor.md#limits.
 constexpr float farthest_neighbour = 4.0F;  ///< on steep flanks passes are this far apart
 constexpr float along_tolerance = 0.35F;    ///< greatest distance of a projection along the feed
 constexpr float steep_share = 0.12F;        ///< squared cosine to the horizontal below which a neighbour is above

@@ -33,6 +33,7 @@ public:
     }
 
 private:
+    // 2^64 divided by the golden ratio, which spreads consecutive cells over the slots.
     static constexpr std::uint64_t hash_factor = 0x9e3779b97f4a7c15ull;
 
     CellGrid grid_;

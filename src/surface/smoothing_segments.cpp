@@ -12,6 +12,7 @@
 namespace clsurf {
 namespace {
 
+// As in docs/guide/fields.md.
 constexpr double standing_seconds = 0.020;  ///< the derivatives' usual window …
 constexpr PointIndex fewest_standing = 3;   ///< … and no fewer records
 
