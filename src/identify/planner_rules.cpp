@@ -18,8 +18,8 @@ namespace clsurf {
 namespace {
 
 constexpr int most_passes = 4;  // over all rules
-// A quarter, as in docs/design/identify.md#rules-of-the-planner: with less, a run was explained by a look-ahead of 5 blocks that
-// missed the time of another part by 3 %.
+// gain_of_later_passes: docs/design/identify.md#rules-of-the-planner. With less, a run was explained by a look-ahead of 5
+// blocks that missed the time of another part by 3 %.
 constexpr double gain_of_later_passes = 0.25;  // share of the speed error: these passes correct what other rules hid
 
 /// The value that leaves the rule of the machine unchanged.

@@ -22,7 +22,7 @@ namespace {
 constexpr std::string_view speed_key = "max_speed";
 constexpr int most_rounds = 3;   ///< over all limits, because the lowest limit hides the others
 constexpr double beside = 0.02;  ///< relative distance of adjacent values
-// The range, and the round values near the best one: docs/design/identify.md#limits-that-the-motion-hides.
+// range, about_best: docs/design/identify.md#limits-that-the-motion-hides.
 constexpr double range = 4;                 ///< factor of the machine's value up to which values are tried
 constexpr std::size_t grid = 6;             ///< number of these values, in equal ratios
 constexpr int bits = 10;                    ///< accuracy of the logarithm of the best value …

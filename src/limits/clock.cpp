@@ -14,7 +14,7 @@ namespace {
 
 // A lost record makes a difference of a whole period.
 constexpr double lost_share = 0.5;  ///< share of a period: a clock step that differs by more is broken
-// The rules for lost and repeated records of docs/limits.md#how-certain.
+// beyond_limit, certain_jerk, long_step, short_step: docs/limits.md#how-certain, lost and repeated records.
 constexpr double beyond_limit = 20;  ///< times the limit of acceleration
 constexpr double slack = 0.02;       ///< share of a limit by which a motion at the limit may exceed it
 constexpr double certain_jerk = 3;   ///< multiple of the limit: if steps are even otherwise, more means lost records

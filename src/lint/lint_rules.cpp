@@ -16,7 +16,7 @@ namespace {
 
 using Findings = std::vector<LintFinding>;
 
-// The rules of docs/optimize.md#lint.
+// fewest_uneven, scatter_of_starts: docs/optimize.md#lint.
 constexpr std::size_t fewest_uneven = 3;   ///< ends in a run: saving one or two points on a collinear line is harmless
 constexpr double reversing_cosine = -0.5;  ///< a line that turns by more than 120° runs back
 constexpr double scatter_of_starts = 6;    ///< multiple of the median absolute residual; a greater one is out of line

@@ -14,7 +14,7 @@ namespace clsurf {
 namespace {
 
 constexpr PointIndex scallop_places = 10'000;
-// The profile, the agreement and the tolerance of docs/formed.md#definitions.
+// passes_aside, mark_tolerance, agreement, agreement_share: docs/formed.md#definitions.
 constexpr double passes_aside = 6.5;  ///< step-overs per side of a mark's profile: most pairs miss a mark of two passes
 constexpr double mark_within = 1.0;   ///< step-overs: largest distance of a mark from the middle
 constexpr double coarse_spread = 0.001;   ///< [mm] sections of an even surface differ by less

@@ -17,7 +17,8 @@
 namespace clsurf {
 namespace {
 
-// The form of the contacts of docs/formed.md#definitions.
+// fit_reach, least_scatter, knots_differ, scallop_share, most_off, crease_off, fold_off, fold_gain, sharp_edge, covered:
+// docs/formed.md#definitions.
 constexpr double fit_reach = 3;          ///< step-overs: radius around a knot for the fitted places
 constexpr double least_spread = 0.0003;  ///< [mm] spread that rounding to a micrometre leaves; 1 µm/√12
 constexpr double least_scatter = 0.001;  ///< [mm] tolerance for contact points of a smooth form …

@@ -14,7 +14,7 @@
 namespace clsurf {
 namespace {
 
-// Patches, windows and lines of docs/formed.md#definitions.
+// patches_wanted, patch_cutoffs, lines_across: docs/formed.md#definitions.
 constexpr std::size_t patches_wanted = 24;
 constexpr double profile_cutoffs = 6;  ///< five sampling lengths, and half of one at each end
 constexpr double patch_cutoffs = 2;    ///< side of a patch

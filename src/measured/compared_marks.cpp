@@ -18,7 +18,7 @@ constexpr double passes_aside = 6.5;     ///< of a mark's profile, as for its pr
 constexpr double crossing = 0.5;         ///< step-overs: a profile crosses a mark if its contact is this near
 constexpr double least_across = 0.5;     ///< cosine between a profile and the direction across the feed
 constexpr double mark_tolerance = 0.25;  ///< of a mark's depth, as for its predicted depth
-// Least depth and share of docs/howto/measured.md#the-comparison.
+// times_noise, present: docs/howto/measured.md#the-comparison.
 constexpr double times_noise = 3;     ///< times the noise: least depth of a judged mark
 constexpr double least_depth = 1e-4;  ///< [mm] and at least this depth
 constexpr double present = 0.5;       ///< least share of the predicted depth

@@ -8,8 +8,9 @@
 namespace clsurf {
 namespace {
 
-// The rules of docs/design/predictor.md#4-join-places-into-defects, Bends. Logs with islands, links and triangles test them
-// (docs/experiments/predictor.md#kinds-of-logs-that-were-not-used-for-development).
+// bend_cosine, slight_cosine, own_share, long_link, link_nearest, own_turn, accelerates, link_accelerates, accelerates_more,
+// longest_braking and those that begin with closing: docs/design/predictor.md#4-join-places-into-defects, Bends. Logs with
+// islands, links and triangles test them (docs/experiments/predictor.md#kinds-of-logs-that-were-not-used-for-development).
 constexpr float bend_cosine = 0.906F;  ///< cos 25°: the path bends if it turns by more than this …
 constexpr float net_reach =
     2;  ///< … and is still turned so many step-overs away on both sides, unlike at a step-over move

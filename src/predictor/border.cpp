@@ -8,7 +8,7 @@
 namespace clsurf {
 namespace {
 
-// The rule of docs/design/predictor.md#4-join-places-into-defects, Expected.
+// clear_score, passes_enough, flank_ramps: docs/design/predictor.md#4-join-places-into-defects, Expected.
 constexpr float clear_score = 2;
 constexpr int passes_enough = 3;  ///< number of passes on the side that has some
 constexpr std::size_t sites_enough = 3;

@@ -15,7 +15,7 @@
 namespace clsurf {
 namespace {
 
-// Both rules: docs/design/predictor.md#4-join-places-into-defects.
+// fewest_alike, candidate_share: docs/design/predictor.md#4-join-places-into-defects.
 constexpr int fewest_alike = 2;          ///< passes of one direction on each side, to distinguish a zigzag from a fault
 constexpr float candidate_share = 0.5F;  ///< share of a threshold
 constexpr double ends_apart = 1;         ///< step-overs along the feed: closer ends of passes are side by side

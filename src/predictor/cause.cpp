@@ -11,7 +11,8 @@
 namespace clsurf {
 namespace {
 
-// The causes of docs/predictor.md#output.
+// uneven_spacing, corner_arc_length, corner_cosine, lobes_of_oscillation, share_of_control: the causes of
+// docs/predictor.md#output.
 constexpr double uneven_spacing = 1.5;       ///< ratio of the programmed steps
 constexpr LineNumber most_lines = 10'000;    ///< most lines of a run that are examined
 constexpr double corner_arc_length = 0.3;    ///< [mm] over which a corner turns

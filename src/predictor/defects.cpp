@@ -23,7 +23,7 @@ namespace clsurf {
 namespace {
 
 constexpr double shown_share = 0.9;  ///< quantile that is the height of a plateau, without peaks of noise
-// The sizes of docs/design/predictor.md#4-join-places-into-defects.
+// smallest_area, fewest_sites, of_stops, of_spikes: docs/design/predictor.md#4-join-places-into-defects.
 constexpr double smallest_area = 1.0;      ///< squared step-overs
 constexpr float least_speed_share = 0.6F;  ///< share of the speed that a defect of the acceleration needs …
 constexpr float strong_alone = 1.5F;       ///< … and its score of the acceleration

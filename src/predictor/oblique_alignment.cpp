@@ -12,7 +12,7 @@
 namespace clsurf {
 namespace {
 
-// The range, the passes and the corner of docs/design/predictor.md#1-compare-adjacent-passes, Oblique comparison.
+// steepest, most_passes, oblique_corner_cosine: docs/design/predictor.md#1-compare-adjacent-passes, Oblique comparison.
 constexpr float steepest = 1.5F;        ///< step-overs along the feed per pass: an edge at 34° to the feed
 constexpr float sampled_every = 0.25F;  ///< step-overs
 // Directions are 1.5/24 = 1/16 step-over apart, around the best one 1/128.

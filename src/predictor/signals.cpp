@@ -25,7 +25,8 @@
 namespace clsurf {
 namespace {
 
-// The windows and limits of docs/design/predictor.md#1-compare-adjacent-passes.
+// speed_seconds, speed_arc_length, acceleration_windows, height_window, least_upward, least_chord_share:
+// docs/design/predictor.md#1-compare-adjacent-passes.
 constexpr double speed_seconds = 0.010;  ///< longest window: of an oscillation of 20 ms it keeps four fifths …
 constexpr double speed_arc_length =
     0.4;  ///< [mm] … and on fast passes, of one of 0.8 mm, because marks are seen by their length

@@ -15,7 +15,7 @@
 namespace clsurf {
 namespace {
 
-// The numbers of docs/design/predictor.md#5-separate-systematic-lag.
+// lag_passes_aside, fewest_passes, least_share, shift_step_overs: docs/design/predictor.md#5-separate-systematic-lag.
 constexpr int lag_passes_aside = 8;     ///< passes compared per side; narrower faults on every second one do not count
 constexpr float one_sided_bend = 1.5F;  ///< extrapolation from the two rings of passes on one side to the place
 constexpr float alternates = 0.5F;      ///< share of the threshold

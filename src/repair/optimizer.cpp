@@ -19,9 +19,9 @@
 namespace clsurf {
 namespace {
 
-// The search to which these numbers belong is described in docs/experiments/repair.md#the-search-in-detail, the masks of drafts
-// in docs/optimize.md#method, step 2. Two periods for a line: planners that put arcs into corners slow down at shorter ones
-// (docs/experiments/kernel.md#what-made-the-difference).
+// shares_of_tolerance, mixing_rounds, most_mixing_rounds, most_fed, most_equalised_early, more_rounds:
+// docs/experiments/repair.md#the-search-in-detail. worst_alone, slow_as_well: docs/optimize.md#method, step 2. periods_a_line:
+// planners that put arcs into corners slow down at shorter lines (docs/experiments/kernel.md#what-made-the-difference).
 constexpr std::array<double, 3> shares_of_tolerance{0.2, 0.1, 0.4};  ///< distance of lines from the curve
 constexpr double reserve = 1.1;                       ///< factor for the arc length in a block time or in periods
 constexpr double periods_a_line = 2;                  ///< periods per line with the trapezoidal planner

@@ -13,7 +13,7 @@
 namespace clsurf {
 namespace {
 
-// Half of the tolerance, and the longest runs: docs/simulate.md#2-corner-rounding.
+// curve_share, most_blocks: docs/simulate.md#2-corner-rounding.
 constexpr double curve_share = 0.5;             ///< share of the tolerance that curves may use
 constexpr double sharp = std::numbers::pi / 4;  ///< [rad] no curve passes a sharper corner
 constexpr std::size_t most_blocks = 1000;       ///< greatest number of blocks of a run; limits how many must be known

@@ -11,7 +11,7 @@
 namespace clsurf {
 namespace {
 
-// Stops, and the duration of a segment: docs/simulate.md#the-trapezoidal-planner, points 3 and 6.
+// sharp, segment_periods: docs/simulate.md#the-trapezoidal-planner, points 3 and 6.
 constexpr double sharp = 2 * rad_per_deg;  ///< at a turn closer than this to a reversal the axes stop
 constexpr double flat_corner = 1e-3;       ///< [rad] flatter corners are not limited by the tolerance
 constexpr double segment_periods = 1.02;   ///< least duration of a segment at its highest speed [periods]

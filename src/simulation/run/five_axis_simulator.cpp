@@ -17,7 +17,7 @@
 namespace clsurf {
 namespace {
 
-// The rounds, the smoothing and the shortest ramps of docs/simulate.md#five-axes.
+// most_slower_rounds, half_width, shortest_resolved_ramp: docs/simulate.md#five-axes.
 constexpr int most_slower_rounds = 32;
 constexpr int half_width = 8;             ///< of the smoothing of angles [periods]
 constexpr int carry_periods = 16;         ///< periods over which angles catch up after a rounded corner skipped some
