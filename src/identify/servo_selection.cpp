@@ -94,6 +94,7 @@ private:
 
     /// Whether some loop leaves independent residuals: those of quantum and noise.
     [[nodiscard]] bool is_white() const {
+        // As in docs/design/identify.md#servo-loops.
         constexpr double nearly = 1.1;  // factor; the excess is below a third of the noise
         return std::any_of(found_.begin(), found_.end(), [&](const auto& each) {
             return each && each->sums.mean_square() <= nearly * each->unexplainable();

@@ -13,6 +13,7 @@
 namespace clsurf {
 namespace {
 
+// A bound on the time. The median of 10,000 independent samples has a standard error of 1.3 % of their standard deviation.
 constexpr PointIndex scallop_places = 10'000;
 // passes_aside, mark_tolerance, agreement, agreement_share: docs/formed.md#definitions.
 constexpr double passes_aside = 6.5;  ///< step-overs per side of a mark's profile: most pairs miss a mark of two passes

@@ -457,6 +457,7 @@ std::int64_t Form::subtract(const MapFrame& frame, std::int64_t first_row, doubl
     std::atomic<std::int64_t> unknown = 0;
     const auto count = static_cast<std::int64_t>(z.size());
     const Programmed programmed = programmed_rows(frame, first_row, count / frame.columns);
+    // A size of portions for threads; results do not depend on it.
     constexpr std::int64_t grain = 4096;
     parallel_for(count, grain, [&](std::int64_t first, std::int64_t last) {
         std::int64_t here = 0;

@@ -90,6 +90,7 @@ std::vector<Vec3> ungouged_contacts(const AsMachinedSurface& as_machined, const 
         as_machined.contacts(Box2(region.min() - room, region.max() + room), spacing);
     const SquareGrid grid(found, region, tool.radius, 2 * spacing);
     std::vector<std::uint8_t> keep(found.size());
+    // A size of portions for threads; results do not depend on it.
     constexpr std::int64_t grain = 64;
     parallel_for(grid.squares(), grain, [&](std::int64_t first, std::int64_t last) {
         std::vector<Vec3> tips;

@@ -106,6 +106,7 @@ private:
 
     /// Reads through a window, because channels are gathered by block.
     Vec3 position(PointIndex i) {
+        // Points that are read at once; results do not depend on it.
         constexpr PointIndex window = 4096;
         if (i < window_begin_ || i >= window_begin_ + static_cast<PointIndex>(x_.size())) {
             const auto n = static_cast<std::size_t>(std::min(window, log_.count - i));

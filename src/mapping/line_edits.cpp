@@ -81,6 +81,7 @@ private:
     /// Calls body(reported, aligned) for the moving points; 0: none.
     template <typename Body>
     void for_moving(const Body& body) const {
+        // Points that are read at once; results do not depend on it.
         constexpr PointIndex block = 4096;
         std::vector<LineNumber> reported(static_cast<std::size_t>(block)), found(reported.size());
         std::vector<double> x(reported.size()), y(x.size()), z(x.size());

@@ -261,6 +261,7 @@ bool lines_are_ambiguous(const Motions& motions) {
 
 Column<std::uint32_t> track_motions(const Trajectory& path, const Log& log, const Program& program,
                                     const ChannelView& lines, double tolerance) {
+    // Points that are read at once; results do not depend on it.
     constexpr std::size_t block = 4096;
     constexpr std::uint32_t none = 0xffffffffu;
     Column<std::uint32_t> motion_of_point(static_cast<std::size_t>(path.count), LineMap::no_motion);

@@ -129,6 +129,7 @@ private:
 double note_course(const Trajectory& path, const Log& log, const Program& program, const LineMap& map,
                    std::span<const ProgramRun> runs, Diagnostics& diagnostics) {
     if (program.motions.size() == 0 || path.count == 0) return 0;
+    // Points that are read at once; results do not depend on it.
     constexpr std::size_t block = 4096;
     std::array<LineNumber, block> lines;
     std::array<PointKind, block> kinds;

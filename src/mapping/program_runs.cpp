@@ -67,6 +67,7 @@ private:
 }  // namespace
 
 std::vector<ProgramRun> find_program_runs(const LineMap& lines) {
+    // Points that are read at once; results do not depend on it.
     constexpr std::size_t block = 4096;
     std::array<LineNumber, block> numbers;
     std::array<PointKind, block> kinds;

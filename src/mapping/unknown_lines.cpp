@@ -7,6 +7,7 @@
 namespace clsurf {
 namespace {
 
+// Points that are read at once; results do not depend on it.
 constexpr std::size_t read_at_once = 4096;
 
 /// Calls body(first, lines) for blocks of points.

@@ -28,8 +28,9 @@ constexpr PointIndex section = 1600;  ///< points
 constexpr std::size_t samples_of_section = 24;
 constexpr std::size_t least_samples = 100;
 constexpr std::size_t least_changes = 10;  ///< number of line changes needed for an initial guess
-constexpr double near = 0.05;              ///< [mm] on the path: a corner tolerance of finishing
-constexpr double most_near = 2;            ///< [mm] with the program's own corner tolerance
+// near: docs/howto/work_frames.md.
+constexpr double near = 0.05;    ///< [mm] on the path: a corner tolerance of finishing
+constexpr double most_near = 2;  ///< [mm] with the program's own corner tolerance
 constexpr double near_share = 0.9;
 constexpr double found_share = 0.5;   ///< a guess with this share of the points within reach is refined
 constexpr double reach = 0.5;         ///< [mm] least size of the grid's cells

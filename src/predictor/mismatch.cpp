@@ -18,6 +18,7 @@
 namespace clsurf {
 namespace {
 
+// A bound on the time. Of 50,000 independent samples, the 99th percentile has a standard error of 0.04 percentage points.
 constexpr std::size_t sampled_points = 50'000;
 constexpr float round_a_corner = 0.5F;    ///< cos 60°: straight across a corner, passes turn by more than this
 constexpr float slack_step_overs = 0.5F;  ///< along the feed: largest distance between ends that are side by side
@@ -66,6 +67,7 @@ float quantile(std::vector<float>& values, double share) {
 /// Calls f(points) for all points of a log. If `forget` is set, in portions, and signals are forgotten between them.
 template <typename F>
 void in_portions(PointIndex count, const std::function<void()>& forget, F&& f) {
+    // Memory and time depend on it, results do not.
     constexpr PointIndex portion = 256 * block_points;
     if (!forget) return f(PointRange{0, count - 1});
     for (PointIndex first = 0; first < count; first += portion) {

@@ -321,6 +321,7 @@ private:
 
 /// 95th percentile of the speed [mm/s] at evenly chosen points of cut passes; 0: none moves.
 double usual_speed_of(const ClSurface& surface, double period) {
+    // A bound on the time. Of 20,000 independent samples, the 95th percentile has a standard error of 0.15 percentage points.
     constexpr PointIndex chosen = 20'000;
     constexpr double chord_seconds = 0.010;
     const Positions& positions = surface.positions;

@@ -139,6 +139,7 @@ std::vector<Candidate> find_candidates(const LagComparer& comparer, const Thresh
                                        FoundCandidates& found, const ForgetBlocks& forget) {
     std::vector<Candidate> all;
     for (DefectCandidate* defect_candidate : found.with_share_of(Quantity::lag)) all.push_back({defect_candidate, {}});
+    // A size of portions for threads; results do not depend on it.
     constexpr std::int64_t grain = 1024;
     for_each_portion(
         all.size(), forget, [&](std::size_t k) { return all[k].defect_candidate->point; },

@@ -14,7 +14,7 @@ constexpr std::size_t joints_reached = 20;  ///< joints to each side that a roun
 constexpr double at_joint = 15.0 / 96.0;    ///< G(0)
 constexpr double inside_chords = 4;         ///< width of a rounding inside a curved block, in chords
 constexpr double least_turn = 1e-12;        ///< a smaller jump of the slope is ignored
-constexpr double least_length = 1e-9;       ///< [mm] of a chord
+constexpr double least_length = 1e-9;       ///< [mm] of a chord; ten times the rounding of doubles at 1 km
 
 using VectorJet = std::array<Vec3, 4>;
 using ScalarJet = std::array<double, 4>;

@@ -18,7 +18,8 @@ inline constexpr double least_bend_jump = 1e-9;  ///< [1/mm] a smaller jump of c
 // Between spans of splines, because programs round control points.
 inline constexpr double straight_on_of_splines = 1e-6;      ///< [rad]
 inline constexpr double least_bend_jump_of_splines = 1e-4;  ///< [1/mm]
-inline constexpr double no_arc_length = 1e-9;               ///< [mm] closer points count as one
+// Ten times the rounding of doubles at 1 km.
+inline constexpr double no_arc_length = 1e-9;  ///< [mm] closer points count as one
 
 /// Derivatives of a position by the arc length, of order 1 to 3 [-, 1/mm, 1/mm²].
 struct PathDerivatives {

@@ -13,7 +13,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double least_span = 1e-9;         ///< [mm] closer cuts are merged
+constexpr double least_span = 1e-9;         ///< [mm] closer cuts are merged; ten times the rounding of doubles at 1 km
 constexpr double most_turn_of_span = 0.75;  ///< [rad] greatest turn of a span: limits of axes vary with the direction
 constexpr double gentle_turn = 0.1;         ///< [rad] a span of a spline that turns less is not divided further …
 constexpr double most_bend_ratio = 1.5;     ///< … nor one with a smaller ratio of greatest to least curvature
