@@ -48,6 +48,7 @@ public:
     [[nodiscard]] double held() const;
 
 private:
+    // 1/4096 of the greatest value is a twelfth of level_width.
     static constexpr std::size_t bin_count = 4096;
     [[nodiscard]] std::size_t bin_of(double value) const;
     [[nodiscard]] double exceeding(double level) const;  ///< share of the large values above it

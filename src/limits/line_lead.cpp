@@ -9,6 +9,7 @@
 namespace clsurf {
 namespace {
 
+// A bound on the time: about 10^5 records.
 constexpr PointIndex section_count = 64, section_length = 1600;  // records
 constexpr double most_off = 0.5;                                 ///< [mm] a greater distance is not caused by a lead
 

@@ -13,7 +13,7 @@
 namespace clsurf {
 namespace {
 
-// Time alone depends on how blocks are divided, heights do not (rounding excepted).
+// side, few, kept_share: time alone depends on how blocks are divided, heights do not (rounding excepted).
 constexpr int side = 4;              ///< cells of a block that is not divided further
 constexpr std::size_t few = 8;       ///< number of pieces that is not worth a division
 constexpr double kept_share = 0.9;   ///< share of pieces: a division that keeps more is useless

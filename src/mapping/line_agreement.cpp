@@ -13,6 +13,7 @@
 namespace clsurf {
 namespace {
 
+// A bound on the time: about 10^5 points.
 constexpr PointIndex checked_sections = 64;   ///< evenly spaced over the log
 constexpr PointIndex checked_section = 1600;  ///< points
 /// A reported line agrees if the point is this near to it [mm]: a corner tolerance of finishing (0.01 mm), with a

@@ -14,6 +14,7 @@
 namespace clsurf {
 namespace {
 
+// A bound on the time: about 10^5 points.
 constexpr PointIndex sampled_sections = 64;  ///< evenly spaced over the log
 constexpr PointIndex sampled_points = 1600;  ///< points
 constexpr std::size_t least_run = 5;      ///< moving points of a line, so that its middle is distinct from the next one

@@ -23,6 +23,7 @@
 namespace clsurf {
 namespace {
 
+// A bound on the time: about 10^5 points.
 constexpr PointIndex sections = 64;   ///< evenly spaced over the log
 constexpr PointIndex section = 1600;  ///< points
 constexpr std::size_t samples_of_section = 24;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t most_fitted = 5000;   ///< points; more do not improve the pose beyond the accuracy of the surface
 constexpr std::size_t most_searched = 600;  ///< points
-// usual_search, search_passes, search_steps, much_farther, fewest_each, above_scatter, far_above_scatter:
+// usual_search, search_passes, search_steps, surface_error, much_farther, fewest_each, above_scatter, far_above_scatter:
 // docs/howto/measured.md#the-pose.
 constexpr double usual_search = 1;      ///< [mm]
 constexpr double search_passes = 3;     ///< step-overs

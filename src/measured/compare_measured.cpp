@@ -15,7 +15,7 @@ constexpr double steps_of_pass = 1000;  ///< most steps of a profile per step-ov
 // See docs/howto/measured.md#the-comparison.
 constexpr int map_profiles = 11;
 constexpr double map_share = 0.9;          ///< share of the extent of a map over which its profiles are distributed
-constexpr double steps_of_short_wave = 2;  ///< steps that a filter of a short wave needs
+constexpr double steps_of_short_wave = 2;  ///< steps that a filter of a short wave needs; two for each wave: Nyquist
 
 /// The deviations of heights along a row [mm] from a form.
 std::vector<double> over_form(std::vector<double> heights, const Form& form, const MapFrame& frame, double level) {

@@ -34,6 +34,7 @@ constexpr float beside_reach = 1.5F;  ///< step-overs along the feed: farthest b
 constexpr float look_every = 0.1F;    ///< step-overs between examined points
 constexpr float accelerates = 0.35F;  ///< least share of the usual acceleration, which jerk limits and windows reduce
 constexpr float link_accelerates = 0.15F;  ///< the same at a link, whose two corners share the turn
+// ramp_share: docs/design/predictor.md#limits-of-the-method, a fifth of the usual acceleration.
 constexpr float ramp_share = 0.2F;         ///< the same along the path, between the bend and the end of its ramp
 constexpr float accelerates_more = 1.35F;  ///< ratio of accelerations if a bend is taken 16 % faster; 1.16²
 constexpr float rises_again = 1.03F;       ///< times the least speed: above it, another slow place begins

@@ -15,7 +15,7 @@ constexpr std::size_t most_values = 10;   ///< most values around a place; passe
 constexpr std::size_t fewest_values = 2;  ///< fewest values for a median
 constexpr std::size_t fewest_clean = 3;   ///< reliefs that outvote one that an adjacent fault has changed
 constexpr std::size_t beside_border = 2;  ///< passes on one side; the outermost one has no relief
-// The sum is zero next to a displaced pass, and at an edge at least as large as the relief.
+// The sum over adjacent passes is zero for a displaced pass, and at an edge at least as large as the relief.
 constexpr float shape_left = 0.35F;   ///< share of a relief: if more remains in the sum, it is the shape of the part
 constexpr float shape_beside = 0.6F;  ///< share of the largest relief around: a smaller one is next to an edge
 // The reliefs have the ratio 1/2 if the fault is on that pass, and 2 if it is on this one

@@ -351,6 +351,7 @@ float quantum_of_axes(const Trajectory& role) {
 }  // namespace
 
 double usual_end_zone(double step_over) {
+    // This and end_step_overs: docs/design/predictor.md#4-join-places-into-defects, not judged.
     constexpr double least = 1.0;  // [mm]
     return std::max(least, end_step_overs * step_over);
 }

@@ -16,8 +16,8 @@ constexpr double feed_tolerance = 0.003;  ///< as a share: a motion that is too 
 constexpr int equalising_rounds = 3;      ///< within the available time
 constexpr double most_share = 0.65;       ///< share of the available time for a round: feeds apply to whole lines
 /// Share of the machine's acceleration. A feed applies to a whole line, so along a steep ramp, adjacent passes whose lines end
-/// elsewhere differ. With ramps of 0.1, one part kept 35 instead of 64 defects of motion
-/// (docs/experiments/kernel.md#what-made-the-difference).
+/// elsewhere differ. With ramps of 0.1, and with defects counted as `check` counts them, one part kept 35 instead of 64 defects
+/// of motion (docs/experiments/kernel.md#what-made-the-difference).
 constexpr std::array<double, 2> gentle_ramps{0.3, 0.1};
 // Each takes a simulated run: docs/experiments/repair.md#the-search-in-detail, step 6.
 constexpr int most_mixed_attempts = 3;  ///< number of combinations of the attempts of a round, place by place

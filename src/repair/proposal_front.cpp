@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t most_preferred = 8;           ///< candidates that a weight prefers are run again …
 constexpr std::size_t most_preferred_of_large = 2;  ///< … if runs are large
-constexpr double large = 1e6;                       ///< points of a run
+constexpr double large = 1e6;                       ///< points of a run; as large_run (proposal.cpp)
 
 /// "candidate 14: 231 sections and feeds"
 std::string name_of(const Proposal& proposal) {

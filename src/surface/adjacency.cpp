@@ -22,6 +22,7 @@ constexpr float farthest_neighbour = 4.0F;  ///< on steep flanks passes are this
 constexpr float along_tolerance = 0.35F;    ///< greatest distance of a projection along the feed
 constexpr float steep_share = 0.12F;        ///< squared cosine to the horizontal below which a neighbour is above
 constexpr float direction_chord = 0.75F;    ///< arc length of the chords that give the feed direction
+// As large as farthest_neighbour, so that the 27 cells around a place have every neighbour.
 constexpr double grid_cell = 4.0;
 constexpr double grid_records =
     1.5;  ///< least cell size in records of usual length, so that a cell has a point of each pass

@@ -17,6 +17,7 @@ constexpr std::size_t probes_wanted = 384;
 constexpr double arc_length_over_distance = 3.0;
 constexpr double same_place = 1e-3;   ///< [mm]; nearer points are the same pass cut again
 constexpr double finest_cells = 256;  ///< cells along the part's diagonal in the first iteration
+// The last cells are 2^6/256, a quarter, of the diagonal.
 constexpr int most_coarsenings = 7;
 constexpr double enough = 0.5;  ///< share of probes that must have found a neighbour
 
