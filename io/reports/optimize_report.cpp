@@ -76,8 +76,8 @@ std::string ensemble_text(const EnsembleResult& ensemble) {
         return fmt::format(
             "  {}: time {:.3f} to {:.3f} s, speed mismatch{} {:.1f} to {:.1f} mm/min, defects {:.3g} to {:.3g}, gain {:.1f} %\n",
             name, run.before.duration, run.after.duration, defects_alone_count(run.before) ? " of defects" : "",
-            mismatch_that_counts(run.before, run.before) * seconds_per_minute,
-            mismatch_that_counts(run.before, run.after) * seconds_per_minute, run.before.defects, run.after.defects,
+            objective_mismatch(run.before, run.before) * seconds_per_minute,
+            objective_mismatch(run.before, run.after) * seconds_per_minute, run.before.defects, run.after.defects,
             100 * run.gain);
     };
     return fmt::format("on {} other machines that the machine file allows\n", ensemble.runs.size()) +

@@ -15,15 +15,15 @@ namespace {
 
 // The limits of docs/optimize.md#your-controller-as-the-judge. For comparison, a kernel kept the promised times within 0.1 %,
 // once within 0.5 % (docs/experiments/kernel.md#promised-and-kept).
-constexpr double kept_promise = 0.05;  ///< share of the run before by which mismatch and defects may differ
-constexpr double most_missing = 0.02;  ///< share of the program's motions that may be missing in a log
-constexpr double kept_time = 0.005;    ///< the same as kept_promise, for the time
+constexpr double promise_tolerance = 0.05;  ///< share of the run before by which mismatch and defects may differ
+constexpr double most_missing = 0.02;       ///< share of the program's motions that may be missing in a log
+constexpr double time_tolerance = 0.005;    ///< the same as promise_tolerance, for the time
 
 bool keeps(const RunMeasures& before, const RunMeasures& promised, const RunMeasures& measured) {
     const double mismatch = std::abs(measured.mismatch - promised.mismatch) / std::max(before.mismatch, 1e-9),
                  defects = std::abs(measured.defects - promised.defects) / std::max(before.defects, 1.0),
                  time = std::abs(measured.duration - promised.duration) / before.duration;
-    return mismatch <= kept_promise && defects <= kept_promise && time <= kept_time;
+    return mismatch <= promise_tolerance && defects <= promise_tolerance && time <= time_tolerance;
 }
 
 class ControllerRepair {

@@ -63,8 +63,8 @@ std::string why_not_better(const EnsembleResult& result, double more_time) {
                                 "the objective would rise by {:.2g} %: {:.0f} defects instead of {:.0f}, speed "
                                 "differences of {:.0f} instead of {:.0f} mm/min",
                                 -100 * run.gain, run.after.defects, run.before.defects,
-                                mismatch_that_counts(run.before, run.after) * seconds_per_minute,
-                                mismatch_that_counts(run.before, run.before) * seconds_per_minute);
+                                objective_mismatch(run.before, run.after) * seconds_per_minute,
+                                objective_mismatch(run.before, run.before) * seconds_per_minute);
     }
     return {};
 }

@@ -21,7 +21,7 @@ constexpr double most_share = 0.65;       ///< share of the available time for a
 constexpr std::array<double, 2> gentle_ramps{0.3, 0.1};
 // Each takes a simulated run: docs/experiments/repair.md#the-search-in-detail, step 6.
 constexpr int most_mixed_attempts = 3;  ///< number of combinations of the attempts of a round, place by place
-constexpr double more_than_late = 1.5;  ///< times the last delay: the next attempt must be faster by this
+constexpr double delay_factor = 1.5;    ///< times the last delay: the next attempt must be faster by this
 constexpr double time_used = 0.95;      ///< sufficient share of the available time
 
 Ramp gentle(Ramp ramp, double share) {
@@ -77,8 +77,8 @@ std::vector<float> best_targets(const Proposal& from, const std::vector<TriedPro
 }
 
 /// Whether a feed reduction removed defects near some of its causes but not near others. Adds the others to `abandoned`.
-bool gives_up_losses(const Proposal& from, const ReducedSpeeds& speeds, const Proposal& reduced,
-                     std::vector<Vec3>& abandoned) {
+bool abandon_causes(const Proposal& from, const ReducedSpeeds& speeds, const Proposal& reduced,
+                    std::vector<Vec3>& abandoned) {
     const std::vector<int> gains = gains_of(speeds, from.run, reduced.run);
     std::set<std::size_t> tried;
     for (const std::int32_t cause : speeds.causes) {
@@ -132,7 +132,7 @@ void FeedSearch::mix(const TriedProposal& from, std::vector<TriedProposal>& atte
         const auto is_mixed = [&](const TriedProposal& tried) { return tried->targets == mixed; };
         if (mixed == from->targets || std::ranges::any_of(attempts, is_mixed)) return;
         attempts.push_back(evaluator_.propose(from->draft, std::move(mixed)));
-        aim -= more_than_late * std::max(0.0, attempts.back()->run.duration - evaluator_.longest());
+        aim -= delay_factor * std::max(0.0, attempts.back()->run.duration - evaluator_.longest());
     }
 }
 
@@ -162,7 +162,7 @@ void FeedSearch::reduce_feeds(FeedReduction& reduction, int rounds) {
         last_from = from;
         last_targets = targets;
         std::vector<TriedProposal> attempts{evaluator_.propose(from->draft, targets)};
-        if (gives_up_losses(*from, speeds, *attempts.back(), rules.abandoned) && evaluator_.has_time()) {
+        if (abandon_causes(*from, speeds, *attempts.back(), rules.abandoned) && evaluator_.has_time()) {
             speeds = reduced_speeds(from->run, rules);
             targets = lowered_targets(*from, speeds.speeds);
             if (targets != from->targets) attempts.push_back(evaluator_.propose(from->draft, targets));

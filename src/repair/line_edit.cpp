@@ -43,7 +43,7 @@ Vec3 angles_before(const Motions& motions, std::int64_t i) {
 }
 
 /// Whether a line's words are the angles at the end of its motion. If these turn, the tip must move as well.
-bool says_its_angles(const PlainLine& line, const Motions& motions, std::size_t i) {
+bool states_end_angles(const PlainLine& line, const Motions& motions, std::size_t i) {
     const Vec3 begin = angles_before(motions, static_cast<std::int64_t>(i)),
                end = motions.rotary.empty() ? Vec3::Zero() : motions.rotary[i].vec();
     for (std::size_t a = linear; a < axes; ++a) {
@@ -217,7 +217,7 @@ LineEditor::LineEditor(const Program& program, int least_decimals)
                 spans_[i] = 1;
             if (!cuts_in_a_line(motions, i) || !in_main(i) || motions_of_line[motions.line[i]] != 1) continue;
             const std::optional<PlainLine> line = read_plain_line(main.line(motions.line[i]), rules_->straight_word);
-            if (!line || !says_its_angles(*line, motions, i)) continue;
+            if (!line || !states_end_angles(*line, motions, i)) continue;
             const auto motion = static_cast<std::int64_t>(i);
             const Vec3 end = in_words(motions, motion, motions.end[i].vec()),
                        begin = in_words(motions, motion, motions.begin_of(motion).vec());

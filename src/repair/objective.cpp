@@ -18,7 +18,7 @@ constexpr double beyond_goal = 0.1;       ///< … less mismatch counts less
 
 /// The weight of a mismatch.
 double counted(const RunMeasures& run, const RunMeasures& before) {
-    return std::max(mismatch_that_counts(before, run), least_mismatch * before.speed);
+    return std::max(objective_mismatch(before, run), least_mismatch * before.speed);
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ std::string too_little_gain(std::string_view what, double gain) {
 }
 
 std::string why_not_better(const RunMeasures& before, const RunMeasures& after, double more_time) {
-    const double was = mismatch_that_counts(before, before), is = mismatch_that_counts(before, after);
+    const double was = objective_mismatch(before, before), is = objective_mismatch(before, after);
     if (!(is < was) && is > least_mismatch * before.speed)
         return fmt::format("the speeds of adjacent passes would differ by {:.0f} instead of {:.0f} mm/min",
                            is * seconds_per_minute, was * seconds_per_minute);

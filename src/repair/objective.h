@@ -38,14 +38,14 @@ inline constexpr double least_mismatch = 0.002;
 }
 
 /// The mismatch of `run` that counts [mm/s].
-[[nodiscard]] inline double mismatch_that_counts(const RunMeasures& before, const RunMeasures& run) {
+[[nodiscard]] inline double objective_mismatch(const RunMeasures& before, const RunMeasures& run) {
     return defects_alone_count(before) ? std::max(run.mismatch, run.defect_mismatch) : run.mismatch;
 }
 
 /// Smaller gains are not worth a new program (docs/optimize.md#the-objective).
 inline constexpr double least_gain = 0.02;
 
-/// The objective, relative to the run before: m + d + t + r + 0.03 g. m is the remaining share of mismatch_that_counts(), both
+/// The objective, relative to the run before: m + d + t + r + 0.03 g. m is the remaining share of objective_mismatch(), both
 /// at least least_mismatch; the part of m below one half has a weight of one tenth, because defects matter more from there on.
 /// d is the remaining share of the defects. t is the share of additional time, at most `more_time`. r is the remaining share of
 /// the roughness, if both are known. g = lines after / lines before.

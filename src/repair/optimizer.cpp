@@ -23,18 +23,18 @@ namespace {
 // docs/experiments/repair.md#the-search-in-detail. worst_alone, slow_as_well: docs/optimize.md#method, step 2. periods_a_line:
 // planners that put arcs into corners slow down at shorter lines (docs/experiments/kernel.md#what-made-the-difference).
 constexpr std::array<double, 3> shares_of_tolerance{0.2, 0.1, 0.4};  ///< distance of lines from the curve
-constexpr double reserve = 1.1;                       ///< factor for the arc length in a block time or in periods
-constexpr double periods_a_line = 2;                  ///< periods per line with the trapezoidal planner
-constexpr RepairMaskRules worst_alone{0.5, 2, 2};     ///< a draft that changes less
-constexpr RepairMaskRules slow_as_well{.slow = 0.9};  ///< a draft that saves time
-constexpr std::size_t most_mixed = 2;                 ///< drafts whose regions are reset …
-constexpr int mixing_rounds = 3;                      ///< … so many times …
-constexpr int most_mixing_rounds = 6;                 ///< … or more, while the run is refused
-constexpr std::size_t most_sections_alone = 24;       ///< sections that are tried alone if nothing else is accepted
-constexpr double share_of_drafts = 0.35;              ///< share of all runs for points alone; the others are for feeds
-constexpr double most_time_to_regain = 0.01;          ///< as a share, by motions that get their old points back
-constexpr std::size_t most_fed = 5;                   ///< drafts for which feeds are searched
-constexpr std::size_t most_equalised_early = 2;       ///< drafts of these that are equalised early
+constexpr double reserve = 1.1;                     ///< factor for the arc length in a block time or in periods
+constexpr double periods_a_line = 2;                ///< periods per line with the trapezoidal planner
+constexpr RepairMaskRules worst_rules{0.5, 2, 2};   ///< a draft that changes less
+constexpr RepairMaskRules slow_rules{.slow = 0.9};  ///< a draft that saves time
+constexpr std::size_t most_mixed = 2;               ///< drafts whose regions are reset …
+constexpr int mixing_rounds = 3;                    ///< … so many times …
+constexpr int most_mixing_rounds = 6;               ///< … or more, while the run is refused
+constexpr std::size_t most_sections_alone = 24;     ///< sections that are tried alone if nothing else is accepted
+constexpr double share_of_drafts = 0.35;            ///< share of all runs for points alone; the others are for feeds
+constexpr double most_time_to_regain = 0.01;        ///< as a share, by motions that get their old points back
+constexpr std::size_t most_fed = 5;                 ///< drafts for which feeds are searched
+constexpr std::size_t most_equalised_early = 2;     ///< drafts of these that are equalised early
 constexpr double most_behind = 0.2;   ///< by score, after the first rounds: drafts farther behind the best are dropped
 constexpr double small_share = 0.3;   ///< share of the time for a reduction that begins with inexpensive defects …
 constexpr double large_share = 0.65;  ///< … and for one that uses as much as it can
@@ -80,7 +80,7 @@ public:
         if (has_log)
             result.measured = judge_measured(std::move(*measured));
         else
-            look_for_need(evaluator_.before());
+            find_masks(evaluator_.before());
         propose_all({program_, read_, machine_, rules_, !has_log, evaluator_.orientation()});
         result.fidelity = machine_.fidelity;
         result.five_axes = evaluator_.orientation() != nullptr;
@@ -115,7 +115,7 @@ private:
                 continue;
             }
             const Program changed = read_(each->text);
-            if (rules_.machines > 0) evaluator_.say("the best candidates on other machines");
+            if (rules_.machines > 0) evaluator_.report_progress("the best candidates on other machines");
             const EnsembleResult runs = ensemble.run(changed);
             const std::string reason = why_not_better(runs, rules_.more_time);
             if (!reason.empty()) {
@@ -149,10 +149,10 @@ private:
                           {}});
     }
 
-    void look_for_need(const JudgedRun& run) {
-        needed_ = motions_in_need(run, program_, {});
-        in_worst_need_ = motions_in_need(run, program_, worst_alone);
-        needed_or_slow_ = motions_in_need(run, program_, slow_as_well);
+    void find_masks(const JudgedRun& run) {
+        mask_ = repair_mask(run, program_, {});
+        worst_mask_ = repair_mask(run, program_, worst_rules);
+        slow_mask_ = repair_mask(run, program_, slow_rules);
     }
 
     Measured judge_measured(Log log) {
@@ -161,9 +161,9 @@ private:
         if (run.surface.step_over <= 0)
             throw InputError(Place::of_file(run.log.name),
                              "has no adjacent passes: it does not show which passes differ");
-        look_for_need(run);
+        find_masks(run);
         return {run.surface.positions.size(), run.duration, run.mismatch, run.report.defects.size(),
-                static_cast<std::size_t>(std::count(needed_.begin(), needed_.end(), 1))};
+                static_cast<std::size_t>(std::count(mask_.begin(), mask_.end(), 1))};
     }
 
     /// Many lines that a controller runs in less than block_time, or in few periods, would slow it down. With the trapezoidal
@@ -185,7 +185,7 @@ private:
     void propose_intervals(const Drafter& drafter) {
         std::vector<Draft> drafts;
         drafts.push_back(drafter.unchanged());
-        for (const DraftLines& lines : line_choices()) drafts.push_back(drafter.draft(lines, needed_or_slow_));
+        for (const DraftLines& lines : line_choices()) drafts.push_back(drafter.draft(lines, slow_mask_));
         for (Draft& draft : drafts) {
             if (!evaluator_.has_time()) return;
             std::vector<float> feeds = interval_feeds(draft.program, machine_);
@@ -200,11 +200,11 @@ private:
         const std::vector<DraftLines> choices = line_choices();
         for (const DraftLines& lines : choices) {
             // The last ones are skipped first if a program is long.
-            if (evaluator_.has_time()) propose(drafter.draft(lines, needed_), drafts);
+            if (evaluator_.has_time()) propose(drafter.draft(lines, mask_), drafts);
         }
         for (const DraftLines& lines : choices) {
-            if (needed_or_slow_ != needed_ && evaluator_.has_time(share_of_drafts))
-                propose(drafter.draft(lines, needed_or_slow_), drafts);
+            if (slow_mask_ != mask_ && evaluator_.has_time(share_of_drafts))
+                propose(drafter.draft(lines, slow_mask_), drafts);
         }
         if (drafts.empty()) {
             (void)evaluator_.propose(std::make_shared<const Draft>(drafter.unchanged()), {});
@@ -215,7 +215,7 @@ private:
         for (std::size_t k = 0; k < std::min(most_mixed, drafts.size()); ++k) {
             mix(drafter, drafts[k], mixed);
             if (evaluator_.has_time(share_of_drafts))
-                propose(drafter.draft(drafts[k]->draft->lines, in_worst_need_), narrow);
+                propose(drafter.draft(drafts[k]->draft->lines, worst_mask_), narrow);
         }
         if (!evaluator_.best()->evaluation.accepted) {
             std::vector<TriedProposal> all = drafts;
@@ -383,7 +383,7 @@ private:
     const OptimizeRules& rules_;
     Diagnostics& diagnostics_;
     Evaluator evaluator_;
-    std::vector<std::uint8_t> needed_, in_worst_need_, needed_or_slow_;  ///< one entry per motion
+    std::vector<std::uint8_t> mask_, worst_mask_, slow_mask_;  ///< one entry per motion
 };
 
 }  // namespace

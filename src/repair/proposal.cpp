@@ -20,7 +20,7 @@ constexpr double interval_width =
 constexpr double most_run_points = 16e6;  ///< of all runs together; then the search ends …
 constexpr double large_run = 1e6;         ///< … or less, down to a share, if a run has so many points …
 constexpr double share_of_large = 0.25;   ///< … this share
-constexpr int most_in_vain = 192;         ///< consecutive proposals without an improvement
+constexpr int most_since_best = 192;      ///< consecutive proposals without an improvement
 // Four were too few: one machine of an ensemble refused them all (docs/experiments/kernel.md#what-made-the-difference).
 constexpr std::size_t most_finalists = 16;          ///< of each kind …
 constexpr double most_finalist_points = 4e6;        ///< … or as many as have this number of points together …
@@ -66,7 +66,7 @@ Evaluator::Evaluator(const Program& program, const ReadProgram& read, const Mach
 
 bool Evaluator::has_time(double share) const {
     const auto one_run = static_cast<double>(before_.log.records);
-    return (points_ == 0 || points_ + one_run <= share * most_points()) && in_vain_ < most_in_vain;
+    return (points_ == 0 || points_ + one_run <= share * most_points()) && since_best_ < most_since_best;
 }
 
 double Evaluator::longest() const {
@@ -82,19 +82,19 @@ double Evaluator::most_points() const {
 void Evaluator::allow_more_time() {
     more_time_ = rules_.more_time;
     points_ = std::min(points_, 0.5 * most_points());
-    in_vain_ = 0;
+    since_best_ = 0;
     if (!best_) return;
     best_->evaluation.reason = objection(*best_);
     best_->evaluation.accepted = best_->evaluation.reason.empty();
 }
 
-void Evaluator::say(std::string_view what) const {
+void Evaluator::report_progress(std::string_view what) const {
     if (progress_) progress_(what, std::min(1.0, points_ / most_points()));
 }
 
 std::string Evaluator::candidate_text() const {
     const RunMeasures was = before_.measures();
-    if (!best_ || !(mismatch_that_counts(was, was) > 0)) return fmt::format("candidate {}", tried_);
+    if (!best_ || !(objective_mismatch(was, was) > 0)) return fmt::format("candidate {}", tried_);
     if (!best_->evaluation.accepted) return fmt::format("candidate {}, none is better so far", tried_);
     // Candidates compete by their gain; the mismatch alone may rise while defects are removed.
     const RunMeasures is = best_->measures();
@@ -105,20 +105,20 @@ std::string Evaluator::candidate_text() const {
 
 TriedProposal Evaluator::propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets) {
     ++tried_;
-    say(candidate_text());
-    const auto tried = std::make_shared<Proposal>(prove(draft, std::move(targets)));
+    report_progress(candidate_text());
+    const auto tried = std::make_shared<Proposal>(evaluate(draft, std::move(targets)));
     tried->number = tried_;
     if (rules_.keeps_front) keep_candidate(*tried);
-    ++in_vain_;
+    ++since_best_;
     if (!best_ || better(*tried, *best_)) {
         best_ = tried;
-        in_vain_ = 0;
+        since_best_ = 0;
     }
     if (tried->evaluation.accepted) keep_finalist(tried, tried->targets.empty() ? without_feeds_ : with_feeds_);
     return tried;
 }
 
-Proposal Evaluator::prove(const std::shared_ptr<const Draft>& draft, std::vector<float> targets) {
+Proposal Evaluator::evaluate(const std::shared_ptr<const Draft>& draft, std::vector<float> targets) {
     Proposal result;
     result.draft = draft;
     result.targets = std::move(targets);

@@ -92,7 +92,7 @@ public:
     [[nodiscard]] bool better(const Proposal& a, const Proposal& b) const;
 
     /// Reports the present step as progress. Thread-safe.
-    void say(std::string_view what) const;
+    void report_progress(std::string_view what) const;
 
     /// Lower is better: objective() relative to the run of the program.
     [[nodiscard]] double score(const Proposal& proposal) const;
@@ -112,7 +112,7 @@ private:
     [[nodiscard]] std::vector<const Candidate*> accepted_candidates() const;
     [[nodiscard]] TradeoffFront front_of(const std::vector<const Candidate*>& candidates) const;
     void keep_candidate(const Proposal& proposal);
-    [[nodiscard]] Proposal prove(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
+    [[nodiscard]] Proposal evaluate(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
     [[nodiscard]] Deviation deviation_of(const Program& changed) const;
     [[nodiscard]] double most_points() const;
     /// "candidate 14, best: gain 61 %, 3 defects, 38.0 s".
@@ -140,7 +140,7 @@ private:
     std::vector<Candidate> candidates_;                      ///< all, with OptimizeRules::keeps_front
     double more_time_ = 0;                                   ///< a share
     double points_ = 0;                                      ///< simulated so far
-    int in_vain_ = 0;                                        ///< proposals since the best one
+    int since_best_ = 0;                                     ///< proposals since the best one
     int tried_ = 0;                                          ///< number of proposals
 };
 

@@ -55,12 +55,12 @@ void Evaluator::prefer(double weight) {
     const TradeoffFront front = front_of(candidates);
     const std::size_t most =
         static_cast<double>(before_.log.records) >= large ? most_preferred_of_large : most_preferred;
-    say("the candidates that the weight prefers");
+    report_progress("the candidates that the weight prefers");
     for (const std::size_t row : front_by_weight(front.rows, weight)) {
         if (row == 0) continue;  // the unchanged program
         if (preferred_.size() == most) return;
         const Candidate& candidate = *candidates[row - 1];
-        preferred_.push_back(std::make_shared<Proposal>(prove(candidate.draft, candidate.targets)));
+        preferred_.push_back(std::make_shared<Proposal>(evaluate(candidate.draft, candidate.targets)));
         preferred_.back()->number = candidate.number;
     }
 }

@@ -90,7 +90,7 @@ std::vector<std::uint8_t> marked_motions(const JudgedRun& run, const Program& pr
     return marked_ones;
 }
 
-std::vector<std::uint8_t> motions_in_need(const JudgedRun& run, const Program& program, const RepairMaskRules& rules) {
+std::vector<std::uint8_t> repair_mask(const JudgedRun& run, const Program& program, const RepairMaskRules& rules) {
     Marks marks = marked_places(run, rules);
     for (int k = 0; k < rules.passes_aside; ++k) marks = spread_aside(run, marks);
     spread_along(run, rules.reach, marks);

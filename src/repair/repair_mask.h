@@ -18,8 +18,8 @@ struct RepairMaskRules {
 /// Per motion of the program: 1 if it has points whose speed differs from that of their neighbours, or that are in or near a
 /// defect of motion or of point spacing; 0 otherwise, and where the run has no data. Defects of lag alone are caused by the
 /// machine, and other points do not remove them. O(points).
-[[nodiscard]] std::vector<std::uint8_t> motions_in_need(const JudgedRun& run, const Program& program,
-                                                        const RepairMaskRules& rules);
+[[nodiscard]] std::vector<std::uint8_t> repair_mask(const JudgedRun& run, const Program& program,
+                                                    const RepairMaskRules& rules);
 
 /// Per motion of the program: 1 if a run has marked points on it, one flag per point. Motions between the lines of two
 /// consecutive marked points were traversed within one period and also count. O(points).

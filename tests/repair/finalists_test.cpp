@@ -26,7 +26,7 @@ TEST(Finalists, AreManyThatDifferTheBestFirst) {
     Evaluator evaluator(program, read, machine, rules, silent, diagnostics);
     const Drafter drafter(program, read, machine, rules, true);
     const auto draft =
-        std::make_shared<const Draft>(drafter.draft({0.001, 0.11}, motions_in_need(evaluator.before(), program, {})));
+        std::make_shared<const Draft>(drafter.draft({0.001, 0.11}, repair_mask(evaluator.before(), program, {})));
     for (const double feed : {47.0, 49.8, 48.5, 49.0, 47.5, 49.5, 48.0, 49.0, 49.8}) {  // two of them twice
         const std::vector<float> targets(static_cast<std::size_t>(draft->program.motions.size()),
                                          static_cast<float>(feed));

@@ -139,7 +139,7 @@ TEST(Need, IsWhereARunDiffersAndBesideIt) {
     machine.controller.block_time = 0.002;
     Diagnostics diagnostics;
     const JudgedRun run = judge_run(simulate_to_log(program, machine, Vec3::Zero(), {}).log, program, diagnostics);
-    const std::vector<std::uint8_t> needed = motions_in_need(run, program, {});
+    const std::vector<std::uint8_t> needed = repair_mask(run, program, {});
     ASSERT_EQ(needed.size(), static_cast<std::size_t>(program.motions.size()));
     const auto needed_near = [&](double x, double y) {
         for (std::size_t i = 0; i < needed.size(); ++i) {

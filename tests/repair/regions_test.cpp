@@ -158,8 +158,8 @@ TEST(Optimizer, IsNeverWorseThanADraftTakenWhole) {
     const double shortest_line = 1.1 * machine.controller.block_time * 50;
     for (const double share : {0.1, 0.2, 0.4}) {
         const TriedProposal whole = evaluator.propose(
-            std::make_shared<const Draft>(drafter.draft({share * rules.tolerance, shortest_line},
-                                                        motions_in_need(evaluator.before(), program, {}))),
+            std::make_shared<const Draft>(
+                drafter.draft({share * rules.tolerance, shortest_line}, repair_mask(evaluator.before(), program, {}))),
             {});
         EXPECT_FALSE(evaluator.better(*whole, taken)) << share;
     }

@@ -28,7 +28,7 @@ public:
           causes_(equalisation.causes),
           equalised_(equalisation.equalised) {}
 
-    void bring_down(PointIndex i, const PathLocation& left, const PathLocation& right) {
+    void lower_point(PointIndex i, const PathLocation& left, const PathLocation& right) {
         const auto k = static_cast<std::size_t>(i);
         float& mine = speeds_[k];
         if (!(mine == mine)) return;
@@ -85,21 +85,21 @@ std::vector<float> compared_speeds(const JudgedRun& run) {
 }
 
 FeedEqualiser::FeedEqualiser(const JudgedRun& run)
-    : run_(run), own_(compared_speeds(run)), beside_(own_.size()), passes_beside_(run.surface.passes.size()) {
+    : run_(run), own_(compared_speeds(run)), adjacent_(own_.size()), adjacent_passes_(run.surface.passes.size()) {
     const Passes& passes = run.surface.passes;
     std::vector<std::size_t> pass_of(own_.size(), passes.size());
     for (std::size_t k = 0; k < passes.size(); ++k)
         std::fill(pass_of.begin() + passes[k].first, pass_of.begin() + passes[k].last + 1, k);
     parallel_for(static_cast<std::int64_t>(passes.size()), 1, [&](std::int64_t first, std::int64_t last) {
         for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k) {
-            std::vector<std::size_t>& others = passes_beside_[k];
+            std::vector<std::size_t>& others = adjacent_passes_[k];
             for (PointIndex i = passes[k].first; i <= passes[k].last; ++i) {
                 const auto point = static_cast<std::size_t>(i);
                 if (!(own_[point] == own_[point])) continue;
                 const Eigen::Vector3f feed = run.signals.feed(i);
-                beside_[point] = {beside(run.surface, {i, 0}, feed, Side::left),
-                                  beside(run.surface, {i, 0}, feed, Side::right)};
-                for (const PathLocation& at : {beside_[point].left, beside_[point].right}) {
+                adjacent_[point] = {beside(run.surface, {i, 0}, feed, Side::left),
+                                    beside(run.surface, {i, 0}, feed, Side::right)};
+                for (const PathLocation& at : {adjacent_[point].left, adjacent_[point].right}) {
                     if (!at.exists()) continue;
                     const std::size_t other = pass_of[static_cast<std::size_t>(at.nearest())];
                     if (other == passes.size()) continue;
@@ -113,25 +113,25 @@ FeedEqualiser::FeedEqualiser(const JudgedRun& run)
 void FeedEqualiser::equalise(const EqualisationStep& step, FeedEqualisation& equalisation) const {
     const Passes& passes = run_.surface.passes;
     std::vector<std::uint8_t> has_cause(passes.size(), 0);
-    const auto look_for_cause = [&](std::size_t k) {
+    const auto update_cause = [&](std::size_t k) {
         const auto first = equalisation.causes.begin() + passes[k].first,
                    last = equalisation.causes.begin() + passes[k].last;
         has_cause[k] = std::any_of(first, last + 1, [](std::int32_t cause) { return cause >= 0; }) ? 1 : 0;
     };
-    for (std::size_t k = 0; k < passes.size(); ++k) look_for_cause(k);
+    for (std::size_t k = 0; k < passes.size(); ++k) update_cause(k);
     Sweep sweep(run_, step, own_, equalisation);
     const auto over = [&](std::size_t k) {
         const Pass& pass = passes[k];
         const bool concerned =
-            has_cause[k] != 0 || std::any_of(passes_beside_[k].begin(), passes_beside_[k].end(),
+            has_cause[k] != 0 || std::any_of(adjacent_passes_[k].begin(), adjacent_passes_[k].end(),
                                              [&](std::size_t other) { return has_cause[other] != 0; });
         if (!concerned || pass.kind != PassKind::cut) return;
         for (PointIndex i = pass.first; i <= pass.last; ++i) {
-            const Beside& at = beside_[static_cast<std::size_t>(i)];
-            sweep.bring_down(i, at.left, at.right);
+            const AdjacentLocations& at = adjacent_[static_cast<std::size_t>(i)];
+            sweep.lower_point(i, at.left, at.right);
         }
         sweep.keep_to_ramps(pass);
-        look_for_cause(k);
+        update_cause(k);
     };
     for (std::size_t k = 0; k < passes.size(); ++k) over(k);
     for (std::size_t k = passes.size(); k-- > 0;) over(k);

@@ -58,14 +58,14 @@ public:
     [[nodiscard]] double lost(const std::vector<float>& speeds) const;
 
 private:
-    struct Beside {
+    struct AdjacentLocations {
         PathLocation left, right;
     };
 
     const JudgedRun& run_;
     std::vector<float> own_;
-    std::vector<Beside> beside_;                           ///< one entry per point
-    std::vector<std::vector<std::size_t>> passes_beside_;  ///< per pass, the passes adjacent to its points
+    std::vector<AdjacentLocations> adjacent_;                ///< one entry per point
+    std::vector<std::vector<std::size_t>> adjacent_passes_;  ///< per pass, the passes adjacent to its points
 };
 
 /// The maximum of the values over the points of each motion of the program; NaN: it has no point with a value. A motion between

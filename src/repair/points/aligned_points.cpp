@@ -31,7 +31,7 @@ public:
         }
         take_from_neighbours(pass);
         const double sign = scale_to_spacing();
-        keep_what_runs_evenly(sign);
+        keep_even_phases(sign);
         fill(sign);
         for (std::size_t k = 0; k < n; ++k) phases_.of_point[static_cast<std::size_t>(pass.first) + k] = mine_[k];
     }
@@ -82,7 +82,7 @@ private:
 
     /// Keeps the longest run of phases, and the others only if they continue it. A phase that was taken across the seam between
     /// two passes, or from a wrong pass, jumps.
-    void keep_what_runs_evenly(double sign) {
+    void keep_even_phases(double sign) {
         const auto known = [&](std::size_t k) { return mine_[k] == mine_[k]; };
         const auto follows = [&](std::size_t a, std::size_t b) {
             const double run = sign * (mine_[b] - mine_[a]) * phases_.spacing, gone = arc_length_[b] - arc_length_[a],

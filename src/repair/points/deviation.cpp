@@ -74,7 +74,7 @@ public:
 
     /// Moves along the next line of the path if it is the same as line `i` of another path: the distance of its points is then
     /// known.
-    [[nodiscard]] bool goes_along(const Toolpath& other, std::int64_t i) {
+    [[nodiscard]] bool advance_if_equal(const Toolpath& other, std::int64_t i) {
         if (orientation_ != nullptr || !is_line(other, i)) return false;
         double before = arc_length_before_;
         for (std::int64_t m = at_; m < std::min(at_ + 2, path_.size()); before += path_.length(m++)) {
@@ -95,8 +95,8 @@ private:
     void compare_axes(const Sample& sample, std::int64_t motion, const Projection& projection, Apart& apart) const {
         const RotaryAngles angles = orientation_->angles(motion, projection.fraction);
         const double turned = angle_between(sample.axis, orientation_->axis(angles));
-        const bool as_near = projection.distance >= apart.distance - same_place;
-        if (as_near && turned > apart.turned) return;
+        const bool equally_near = projection.distance >= apart.distance - same_place;
+        if (equally_near && turned > apart.turned) return;
         apart.turned = turned;
         apart.wound = turn_between(sample.angles, angles);
     }
@@ -124,7 +124,7 @@ void compare(const Course& from, const Course& to, double step, const Take& take
     Walk walk(to.path, to.orientation);
     const Toolpath& path = from.path;
     for (std::int64_t i = 0; i < path.size(); ++i) {
-        if (walk.goes_along(path, i)) continue;
+        if (walk.advance_if_equal(path, i)) continue;
         // Sections between rapids must exist; rapids themselves are compared by their ends.
         const bool rapid = path.motions().kind[static_cast<std::size_t>(i)] == MotionKind::rapid;
         const double pieces = rapid ? std::ceil(path.length(i) / (0.5 * window))

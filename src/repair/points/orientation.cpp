@@ -7,9 +7,9 @@ namespace {
 
 // Both angles: docs/optimize.md#five-axes, points that stay.
 constexpr double least_from_pole = 2 * rad_per_deg;
-constexpr double most_by_a_line = 30 * rad_per_deg;  ///< larger turns do not belong to finishing, or wind up an axis
-constexpr double same_angle = 1e-9;                  ///< [rad] as programmed; six decimals of a degree are 1.7e-8
-constexpr int judged_places = 8;                     ///< of a line
+constexpr double most_turn_of_line = 30 * rad_per_deg;  ///< larger turns do not belong to finishing, or wind up an axis
+constexpr double same_angle = 1e-9;                     ///< [rad] as programmed; six decimals of a degree are 1.7e-8
+constexpr int judged_places = 8;                        ///< of a line
 
 }  // namespace
 
@@ -48,7 +48,7 @@ bool Orientation::is_divisible(std::int64_t motion) const {
         const bool mine = letter == kinematics_->tilt.letter || letter == kinematics_->rotation.letter;
         if (!mine && words.vec()[axis] != before.vec()[axis]) return false;
     }
-    if (turn_between(from, to) > most_by_a_line) return false;
+    if (turn_between(from, to) > most_turn_of_line) return false;
     for (int k = 0; k <= judged_places; ++k) {
         const RotaryAngles at = angles(motion, static_cast<double>(k) / judged_places);
         if (from_pole(at) < std::sin(least_from_pole)) return false;
