@@ -31,7 +31,7 @@ struct FeedSection {
 
 /// The speed at which a section mostly ran if it is constant, or the highest one that it reached if that exceeds the
 /// programmed feed; none if the section is not informative.
-std::optional<double> speed_that_tells(FeedSection& run) {
+std::optional<double> significant_speed(FeedSection& run) {
     if (run.feed <= 0 || run.speeds.size() < fewest_of_section) return std::nullopt;
     const double middle = quantile_below(run.speeds, 0.5);
     const double high = quantile_below(run.speeds, 0.9);
@@ -68,7 +68,7 @@ public:
     }
 
     void close() {
-        if (const std::optional<double> speed = speed_that_tells(now_))
+        if (const std::optional<double> speed = significant_speed(now_))
             found_.push_back(fmt::format("lines {}-{} ran at {:.0f} mm/min, the program says F{:g}", now_.first_line,
                                          now_.last_line, *speed * seconds_per_minute,
                                          std::round(1e3 * now_.feed * seconds_per_minute) / 1e3));

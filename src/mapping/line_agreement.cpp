@@ -80,7 +80,7 @@ LineAgreement check_lines(const Trajectory& path, const Program& program, const 
             }
             const Vec3 p(x[i], y[i], z[i]);
             const bool moved = (p - Vec3(x[i - 1], y[i - 1], z[i - 1])).squaredNorm() > 0;
-            if (!moved || !known || lines[i] == 0 || map.on_way_back(point)) continue;
+            if (!moved || !known || lines[i] == 0 || map.on_return(point)) continue;
             const double distance = allowed_distance(toolpath, begin_of_merge(earlier, before), motion, p);
             if (!std::isfinite(distance)) continue;
             distances.push_back(distance);

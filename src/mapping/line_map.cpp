@@ -108,10 +108,10 @@ std::uint32_t LineMap::tool_of(std::int64_t motion) const {
     return next == tools_.begin() ? 0 : std::prev(next)->tool;
 }
 
-bool LineMap::on_way_back(PointIndex point) const {
-    const auto next = std::upper_bound(ways_back_.begin(), ways_back_.end(), point,
+bool LineMap::on_return(PointIndex point) const {
+    const auto next = std::upper_bound(returns_.begin(), returns_.end(), point,
                                        [](PointIndex p, const PointRange& way) { return p < way.first; });
-    return next != ways_back_.begin() && point <= std::prev(next)->last;
+    return next != returns_.begin() && point <= std::prev(next)->last;
 }
 
 std::span<const std::uint32_t> LineMap::motions_of(LineNumber line) const {
@@ -140,7 +140,7 @@ void LineMap::read_kinds(PointIndex begin, std::span<PointKind> out) const {
     if (out.empty()) return;
     read_kinds_of_lines(begin, out);
     const PointIndex last = begin + static_cast<PointIndex>(out.size()) - 1;
-    for (const PointRange& way : ways_back_) {
+    for (const PointRange& way : returns_) {
         for (PointIndex i = std::max(begin, way.first); i <= std::min(last, way.last); ++i)
             out[static_cast<std::size_t>(i - begin)] = PointKind::rapid;
     }

@@ -76,9 +76,9 @@ public:
 
     /// Points off the program's path, on a return to the point of continuation (mapping/program_runs.h), in order. They
     /// are rapids, whatever line the log gives them.
-    [[nodiscard]] const std::vector<PointRange>& ways_back() const { return ways_back_; }
-    void set_ways_back(std::vector<PointRange> ways) { ways_back_ = std::move(ways); }
-    [[nodiscard]] bool on_way_back(PointIndex point) const;
+    [[nodiscard]] const std::vector<PointRange>& returns() const { return returns_; }
+    void set_returns(std::vector<PointRange> returns) { returns_ = std::move(returns); }
+    [[nodiscard]] bool on_return(PointIndex point) const;
 
     /// Confidence in the line of a point, 0 … 1, by its source: a log's line is certain unless the program was
     /// edited. confidences() adds the agreement with the geometry.
@@ -121,7 +121,7 @@ private:
     Column<std::uint32_t> first_of_line_;  ///< by line number: index in by_line_ of its first motion
     Column<std::uint32_t> by_line_;        ///< motions sorted by line
     std::vector<ToolChange> tools_;        ///< in order
-    std::vector<PointRange> ways_back_;
+    std::vector<PointRange> returns_;
 };
 
 }  // namespace clsurf

@@ -131,7 +131,7 @@ private:
     /// The program's runs in this log, and the returns of the tool between them.
     void find_runs(LineMap& map) {
         runs_ = find_program_runs(map);
-        map.set_ways_back(find_ways_back(path_, program_, map, runs_));
+        map.set_returns(find_returns(path_, program_, map, runs_));
     }
 
     /// Whether the positions would fit in another unit: then no work offset aligns them.

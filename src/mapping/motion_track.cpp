@@ -14,8 +14,8 @@
 namespace clsurf {
 namespace {
 
-constexpr std::int64_t look_elsewhere = 8;  ///< motions that may be searched per point, on average
-constexpr std::int64_t group_window = 256;  ///< motions of one line that a walk may look ahead
+constexpr std::int64_t searched_per_point = 8;  ///< motions that may be searched per point, on average
+constexpr std::int64_t group_window = 256;      ///< motions of one line that a walk may look ahead
 
 /// Consecutive motions of one line of one file, or of the calls of one line.
 struct Section {
@@ -108,7 +108,7 @@ public:
 
     /// The motion of the next point, or −1.
     std::int64_t add(LineNumber line, std::int32_t file, const Vec3& p) {
-        budget_ += look_elsewhere;
+        budget_ += searched_per_point;
         const double chord = p.allFinite() && before_.allFinite() ? (p - before_).norm() : 0.0;
         before_ = p;
         if (line == 0 || file == unknown_file) {
@@ -154,7 +154,7 @@ private:
         has_motion_ = next != nullptr;
         if (next == nullptr) return;
         section_ = *next;
-        if (p.allFinite() && allowed_distance(from, section_, p) > tolerance_) look_for(from, p);
+        if (p.allFinite() && allowed_distance(from, section_, p) > tolerance_) search_section(from, p);
         state_ = {section_.first, 0, 0};
         if (p.allFinite() && section_.last > section_.first) state_ = walk_.advance(state_, p, 0, reach());
     }
@@ -197,7 +197,7 @@ private:
 
     /// The first run of the line that the point is on, searching ahead and then from the start. If it is on none, or
     /// too many have been searched, the next run in order is kept.
-    void look_for(std::int64_t from, const Vec3& p) {
+    void search_section(std::int64_t from, const Vec3& p) {
         const Section in_order = section_;
         const Section* candidate = next_after(in_order.first);
         while (candidate != nullptr && budget_ > 0) {

@@ -11,10 +11,10 @@
 namespace clsurf {
 namespace {
 
-constexpr double part_of_program = 0.02;     ///< share of motions that may be missing at an end: approach, retract
-constexpr double begins_again_before = 0.1;  ///< share of the motions: a run begins before this …
-constexpr double begins_again_after = 0.9;   ///< … if the previous one came as far as this
-constexpr double least_pause = 1.0;          ///< [s]
+constexpr double part_of_program = 0.02;  ///< share of motions that may be missing at an end: approach, retract
+constexpr double restart_before = 0.1;    ///< share of the motions: a run begins before this …
+constexpr double restart_after = 0.9;     ///< … if the previous one came as far as this
+constexpr double least_pause = 1.0;       ///< [s]
 
 /// Number of motions with a length before each one, and before the end: a log has no points on the others.
 Column<std::uint32_t> count_before(const Program& program, const Vec3& start) {
@@ -39,7 +39,7 @@ public:
     void add(PointIndex point, LineNumber line, std::int64_t motion, PointKind kind, bool moved) {
         if (moved || kind != PointKind::cut || line != line_) {
             end_pause(point);
-            still_since_ = point;
+            pause_begin_ = point;
         }
         line_ = line;
         if (line == 0 || motion < 0 || motion == motion_) return;
@@ -57,8 +57,8 @@ public:
         for (std::size_t k = 1; k < runs.size(); ++k) {
             const LineNumber from = map.line_of_motion(runs[k].first_motion);
             const LineNumber to = map.line_of_motion(runs[k - 1].last_motion);
-            const bool whole = static_cast<double>(runs[k].first_motion) <= begins_again_before * motions_ &&
-                               static_cast<double>(runs[k - 1].last_motion) >= begins_again_after * motions_;
+            const bool whole = static_cast<double>(runs[k].first_motion) <= restart_before * motions_ &&
+                               static_cast<double>(runs[k - 1].last_motion) >= restart_after * motions_;
             if (whole) {
                 warn("map.runs", runs[k].first,
                      fmt::format("the program begins again at line {}: run {} in this log", from, k + 1),
@@ -66,10 +66,10 @@ public:
                 continue;
             }
             std::string left;
-            for (const PointRange& way : map.ways_back()) {
-                if (way.last + 1 == runs[k].first)
-                    left = fmt::format("the tool leaves the path on line {} at point {}, and ", map.line_at(way.first),
-                                       way.first);
+            for (const PointRange& tool_return : map.returns()) {
+                if (tool_return.last + 1 == runs[k].first)
+                    left = fmt::format("the tool leaves the path on line {} at point {}, and ",
+                                       map.line_at(tool_return.first), tool_return.first);
             }
             warn("map.restart", runs[k].first,
                  fmt::format("{}the run goes on from line {}: lines {}-{} ran twice", left, from, from, to),
@@ -98,10 +98,10 @@ public:
 
 private:
     void end_pause(PointIndex end) {
-        if (still_since_ < 0 || end <= still_since_) return;
-        const double seconds = static_cast<double>(end - still_since_) * log_.period;
+        if (pause_begin_ < 0 || end <= pause_begin_) return;
+        const double seconds = static_cast<double>(end - pause_begin_) * log_.period;
         if (seconds < least_pause) return;
-        add_note("map.pause", still_since_,
+        add_note("map.pause", pause_begin_,
                  fmt::format("the tool stands still for {:.1f} s on line {}", seconds, line_), {});
     }
 
@@ -121,7 +121,7 @@ private:
     LineNumber line_ = 0, first_line_ = 0, last_line_ = 0;
     std::int64_t motion_ = -1;
     double first_ = -1, last_ = -1;  ///< place in the program, 0 … 1; −1: no line yet
-    PointIndex still_since_ = -1;
+    PointIndex pause_begin_ = -1;
 };
 
 }  // namespace

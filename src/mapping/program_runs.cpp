@@ -11,7 +11,7 @@
 namespace clsurf {
 namespace {
 
-constexpr int least_again = 3;  ///< repeated cutting motions: fewer may be a number that flickers
+constexpr int fewest_repeated = 3;  ///< repeated cutting motions: fewer may be a number that flickers
 
 class RunFinder {
 public:
@@ -22,26 +22,26 @@ public:
             note(motion);
             return;
         }
-        std::int64_t& top = again_ ? again_->last_motion : runs_.back().last_motion;
+        std::int64_t& top = repeated_ ? repeated_->last_motion : runs_.back().last_motion;
         if (motion + 1 < top) {
-            again_ = ProgramRun{point, motion, motion};
+            repeated_ = ProgramRun{point, motion, motion};
             count_ = 0;
         } else {
             top = std::max(top, motion);
         }
-        if (!again_) return note(motion);
-        again_->first_motion = std::min(again_->first_motion, motion);
+        if (!repeated_) return note(motion);
+        repeated_->first_motion = std::min(repeated_->first_motion, motion);
         ProgramRun& run = runs_.back();
         if (cuts && has(motion)) ++count_;
-        if (count_ >= least_again) {
-            runs_.push_back(*again_);
-            again_.reset();
-            std::fill(had_.begin(), had_.end(), false);
+        if (count_ >= fewest_repeated) {
+            runs_.push_back(*repeated_);
+            repeated_.reset();
+            std::fill(executed_.begin(), executed_.end(), false);
             note(motion);
         } else if (motion > run.last_motion) {
-            run.first_motion = std::min(run.first_motion, again_->first_motion);
+            run.first_motion = std::min(run.first_motion, repeated_->first_motion);
             run.last_motion = motion;
-            again_.reset();
+            repeated_.reset();
             note(motion);
         }
     }
@@ -51,17 +51,17 @@ public:
 private:
     void note(std::int64_t motion) {
         const auto m = static_cast<std::size_t>(motion);
-        if (m >= had_.size()) had_.resize(std::max(m + 1, 2 * had_.size()));
-        had_[m] = true;
+        if (m >= executed_.size()) executed_.resize(std::max(m + 1, 2 * executed_.size()));
+        executed_[m] = true;
     }
     [[nodiscard]] bool has(std::int64_t motion) const {
-        return static_cast<std::size_t>(motion) < had_.size() && had_[static_cast<std::size_t>(motion)];
+        return static_cast<std::size_t>(motion) < executed_.size() && executed_[static_cast<std::size_t>(motion)];
     }
 
     std::vector<ProgramRun> runs_{1};
-    std::vector<bool> had_;            ///< motions of the last run
-    std::optional<ProgramRun> again_;  ///< place at which the log went back: possibly a run
-    int count_ = 0;                    ///< cutting motions since then that the previous run had, too
+    std::vector<bool> executed_;          ///< motions of the last run
+    std::optional<ProgramRun> repeated_;  ///< place at which the log went back: possibly a run
+    int count_ = 0;                       ///< cutting motions since then that the previous run had, too
 };
 
 }  // namespace
@@ -93,10 +93,10 @@ std::vector<ProgramRun> find_program_runs(const LineMap& lines) {
     return finder.take();
 }
 
-std::vector<PointRange> find_ways_back(const Trajectory& path, const Program& program, const LineMap& lines,
-                                       std::span<const ProgramRun> runs) {
-    std::vector<PointRange> ways;
-    if (runs.size() < 2) return ways;
+std::vector<PointRange> find_returns(const Trajectory& path, const Program& program, const LineMap& lines,
+                                     std::span<const ProgramRun> runs) {
+    std::vector<PointRange> returns;
+    if (runs.size() < 2) return returns;
     const Toolpath toolpath(program.motions, path.at(0));
     const double tolerance = corner_tolerance(program);
     const auto is_off = [&](PointIndex point) {
@@ -111,9 +111,9 @@ std::vector<PointRange> find_ways_back(const Trajectory& path, const Program& pr
     for (std::size_t k = 1; k < runs.size(); ++k) {
         PointIndex first = runs[k].first;
         while (first > runs[k - 1].first && is_off(first - 1)) --first;
-        if (first < runs[k].first) ways.push_back({first, runs[k].first - 1});
+        if (first < runs[k].first) returns.push_back({first, runs[k].first - 1});
     }
-    return ways;
+    return returns;
 }
 
 }  // namespace clsurf

@@ -22,7 +22,7 @@ struct ProgramRun {
 
 /// For each run but the first: the points just before it at which the tool is off the program's path, returning to the
 /// point of continuation. Empty if there are none. O(points).
-[[nodiscard]] std::vector<PointRange> find_ways_back(const Trajectory& path, const Program& program,
-                                                     const LineMap& lines, std::span<const ProgramRun> runs);
+[[nodiscard]] std::vector<PointRange> find_returns(const Trajectory& path, const Program& program, const LineMap& lines,
+                                                   std::span<const ProgramRun> runs);
 
 }  // namespace clsurf
