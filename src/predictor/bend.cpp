@@ -14,10 +14,10 @@ namespace {
 constexpr float bend_cosine = 0.906F;  ///< cos 25°: the path bends if it turns by more than this …
 constexpr float net_reach =
     2;  ///< … and is still turned so many step-overs away on both sides, unlike at a step-over move
-constexpr float slight_cosine = 0.996F;  ///< cos 5°: enough if the adjacent passes …
-constexpr float own_share = 0.7F;        ///< … turn by less than this share of its turn
-constexpr float beside_every = 0.5F;     ///< step-overs between the places where these are examined
-constexpr float turn_reach = 1;          ///< step-overs on either side, over which a turn is measured
+constexpr float slight_cosine = 0.996F;   ///< cos 5°: enough if the adjacent passes …
+constexpr float own_share = 0.7F;         ///< … turn by less than this share of its turn
+constexpr float adjacent_spacing = 0.5F;  ///< step-overs between the places where these are examined
+constexpr float turn_reach = 1;           ///< step-overs on either side, over which a turn is measured
 /// Step-overs on either side, within which a link leads to the next pass. A long slanting link is detected over the longest
 /// of them. In a curve the runs turn against each other over that length, so a short link is detected over a shorter length.
 constexpr std::array link_reaches{5.0F, 3.0F, 2.0F};
@@ -29,10 +29,10 @@ constexpr float closing_nearest = 0.5F;   ///< … if the distance to the adjace
 constexpr float closing_farthest = 0.8F;  ///< … and exceeds this before or after it [step-overs]
 constexpr float long_link = 20;           ///< step-overs: longest link …
 constexpr float link_nearest = 0.65F;     ///< … which comes this near to one of the adjacent passes [step-overs] …
-constexpr float own_turn = 0.035F;    ///< … and turns at either corner by 2° more or less than the adjacent passes
-constexpr float beside_reach = 1.5F;  ///< step-overs along the feed: farthest bend of an adjacent pass
-constexpr float look_every = 0.1F;    ///< step-overs between examined points
-constexpr float accelerates = 0.35F;  ///< least share of the usual acceleration, which jerk limits and windows reduce
+constexpr float own_turn = 0.035F;      ///< … and turns at either corner by 2° more or less than the adjacent passes
+constexpr float adjacent_reach = 1.5F;  ///< step-overs along the feed: farthest bend of an adjacent pass
+constexpr float look_every = 0.1F;      ///< step-overs between examined points
+constexpr float accelerates = 0.35F;    ///< least share of the usual acceleration, which jerk limits and windows reduce
 constexpr float link_accelerates = 0.15F;  ///< the same at a link, whose two corners share the turn
 // ramp_share: docs/design/predictor.md#limits-of-the-method, a fifth of the usual acceleration.
 constexpr float ramp_share = 0.2F;         ///< the same along the path, between the bend and the end of its ramp
@@ -53,7 +53,7 @@ Bends::Bends(const ClSurface& surface, const Signals& signals, const Thresholds&
 bool Bends::explain(PointIndex point, const Comparison& comparison) const {
     constexpr std::size_t q = index_of(Quantity::speed);
     const float residual = comparison.residual[q], slight = hardly_slower * thresholds_.of[q];
-    const std::array<PathLocation, 2> sides{comparison.beside_left, comparison.beside_right};
+    const std::array<PathLocation, 2> sides{comparison.adjacent_left, comparison.adjacent_right};
     if (residual < -slight) return slows_for_bend(point);
     if (!(residual > slight)) {  // only the accelerations differ
         return slows_for_bend(point) || std::any_of(sides.begin(), sides.end(), [&](const PathLocation& at) {
@@ -119,13 +119,13 @@ Bends::Turn Bends::turn_at(PointIndex point) const {
 }
 
 /// Whether an adjacent pass takes a similar bend faster.
-bool Bends::taken_faster_beside(PointIndex bend, const Turn& turn) const {
+bool Bends::is_faster_on_adjacent(PointIndex bend, const Turn& turn) const {
     for (const Side side : {Side::left, Side::right}) {
         const PathLocation at = beside(surface_, {bend, 0}, signals_.feed(bend), side);
         if (!at.exists() || signals_[at.nearest()].zone == Zone::outside) continue;
         PointIndex slowest = at.nearest();
         for (const int direction : {-1, 1}) {
-            const PointIndex end = at_distance(at.nearest(), direction, beside_reach * step_over_);
+            const PointIndex end = at_distance(at.nearest(), direction, adjacent_reach * step_over_);
             for (PointIndex i = at.nearest(); i != end; i += direction) {
                 if (signals_[i].speed < signals_[slowest].speed) slowest = i;
             }
@@ -139,17 +139,17 @@ bool Bends::taken_faster_beside(PointIndex bend, const Turn& turn) const {
 /// Whether the adjacent passes hardly turn there: only this pass has the bend, as at either end of a long link.
 bool Bends::turns_alone(PointIndex bend, const Turn& turn) const {
     const float slight = std::acos(turn.cosine) * own_share;
-    bool beside_any = false;
+    bool any_adjacent = false;
     for (const Side side : {Side::left, Side::right}) {
         const PathLocation at = beside(surface_, {bend, 0}, signals_.feed(bend), side);
         if (!at.exists() || signals_[at.nearest()].zone == Zone::outside) continue;
-        beside_any = true;
-        for (float along = -beside_reach; along <= beside_reach; along += beside_every) {
+        any_adjacent = true;
+        for (float along = -adjacent_reach; along <= adjacent_reach; along += adjacent_spacing) {
             const PointIndex there = at_distance(at.nearest(), along < 0 ? -1 : 1, std::abs(along) * step_over_);
             if (std::acos(std::min(turn_at(there).cosine, 1.0F)) > slight) return false;
         }
     }
-    return beside_any;
+    return any_adjacent;
 }
 
 bool Bends::is_link(PointIndex point) const {
@@ -176,7 +176,7 @@ bool Bends::leads_aside(PointIndex point, float reach) const {
     return steepest > link_sine;
 }
 
-float Bends::distance_beside(PointIndex point) const {
+float Bends::adjacent_distance(PointIndex point) const {
     float nearest = std::numeric_limits<float>::infinity();
     const Eigen::Vector3f feed = signals_.feed(point);
     for (const Side side : {Side::left, Side::right}) {
@@ -192,7 +192,7 @@ bool Bends::closes_loop(PointIndex point) const {
     return distance_falls(at_distance(point, -1, reach), at_distance(point, +1, reach), closing_nearest);
 }
 
-float Bends::turn_of_its_own(PointIndex point) const {
+float Bends::turn_difference(PointIndex point) const {
     const float reach = net_reach * step_over_;
     const auto turn = [&](PointIndex at) {
         return Eigen::Vector3f(signals_.feed(at_distance(at, +1, reach)) - signals_.feed(at_distance(at, -1, reach)));
@@ -210,7 +210,7 @@ float Bends::turn_of_its_own(PointIndex point) const {
 }
 
 bool Bends::is_corner_of_long_link(PointIndex point) const {
-    if (!(turn_of_its_own(point) > own_turn)) return false;
+    if (!(turn_difference(point) > own_turn)) return false;
     const float reach = long_link * step_over_, room = closing_reach * step_over_;
     return distance_falls(at_distance(point, -1, reach), at_distance(point, +1, room), link_nearest) ||
            distance_falls(at_distance(point, -1, room), at_distance(point, +1, reach), link_nearest);
@@ -220,7 +220,7 @@ bool Bends::distance_falls(PointIndex first, PointIndex last, float below) const
     const PointIndex stride = stride_at(first);
     float nearest = std::numeric_limits<float>::infinity(), farthest = 0;
     for (PointIndex i = first; i <= last; i += stride) {
-        const float distance = distance_beside(i);
+        const float distance = adjacent_distance(i);
         if (!(distance < closing_reach * step_over_)) continue;
         nearest = std::min(nearest, distance);
         farthest = std::max(farthest, distance);
@@ -234,7 +234,7 @@ bool Bends::is_bend(PointIndex point) const {
     const float usual = thresholds_.usual_acceleration;
     if (turn.acceleration >= link_accelerates * usual && (is_link(point) || is_corner_of_long_link(point))) return true;
     if (!(turn.acceleration >= accelerates * usual)) return false;
-    if (turn.cosine < bend_cosine) return !taken_faster_beside(point, turn);
+    if (turn.cosine < bend_cosine) return !is_faster_on_adjacent(point, turn);
     return turn.cosine < slight_cosine && turns_alone(point, turn);
 }
 
@@ -272,7 +272,7 @@ bool Bends::slows_for_bend(PointIndex point) const {
         const float distance = (surface_.positions[*slowest] - surface_.positions[point]).norm();
         const bool ramp = std::abs(signals_.acceleration(point).dot(signals_.feed(point))) >=
                           ramp_share * thresholds_.usual_acceleration;
-        if ((ramp || distance < beside_reach * step_over_) && is_bend(*slowest)) return true;
+        if ((ramp || distance < adjacent_reach * step_over_) && is_bend(*slowest)) return true;
     }
     return false;
 }

@@ -48,11 +48,11 @@ private:
     [[nodiscard]] bool distance_falls(PointIndex first, PointIndex last, float below) const;
     /// How much the turn of the path differs there from that of the adjacent passes, as difference of unit feeds. 0: it does
     /// not, or there is no adjacent pass.
-    [[nodiscard]] float turn_of_its_own(PointIndex point) const;
+    [[nodiscard]] float turn_difference(PointIndex point) const;
     /// Distance [mm] to the nearer neighbour, straight across; infinite: there is none.
-    [[nodiscard]] float distance_beside(PointIndex point) const;
+    [[nodiscard]] float adjacent_distance(PointIndex point) const;
     [[nodiscard]] bool turns_alone(PointIndex bend, const Turn& turn) const;
-    [[nodiscard]] bool taken_faster_beside(PointIndex bend, const Turn& turn) const;
+    [[nodiscard]] bool is_faster_on_adjacent(PointIndex bend, const Turn& turn) const;
     [[nodiscard]] std::optional<PointIndex> slowest_ahead(PointIndex point, int direction) const;
     [[nodiscard]] Turn turn_at(PointIndex point) const;
     [[nodiscard]] PointIndex at_distance(PointIndex from, int direction, float distance) const;

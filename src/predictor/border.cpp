@@ -29,7 +29,7 @@ Border::Border(const ClSurface& surface, const Signals& signals, const ArcLength
     }
 }
 
-const DefectCandidate* Border::as_strong_near(PointIndex point, std::size_t pass, float share,
+const DefectCandidate* Border::find_as_strong(PointIndex point, std::size_t pass, float share,
                                               Quantity quantity) const {
     const auto strong = [&](const DefectCandidate* s) {
         return s->pass == pass && s->expected(quantity) && s->share[index_of(quantity)] >= share;
@@ -55,13 +55,13 @@ const DefectCandidate* Border::flank_of(const DefectCandidates& core, Quantity q
     while (last + 1 != core.end() && hangs(*last, *(last + 1))) ++last;
     const std::size_t pass = (*strongest)->pass;
     for (const DefectCandidate* end : {*first, *last}) {
-        if (const DefectCandidate* at = as_strong_near(end->point, pass, peak, quantity)) return at;
+        if (const DefectCandidate* at = find_as_strong(end->point, pass, peak, quantity)) return at;
     }
     const Comparison& c = (*strongest)->comparison;
-    for (const PathLocation& at : {c.beside_left, c.beside_right}) {
+    for (const PathLocation& at : {c.adjacent_left, c.adjacent_right}) {
         if (!at.exists()) continue;
         const std::size_t beside = pass_of(surface_.passes, at.nearest());
-        if (const DefectCandidate* near = as_strong_near(at.nearest(), beside, peak, quantity)) return near;
+        if (const DefectCandidate* near = find_as_strong(at.nearest(), beside, peak, quantity)) return near;
     }
     return nullptr;
 }
@@ -90,8 +90,8 @@ bool Border::on_flank(const DefectCandidate& site, const DefectCandidate& at, do
     if (quantity == Quantity::lag || quantity == Quantity::relief) return site.share[q] < falls_to * at.share[q];
     if (quantity != Quantity::speed || ramps(site.point)) return true;
     const Comparison& c = site.comparison;
-    return (c.beside_left.exists() && ramps(c.beside_left.nearest())) ||
-           (c.beside_right.exists() && ramps(c.beside_right.nearest()));
+    return (c.adjacent_left.exists() && ramps(c.adjacent_left.nearest())) ||
+           (c.adjacent_right.exists() && ramps(c.adjacent_right.nearest()));
 }
 
 bool Border::goes_on(PointIndex point, int direction) const {

@@ -38,7 +38,7 @@ public:
     [[nodiscard]] bool stands_out(const DefectCandidates& core, Quantity quantity) const;
 
 private:
-    [[nodiscard]] const DefectCandidate* as_strong_near(PointIndex point, std::size_t pass, float share,
+    [[nodiscard]] const DefectCandidate* find_as_strong(PointIndex point, std::size_t pass, float share,
                                                         Quantity quantity) const;
     [[nodiscard]] bool ramps(PointIndex point) const;
     [[nodiscard]] bool goes_on(PointIndex point, int direction) const;

@@ -20,7 +20,7 @@ constexpr int fewest_alike = 2;          ///< passes of one direction on each si
 constexpr float candidate_share = 0.5F;  ///< share of a threshold
 constexpr double ends_apart = 1;         ///< step-overs along the feed: closer ends of passes are side by side
 constexpr double ramp_room = 1.5;        ///< times the change of speed of the steeper ramp over that distance
-constexpr float joined_beside = 1.0F;  ///< step-overs along the feed: largest distance between candidates of two passes
+constexpr float join_reach = 1.0F;  ///< step-overs along the feed: largest distance between candidates of two passes
 
 /// Sets share and score of a candidate.
 void measure(DefectCandidate& candidate, const Thresholds& thresholds) {
@@ -128,7 +128,7 @@ public:
         in_portions(sites, [&](std::span<const PointIndex> portion) {
             std::vector<PointIndex> frontier = judge(portion);
             if (in_order == 0) in_order = static_cast<std::ptrdiff_t>(frontier.size());
-            while (!frontier.empty()) frontier = judge(beside_all(frontier));
+            while (!frontier.empty()) frontier = judge(adjacent_of(frontier));
         });
         for (const std::vector<DefectCandidate>& piece : found_.kept) {
             for (const DefectCandidate& candidate : piece) found_.candidates.push_back(&candidate);
@@ -161,7 +161,7 @@ public:
 
 private:
     /// The sites next to candidates, on both sides.
-    [[nodiscard]] std::vector<PointIndex> beside_all(const std::vector<PointIndex>& points) const {
+    [[nodiscard]] std::vector<PointIndex> adjacent_of(const std::vector<PointIndex>& points) const {
         std::vector<PointIndex> sites;
         in_portions(points, [&](std::span<const PointIndex> portion) {
             for (const PointIndex i : portion) {
@@ -210,8 +210,8 @@ private:
         if (candidate.border) return;
         if (!c.ramp) return;
         candidate.border = signals_[candidate.point].zone == Zone::inner ||
-                           ends_elsewhere(candidate.point, c.beside_left) ||
-                           ends_elsewhere(candidate.point, c.beside_right);
+                           ends_elsewhere(candidate.point, c.adjacent_left) ||
+                           ends_elsewhere(candidate.point, c.adjacent_right);
         if (candidate.border) {
             // A ramp makes its pass the slower one. If its pass is the faster one, there is another cause.
             constexpr std::size_t q = index_of(Quantity::speed);
@@ -234,7 +234,7 @@ private:
             return at.exists() && turns_on_surface(surface_, signals_, at.nearest());
         };
         const Comparison& c = candidate.comparison;
-        if (!turns({candidate.point, 0}) && !turns(c.beside_left) && !turns(c.beside_right)) return;
+        if (!turns({candidate.point, 0}) && !turns(c.adjacent_left) && !turns(c.adjacent_right)) return;
         candidate.comparison.residual[q] = candidate.comparison.step[q] = 0;
         candidate.share[q] = candidate.score[q] = 0;
     }
@@ -367,7 +367,7 @@ std::vector<DefectCandidates> group_candidates(const DefectCandidates& candidate
     points.reserve(candidates.size());
     for (const DefectCandidate* s : candidates) points.push_back(s->point);
     Groups groups(candidates.size());
-    const float beside = joined_beside * static_cast<float>(surface.step_over);
+    const float beside = join_reach * static_cast<float>(surface.step_over);
     /// Joins a candidate with those of another pass near a point of that pass. `hint`: index of the previous result.
     const auto join_near = [&](std::size_t k, PointIndex point, std::size_t& hint) {
         const std::size_t after = hint = lower_bound_near(points, hint, point);

@@ -139,7 +139,7 @@ bool CauseFinder::leaves_program(const Defect& defect, std::span<const DefectCan
     for (std::size_t k = 0; k < highest.size(); k += stride) {
         const Comparison& c = highest[k]->comparison;
         double beside = 0;
-        for (const PathLocation& at : {c.beside_left, c.beside_right})
+        for (const PathLocation& at : {c.adjacent_left, c.adjacent_right})
             beside += 0.5 * (at.exists() ? off_program(at.nearest()) : missing<double>);
         const double share = (off_program(highest[k]->point) - beside) / height(highest[k]);
         if (std::isfinite(share)) shares.push_back(share);

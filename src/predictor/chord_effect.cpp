@@ -24,7 +24,8 @@ public:
     [[nodiscard]] bool is_one(const DefectCandidate& candidate) const {
         const Comparison& c = candidate.comparison;
         const bool pit = c.residual[of_relief] < 0;
-        const float most = most_of_chord * std::max(peak_near(c.beside_left, !pit), peak_near(c.beside_right, !pit));
+        const float most =
+            most_of_chord * std::max(peak_near(c.adjacent_left, !pit), peak_near(c.adjacent_right, !pit));
         return most > 0 && peak_near({candidate.point, 0}, pit) <= most;
     }
 

@@ -32,8 +32,8 @@ PointRange with_room(const PointRange& section, const ClSurface& surface, double
 }
 
 /// Places on the passes on one side of a point, the nearest first.
-std::vector<PathLocation> places_beside(const ClSurface& surface, const Signals& signals, PointIndex i, Side side,
-                                        int most) {
+std::vector<PathLocation> places_on_side(const ClSurface& surface, const Signals& signals, PointIndex i, Side side,
+                                         int most) {
     std::vector<PathLocation> places;
     const auto feed = [&](const PathLocation& at) { return signals.feed(at.nearest()); };
     walk_aside(surface, {i, 0}, side, feed, [&](const PathLocation& at, const PathLocation&) {
@@ -77,13 +77,13 @@ private:
 };
 
 /// The nearest places on clean passes, up to `most` on each side. If there are none, the nearest places of all passes.
-std::vector<PathLocation> comparable_beside(const ClSurface& surface, const Signals& signals, PointIndex i, int most,
+std::vector<PathLocation> comparable_places(const ClSurface& surface, const Signals& signals, PointIndex i, int most,
                                             const Faults& faults) {
     constexpr int farthest = 8;  // passes on each side
     std::vector<PathLocation> clean, nearest;
     for (const Side side : {Side::left, Side::right}) {
         int found = 0, walked = 0;
-        for (const PathLocation& at : places_beside(surface, signals, i, side, farthest)) {
+        for (const PathLocation& at : places_on_side(surface, signals, i, side, farthest)) {
             if (walked++ < most) nearest.push_back(at);
             if (found == most || faults.have(at.nearest())) continue;
             clean.push_back(at);
@@ -101,7 +101,7 @@ float usual_height_at(const ClSurface& surface, const Signals& signals, PointInd
     const bool all = peers == HeightPeers::nearest;
     std::vector<float> heights;
     const int most = all ? DefectProfile::aside : aside_of_direction;
-    for (const PathLocation& at : comparable_beside(surface, signals, point, most, faults)) {
+    for (const PathLocation& at : comparable_places(surface, signals, point, most, faults)) {
         if (all || signals.feed(at.nearest()).dot(signals.feed(point)) > 0) heights.push_back(height(at));
     }
     return median_known(std::move(heights));
@@ -117,7 +117,7 @@ void add_across(DefectProfile& profile, const ClSurface& surface, const Signals&
     for (const Side side : {Side::left, Side::right}) {
         Eigen::Vector3f before = surface.positions[point];
         double gone = 0;
-        for (const PathLocation& at : places_beside(surface, signals, point, side, most_across)) {
+        for (const PathLocation& at : places_on_side(surface, signals, point, side, most_across)) {
             const Eigen::Vector3f here = position_at(surface.positions, at);
             gone += (here - before).norm();
             before = here;
@@ -174,7 +174,7 @@ DefectProfile profile_of(const Defect& defect, const ClSurface& surface, const S
         std::array<PathLocation, DefectProfile::passes> places;
         places[DefectProfile::at_fault] = {i, 0};
         for (const Side side : {Side::left, Side::right}) {
-            const std::vector<PathLocation> found = places_beside(surface, signals, i, side, DefectProfile::aside);
+            const std::vector<PathLocation> found = places_on_side(surface, signals, i, side, DefectProfile::aside);
             for (std::size_t k = 0; k < found.size(); ++k)
                 places[side == Side::left ? DefectProfile::at_fault - 1 - k : DefectProfile::at_fault + 1 + k] =
                     found[k];
@@ -191,7 +191,7 @@ DefectProfile profile_of(const Defect& defect, const ClSurface& surface, const S
             profile.height[k].push_back(height);
         }
         std::vector<float> other_speeds;
-        for (const PathLocation& at : comparable_beside(surface, signals, i, DefectProfile::aside, faults))
+        for (const PathLocation& at : comparable_places(surface, signals, i, DefectProfile::aside, faults))
             other_speeds.push_back(compared_at(signals, at, signals.normal(i)).speed);
         profile.usual_speed.push_back(median_known(std::move(other_speeds)));
         profile.usual_height.push_back(usual_height_at(surface, signals, i, peers, faults, [&](const PathLocation& at) {

@@ -276,7 +276,7 @@ private:
                                                            const std::vector<DefectSection>& sections) const {
         std::map<std::size_t, PointRange> found;  // by pass
         for (const DefectCandidate* s : core) {
-            for (const PathLocation& at : {s->comparison.beside_left, s->comparison.beside_right}) {
+            for (const PathLocation& at : {s->comparison.adjacent_left, s->comparison.adjacent_right}) {
                 if (!at.exists()) continue;
                 const PointIndex n = at.nearest();
                 PointRange& points = found.try_emplace(pass_of(surface_.passes, n), PointRange{n, n}).first->second;

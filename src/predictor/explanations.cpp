@@ -29,7 +29,7 @@ public:
     /// several. O(sites log sections), and at the first call O(sections log sections).
     [[nodiscard]] bool explain(CandidateSpan sites) {
         sort();
-        if (lies_elsewhere(sites)) return false;
+        if (is_elsewhere(sites)) return false;
         const auto inside = [&](const DefectCandidate* s) {
             const auto section = range_at(sections_, s->point);
             return section != sections_.end() && section->first <= s->point && s->point <= section->farthest;
@@ -43,7 +43,7 @@ private:
         PointIndex farthest;  ///< last of this one and all before
     };
     /// Quick test: most sites are before or after all sections.
-    [[nodiscard]] bool lies_elsewhere(CandidateSpan sites) const {
+    [[nodiscard]] bool is_elsewhere(CandidateSpan sites) const {
         if (sites.empty()) return false;
         return sections_.empty() || sites.back()->point < sections_.front().first ||
                sections_.back().farthest < sites.front()->point;

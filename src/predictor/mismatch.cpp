@@ -11,7 +11,7 @@
 #include "core/block.h"
 #include "core/not_finite.h"
 #include "core/statistics.h"
-#include "predictor/judged_beside.h"
+#include "predictor/judged_neighbours.h"
 #include "predictor/oblique_alignment.h"
 #include "predictor/residual.h"
 
@@ -133,16 +133,16 @@ std::vector<float> known(std::size_t count, Value&& value) {
 }
 
 /// The passes on the left and on the right of a place, the adjacent one first.
-struct PassesBeside {
+struct SurroundingPasses {
     std::array<std::array<Compared, passes_around_border>, 2> of;
     std::array<int, 2> count{0, 0};
 };
 
 /// The values of `read` for the passes on either side.
-class ReadBeside {
+class SurroundingValues {
 public:
     template <typename Read>
-    ReadBeside(const PassesBeside& others, Read&& read) : count_(others.count) {
+    SurroundingValues(const SurroundingPasses& others, Read&& read) : count_(others.count) {
         for (std::size_t s = 0; s < 2; ++s) {
             for (std::size_t k = 0; k < static_cast<std::size_t>(count_[s]); ++k) values_[s][k] = read(others.of[s][k]);
         }
@@ -150,9 +150,9 @@ public:
     [[nodiscard]] std::span<const float> side(std::size_t s) const {
         return std::span(values_[s]).first(static_cast<std::size_t>(count_[s]));
     }
-    [[nodiscard]] float usual(float own) const { return usual_beside(own, side(0), side(1)); }
+    [[nodiscard]] float usual(float own) const { return usual_around(own, side(0), side(1)); }
     /// The same for a motion: speeds change from pass to pass where passes become shorter or more curved.
-    [[nodiscard]] float usual_motion(float own) const { return usual_beside(own, side(0), side(1), clear_of_scatter); }
+    [[nodiscard]] float usual_motion(float own) const { return usual_around(own, side(0), side(1), clear_of_scatter); }
 
 private:
     std::array<int, 2> count_;
@@ -161,10 +161,10 @@ private:
 
 /// Sets residuals against the adjacent passes, and the jump of the speed. Returns the reference speed of relative differences
 /// [mm/s].
-float fill_residuals(const Compared& mine, const PassesBeside& others, float least_speed, Comparison& result) {
-    const ReadBeside speeds(others, [](const Compared& v) { return v.speed; });
-    const ReadBeside lags(others, [](const Compared& v) { return v.lag; });
-    const ReadBeside reliefs(others, [](const Compared& v) { return v.relief; });
+float fill_residuals(const Compared& mine, const SurroundingPasses& others, float least_speed, Comparison& result) {
+    const SurroundingValues speeds(others, [](const Compared& v) { return v.speed; });
+    const SurroundingValues lags(others, [](const Compared& v) { return v.lag; });
+    const SurroundingValues reliefs(others, [](const Compared& v) { return v.relief; });
     const float usual = speeds.usual_motion(mine.speed);
     // The reference for two passes is the mean of both.
     const bool two = others.count[0] == 1 && others.count[1] == 1;
@@ -181,7 +181,7 @@ float fill_residuals(const Compared& mine, const PassesBeside& others, float lea
     result.residual[index_of(Quantity::relief)] = relief_mark(mine.relief, nearest(0), nearest(1));
     Eigen::Vector3f consensus;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        const ReadBeside along(others, [axis](const Compared& v) { return v.acceleration[axis]; });
+        const SurroundingValues along(others, [axis](const Compared& v) { return v.acceleration[axis]; });
         consensus[axis] = along.usual_motion(mine.acceleration[axis]);
     }
     result.residual[index_of(Quantity::acceleration)] = (mine.acceleration - consensus).norm();
@@ -192,13 +192,13 @@ float fill_residuals(const Compared& mine, const PassesBeside& others, float lea
 
 void Comparer::compare_obliquely_around(const PathLocation& here, Comparison& comparison) const {
     constexpr int aside = 3;
-    std::array<Beside, 2 * aside> places;
+    std::array<AdjacentPlace, 2 * aside> places;
     std::size_t count = 0;
     for (const Side side : {Side::left, Side::right}) {
-        for_each_judged_beside(surface_, signals_, here, side, aside, round_a_corner,
-                               [&](const PathLocation& at, int passes) {
-                                   places[count++] = {at, side == Side::left ? passes : -passes};
-                               });
+        for_each_judged_neighbour(surface_, signals_, here, side, aside, round_a_corner,
+                                  [&](const PathLocation& at, int passes) {
+                                      places[count++] = {at, side == Side::left ? passes : -passes};
+                                  });
     }
     const std::optional<ObliqueComparison> oblique =
         compare_obliquely(surface_, signals_, here, std::span(places).first(count));
@@ -246,13 +246,12 @@ Comparison Comparer::compare_at_end(const PathLocation& here) const {
     // A change that the other passes do not have does not count as slack.
     std::array<float, quantities> others{};
     for (const Side side : {Side::left, Side::right}) {
-        for_each_judged_beside(surface_, signals_, here, side, passes_aside, along_or_against,
-                               [&](const PathLocation& at, int) {
-                                   if (runs_against(signals_, point, at)) return;
-                                   const std::array<float, quantities> there = change_nearby(at.nearest(), reference);
-                                   for (std::size_t q = 0; q < quantities; ++q)
-                                       others[q] = std::max(others[q], there[q]);
-                               });
+        for_each_judged_neighbour(
+            surface_, signals_, here, side, passes_aside, along_or_against, [&](const PathLocation& at, int) {
+                if (runs_against(signals_, point, at)) return;
+                const std::array<float, quantities> there = change_nearby(at.nearest(), reference);
+                for (std::size_t q = 0; q < quantities; ++q) others[q] = std::max(others[q], there[q]);
+            });
     }
     for (std::size_t q = 0; q < quantities; ++q) result.slack[q] = std::min(result.slack[q], others[q]);
     return result;
@@ -267,14 +266,14 @@ Comparison Comparer::compare_with(Peers peers, const PathLocation& here, int asi
     const Compared mine = compared_at(signals_, here, normal);
     result.ramp = signals_[point].zone == Zone::ramp;
 
-    PassesBeside others;
+    SurroundingPasses others;
     auto& count = others.count;
     const auto collect = [&](Side side, int most) {
         const auto s = static_cast<std::size_t>(side);
         bool against = false;  // as in a zigzag: the next pass with this direction is the second one
         count[s] = 0;
-        PathLocation& adjacent_place = side == Side::left ? result.beside_left : result.beside_right;
-        adjacent_place = for_each_judged_beside(
+        PathLocation& adjacent_place = side == Side::left ? result.adjacent_left : result.adjacent_right;
+        adjacent_place = for_each_judged_neighbour(
             surface_, signals_, here, side, most, along_or_against, [&](const PathLocation& at, int passes) {
                 if (passes == 1) against = runs_against(signals_, point, at);
                 if ((passes == 1 || (passes == 2 && against)) && signals_[at.nearest()].zone == Zone::ramp)

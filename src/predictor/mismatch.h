@@ -26,7 +26,7 @@ struct Comparison {
     float speed_jump = 0;                   ///< residual of the speed [mm/s]
     int left = 0, right = 0;                ///< numbers of passes with which it was compared
     bool ramp = false;  ///< it is in the ramp of its pass, of an adjacent pass, or of the next one with its direction
-    PathLocation beside_left, beside_right;  ///< on the adjacent passes
+    PathLocation adjacent_left, adjacent_right;  ///< on the adjacent passes
 };
 
 class Comparer {

@@ -28,7 +28,7 @@ constexpr float clearly_better = 0.5F;           ///< share of the disagreement 
 /// A pass around a location: speeds at even distances along the feed of the examined point.
 class Profile {
 public:
-    Profile(const ClSurface& surface, const Signals& signals, const Beside& place, const Eigen::Vector3f& feed)
+    Profile(const ClSurface& surface, const Signals& signals, const AdjacentPlace& place, const Eigen::Vector3f& feed)
         : passes_(place.passes), spacing_(sampled_every * static_cast<float>(surface.step_over)) {
         const float reach = steepest * static_cast<float>(std::abs(place.passes) * surface.step_over);
         const auto samples = static_cast<std::size_t>(std::ceil(reach / spacing_)) + 1;
@@ -135,10 +135,11 @@ Agreement agreement(const Signals& signals, std::span<const Profile> profiles, f
 }
 
 /// Whether the passes hardly differ straight across the feed.
-bool agree_straight(const Signals& signals, std::span<const Beside> places) {
-    const auto [low, high] = std::minmax_element(places.begin(), places.end(), [&](const Beside& a, const Beside& b) {
-        return signals[a.at.nearest()].speed < signals[b.at.nearest()].speed;
-    });
+bool agree_straight(const Signals& signals, std::span<const AdjacentPlace> places) {
+    const auto [low, high] =
+        std::minmax_element(places.begin(), places.end(), [&](const AdjacentPlace& a, const AdjacentPlace& b) {
+            return signals[a.at.nearest()].speed < signals[b.at.nearest()].speed;
+        });
     return signals[high->at.nearest()].speed - signals[low->at.nearest()].speed <
            same_speed * signals[high->at.nearest()].speed;
 }
@@ -193,7 +194,7 @@ bool turns_on_surface(const ClSurface& surface, const Signals& signals, PointInd
 }
 
 std::optional<ObliqueComparison> compare_obliquely(const ClSurface& surface, const Signals& signals,
-                                                   const PathLocation& here, std::span<const Beside> places) {
+                                                   const PathLocation& here, std::span<const AdjacentPlace> places) {
     if (places.empty()) return std::nullopt;
     const PointIndex point = here.nearest();
     const Eigen::Vector3f feed = signals.feed(point);
@@ -205,7 +206,7 @@ std::optional<ObliqueComparison> compare_obliquely(const ClSurface& surface, con
         return std::nullopt;
     std::vector<Profile> profiles;
     profiles.reserve(places.size());
-    for (const Beside& place : places) profiles.emplace_back(surface, signals, place, feed);
+    for (const AdjacentPlace& place : places) profiles.emplace_back(surface, signals, place, feed);
     if (corner) {
         // In a corner no obliquity fits: along any straight line across it, some passes are on the straight, some in the bend.
         ObliqueComparison result =

@@ -15,7 +15,7 @@
 namespace clsurf {
 
 /// The adjacent place of a point on another pass.
-struct Beside {
+struct AdjacentPlace {
     PathLocation at;
     int passes = 0;  ///< away: positive on the left, negative on the right
 };
@@ -40,6 +40,6 @@ struct ObliqueComparison {
 /// five step-overs of arc length).
 [[nodiscard]] std::optional<ObliqueComparison> compare_obliquely(const ClSurface& surface, const Signals& signals,
                                                                  const PathLocation& here,
-                                                                 std::span<const Beside> places);
+                                                                 std::span<const AdjacentPlace> places);
 
 }  // namespace clsurf

@@ -15,7 +15,7 @@ constexpr double alternating_share = 0.9;
 constexpr float clear_share = 0.5F;  ///< share of the run's peak; a weaker site takes the sign of the one before it
 constexpr int changes_of_swing =
     2;  ///< changes of sign of a height along a pass (three half-waves); for a speed one is enough: it falls and rises
-constexpr float stands_alone = 0.5F;  ///< share of its residual by which a pass differs from the passes on both sides
+constexpr float isolated_share = 0.5F;  ///< share of its residual by which a pass differs from the passes on both sides
 
 /// Connected sites of one pass with one sign.
 struct SignedRun {
@@ -103,8 +103,8 @@ private:
         return std::all_of(runs_.begin(), runs_.end(), [&](const SignedRun& run) {
             if (run.above != above) return true;
             const Comparison& c = core_[run.strongest]->comparison;
-            if (c.lesser_step[quantity_] >= stands_alone * std::abs(c.residual[quantity_])) return false;
-            return touches(c.beside_left) || touches(c.beside_right);
+            if (c.lesser_step[quantity_] >= isolated_share * std::abs(c.residual[quantity_])) return false;
+            return touches(c.adjacent_left) || touches(c.adjacent_right);
         });
     }
 

@@ -21,7 +21,7 @@ public:
         join_near();
         std::vector<PointIndex> between;
         for (const PointRange& range : ranges_) {
-            for (const PointIndex i : samples(range)) note_clean_beside(i, between);
+            for (const PointIndex i : samples(range)) add_clean_neighbours(i, between);
         }
         for (const PointIndex i : between) ranges_.push_back({i, i});
         join_near();
@@ -46,7 +46,7 @@ public:
 
 private:
     /// Adds the adjacent point on a clean pass if a point of the defect is beyond it.
-    void note_clean_beside(PointIndex i, std::vector<PointIndex>& found) const {
+    void add_clean_neighbours(PointIndex i, std::vector<PointIndex>& found) const {
         for (const Side side : {Side::left, Side::right}) {
             if (!has_surface(surface_, i, side)) continue;
             const PointIndex clean = surface_.neighbours.neighbour(side, i);

@@ -41,9 +41,9 @@ PointRange widened(const PointRange& run, const ClSurface& surface) {
 
 class Offsets {
 public:
-    /// All must outlive it. `at_fault`: the points of marks, in order.
-    Offsets(const ClSurface& surface, const Signals& signals, const std::vector<PointRange>& at_fault)
-        : surface_(surface), signals_(signals), at_fault_(at_fault) {}
+    /// All must outlive it. `marked`: the points of marks, in order.
+    Offsets(const ClSurface& surface, const Signals& signals, const std::vector<PointRange>& marked)
+        : surface_(surface), signals_(signals), marked_(marked) {}
 
     /// nullopt if passes are missing on one side of the point.
     [[nodiscard]] std::optional<Eigen::Vector3f> at(PointIndex point) const {
@@ -75,7 +75,7 @@ public:
     }
 
 private:
-    [[nodiscard]] bool is_at_fault(PointIndex point) const { return any_has(at_fault_, point); }
+    [[nodiscard]] bool is_marked(PointIndex point) const { return any_has(marked_, point); }
 
     /// Places on the nearest passes of one side without a mark there, the nearest pass first.
     [[nodiscard]] std::vector<Eigen::Vector3f> clean_places(PointIndex point, const Eigen::Vector3f& feed,
@@ -85,7 +85,7 @@ private:
         const auto here = [&](const PathLocation&) { return feed; };
         walk_aside(surface_, {point, 0}, side, here, [&](const PathLocation& at, const PathLocation&) {
             if (signals_[at.nearest()].zone == Zone::outside) return false;
-            if (!is_at_fault(at.nearest()))
+            if (!is_marked(at.nearest()))
                 places.push_back(position_at(surface_.positions, at));
             else if (!places.empty())
                 return false;
@@ -96,7 +96,7 @@ private:
 
     const ClSurface& surface_;
     const Signals& signals_;
-    const std::vector<PointRange>& at_fault_;
+    const std::vector<PointRange>& marked_;
 };
 
 /// In ascending order, overlapping ranges joined.
@@ -116,19 +116,19 @@ std::vector<PointRange> joined(std::vector<PointRange> ranges) {
 
 ProgrammedMarks::ProgrammedMarks(const ClSurface& surface, const Signals& signals, const QualityReport& report) {
     std::vector<PointRange> marks;
-    std::vector<PointRange> at_fault;
+    std::vector<PointRange> marked;
     for (const Defect& defect : report.defects) {
         if (!is_programmed(defect, signals, report.thresholds)) continue;
         for (const DefectSection& section : defect.sections) {
             marks.push_back(section.points);
-            at_fault.push_back(widened(section.points, surface));
+            marked.push_back(widened(section.points, surface));
         }
     }
     marks = joined(std::move(marks));
-    at_fault = joined(std::move(at_fault));
-    const Offsets offsets(surface, signals, at_fault);
+    marked = joined(std::move(marked));
+    const Offsets offsets(surface, signals, marked);
     auto mark = marks.begin();
-    for (const PointRange& range : at_fault) {
+    for (const PointRange& range : marked) {
         // From the mark itself, extended until the pass has returned to the others.
         PointRange points = *mark;
         while (mark != marks.end() && mark->last <= range.last) points.last = (mark++)->last;

@@ -14,10 +14,10 @@ namespace {
 constexpr std::size_t most_values = 10;   ///< most values around a place; passes_aside on each side
 constexpr std::size_t fewest_values = 2;  ///< fewest values for a median
 constexpr std::size_t fewest_clean = 3;   ///< reliefs that outvote one that an adjacent fault has changed
-constexpr std::size_t beside_border = 2;  ///< passes on one side; the outermost one has no relief
+constexpr std::size_t border_passes = 2;  ///< passes on one side; the outermost one has no relief
 // The sum over adjacent passes is zero for a displaced pass, and at an edge at least as large as the relief.
-constexpr float shape_left = 0.35F;   ///< share of a relief: if more remains in the sum, it is the shape of the part
-constexpr float shape_beside = 0.6F;  ///< share of the largest relief around: a smaller one is next to an edge
+constexpr float shape_left = 0.35F;  ///< share of a relief: if more remains in the sum, it is the shape of the part
+constexpr float edge_share = 0.6F;   ///< share of the largest relief around: a smaller one is next to an edge
 // The reliefs have the ratio 1/2 if the fault is on that pass, and 2 if it is on this one
 // (docs/design/predictor.md#at-the-border).
 constexpr float nearer_to_border =
@@ -61,10 +61,10 @@ struct KnownPasses {
 /// A relief and those around it, minus the relief of the part there.
 struct Reliefs {
     float own = 0;
-    std::array<std::array<float, 2>, 2> beside{};  ///< of the nearest two on each side; 0: no chord
-    float largest = 0;                             ///< largest relief of all around
+    std::array<std::array<float, 2>, 2> adjacent{};  ///< of the nearest two on each side; 0: no chord
+    float largest = 0;                               ///< largest relief of all around
 
-    [[nodiscard]] bool is_beside_larger() const { return std::abs(own) < shape_beside * largest; }
+    [[nodiscard]] bool is_next_to_larger() const { return std::abs(own) < edge_share * largest; }
     [[nodiscard]] bool adds_up(float sum) const { return std::abs(sum) <= shape_left * std::abs(own); }
 };
 
@@ -75,7 +75,7 @@ Reliefs reliefs_from(float base, float own, std::span<const float> left, std::sp
         const std::span<const float> values = side == 0 ? left : right;
         for (std::size_t k = 0; k < values.size(); ++k) {
             if (!(values[k] == values[k])) continue;
-            if (k < 2) result.beside[side][k] = values[k] - base;
+            if (k < 2) result.adjacent[side][k] = values[k] - base;
             result.largest = std::max(result.largest, std::abs(values[k] - base));
         }
     }
@@ -97,16 +97,16 @@ bool is_shape(float relief, std::span<const float> left, std::span<const float> 
         }
     }
     const Reliefs r = reliefs_from(sum / static_cast<float>(count), relief, left, right);
-    const float three = r.beside[0][0] + r.own + r.beside[1][0];
-    const bool alone = r.beside[0][0] == 0 && r.beside[1][0] == 0;
+    const float three = r.adjacent[0][0] + r.own + r.adjacent[1][0];
+    const bool alone = r.adjacent[0][0] == 0 && r.adjacent[1][0] == 0;
     const bool lies_off =
-        alone || r.adds_up(three) || r.adds_up(three + r.beside[0][1]) || r.adds_up(three + r.beside[1][1]);
-    return !lies_off || r.is_beside_larger();
+        alone || r.adds_up(three) || r.adds_up(three + r.adjacent[0][1]) || r.adds_up(three + r.adjacent[1][1]);
+    return !lies_off || r.is_next_to_larger();
 }
 
 /// The median relief of the passes on one side. A pass that is off by d has the relief d, and each adjacent pass −d/2. If these
 /// cannot be outvoted, this share of the fault is subtracted: a third of the difference.
-float median_beside(float relief, std::span<const float> side) {
+float side_median(float relief, std::span<const float> side) {
     if (side.size() >= fewest_clean && known(side) != fewest_values) return median_of_known(side);
     std::array<float, most_values> clean{};
     std::copy(side.begin(), side.end(), clean.begin());
@@ -118,7 +118,7 @@ float median_beside(float relief, std::span<const float> side) {
 /// to a fillet the curvature changes from one pass to the next, and the relief is that of one side or between both. Next to a
 /// displaced pass, reliefs have the opposite sign, and those beyond are zero.
 float beyond_sides(float relief, std::span<const float> left, std::span<const float> right) {
-    const float one = median_beside(relief, left), other = median_beside(relief, right);
+    const float one = side_median(relief, left), other = side_median(relief, right);
     if (one == one && other == other) return relief - std::clamp(relief, std::min(one, other), std::max(one, other));
     std::array<float, most_values> all{};
     const auto end = std::copy(right.begin(), right.end(), std::copy(left.begin(), left.end(), all.begin()));
@@ -130,12 +130,12 @@ float beyond_sides(float relief, std::span<const float> left, std::span<const fl
 /// `outer`: the relief of the pass between this one and the outermost one; NaN: there is none.
 float mark_at_border(float relief, float outer, std::span<const float> inner) {
     const bool few = known(inner) < fewest_values;
-    const float base = few ? (outer + inner[0] + relief) / 3 : median_beside(relief, inner);
+    const float base = few ? (outer + inner[0] + relief) / 3 : side_median(relief, inner);
     if (!(base == base)) return missing<float>;
     const Reliefs r = reliefs_from(base, relief, std::span(&outer, 1), inner);
-    const auto [next, beyond] = r.beside[1];
-    const float towards = r.beside[0][0];
-    if (r.is_beside_larger()) return 0;
+    const auto [next, beyond] = r.adjacent[1];
+    const float towards = r.adjacent[0][0];
+    if (r.is_next_to_larger()) return 0;
     bool lies_off = false;
     if (outer == outer) {
         const auto of = [&](float beside) {
@@ -155,7 +155,7 @@ float mark_at_border(float relief, float outer, std::span<const float> inner) {
 
 }  // namespace
 
-float usual_beside(float own, std::span<const float> left, std::span<const float> right, float clear_of_scatter) {
+float usual_around(float own, std::span<const float> left, std::span<const float> right, float clear_of_scatter) {
     const KnownPasses passes(left, right);
     if (passes.count < fewest_values) return missing<float>;
     std::array<float, most_values> values = passes.value;
@@ -174,7 +174,7 @@ float relief_mark(float own, std::span<const float> left, std::span<const float>
     if (!(own == own) || left.empty() || right.empty()) return missing<float>;
     const bool outer_left = left.size() < right.size() || (left.size() == right.size() && known(left) < known(right));
     const std::span<const float> outer = outer_left ? left : right, inner = outer_left ? right : left;
-    if (outer.size() <= beside_border && known(outer) < fewest_values) return mark_at_border(own, outer[0], inner);
+    if (outer.size() <= border_passes && known(outer) < fewest_values) return mark_at_border(own, outer[0], inner);
     const std::size_t even = std::min(left.size(), right.size());
     const std::span<const float> one = left.first(even), other = right.first(even);
     return is_shape(own, one, other) ? 0 : beyond_sides(own, one, other);

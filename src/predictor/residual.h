@@ -20,7 +20,7 @@ inline constexpr int passes_around_border = 9;
 /// the median deviation of the passes from this value counts as zero. With two passes it is the value between theirs that is
 /// nearest to `own`, because two passes cannot distinguish a change from a fault of one of them. NaN with fewer than two.
 /// Domain: at most passes_around_border values, or ten with equal numbers on both sides.
-[[nodiscard]] float usual_beside(float own, std::span<const float> left, std::span<const float> right,
+[[nodiscard]] float usual_around(float own, std::span<const float> left, std::span<const float> right,
                                  float clear_of_scatter = 0);
 
 /// The component of a relief that is a mark of the pass itself: above the surrounding passes (+), or below (−). 0 if the

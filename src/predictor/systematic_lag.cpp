@@ -9,7 +9,7 @@
 #include "core/block_portions.h"
 #include "core/not_finite.h"
 #include "core/parallel.h"
-#include "predictor/judged_beside.h"
+#include "predictor/judged_neighbours.h"
 #include "predictor/median_of.h"
 
 namespace clsurf {
@@ -51,7 +51,7 @@ public:
                 (against ? mine.other : mine.own).add(lag);
                 if (!against) slack_of_others = std::max(slack_of_others, change_nearby(at.nearest()));
             };
-            for_each_judged_beside(surface_, signals_, here, side, lag_passes_aside, along_or_against, read);
+            for_each_judged_neighbour(surface_, signals_, here, side, lag_passes_aside, along_or_against, read);
         }
         const float lag = compared_at(signals_, here, normal).lag;
         const float usual = balanced_median(sides[0].own, sides[1].own);

@@ -69,7 +69,7 @@ TEST(ObliqueComparison, IsNotLookedForWherePassesAgreeStraightAcross) {
     const test::MadeSurface of = made(0, false);
     const Signals signals = of.signals();
     const PointIndex middle = of.surface.passes[20].first + 200;
-    std::vector<Beside> places;
+    std::vector<AdjacentPlace> places;
     for (const int aside : {1, 2, 3}) {
         places.push_back({{middle, 0}, aside});
         places.push_back({{middle, 0}, -aside});

@@ -31,7 +31,7 @@ std::vector<float> residuals_of(const std::vector<float>& all) {
     std::vector<float> result;
     for (std::size_t k = 0; k < all.size(); ++k) {
         const Beside beside = beside_pass(all, k);
-        result.push_back(all[k] - usual_beside(all[k], beside.left, beside.right));
+        result.push_back(all[k] - usual_around(all[k], beside.left, beside.right));
     }
     return result;
 }
@@ -106,9 +106,9 @@ TEST(Residual, OfAnEvenChangeIsNothing) {
 TEST(Residual, OfPassesThatScatterIsNothingWithinTheirScatter) {
     // Pass 2 next to eight others, whose median is 100 and median absolute deviation 1.
     const std::vector<float> left{101}, right{99, 102, 98, 100, 101, 99, 100, 100};
-    EXPECT_EQ(usual_beside(97.1F, left, right, 3), 97.1F);
-    EXPECT_EQ(usual_beside(96.9F, left, right, 3), 100);
-    EXPECT_EQ(usual_beside(97.1F, left, right), 100);
+    EXPECT_EQ(usual_around(97.1F, left, right, 3), 97.1F);
+    EXPECT_EQ(usual_around(96.9F, left, right, 3), 100);
+    EXPECT_EQ(usual_around(97.1F, left, right), 100);
 }
 
 TEST(Residual, OfPassesThatAlternateIsTheirWholeDifference) {
@@ -118,7 +118,7 @@ TEST(Residual, OfPassesThatAlternateIsTheirWholeDifference) {
     for (std::size_t k = 0; k < all.size(); ++k) EXPECT_EQ(found[k], 2 * all[k]) << k;
 }
 
-TEST(Residual, OfOnePassBesideOneIsUnknown) { EXPECT_TRUE(std::isnan(usual_beside(1, std::vector{2.0F}, {}))); }
+TEST(Residual, OfOnePassBesideOneIsUnknown) { EXPECT_TRUE(std::isnan(usual_around(1, std::vector{2.0F}, {}))); }
 
 TEST(ReliefMark, OfAPassThatLiesOffIsItsHeight) {
     for (const std::size_t count : {5U, 6U, 7U, 16U}) {

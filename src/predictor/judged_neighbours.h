@@ -14,8 +14,8 @@ inline constexpr float along_or_against = 0.866F;  ///< cos 30°: feeds of neigh
 /// Stops at a pass that is not judged, or whose direction differs from that of the pass before by the angle of `least_cosine`
 /// or more. Returns the place on the adjacent pass, judged or not.
 template <typename F>
-PathLocation for_each_judged_beside(const ClSurface& surface, const Signals& signals, const PathLocation& from,
-                                    Side side, int aside, float least_cosine, F&& f) {
+PathLocation for_each_judged_neighbour(const ClSurface& surface, const Signals& signals, const PathLocation& from,
+                                       Side side, int aside, float least_cosine, F&& f) {
     int passes = 0;
     const auto feed = [&](const PathLocation& at) { return signals.feed(at.nearest()); };
     return walk_aside(surface, from, side, feed, [&](const PathLocation& at, const PathLocation& before) {
