@@ -21,7 +21,7 @@ namespace clsurf {
 /// Speeds as shares of the programmed feed at the place; without a feed, of the usual speed.
 struct SpeedShares {
     double at_defect = 0;
-    double beside = 0;  ///< on the adjacent passes
+    double adjacent = 0;  ///< on the adjacent passes
 };
 /// One for each defect of a report on the part.
 [[nodiscard]] std::vector<SpeedShares> speed_shares(const QualityReport& report, const Part& part);

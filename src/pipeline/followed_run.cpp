@@ -57,7 +57,7 @@ FollowedRun::FollowedRun(Program program, Log first, FollowRules rules)
 std::vector<ProvisionalDefect> FollowedRun::judge(Log window, PointIndex first) {
     exchange_log(part_, std::move(window), rules_.part);
     const ClSurface surface = stitch(part_);
-    leave_behind(surface, first);
+    count_passes_left(surface, first);
     choose_window(surface, first);
     if (!foreign().empty() || surface.step_over <= 0) return {};
     const PartSignals read = signals_of(part_, surface, rules_.measured);
@@ -67,7 +67,7 @@ std::vector<ProvisionalDefect> FollowedRun::judge(Log window, PointIndex first) 
     const ArcLength arc_length(surface.positions);
     const double settling = settling_distance(surface, report.thresholds.usual_speed * part_.log.period);
     const DefectSurroundings around{surface, read.signals, arc_length, settling,
-                                    [&](PointIndex point) { return at_fault(first + point); }};
+                                    [&](PointIndex point) { return has_defect(first + point); }};
     const std::int64_t edge = first > 0 ? std::min(most_edge_passes, report.passes / 3) : 0;
 
     QualityReport fresh;
@@ -98,7 +98,7 @@ std::vector<ProvisionalDefect> FollowedRun::judge(Log window, PointIndex first) 
 }
 
 /// Counts the cut passes that have left the window, and moves their findings to left_.
-void FollowedRun::leave_behind(const ClSurface& surface, PointIndex first) {
+void FollowedRun::count_passes_left(const ClSurface& surface, PointIndex first) {
     passes_before_ +=
         std::count_if(pass_ends_.begin(), pass_ends_.end(), [&](PointIndex last) { return last < first; });
     pass_ends_.clear();
@@ -137,7 +137,7 @@ std::int64_t FollowedRun::finding_of(const Defect& defect) const {
     return 0;
 }
 
-bool FollowedRun::at_fault(PointIndex point) const {
+bool FollowedRun::has_defect(PointIndex point) const {
     return std::any_of(sections_.begin(), sections_.end(), [&](const Section& section) {
         return section.points.first <= point && point <= section.points.last;
     });

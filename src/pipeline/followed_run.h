@@ -66,10 +66,10 @@ private:
         bool motion = false;  ///< a defect of speeds and accelerations, not of heights
     };
 
-    void leave_behind(const ClSurface& surface, PointIndex first);
+    void count_passes_left(const ClSurface& surface, PointIndex first);
     void choose_window(const ClSurface& surface, PointIndex first);
     [[nodiscard]] std::int64_t finding_of(const Defect& defect) const;
-    [[nodiscard]] bool at_fault(PointIndex point) const;
+    [[nodiscard]] bool has_defect(PointIndex point) const;
     void remember(const Defect& defect, std::int64_t finding);
 
     FollowRules rules_;

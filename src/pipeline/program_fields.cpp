@@ -57,7 +57,7 @@ PerMotion lengths(const Program& program) {
 }
 
 /// The next cutting motion with a length, in a direction; −1: a rapid or an end of the program comes first.
-std::int64_t moving_beside(const Toolpath& path, std::int64_t motion, std::int64_t step) {
+std::int64_t adjacent_moving(const Toolpath& path, std::int64_t motion, std::int64_t step) {
     for (std::int64_t i = motion + step; i >= 0 && i < path.size(); i += step) {
         if (path.motions().kind[static_cast<std::size_t>(i)] == MotionKind::rapid) return -1;
         if (path.length(i) > 0) return i;
@@ -70,9 +70,9 @@ PerMotion turning_angles(const Program& program) {
     return of_cutting_motions(program, [&](std::int64_t i) {
         if (!(path.length(i) > 0)) return missing<double>;
         double greatest = 0;
-        if (const std::int64_t before = moving_beside(path, i, -1); before >= 0)
+        if (const std::int64_t before = adjacent_moving(path, i, -1); before >= 0)
             greatest = angle_between(path.direction(before, 1), path.direction(i, 0));
-        if (const std::int64_t after = moving_beside(path, i, 1); after >= 0)
+        if (const std::int64_t after = adjacent_moving(path, i, 1); after >= 0)
             greatest = std::max(greatest, angle_between(path.direction(i, 1), path.direction(after, 0)));
         return greatest;
     });

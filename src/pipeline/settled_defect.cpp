@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t passes_for_cause = 3;       ///< on one side, to find which of two passes causes the defect
 constexpr std::size_t passes_for_lag = 8;         ///< on one side, to find whether a lag is systematic
-constexpr std::size_t passes_beside_a_fault = 3;  ///< on both sides, if one of these passes also causes a defect
+constexpr std::size_t passes_next_to_defect = 3;  ///< on both sides, if one of these passes also causes a defect
 
 /// The points next to a place on the passes of one side, the adjacent pass first.
 std::vector<PointIndex> points_aside(const DefectSurroundings& around, PointIndex point, Side side) {
@@ -32,7 +32,7 @@ PointIndex last_of(const std::vector<PointIndex>& points, std::size_t count) {
 }
 
 /// The last one of a point and its neighbours on the adjacent passes.
-PointIndex last_beside(const ClSurface& surface, PointIndex point) {
+PointIndex last_adjacent(const ClSurface& surface, PointIndex point) {
     PointIndex last = point;
     for (const Side side : {Side::left, Side::right}) {
         if (surface.neighbours.has(side, point)) last = std::max(last, surface.neighbours.neighbour(side, point));
@@ -45,11 +45,11 @@ std::optional<PointIndex> last_for_cause(const Defect& defect, const DefectSurro
     const std::array<std::vector<PointIndex>, 2> sides{points_aside(around, defect.point, Side::left),
                                                        points_aside(around, defect.point, Side::right)};
     const bool lag = defect.quantity == Quantity::lag && !defect.systematic;
-    const bool beside_fault = std::any_of(sides.begin(), sides.end(), [&](const std::vector<PointIndex>& side) {
-        const std::size_t count = std::min<std::size_t>(side.size(), passes_beside_a_fault - 1);
-        return std::any_of(side.begin(), side.begin() + static_cast<std::ptrdiff_t>(count), around.at_fault);
+    const bool adjacent_defect = std::any_of(sides.begin(), sides.end(), [&](const std::vector<PointIndex>& side) {
+        const std::size_t count = std::min<std::size_t>(side.size(), passes_next_to_defect - 1);
+        return std::any_of(side.begin(), side.begin() + static_cast<std::ptrdiff_t>(count), around.has_defect);
     });
-    const std::size_t on_both = lag || beside_fault ? passes_beside_a_fault : 1;
+    const std::size_t on_both = lag || adjacent_defect ? passes_next_to_defect : 1;
     const std::size_t on_one = lag ? passes_for_lag : passes_for_cause;
     if (std::min(sides[0].size(), sides[1].size()) < on_both) return std::nullopt;
     std::optional<PointIndex> last;
@@ -71,8 +71,8 @@ std::optional<PointIndex> last_point_needed(const Defect& defect, const DefectSu
     if (!needed) return std::nullopt;
     PointIndex last = std::max(*needed, defect.point);
     for (const DefectSection& section : defect.sections)
-        last = std::max({last, last_beside(around.surface, section.points.first),
-                         last_beside(around.surface, section.points.last)});
+        last = std::max({last, last_adjacent(around.surface, section.points.first),
+                         last_adjacent(around.surface, section.points.last)});
     const PointIndex newest = around.surface.positions.size() - 1;
     if (!around.arc_length.at_least(last, newest, around.settling)) return std::nullopt;
     // Bisection for the first point at which the distance is sufficient.

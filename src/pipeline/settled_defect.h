@@ -28,7 +28,7 @@ struct DefectSurroundings {
     const ArcLength& arc_length;  ///< of the surface
     double settling = 0;          ///< [mm] settling_distance()
     /// Whether another defect is at a point.
-    std::function<bool(PointIndex)> at_fault;
+    std::function<bool(PointIndex)> has_defect;
 };
 
 /// The last point that is needed to judge a defect, including the settling distance; nullopt: not recorded yet. O(runs).

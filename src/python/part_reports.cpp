@@ -75,7 +75,7 @@ std::string LoadedPart::judged(Part part, std::optional<Role> measured) const {
     reported.scallop = quality.scallop;
     for (const SpeedShares& shares : speed_shares(quality.report, part))
         reported.colour_differences.push_back(
-            viz::colour_difference_of(feed_share_info(), shares.at_defect, shares.beside));
+            viz::colour_difference_of(feed_share_info(), shares.at_defect, shares.adjacent));
     reported.as_machined = quality.as_machined ? &*quality.as_machined : nullptr;
     reported.motion = quality.motion;
     if (part.machine) reported.limits = &limits;
