@@ -162,11 +162,11 @@ private:
             interval.own_speed = interval.speed = planned_speed(piece, most, limits_);
             result_.intervals.push_back(interval);
         }
-        slow_short_ones(first);
+        slow_short_intervals(first);
     }
 
     /// Intervals that are too short for a change of speed keep the higher speed of both sides.
-    void slow_short_ones(std::size_t first) {
+    void slow_short_intervals(std::size_t first) {
         for (std::size_t k = first + 1; k + 1 < result_.intervals.size(); ++k) {
             ProgramInterval& here = result_.intervals[k];
             const double before = result_.intervals[k - 1].speed, after = result_.intervals[k + 1].speed;

@@ -89,7 +89,7 @@ AdjacentBoundaries::Places AdjacentBoundaries::around(PointIndex point) const {
     return places;
 }
 
-std::vector<PointIndex> AdjacentBoundaries::missing_beside(PointIndex boundary, bool first) const {
+std::vector<PointIndex> AdjacentBoundaries::missing_on_adjacent(PointIndex boundary, bool first) const {
     const ClSurface& surface = programmed_.surface;
     const Eigen::Vector3f feed = feed_at(surface.positions, boundary, first);
     std::vector<PointIndex> missing;
@@ -111,8 +111,8 @@ PassBoundaries share_boundaries(const ProgrammedSurface& programmed, const std::
     for (std::size_t k = 0; k < boundaries.size(); ++k) {
         const std::vector<PointIndex>& own = boundaries[k];
         for (std::size_t b = 0; b < own.size(); ++b) {
-            const std::vector<PointIndex> beside_it = adjacent.missing_beside(own[b], b == 0);
-            missing.insert(missing.end(), beside_it.begin(), beside_it.end());
+            const std::vector<PointIndex> missing_here = adjacent.missing_on_adjacent(own[b], b == 0);
+            missing.insert(missing.end(), missing_here.begin(), missing_here.end());
             if (b == 0 || b + 1 == own.size()) {
                 shared[k].push_back(own[b]);
                 continue;

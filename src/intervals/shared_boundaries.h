@@ -30,7 +30,7 @@ public:
 
     /// Places on the adjacent passes without a boundary, if the passes on both their sides have one there. `first`: the
     /// boundary is at the start of its pass.
-    [[nodiscard]] std::vector<PointIndex> missing_beside(PointIndex boundary, bool first) const;
+    [[nodiscard]] std::vector<PointIndex> missing_on_adjacent(PointIndex boundary, bool first) const;
 
     /// Whether a boundary is within reach of a location on its own pass.
     [[nodiscard]] bool has_at(const PathLocation& at) const;

@@ -10,10 +10,10 @@ constexpr double farthest = 2.2;  ///< tool radii: largest distance between cont
 
 /// Contact points of a point and of its neighbour, seen from above [mm].
 struct ContactPair {
-    Vec2 own = Vec2::Zero(), beside = Vec2::Zero();
+    Vec2 own = Vec2::Zero(), adjacent = Vec2::Zero();
     bool known = false;
 
-    [[nodiscard]] double apart() const { return (own - beside).norm(); }
+    [[nodiscard]] double apart() const { return (own - adjacent).norm(); }
 };
 
 ContactPair contacts_of(const AsMachinedSurface& as_machined, PointIndex point, Side side) {
@@ -21,8 +21,9 @@ ContactPair contacts_of(const AsMachinedSurface& as_machined, PointIndex point, 
     const Adjacency& neighbours = as_machined.surface().neighbours;
     if (!neighbours.has(side, point)) return pair;
     pair.own = as_machined.contact(point).head<2>();
-    pair.beside = as_machined.contact(neighbours.neighbour(side, point)).head<2>();
-    pair.known = pair.own.allFinite() && pair.beside.allFinite() && pair.apart() < farthest * as_machined.tool().radius;
+    pair.adjacent = as_machined.contact(neighbours.neighbour(side, point)).head<2>();
+    pair.known =
+        pair.own.allFinite() && pair.adjacent.allFinite() && pair.apart() < farthest * as_machined.tool().radius;
     return pair;
 }
 
@@ -34,8 +35,8 @@ void fill(const ContactPair& from, const ContactPair& to, double step, double sp
     for (int a = 0; a <= along; ++a) {
         const double share = static_cast<double>(a) / along;
         const Vec2 own = from.own + share * (to.own - from.own);
-        const Vec2 beside = from.beside + share * (to.beside - from.beside);
-        for (int b = 0; b <= across; ++b) f(Vec2(own + static_cast<double>(b) / across * (beside - own)));
+        const Vec2 adjacent = from.adjacent + share * (to.adjacent - from.adjacent);
+        for (int b = 0; b <= across; ++b) f(Vec2(own + static_cast<double>(b) / across * (adjacent - own)));
     }
 }
 
@@ -50,7 +51,8 @@ void for_each_between_contacts(const AsMachinedSurface& as_machined, const Box2&
             for (PointIndex i = range.first; i <= range.last; ++i) {
                 const ContactPair now = contacts_of(as_machined, i, side);
                 if (now.known && before.known) {
-                    const double step = std::max((now.own - before.own).norm(), (now.beside - before.beside).norm());
+                    const double step =
+                        std::max((now.own - before.own).norm(), (now.adjacent - before.adjacent).norm());
                     if (step < spacing && i < range.last) continue;
                     if (step < farthest * reach) fill(before, now, step, spacing, f);
                 }

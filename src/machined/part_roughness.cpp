@@ -262,7 +262,7 @@ void sum_up(PartRoughness& result, const std::vector<RoughPatch>& patches) {
 
 /// Distance, seen from above, to the contacts of the neighbours on both sides [mm]; 0: there are none, or it differs too much
 /// from the step-over.
-double contacts_apart(const AsMachinedSurface& as_machined, PointIndex point, const AcrossFeed& across) {
+double contact_spacing(const AsMachinedSurface& as_machined, PointIndex point, const AcrossFeed& across) {
     const Adjacency& neighbours = as_machined.surface().neighbours;
     double sum = 0;
     int sides = 0;
@@ -287,7 +287,7 @@ std::vector<RoughnessPlace> roughness_places(const AsMachinedSurface& as_machine
     for (const PointIndex point : spread_points(signals)) {
         const AcrossFeed across = across_feed(as_machined, signals, point);
         if (!across.known) continue;
-        places.push_back({point, as_machined.contact(point), across, contacts_apart(as_machined, point, across)});
+        places.push_back({point, as_machined.contact(point), across, contact_spacing(as_machined, point, across)});
     }
     return places;
 }

@@ -94,7 +94,7 @@ public:
             // Bends at a corner are not rotated: its sides continue in their own directions.
             if (turns_corner(p, p.bend(-1), p.bend(2))) return;
         }
-        go_on_from_smoother_side(p);
+        use_smoother_side(p);
     }
 
     [[nodiscard]] Vec3 at(double x) const { return from_ + x * (chord_ - over(1)) + over(x); }
@@ -138,7 +138,7 @@ private:
 
     /// If the path across the passes turns or changes its curvature at a pass or in the adjacent gap, only the passes on the
     /// other side are used: a cubic through both sides would overshoot.
-    void go_on_from_smoother_side(const Across& p) {
+    void use_smoother_side(const Across& p) {
         const Vec3 change = turn_ - bend_;
         const Vec3 before = p.has(-2) ? Vec3(bend_ - p.bend_in_gap(-1)) : change;
         const Vec3 after = p.has(3) ? Vec3(p.bend_in_gap(2) - turn_) : change;
@@ -271,7 +271,7 @@ bool PassesBetween::between(PointIndex point, Side side, Row& row) const {
 
 /// Calls take(from, to) for the straight motions along the passes between the passes of points and the adjacent ones.
 template <typename Take>
-void PassesBetween::motions_beside(PointRange points, Side side, Take&& take) const {
+void PassesBetween::motions_of_adjacent(PointRange points, Side side, Take&& take) const {
     std::optional<Row> before;
     PointIndex last = points.first;
     for (PointIndex i = points.first; i <= points.last; ++i) {
@@ -307,7 +307,7 @@ void PassesBetween::motions(PointRange points, std::size_t piece, bool goes_on, 
         before = at;
     }
     const PointRange inside{to_next.first, std::min(to_next.last, range.last)};
-    for (const Side side : {Side::left, Side::right}) motions_beside(inside, side, take);
+    for (const Side side : {Side::left, Side::right}) motions_of_adjacent(inside, side, take);
 }
 
 void PassesBetween::keep(PointRange points, std::size_t piece, bool goes_on) {

@@ -60,7 +60,7 @@ private:
     template <typename Take>
     void motions(PointRange points, std::size_t piece, bool goes_on, Take&& take) const;
     template <typename Take>
-    void motions_beside(PointRange points, Side side, Take&& take) const;
+    void motions_of_adjacent(PointRange points, Side side, Take&& take) const;
 
     const ClSurface& surface_;
     const Signals& signals_;

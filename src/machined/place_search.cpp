@@ -15,7 +15,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double beside_places = 0.6;  ///< step-overs in the plane: places this close belong to one column of levels
+constexpr double column_width = 0.6;   ///< step-overs in the plane: places this close belong to one column of levels
 constexpr double level_ends = 2;       ///< step-overs of height between two levels
 constexpr double longest_jump = 0.25;  ///< step-overs: contact points farther apart are not joined …
 constexpr double jump_of_tips = 4;     ///< … unless their tips are a quarter as far apart
@@ -62,7 +62,7 @@ public:
         std::vector<FoundPlace> found;
         // By increasing distance of tips: no piece can be nearer than its nearest tip minus the tool's reach.
         for (const NearestTip& tip : tips) {
-            if (tip.tip.value - reach > farthest_wanted(found)) break;
+            if (tip.tip.value - reach > farthest_needed(found)) break;
             const FoundPlace nearest = nearest_of(tip, reach);
             if (nearest.point < 0) continue;
             const auto after = std::upper_bound(found.begin(), found.end(), nearest, is_nearer);
@@ -84,13 +84,13 @@ private:
         return wanted_.from_above ? off.head<2>().norm() : off.norm();
     }
 
-    [[nodiscard]] bool is_asked(const Pass& piece) const {
+    [[nodiscard]] bool is_searched(const Pass& piece) const {
         if (contacts_ != nullptr) return contacts_->cuts(piece);
         return !wanted_.from_above || piece.kind == PassKind::cut;
     }
 
     /// Distance [mm] beyond which pieces are not needed.
-    [[nodiscard]] double farthest_wanted(const std::vector<FoundPlace>& found) const {
+    [[nodiscard]] double farthest_needed(const std::vector<FoundPlace>& found) const {
         const auto last_of = [&](const std::vector<FoundPlace>& kept) {
             return kept.size() >= wanted_.pieces ? kept[wanted_.pieces - 1].distance : infinite;
         };
@@ -98,7 +98,7 @@ private:
         std::vector<FoundPlace> topmost = found;
         keep_topmost(topmost);
         const double last = last_of(topmost);
-        return std::max(last, std::max(found.front().distance, beside_places * step_over_));
+        return std::max(last, std::max(found.front().distance, column_width * step_over_));
     }
 
     /// The place is at the height that the upright cutters leave at x, y.
@@ -222,7 +222,7 @@ private:
         for (auto piece = range_at(pieces_, first); piece != pieces_.end() && piece->first < end; ++piece) {
             const PointIndex from = std::max(first, piece->first);
             const PointIndex to = std::min(end - 1, piece->last);
-            if (from > to || !is_asked(*piece)) continue;
+            if (from > to || !is_searched(*piece)) continue;
             NearestTip tip;
             tip.piece = static_cast<std::size_t>(piece - pieces_.begin());
             read(path_, from, to, axes);
@@ -312,7 +312,7 @@ private:
     /// Keeps the topmost level under the place, then the others by distance.
     void keep_topmost(std::vector<FoundPlace>& found) const {
         if (found.empty()) return;
-        const double near = std::max(found.front().distance, beside_places * step_over_);
+        const double near = std::max(found.front().distance, column_width * step_over_);
         double lowest = -infinite;
         for (const FoundPlace& f : found) {
             if (f.distance <= near) lowest = std::max(lowest, f.place.position().z());

@@ -26,8 +26,8 @@ constexpr double usual_cutoff = 0.8;  ///< [mm]
 constexpr double scatter = 1.02;      ///< factor for the error of a step-over that is estimated from positions
 
 /// Adds to each place the values `off` steps before and after it, with a weight.
-CLSURF_VECTORISED void add_beside(std::span<const double> z, std::size_t off, double weight,
-                                  std::vector<double>& line) {
+CLSURF_VECTORISED void add_shifted(std::span<const double> z, std::size_t off, double weight,
+                                   std::vector<double>& line) {
     const double* const from = z.data();
     double* const to = line.data();
     const std::size_t count = z.size() - off;
@@ -86,7 +86,7 @@ std::vector<double> gaussian_mean_line(std::span<const double> z, double step, d
     std::vector<double> beside(weights.size());
     for (std::size_t k = 1; k < weights.size(); ++k) beside[k] = beside[k - 1] + weights[k];
     std::vector<double> line(z.begin(), z.end());
-    for (std::size_t k = 1; k < std::min(weights.size(), z.size()); ++k) add_beside(z, k, weights[k], line);
+    for (std::size_t k = 1; k < std::min(weights.size(), z.size()); ++k) add_shifted(z, k, weights[k], line);
     for (std::size_t i = 0; i < z.size(); ++i)
         line[i] /= 1 + beside[std::min(i, weights.size() - 1)] + beside[std::min(z.size() - 1 - i, weights.size() - 1)];
     return line;

@@ -121,13 +121,13 @@ private:
 };
 
 /// Uncut material next to a point: cusps, and a share of the gaps to passes that are too far away.
-struct Beside {
+struct UncutMaterial {
     double height = missing<double>;
     double gap = 0;  ///< [mm] half of the widths of both gaps
 };
 
-Beside beside(const ClSurface& surface, const PlacesOfPath& places, double ball, PointIndex i) {
-    Beside result;
+UncutMaterial uncut_next_to(const ClSurface& surface, const PlacesOfPath& places, double ball, PointIndex i) {
+    UncutMaterial result;
     const Place& here = places[i];
     if (!here.normal.allFinite()) return result;
     for (const Side side : {Side::left, Side::right}) {
@@ -160,7 +160,7 @@ ScallopMap scallop_map(const ClSurface& surface, const CuttingTool& tool) {
     parallel_for(count, block_points, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t i = first; i < last; ++i) {
             if (!(places[i].length > 0)) continue;
-            const Beside found = beside(surface, places, tool.radius, places[i].inner);
+            const UncutMaterial found = uncut_next_to(surface, places, tool.radius, places[i].inner);
             map.height[static_cast<std::size_t>(i)] = static_cast<float>(found.height);
             gaps[static_cast<std::size_t>(i)] = found.gap * places[i].length;
         }

@@ -11,14 +11,14 @@
 namespace clsurf {
 namespace {
 
-constexpr double beside_share = 0.3;      ///< share of the shorter pass that is adjacent to the other pass
+constexpr double adjacent_share = 0.3;    ///< share of the shorter pass that is adjacent to the other pass
 constexpr std::size_t many_passes = 5;    ///< so many adjacent passes are a finished surface of any shape
 constexpr double surface_share = 0.6;     ///< share of a smaller group that has a neighbour
 constexpr std::size_t fewest_passes = 2;  ///< passes of a group
 /// Share of the points of a smaller group with a neighbour above or below.
 constexpr double stacked_share = 0.5;
 constexpr float upright = 0.9F;           ///< squared cosine to z of a neighbour above
-constexpr double many_beside = 0.4;       ///< share of a group of many passes that has a neighbour
+constexpr double many_share = 0.4;        ///< share of a group of many passes that has a neighbour
 constexpr float plumb = 0.98F;            ///< squared cosine to z: the turns of a helix, up to 8° steep
 constexpr double plumb_share = 0.9;       ///< share of the points of a helix
 constexpr double plunge_diameter = 50;    ///< pitches: a narrower helix leads into the material
@@ -41,7 +41,7 @@ private:
 };
 
 /// Statistics of the neighbours of a pass's points.
-struct Beside {
+struct NeighbourStatistics {
     PointIndex points = 0;                                ///< number of points with a neighbour
     PointIndex stacked = 0;                               ///< points with a neighbour above or below
     PointIndex plumb = 0;                                 ///< points with a neighbour vertically above or below
@@ -52,7 +52,7 @@ struct Beside {
 };
 
 /// Whether the height changes all along the pass, as on a helix, and not in one place, as between levels.
-bool climbs_all_along(const Positions& positions, const Pass& pass) {
+bool climbs_steadily(const Positions& positions, const Pass& pass) {
     if (pass.size() <= turn_parts) return false;
     const auto height_at = [&](PointIndex part) {
         return positions[pass.first + (pass.size() - 1) * part / turn_parts].z();
@@ -64,9 +64,9 @@ bool climbs_all_along(const Positions& positions, const Pass& pass) {
     return usual > 0 && climbing >= climbing_parts;
 }
 
-Beside look_beside(const ClSurface& surface, const Pass& pass) {
-    Beside found;
-    if (climbs_all_along(surface.positions, pass)) found.climbing = pass.size();
+NeighbourStatistics neighbour_statistics(const ClSurface& surface, const Pass& pass) {
+    NeighbourStatistics found;
+    if (climbs_steadily(surface.positions, pass)) found.climbing = pass.size();
     // Neighbours stay on one pass for long: they are counted per run.
     struct Counter {
         PointRange range{0, -1};
@@ -113,18 +113,18 @@ Beside look_beside(const ClSurface& surface, const Pass& pass) {
 struct Group {
     std::size_t passes = 0;
     PointIndex points = 0;
-    Beside beside;
+    NeighbourStatistics neighbours;
     double climb = 0;  ///< [mm] sum of the differences in height of all passes
 
-    void add(const Pass& pass, const Beside& its) {
+    void add(const Pass& pass, const NeighbourStatistics& its) {
         ++passes;
         points += pass.size();
-        beside.points += its.points;
-        beside.stacked += its.stacked;
-        beside.plumb += its.plumb;
-        beside.climbing += its.climbing;
-        beside.distance += its.distance;
-        beside.box.extend(its.box);
+        neighbours.points += its.points;
+        neighbours.stacked += its.stacked;
+        neighbours.plumb += its.plumb;
+        neighbours.climbing += its.climbing;
+        neighbours.distance += its.distance;
+        neighbours.box.extend(its.box);
         climb += its.box.isEmpty() ? 0.0 : static_cast<double>(its.box.sizes().z());
     }
 
@@ -133,9 +133,9 @@ struct Group {
         const auto share = [](PointIndex part, PointIndex whole) {
             return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
         };
-        const double has_neighbour = share(beside.points, points);
-        if (passes >= many_passes) return has_neighbour >= many_beside;
-        const bool levels = share(beside.stacked, beside.points) > stacked_share;
+        const double has_neighbour = share(neighbours.points, points);
+        if (passes >= many_passes) return has_neighbour >= many_share;
+        const bool levels = share(neighbours.stacked, neighbours.points) > stacked_share;
         return passes >= fewest_passes && !levels && has_neighbour >= surface_share;
     }
 
@@ -143,11 +143,12 @@ private:
     /// Whether it is a helix down into the material: its turns are vertically above each other, and it is narrow for
     /// its pitch.
     [[nodiscard]] bool plunges() const {
-        const auto plumb_points = static_cast<double>(beside.plumb);
-        if (beside.plumb == 0 || plumb_points < plumb_share * static_cast<double>(beside.points)) return false;
-        const double pitch = beside.distance / plumb_points;
-        if (climb < 0.5 * pitch * static_cast<double>(passes) || 2 * beside.climbing < points) return false;  // levels
-        return static_cast<double>(beside.box.sizes().head<2>().maxCoeff()) < plunge_diameter * pitch;
+        const auto plumb_points = static_cast<double>(neighbours.plumb);
+        if (neighbours.plumb == 0 || plumb_points < plumb_share * static_cast<double>(neighbours.points)) return false;
+        const double pitch = neighbours.distance / plumb_points;
+        if (climb < 0.5 * pitch * static_cast<double>(passes) || 2 * neighbours.climbing < points)
+            return false;  // levels
+        return static_cast<double>(neighbours.box.sizes().head<2>().maxCoeff()) < plunge_diameter * pitch;
     }
 };
 
@@ -156,22 +157,22 @@ private:
 std::vector<bool> find_finishing_passes(const ClSurface& surface) {
     const Passes& passes = surface.passes;
     Groups groups(passes.size());
-    std::vector<Beside> beside(passes.size());
+    std::vector<NeighbourStatistics> neighbours(passes.size());
     parallel_for(static_cast<std::int64_t>(passes.size()), 1, [&](std::int64_t first, std::int64_t last) {
         for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k) {
-            if (passes[k].kind == PassKind::cut) beside[k] = look_beside(surface, passes[k]);
+            if (passes[k].kind == PassKind::cut) neighbours[k] = neighbour_statistics(surface, passes[k]);
         }
     });
     for (std::size_t k = 0; k < passes.size(); ++k) {
-        for (const auto& [other, points] : beside[k].of_pass) {
+        for (const auto& [other, points] : neighbours[k].of_pass) {
             const PointIndex shorter = std::min(passes[k].size(), passes[other].size());
-            if (other != k && static_cast<double>(points) >= beside_share * static_cast<double>(shorter))
+            if (other != k && static_cast<double>(points) >= adjacent_share * static_cast<double>(shorter))
                 groups.join(k, other);
         }
     }
     std::vector<Group> all(passes.size());
     for (std::size_t k = 0; k < passes.size(); ++k) {
-        if (passes[k].kind == PassKind::cut) all[groups.of(k)].add(passes[k], beside[k]);
+        if (passes[k].kind == PassKind::cut) all[groups.of(k)].add(passes[k], neighbours[k]);
     }
     std::vector<bool> finishing(passes.size(), false);
     for (std::size_t k = 0; k < passes.size(); ++k)

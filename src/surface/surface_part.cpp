@@ -17,7 +17,7 @@ constexpr int passes_aside = 4;
 using PassNumbers = std::set<std::size_t>;
 
 /// Adds the passes adjacent to a pass. Neighbours stay on one pass for long.
-void add_beside(const ClSurface& surface, const Pass& pass, PassNumbers& found) {
+void add_adjacent(const ClSurface& surface, const Pass& pass, PassNumbers& found) {
     for (const Side side : {Side::left, Side::right}) {
         PointRange known;
         for (PointIndex i = pass.first; i <= pass.last; ++i) {
@@ -40,7 +40,7 @@ PassNumbers passes_of(const ClSurface& surface, const PointRange& own) {
     for (std::size_t k = first; k <= last; ++k) fresh.insert(k);
     for (int aside = 0; aside < passes_aside; ++aside) {
         PassNumbers beside;
-        for (const std::size_t k : fresh) add_beside(surface, surface.passes[k], beside);
+        for (const std::size_t k : fresh) add_adjacent(surface, surface.passes[k], beside);
         fresh.clear();
         for (const std::size_t k : beside) {
             if (all.insert(k).second) fresh.insert(k);

@@ -67,9 +67,9 @@ struct Cut {
         for (const Pass& pass : made.surface.passes) found.push_back({pass.first, pass.last});
         return found;
     }
-    [[nodiscard]] PartRoughness at(double x, double y, double contacts_apart) const {
+    [[nodiscard]] PartRoughness at(double x, double y, double contact_spacing) const {
         const RoughnessPlace place{
-            0, Vec3(x, y, 0), {Vec2(x, y), Vec2::UnitY(), made.surface.step_over, true}, contacts_apart};
+            0, Vec3(x, y, 0), {Vec2(x, y), Vec2::UnitY(), made.surface.step_over, true}, contact_spacing};
         return measure_roughness({surface, surface}, std::span(&place, 1));
     }
     [[nodiscard]] double envelope(double y) const {
