@@ -115,7 +115,7 @@ private:
     }
 
     /// To the right of a ring, or to the left if it does not fit.
-    void add_label_beside(const Vec2& at, const std::string& text) {
+    void add_label_at_side(const Vec2& at, const std::string& text) {
         if (text.empty()) return;
         const FlatText flat{0, 0, text, layout_.small_text, Align::left, true, black};
         const double aside = 0.9 * layout_.text + 0.5 * (text_width(flat) + 6);
@@ -129,7 +129,7 @@ private:
             const auto position = [&](PointIndex i) { return place_of(range.first + i); };
             for (std::vector<Vec2>& stroke : strokes(range.size(), position, panel_.camera, look_, corner_)) {
                 if (stroke.size() == 1) stroke.push_back(stroke[0] + Vec2(0.5, 0));
-                if (!labelled) add_label_beside(stroke.front(), mark.label);
+                if (!labelled) add_label_at_side(stroke.front(), mark.label);
                 labelled = true;
                 sheet_.lines.push_back({stroke, 0.35 * layout_.text, white, Level::edge});
                 sheet_.lines.push_back({std::move(stroke), 0.17 * layout_.text, black, Level::line});
@@ -147,7 +147,7 @@ private:
         const Vec2 at = corner_ + panel_.camera.pixel(p);
         add_ring(sheet_, at, ring_radius(), 0.36 * layout_.text, white, Level::edge);
         add_ring(sheet_, at, ring_radius(), 0.18 * layout_.text, black, Level::line);
-        add_label_beside(at, mark.label);
+        add_label_at_side(at, mark.label);
     }
 
     /// Thin lines, except where the part hides them.

@@ -257,7 +257,7 @@ public:
     void report(Identification& result) const {
         bool any_axis = false;
         for (std::size_t q = 0; q < motion_.letters.size(); ++q) {
-            const bool alone = holds_alone(q);
+            const bool alone = is_own_limit(q);
             any_axis |= alone;
             report_axis(q, alone, result);
         }
@@ -267,7 +267,7 @@ public:
                  "with rotary axes the path of the linear axes is not that of the tool (--machine)"});
             return;
         }
-        Evidence path = holds_alone(path_number()) ? Evidence::reached : Evidence::lower_bound;
+        Evidence path = is_own_limit(path_number()) ? Evidence::reached : Evidence::lower_bound;
         if (path == Evidence::lower_bound && levels_.back() && !any_axis) path = Evidence::shared;
         put("path", "mm", path_number(), path, result.machine.path.*kind_.of_path, 1, result);
     }
@@ -277,13 +277,13 @@ private:
     /// Whether a quantity is at its greatest value in a plateau.
     [[nodiscard]] bool at_limit(const Plateau& plateau, std::size_t q) const {
         constexpr double alike = 0.005;
-        return plateau.beside[q] > (1 - alike) * (levels_[q] ? levels_[q]->value : greatest_[q]) &&
-               plateau.beside[q] > 0;
+        return plateau.at_middle[q] > (1 - alike) * (levels_[q] ? levels_[q]->value : greatest_[q]) &&
+               plateau.at_middle[q] > 0;
     }
 
     /// Whether the quantity is at its level in places where no other limit explains it. On a path parallel to an axis, the
     /// limit of the path explains the motion of the axis, and vice versa.
-    [[nodiscard]] bool holds_alone(std::size_t q) const {
+    [[nodiscard]] bool is_own_limit(std::size_t q) const {
         if (!levels_[q]) return false;
         std::size_t alone = 0;
         double least_share = INFINITY, greatest_share = 0;
@@ -293,7 +293,7 @@ private:
                 explained |= other != q && at_limit(plateau, other);
             if (explained) continue;
             ++alone;
-            const double path = plateau.beside[path_number()];
+            const double path = plateau.at_middle[path_number()];
             const double share = path > 0 ? plateau.level / path : 1;
             least_share = std::min(least_share, share);
             greatest_share = std::max(greatest_share, share);
@@ -366,9 +366,9 @@ private:
 
     /// Whether the acceleration reaches its limit within the time of a difference.
     [[nodiscard]] bool reverses_at_once(const std::string& of, std::size_t q, const Identification& result) const {
-        constexpr double most_of_it = 0.6;
+        constexpr double acceleration_share = 0.6;
         const IdentifiedParameter* acceleration = result.find("max_acceleration", of);
-        return acceleration != nullptr && greatest_[q] * time_ > most_of_it * acceleration->value;
+        return acceleration != nullptr && greatest_[q] * time_ > acceleration_share * acceleration->value;
     }
 
     const Motion& motion_;

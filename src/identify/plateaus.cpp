@@ -65,7 +65,7 @@ void PlateauFinder::add(std::span<const std::vector<double>> all, std::size_t ow
             Plateau plateau{level, count, {}, 0};
             const std::size_t middle = first + (last - first) / 2;
             for (std::size_t q = 0; q < all.size(); ++q)
-                plateau.beside[q] = static_cast<float>(std::abs(all[q][middle]));
+                plateau.at_middle[q] = static_cast<float>(std::abs(all[q][middle]));
             plateau.speed = static_cast<float>(speeds[middle]);
             plateaus_.push_back(plateau);
         }

@@ -18,8 +18,8 @@ inline constexpr std::size_t most_quantities = 7;  ///< six axes and the path
 struct Plateau {
     double level = 0;  ///< mean of the absolute values
     PointIndex count = 0;
-    std::array<float, most_quantities> beside{};  ///< absolute values of all quantities in its middle
-    float speed = 0;                              ///< path speed in its middle
+    std::array<float, most_quantities> at_middle{};  ///< absolute values of all quantities in its middle
+    float speed = 0;                                 ///< path speed in its middle
 };
 
 /// The plateaus of one quantity and the distribution of its values.

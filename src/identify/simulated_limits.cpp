@@ -20,8 +20,8 @@ namespace clsurf {
 namespace {
 
 constexpr std::string_view speed_key = "max_speed";
-constexpr int most_rounds = 3;   ///< over all limits, because the lowest limit hides the others
-constexpr double beside = 0.02;  ///< relative distance of adjacent values
+constexpr int most_rounds = 3;       ///< over all limits, because the lowest limit hides the others
+constexpr double value_step = 0.02;  ///< relative distance of adjacent values
 // range, about_best: docs/design/identify.md#limits-that-the-motion-hides.
 constexpr double range = 4;                 ///< factor of the machine's value up to which values are tried
 constexpr std::size_t grid = 6;             ///< number of these values, in equal ratios
@@ -76,8 +76,8 @@ public:
 
 private:
     [[nodiscard]] static double highest_tried(double lowest, double now) { return range * std::max(now, lowest); }
-    [[nodiscard]] static double below(double value) { return value / (1 + beside); }
-    [[nodiscard]] static double above(double value) { return value * (1 + beside); }
+    [[nodiscard]] static double below(double value) { return value / (1 + value_step); }
+    [[nodiscard]] static double above(double value) { return value * (1 + value_step); }
 
     /// Simulates the values, in parallel.
     void prepare(const std::vector<double>& values) const {

@@ -10,13 +10,13 @@ namespace {
 // Without it, a run with exact stops had 10,603 findings with a factor of 1.00000004.
 constexpr double arithmetic = 1e-6;  ///< share of a limit: rounding errors of sums of doubles, also those of a planner
 
-double proved(const JudgedLimit& limit) { return limit.factor - limit.uncertainty; }
+double least_factor(const JudgedLimit& limit) { return limit.factor - limit.uncertainty; }
 
 /// The greatest value counts, reduced by rounding and the clock: of two similar values the more accurate one. The
 /// uncertainty from bends is not random and is not subtracted: the peak remains the greatest observed value.
 void extend(RecordRun& run, const RecordRun& next) {
     const PointRange points{run.finding.points.first, next.finding.points.last};
-    run.proved = std::max(run.proved, next.proved);
+    run.least_factor = std::max(run.least_factor, next.least_factor);
     if (next.clear > run.clear) {
         run.finding = next.finding;
         run.clear = next.clear;
@@ -27,7 +27,7 @@ void extend(RecordRun& run, const RecordRun& next) {
 }  // namespace
 
 void RecordRuns::append(const RecordRuns& next) {
-    if (next.any && (!any || proved(next.greatest) > proved(greatest))) greatest = next.greatest;
+    if (next.any && (!any || least_factor(next.greatest) > least_factor(greatest))) greatest = next.greatest;
     any = any || next.any;
     for (const RecordRun& run : next.runs) {
         runs.push_back(run);
@@ -43,7 +43,7 @@ void RunFinder::add(PointIndex point, const MeasuredValue& measured, double limi
         found_.gap_reach = 0;
         return;
     }
-    if (!found_.any || factor - share > proved(found_.greatest)) {
+    if (!found_.any || factor - share > least_factor(found_.greatest)) {
         found_.greatest.factor = factor;
         found_.greatest.uncertainty = share;
     }
@@ -60,7 +60,7 @@ void RunFinder::add(PointIndex point, const MeasuredValue& measured, double limi
     here.finding.uncertainty = share;
     here.finding.points = {point, point};
     here.finding.point = point;
-    here.proved = factor - share;
+    here.least_factor = factor - share;
     here.clear = factor - measured.noise / limit;
     here.gap_reach = found_.gap_reach;
     if (!found_.runs.empty() && found_.runs.back().finding.points.last + 1 == point) {
@@ -79,7 +79,7 @@ std::vector<LimitFinding> findings_of(const RecordRuns& found, PointIndex longes
         const auto goes_on = [&](const RecordRun& last) {
             const PointIndex end = last.finding.points.last;
             if (first == end + 1) return true;
-            return first - end - 1 <= longest_gap && run.gap_reach >= std::max(last.proved, run.proved) &&
+            return first - end - 1 <= longest_gap && run.gap_reach >= std::max(last.least_factor, run.least_factor) &&
                    line_at(end) == line_at(first);
         };
         if (!joined.empty() && goes_on(joined.back())) {

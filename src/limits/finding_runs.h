@@ -13,8 +13,8 @@ namespace clsurf {
 /// Consecutive records over a limit.
 struct RecordRun {
     LimitFinding finding;
-    double proved = 0;  ///< the greatest factor minus uncertainty
-    double clear = 0;   ///< factor of the finding minus the effects of rounding and the clock
+    double least_factor = 0;  ///< the greatest factor minus uncertainty
+    double clear = 0;         ///< factor of the finding minus the effects of rounding and the clock
     /// Upper bound of the excess in the gap to the previous run: the least factor plus uncertainty of the records between.
     /// Infinite: there are no such records.
     double gap_reach = std::numeric_limits<double>::infinity();

@@ -324,8 +324,8 @@ std::vector<MeasuredValue> MotionWindow::measure(const StatedLimit& limit, std::
                                     ? path_jerk(i, s)
                                     : of_path(i, s, limit.quantity, rounding);
             const double noise = value.noise + rounding, uncertainty = noise + value.bend;
-            const double proved = measured[k].value - measured[k].uncertainty;
-            if (proved >= value.value - uncertainty || !std::isfinite(value.value)) continue;
+            const double lower_bound = measured[k].value - measured[k].uncertainty;
+            if (lower_bound >= value.value - uncertainty || !std::isfinite(value.value)) continue;
             measured[k] = {value.value, uncertainty, noise};
         }
     }

@@ -74,10 +74,10 @@ bool was_float(double value, double step) {
 
 /// Whether nearly all values satisfy the predicate; most columns fail at once.
 template <typename Predicate>
-bool nearly_all(const std::vector<double>& values, Predicate&& is_such) {
+bool nearly_all(const std::vector<double>& values, Predicate&& predicate) {
     std::size_t others = 0;
     return std::ranges::all_of(values, [&](double value) {
-        return is_such(value) || static_cast<double>(++others) < 0.01 * static_cast<double>(values.size());
+        return predicate(value) || static_cast<double>(++others) < 0.01 * static_cast<double>(values.size());
     });
 }
 

@@ -24,7 +24,7 @@ constexpr double still = 0.05;         // [deg] noise of an axis at rest at the 
 constexpr double longest_wrap = 2;     // largest ratio of a wrap to the steps before and after it
 
 /// The same step in the shorter direction [deg].
-double shorter_way(double step) { return std::remainder(step, deg_per_turn); }
+double wrapped_step(double step) { return std::remainder(step, deg_per_turn); }
 
 /// Statistics of a channel over some records.
 struct TurnSummary {
@@ -41,9 +41,9 @@ struct TurnSummary {
 };
 
 bool is_wrap(double last_step, double step, double next_step) {
-    const double rest = std::abs(shorter_way(step));
+    const double rest = std::abs(wrapped_step(step));
     if (!(std::abs(step) > deg_per_turn / 2) || !(rest < longest_rest)) return false;
-    const double beside = std::max(std::abs(shorter_way(last_step)), std::abs(shorter_way(next_step)));
+    const double beside = std::max(std::abs(wrapped_step(last_step)), std::abs(wrapped_step(next_step)));
     return rest <= std::max(still, longest_wrap * beside);
 }
 
@@ -117,7 +117,7 @@ struct TurnColumns {
         double last = start;
         for (double& position : positions) {
             if (!std::isfinite(position)) continue;
-            if (std::isfinite(last)) position = last + shorter_way(position - last);
+            if (std::isfinite(last)) position = last + wrapped_step(position - last);
             last = position;
         }
         const double counts_of_turn = deg_per_turn / channel.scale;

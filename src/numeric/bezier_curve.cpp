@@ -16,7 +16,7 @@ constexpr int most_newton_steps = 40;
 constexpr double parameter_exact = 1e-14;
 constexpr double arc_length_rounding = 1e-13;  ///< relative to the length
 constexpr double no_speed = 1e-7;              ///< relative to the length: a smaller derivative has no direction
-constexpr double beside_a_stop = 1e-4;         ///< offset in t at which the direction is taken instead
+constexpr double stop_offset = 1e-4;           ///< offset in t at which the direction is taken instead
 constexpr int most_splits = 16;
 
 /// de Casteljau's scheme over control points.
@@ -102,7 +102,7 @@ CurveJet BezierCurve::jet(double t) const {
 CurveJet BezierCurve::moving_jet(double t) const {
     const CurveJet here = jet(t);
     if (here.first.norm() > no_speed * length()) return here;
-    return jet(t < 0.5 ? t + beside_a_stop : t - beside_a_stop);
+    return jet(t < 0.5 ? t + stop_offset : t - stop_offset);
 }
 
 Vec3 BezierCurve::tangent(double t) const { return moving_jet(t).first.normalized(); }

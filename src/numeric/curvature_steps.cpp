@@ -24,7 +24,7 @@ struct BentSection {
 
 /// The sum of squared residuals after fitting 1, u, u² and a fourth function.
 template <typename F>
-double left_by(const BentSection& section, F&& fourth) {
+double residual_after(const BentSection& section, F&& fourth) {
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
     Eigen::Vector4d right = Eigen::Vector4d::Zero();
     double squares = 0;
@@ -99,10 +99,10 @@ std::optional<std::size_t> curvature_step_near(std::span<const Vec3> points, std
     if (section.u.empty()) return {};
     const double may_leave = std::max(rounding * step, parabola * 0.5 * bend * reach * reach);
     const double of_rounding = may_leave * may_leave * static_cast<double>(section.u.size());
-    double least = std::min(of_rounding, much_less * left_by(section, [](double u) { return u * u * u; }));
+    double least = std::min(of_rounding, much_less * residual_after(section, [](double u) { return u * u * u; }));
     std::optional<std::size_t> result;
     for (std::size_t k = 2; k + 2 < section.u.size(); ++k) {
-        const double left = left_by(section, [at = section.u[k]](double u) {
+        const double left = residual_after(section, [at = section.u[k]](double u) {
             const double beyond = std::max(0.0, u - at);
             return beyond * beyond;
         });

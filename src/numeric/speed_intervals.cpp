@@ -12,7 +12,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double just_a_boundary = 1 - 1e-9;
+constexpr double least_score = 1 - 1e-9;
 constexpr double same_score = 1e-9;
 constexpr double closed_share = 1e-6;  ///< share of the pass's extent: a pass is closed if its ends are nearer
 
@@ -202,7 +202,7 @@ std::vector<std::size_t> interval_boundaries(std::span<const Vec3> points, std::
     std::size_t run_end = 0;
     for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
         const double score = scores.at(corners[k]);
-        if (score < just_a_boundary) continue;
+        if (score < least_score) continue;
         const bool same_run = !chosen.empty() && corners[k] == run_end + 1;
         if (!same_run)
             chosen.push_back({k, score});

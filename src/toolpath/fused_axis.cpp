@@ -174,7 +174,7 @@ struct Backlash {
 
 /// Mean difference while the motor is between `least` and twice of it away from a reversal, before or after it; NaN: it
 /// does not move that far.
-double mean_beside(const Differences& both, PointIndex from, int step, PointRange within, double least) {
+double mean_on_side(const Differences& both, PointIndex from, int step, PointRange within, double least) {
     const double origin = both.encoder[static_cast<std::size_t>(from)];
     double sum = 0, count = 0;
     for (PointIndex i = from; i >= within.first && i <= within.last; i += step) {
@@ -205,8 +205,8 @@ Backlash measure_backlash(const Differences& both, const std::vector<std::vector
                 std::min(distance_between(both, first, all[k].at), distance_between(both, all[k].at, last));
             const double beyond = std::min(beyond_backlash, 0.25 * shorter);
             if (!(beyond >= least_beyond)) continue;
-            const double before = mean_beside(both, all[k].at, -1, {first, last}, beyond);
-            const double after = mean_beside(both, all[k].at, 1, {first, last}, beyond);
+            const double before = mean_on_side(both, all[k].at, -1, {first, last}, beyond);
+            const double after = mean_on_side(both, all[k].at, 1, {first, last}, beyond);
             if (!std::isnan(before + after)) sizes.push_back(all[k].direction * (before - after));
         }
     }

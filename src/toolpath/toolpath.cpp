@@ -69,7 +69,7 @@ Vec3 derivative_of(const Helix& h, double fraction) {
 
 /// On a helix the angle of the nearest point differs from that of p, the more the steeper it is. Gauss–Newton steps from
 /// the better one of two initial guesses.
-void look_along_rise(const Helix& h, const Vec3& p, double from, Projection& best) {
+void project_along_rise(const Helix& h, const Vec3& p, double from, Projection& best) {
     constexpr int most_steps = 6;
     const auto consider = [&](double fraction) {
         fraction = std::clamp(fraction, from, 1.0);
@@ -98,7 +98,7 @@ Projection projection_on_helix(const Helix& h, const Vec3& p, double from) {
     double a = std::fmod(angle, two_pi);
     if (a < 0) a += two_pi;
     for (; a <= h.sweep; a += two_pi) consider(a / h.sweep);
-    if (h.rise != 0) look_along_rise(h, p, from, best);
+    if (h.rise != 0) project_along_rise(h, p, from, best);
     return best;
 }
 

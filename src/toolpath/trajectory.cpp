@@ -157,7 +157,7 @@ void set_columns(Trajectory& trajectory, std::shared_ptr<const OwnColumns> colum
 namespace {
 
 /// Replaces tips by those of an upright ball of that radius, with the stated axes.
-void stand_upright(Trajectory& trajectory, double ball) {
+void use_upright_ball(Trajectory& trajectory, double ball) {
     const ToolAxes& axes = *trajectory.stated_axes;
     const std::array<ChannelView, 3> linear = trajectory.axes;
     const Eigen::Matrix3d to_machine = trajectory.turn.transpose();
@@ -222,7 +222,7 @@ Trajectory reconstruct_like(const Log& log, Role role, const Trajectory& like, d
     Trajectory trajectory = reconstruct_ball(log, role, like.pose(), like.kinematics, ball);
     trajectory.stated_axes = like.stated_axes;
     trajectory.axis_known = like.axis_known;
-    if (trajectory.stated_axes != nullptr && ball > 0) stand_upright(trajectory, ball);
+    if (trajectory.stated_axes != nullptr && ball > 0) use_upright_ball(trajectory, ball);
     return trajectory;
 }
 

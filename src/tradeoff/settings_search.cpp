@@ -24,16 +24,16 @@ constexpr std::array feed_steps{0.95, 0.9, 0.85, 0.8, 0.75, 0.7, 0.65, 0.6, 0.55
 constexpr std::size_t most_at_once = 8;  ///< runs in one round between neighbours on the front
 constexpr double whole_percent = 100;
 
-double half_way(double a, double b) { return std::round(std::sqrt(a * b) * whole_percent) / whole_percent; }
+double geometric_mean(double a, double b) { return std::round(std::sqrt(a * b) * whole_percent) / whole_percent; }
 
 PlanSettings strictest(const PlanSettings& a, const PlanSettings& b) {
     return {std::min(a.jerk, b.jerk), std::min(a.acceleration, b.acceleration), std::min(a.feed, b.feed),
             a.intervals || b.intervals};
 }
 
-PlanSettings half_way(const PlanSettings& a, const PlanSettings& b) {
-    return {half_way(a.jerk, b.jerk), half_way(a.acceleration, b.acceleration), half_way(a.feed, b.feed),
-            a.intervals && b.intervals};
+PlanSettings geometric_mean(const PlanSettings& a, const PlanSettings& b) {
+    return {geometric_mean(a.jerk, b.jerk), geometric_mean(a.acceleration, b.acceleration),
+            geometric_mean(a.feed, b.feed), a.intervals && b.intervals};
 }
 
 class SettingsSearch {
@@ -162,7 +162,7 @@ private:
         std::vector<PlanSettings> wanted;
         for (const Gap& gap : gaps) {
             const PlanSettings &a = settings_[gap.a], &b = settings_[gap.b];
-            for (const PlanSettings& between : {half_way(a, b), strictest(a, b)}) {
+            for (const PlanSettings& between : {geometric_mean(a, b), strictest(a, b)}) {
                 if (!is_new(between) || std::ranges::find(wanted, between) != wanted.end()) continue;
                 if (wanted.size() < most_at_once) wanted.push_back(between);
             }

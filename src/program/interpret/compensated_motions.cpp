@@ -34,11 +34,11 @@ Vec3 from_plane(const Vec2& p, double along, int axis) {
 void enter_compensation(CompensationState& compensation, const ModalState& state, Motions& motions,
                         const Vec2& direction) {
     const int axis = state.plane_axis;
-    const Vec2 beside = compensation.path.enter_beside(in_plane(state.position, axis), direction);
+    const Vec2 beside = compensation.path.enter_at_offset(in_plane(state.position, axis), direction);
     Motions& m = motions;
     for (std::size_t i = compensation.open_motions; i < m.end.size() && compensation.entry_programmed; ++i)
         m.end[i] = Xyz(from_plane(beside, m.end[i].vec()[axis], axis));
-    compensation.enters_beside = compensation.entry_programmed = false;
+    compensation.enters_at_offset = compensation.entry_programmed = false;
 }
 
 /// The motions of a step: only the last of them moves along the plane's normal. `arc` gives turns.
@@ -122,12 +122,12 @@ void compensate_by_table(Interpreter& in, int code, const Block& block, std::siz
     const std::optional<ProgramFrame::Circle> circle = in.state_.frame.circle(in.state_.plane_axis);
     if (!circle) in.fail("cutter compensation in a tilted or unevenly scaled frame is not supported", column);
     in.compensation_.path.start((code == 410) != circle->reversed, 0.5 * diameter);
-    in.compensation_.enters_beside = true;
+    in.compensation_.enters_at_offset = true;
     in.event("cutter-compensation", fmt::format("{} D{:g}", code_text(code), diameter));
 }
 
 void stop_compensation(Interpreter& in) {
-    in.compensation_.enters_beside = in.compensation_.entry_programmed = false;
+    in.compensation_.enters_at_offset = in.compensation_.entry_programmed = false;
     const std::string error = in.compensation_.path.finish();
     if (!error.empty()) in.fail(error);
     if (in.compensation_.path.entered()) {
@@ -162,7 +162,7 @@ void compensated_straight(Interpreter& in, MotionKind kind, const Vec3& end, con
         return;
     }
     const int axis = in.state_.plane_axis;
-    if (in.compensation_.enters_beside) {
+    if (in.compensation_.enters_at_offset) {
         const Vec2 displacement = in_plane(end, axis) - in_plane(in.state_.position, axis);
         if (!in.compensation_.entry_programmed || displacement.isZero()) {
             if (!in.compensation_.entry_programmed) in.compensation_.open_motions = in.program_.motions.end.size();
@@ -179,7 +179,7 @@ void compensated_straight(Interpreter& in, MotionKind kind, const Vec3& end, con
 
 void compensated_arc(Interpreter& in, const Arc& arc, bool clockwise, const Vec3& end, const Vec3& rotary) {
     const int axis = in.state_.plane_axis;
-    if (in.compensation_.enters_beside) {
+    if (in.compensation_.enters_at_offset) {
         const Vec2 out = in_plane(in.state_.position, axis) - in_plane(arc.centre.vec(), axis);
         const Vec2 tangent = clockwise ? Vec2(out.y(), -out.x()) : Vec2(-out.y(), out.x());
         if (!in.compensation_.entry_programmed) in.fail("cutter compensation must begin with a straight motion");

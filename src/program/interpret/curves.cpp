@@ -225,7 +225,7 @@ const PolynomialWord* polynomial_of(const Interpreter& in, const Block& block, c
 
 }  // namespace
 
-void refuse_beside_spline(Interpreter& in, const Block& block) {
+void refuse_with_spline(Interpreter& in, const Block& block) {
     if (in.compensation_.path.on()) in.fail("a spline under cutter compensation is not supported");
     if (take_tool_axis(in, block)) in.fail("a spline with a tool axis as a vector is not supported");
     if ((block.words.has & turning_axes) == 0) return;
@@ -248,7 +248,7 @@ void push_curve(Interpreter& in, BezierCurve curve, LineNumber line, double feed
 
 void plane_spline(Interpreter& in, const Block& block) {
     if (in.state_.plane_axis != 2) in.fail("G5 and G5.1 need the XY plane (G17)");
-    refuse_beside_spline(in, block);
+    refuse_with_spline(in, block);
     const double unit = in.state_.unit_mm;
     const Vec3 from = in.state_.position;
     const Vec3 to = target_of(in, block, false);
@@ -279,7 +279,7 @@ void nurbs_point(Interpreter& in, const Block& block) {
     if (in.state_.plane_axis != 2) in.fail("G5.2 needs the XY plane (G17)");
     if (w.given('X') != w.given('Y')) in.fail("a point of G5.2 needs both X and Y");
     if (w.given('Z') || (w.has & turning_axes) != 0) in.fail("a spline (G5.2) moves only X and Y");
-    refuse_beside_spline(in, block);
+    refuse_with_spline(in, block);
     const bool is_point = w.given('X');
     const double weight = w.given('P') ? w.of('P') : 1.0;
     if (!(weight > 0)) in.fail("a weight (P) must be greater than 0");
@@ -311,7 +311,7 @@ void nurbs_end(Interpreter& in) {
 void knotted_point(Interpreter& in, const Block& block) {
     const Words& w = block.words;
     const bool is_point = (w.has & Words::xyz) != 0;
-    refuse_beside_spline(in, block);
+    refuse_with_spline(in, block);
     OpenSpline& open = in.curves_.open;
     const bool first = !in.curves_.is_open();
     if (first) {
@@ -357,7 +357,7 @@ void knotted_point(Interpreter& in, const Block& block) {
 }
 
 void spline_point(Interpreter& in, const Block& block) {
-    refuse_beside_spline(in, block);
+    refuse_with_spline(in, block);
     const SplineKind kind = kind_of_points(in.state_.motion);
     if (const NamedWord* degree = block.find("SD")) {
         if (degree->value != 2 && degree->value != 3) in.fail("the degree of a spline (SD) is 2 or 3", degree->column);
@@ -413,7 +413,7 @@ void settle_spline(Interpreter& in, const Block& block) {
 }
 
 void polynomial_span(Interpreter& in, const Block& block) {
-    refuse_beside_spline(in, block);
+    refuse_with_spline(in, block);
     const double interval = block.value_of("PL").value_or(1.0);
     if (!(interval > 0)) in.fail("the interval of a polynomial (PL) must be greater than 0", block.find("PL")->column);
     for (const PolynomialWord& word : block.polynomials) {

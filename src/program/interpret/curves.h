@@ -11,7 +11,7 @@ namespace clsurf {
 class Interpreter;
 
 /// Refuses words that a spline cannot have, and modes in which there can be no spline.
-void refuse_beside_spline(Interpreter& in, const Block& block);
+void refuse_with_spline(Interpreter& in, const Block& block);
 /// A span that begins at the current position, in the work system.
 void push_curve(Interpreter& in, BezierCurve curve, LineNumber line, double feed);
 /// A block of G5 or G5.1.

@@ -56,7 +56,7 @@ void CutterCompensation::stop() {
     open_ = {};
 }
 
-Vec2 CutterCompensation::enter_beside(const Vec2& from, const Vec2& direction) {
+Vec2 CutterCompensation::enter_at_offset(const Vec2& from, const Vec2& direction) {
     first_ = false;
     open_ = {};
     centre_ = from + side() * radius_ * left_of(direction);
@@ -77,7 +77,7 @@ CompensatedStep CutterCompensation::line(const Vec2& from, const Vec2& to) {
     const Vec2 off = side() * radius_ * left_of(direction);
     Open next;
     next.direction = direction;
-    next.beside = from + off;
+    next.offset_begin = from + off;
     join(step, from, direction, next);
     if (!step.error.empty()) return step;
     step.moves.push_back({to + off});
@@ -105,7 +105,7 @@ CompensatedStep CutterCompensation::arc(const Vec2& from, const Vec2& to, const 
     next.counter_clockwise = counter_clockwise;
     const Vec2 outwards = (from - centre).normalized();
     const Vec2 tangent = counter_clockwise ? left_of(outwards) : Vec2(-left_of(outwards));
-    next.beside = from + grows * outwards;
+    next.offset_begin = from + grows * outwards;
     join(step, from, tangent, next);
     if (!step.error.empty()) return step;
     const Vec2 end = to + grows * (to - centre).normalized();
@@ -201,8 +201,8 @@ void CutterCompensation::join(CompensatedStep& step, const Vec2& corner, const V
         step.error = check_reach(centre_);
         if (!step.error.empty()) return;
     }
-    step.moves.push_back({next.beside, corner, true, !left_});
-    next.begin = next.beside;
+    step.moves.push_back({next.offset_begin, corner, true, !left_});
+    next.begin = next.offset_begin;
 }
 
 bool CutterCompensation::inside_corner(double angle, const Open& next) const {
@@ -229,11 +229,11 @@ bool CutterCompensation::meet(const Vec2& corner, const Open& next, CompensatedS
         return true;
     }
     if (open_.is_arc) {
-        const auto crossings = meets_circle(next.beside, next.direction, open_.centre, open_.radius);
+        const auto crossings = meets_circle(next.offset_begin, next.direction, open_.centre, open_.radius);
         if (!crossings) return false;
         // Inside a circle the line begins at its first intersection, outside at its last.
-        step.corner =
-            next.beside + (inside(open_.counter_clockwise) ? crossings->first : crossings->second) * next.direction;
+        step.corner = next.offset_begin +
+                      (inside(open_.counter_clockwise) ? crossings->first : crossings->second) * next.direction;
         return true;
     }
     // The open motion's line passes through the tool's centre, perpendicular to the direction to the corner.
@@ -247,7 +247,7 @@ bool CutterCompensation::meet(const Vec2& corner, const Open& next, CompensatedS
     }
     const double across = cross(direction, next.direction);
     if (std::abs(across) < no_length) return false;
-    step.corner = centre_ + cross(next.beside - centre_, next.direction) / across * direction;
+    step.corner = centre_ + cross(next.offset_begin - centre_, next.direction) / across * direction;
     return true;
 }
 

@@ -35,7 +35,7 @@ public:
     void start(bool left, double radius);
     void stop();
     /// Begins next to a point instead of with an entry move; returns the tool's centre there.
-    Vec2 enter_beside(const Vec2& from, const Vec2& direction);
+    Vec2 enter_at_offset(const Vec2& from, const Vec2& direction);
 
     [[nodiscard]] bool on() const { return on_; }  ///< G41 or G42, with any radius
     [[nodiscard]] bool left() const { return left_; }
@@ -56,9 +56,9 @@ private:
     struct Open {
         bool valid = false;
         bool is_arc = false;
-        Vec2 begin = Vec2::Zero();      ///< of the tool's centre
-        Vec2 beside = Vec2::Zero();     ///< the tool's centre next to the programmed beginning
-        Vec2 direction = Vec2::Zero();  ///< of the programmed line
+        Vec2 begin = Vec2::Zero();         ///< of the tool's centre
+        Vec2 offset_begin = Vec2::Zero();  ///< the tool's centre next to the programmed beginning
+        Vec2 direction = Vec2::Zero();     ///< of the programmed line
         Vec2 centre = Vec2::Zero();
         double radius = 0;  ///< of the tool centre's arc
         double sweep = 0;   ///< of the programmed arc [rad], positive

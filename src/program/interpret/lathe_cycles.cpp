@@ -60,7 +60,7 @@ std::vector<CompensatedMove> beside(const Vec2& begin, const std::vector<Compens
                 const Vec2 out = from - move.centre;
                 tangent = move.counter_clockwise ? Vec2(-out.y(), out.x()) : Vec2(out.y(), -out.x());
             }
-            first = track.enter_beside(from, tangent.normalized());
+            first = track.enter_at_offset(from, tangent.normalized());
         }
         const CompensatedStep step =
             move.is_arc ? track.arc(from, move.end, move.centre, move.counter_clockwise) : track.line(from, move.end);

@@ -20,7 +20,7 @@ struct ToolState {
 struct CompensationState {
     CutterCompensation path;
     std::size_t open_motions = 0;    ///< the first motion whose end an inside corner may still move
-    bool enters_beside = false;      ///< G41 of the controls: the next motion determines the end of the entry
+    bool enters_at_offset = false;   ///< G41 of the controls: the next motion determines the end of the entry
     bool entry_programmed = false;   ///< the entry move has been read
     std::int64_t ended_at = -1;      ///< motions before G40: the next one is a straight one
     std::int64_t unread_since = -1;  ///< number of motions when position and machine diverged

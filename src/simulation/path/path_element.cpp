@@ -15,7 +15,7 @@ constexpr double same_angle = 1e-9;  ///< a smaller angle is rounding and means 
 constexpr int turning_places = 8;    ///< number of places at which the direction of a cubic is evaluated
 
 /// Derivatives of a curve by arc length, from its derivatives by a parameter u.
-PathDerivatives by_the_way(const Vec3& r1, const Vec3& r2, const Vec3& r3) {
+PathDerivatives by_arc_length(const Vec3& r1, const Vec3& r2, const Vec3& r3) {
     const double f = r1.squaredNorm();
     const double q = r1.dot(r2);
     const double u1 = 1 / std::sqrt(f);
@@ -66,11 +66,11 @@ PathDerivatives PathElement::derivatives(double arc_length) const {
     if (straight()) return {direction, Vec3::Zero(), Vec3::Zero()};
     if (cubic) {
         const double u = curve.at_arc_length(curve_from + arc_length, curve_length);
-        return by_the_way(curve.derivative(u), curve.second_derivative(u), 6 * curve.coefficients[3]);
+        return by_arc_length(curve.derivative(u), curve.second_derivative(u), 6 * curve.coefficients[3]);
     }
     if (spline) {
         const CurveJet jet = spline->moving_jet(spline->at_arc_length(curve_from + arc_length));
-        return by_the_way(jet.first, jet.second, jet.third);
+        return by_arc_length(jet.first, jet.second, jet.third);
     }
     const double angle = rate * arc_length;
     const Vec3 outward = first * std::cos(angle) + second * std::sin(angle);

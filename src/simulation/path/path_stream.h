@@ -135,7 +135,7 @@ private:
     void find_roundings(std::int64_t element, double begin, double end);
     void add_roundings(Span& span, double begin) const;
     void set_limits(Span& span) const;
-    void hold_back(Span& span) const;
+    void limit_next_to_step(Span& span) const;
 
     Joint& joint(std::int64_t i) { return joints_[static_cast<std::size_t>(i - first_joint_)]; }
     [[nodiscard]] const Joint& joint(std::int64_t i) const {

@@ -288,7 +288,7 @@ void PathStream::make_spans(std::int64_t element) {
         span.length = cuts_[k] - from;
         add_roundings(span, begin + from);
         set_limits(span);
-        if (span.base.jerk_share < 1) hold_back(span);
+        if (span.base.jerk_share < 1) limit_next_to_step(span);
         if (from == 0 && element > 0 && machine_->controller.corner == CornerMode::junction)
             span.begin_cap = junction_speed(joint(element - 1).turn, *machine_);
         from = cuts_[k];
@@ -329,7 +329,7 @@ void PathStream::add_roundings(Span& span, double begin) const {
 }
 
 /// Limits next to the step of an arc: on a bend a change of the speed causes jerk, too, 3 y″ v a.
-void PathStream::hold_back(Span& span) const {
+void PathStream::limit_next_to_step(Span& span) const {
     span.free_cap = span.cap;
     span.free_limiting = span.limiting;
     for (int i = 0; i < 3; ++i) {

@@ -164,14 +164,14 @@ private:
             if (!divide_window(end)) continue;
             const bool shortest = cells / 2 < least_cells;
             if (cells_.size() > most_cells && !shortest) continue;
-            if (!hold_everywhere()) continue;
+            if (!scale_to_limits()) continue;
             if (find_speeds() || shortest) return true;
         }
         return false;
     }
 
     /// Lowers all v² of the window by one factor until all limits are satisfied.
-    bool hold_everywhere() {
+    bool scale_to_limits() {
         slow_down(held_share * problem_.holding_share(start_, stop_));
         const BrokenPlaces broken = broken_places();
         for (int k = 0; k < most_halvings; ++k) {
@@ -248,9 +248,9 @@ private:
         while (u < to) {
             while (cursor < last_ && places_[cursor].u <= u) ++cursor;
             const double speed = std::sqrt(std::max(1e-18, square_near(u, cursor, from, from_square, to, to_square)));
-            const double way_left = to - u;
+            const double remaining = to - u;
             double step = std::min(longest_step(u, speed), cell_growth * since);
-            step = std::min(step, cell_growth * (until + 1.5 * way_left / std::max(speed, stop.speed)));
+            step = std::min(step, cell_growth * (until + 1.5 * remaining / std::max(speed, stop.speed)));
             double next = u + step * speed;
             // A near-reversal requires a far lower speed than the place one cell before it: cells become shorter towards
             // it.

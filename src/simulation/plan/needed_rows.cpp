@@ -78,7 +78,7 @@ double AxisSpeedProblem<Axes>::acceleration_at_end(std::size_t cell) const {
 
 /// Marks rows for limits that are likely to be reached, judged by the first values.
 template <int Axes>
-void AxisSpeedProblem<Axes>::need_likely_rows() {
+void AxisSpeedProblem<Axes>::add_likely_rows() {
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         Cell& cell = cells_[i];
         const double* c = &value_[i];
@@ -188,11 +188,11 @@ double AxisSpeedProblem<Axes>::holding_share(const KnotState& start, const KnotS
     fix_ends(start, end);
     weigh();
     double share = 1;
-    const auto hold_square = [&](double square, double cap) { share = std::min(share, cap * cap / square); };
-    const auto hold_acceleration = [&](double acceleration, double limit) {
+    const auto limit_square = [&](double square, double cap) { share = std::min(share, cap * cap / square); };
+    const auto limit_acceleration = [&](double acceleration, double limit) {
         share = std::min(share, limit / acceleration);
     };
-    const auto hold_jerk = [&](double jerk, double limit) {  // multiplying v² by s multiplies a jerk by s √s
+    const auto limit_jerk = [&](double jerk, double limit) {  // multiplying v² by s multiplies a jerk by s √s
         if (limit > 0 && limit < jerk) share = std::min(share, std::pow(limit / jerk, 2.0 / 3));
     };
     for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -201,17 +201,17 @@ double AxisSpeedProblem<Axes>::holding_share(const KnotState& start, const KnotS
         const double last_slope = at.slope + cell.length * at.curve;
         const double last = at.b + 0.5 * cell.length * (at.slope + last_slope);
         const double greatest = std::max({at.b, last, value_[i + 1]});
-        hold_square(greatest, cell.limits.cap);
-        hold_acceleration(std::abs(0.5 * last_slope), acceleration_at_end(i));
-        hold_jerk(std::abs(0.5 * at.curve) * std::sqrt(greatest), cell.limits.jerk);
+        limit_square(greatest, cell.limits.cap);
+        limit_acceleration(std::abs(0.5 * last_slope), acceleration_at_end(i));
+        limit_jerk(std::abs(0.5 * at.curve) * std::sqrt(greatest), cell.limits.jerk);
         for (std::uint32_t k = cell.first_sample; k < cell.end_sample; ++k) {
             const SampleMotion motion(samples_[k].sample, at);
-            hold_square(motion.b, motion.sample.cap);
-            hold_acceleration(motion.path_acceleration(), limits_.path_acceleration);
-            hold_jerk(motion.path_jerk(), limits_.path_jerk);
+            limit_square(motion.b, motion.sample.cap);
+            limit_acceleration(motion.path_acceleration(), limits_.path_acceleration);
+            limit_jerk(motion.path_jerk(), limits_.path_jerk);
             for (int x = 0; x < Axes; ++x) {
-                hold_acceleration(motion.acceleration(x), limits_.acceleration[x]);
-                hold_jerk(motion.jerk(x), limits_.jerk[x]);
+                limit_acceleration(motion.acceleration(x), limits_.acceleration[x]);
+                limit_jerk(motion.jerk(x), limits_.jerk[x]);
             }
         }
     }
@@ -226,15 +226,15 @@ void AxisSpeedProblem<Axes>::scale(double factor) {
 
 /// Marks rows for limits that have no rows and are used by more than a share. False: there are none.
 template <int Axes>
-bool AxisSpeedProblem<Axes>::need_broken_rows(double part) {
+bool AxisSpeedProblem<Axes>::add_violated_rows(double part) {
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         Cell& cell = cells_[i];
-        const auto need = [&](bool& row) { cell.changed = cell.changed || !row, row = true; };
+        const auto use = [&](bool& row) { cell.changed = cell.changed || !row, row = true; };
         const double* c = &value_[i];
         const Weights& begin = begins_[i];
         const double b = dot(begin.b, c), curve = dot(begin.curve, c), slope = dot(begin.slope, c);
         const double last_slope = slope + cell.length * curve, last = b + 0.5 * cell.length * (slope + last_slope);
-        if (0.5 * std::abs(last_slope) > part * acceleration_at_end(i)) need(cell.acceleration);
+        if (0.5 * std::abs(last_slope) > part * acceleration_at_end(i)) use(cell.acceleration);
         // The tangential jerk is greatest where the speed is: at an end, or at the maximum of b.
         double fastest = slope + 0.5 * cell.length * curve > 0 ? cell.length : 0;
         if (slope > 0 && last_slope < 0) fastest = -slope / curve;
@@ -243,7 +243,7 @@ bool AxisSpeedProblem<Axes>::need_broken_rows(double part) {
         if (along_path > part * cell.limits.jerk) {
             bool& row = cell.jerk[static_cast<std::size_t>(std::lround(2 * fastest / cell.length))];
             if (!row) {
-                need(row);
+                use(row);
             } else if (part >= 1) {  // between the rows
                 cell.jerk_share *= lowering * cell.limits.jerk / along_path;
                 cell.changed = true;
@@ -365,10 +365,10 @@ template AxisSpeedProblem<5>::AtBegin AxisSpeedProblem<5>::at_begin(std::size_t 
 template std::uint16_t AxisSpeedProblem<5>::broken_at(const Sample& sample, const AtBegin& at, double part) const;
 template double AxisSpeedProblem<5>::holding_share(const KnotState& start, const KnotState& end);
 template void AxisSpeedProblem<5>::scale(double factor);
-template void AxisSpeedProblem<3>::need_likely_rows();
-template void AxisSpeedProblem<5>::need_likely_rows();
-template bool AxisSpeedProblem<3>::need_broken_rows(double part);
-template bool AxisSpeedProblem<5>::need_broken_rows(double part);
+template void AxisSpeedProblem<3>::add_likely_rows();
+template void AxisSpeedProblem<5>::add_likely_rows();
+template bool AxisSpeedProblem<3>::add_violated_rows(double part);
+template bool AxisSpeedProblem<5>::add_violated_rows(double part);
 template void AxisSpeedProblem<3>::add_cap(std::uint32_t number, std::size_t cell, const Three& weights, double cap);
 template void AxisSpeedProblem<5>::add_cap(std::uint32_t number, std::size_t cell, const Three& weights, double cap);
 template void AxisSpeedProblem<3>::add_row(std::uint32_t number, Row kind, std::size_t cell, const Three& w,

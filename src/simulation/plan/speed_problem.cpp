@@ -272,7 +272,7 @@ bool AxisSpeedProblem<Axes>::optimise(const KnotState& start, const KnotState& e
     const double planned = time();
     if (first_ == FirstSpeeds::hold && planned < (1 + end_gap) * time_at_caps()) return false;
     weigh();
-    need_likely_rows();
+    add_likely_rows();
     int looks = 0;
     for (int round = 0; round < most_rounds + looks; ++round) {
         if (round == 0) {
@@ -282,7 +282,7 @@ bool AxisSpeedProblem<Axes>::optimise(const KnotState& start, const KnotState& e
             add_needed_rows();
         }
         if (!iterate() || (first_ == FirstSpeeds::hold && time() > planned)) return false;
-        if (need_broken_rows(held)) continue;
+        if (add_violated_rows(held)) continue;
         if (look == nullptr || looks == most_looks || !join(look())) {
             limiting_.assign(cells_.size(), Row::cap);
             rows_.judge(value_.data(), limiting_);
@@ -305,7 +305,7 @@ bool AxisSpeedProblem<Axes>::iterate() {
         if (gap < look_at) {
             // While slacks are large, rows can be added without a restart.
             look_at = gap > last_look ? look_step * gap : 0;
-            if (need_broken_rows(nearly_held)) {
+            if (add_violated_rows(nearly_held)) {
                 add_needed_rows();
                 assemble();
             }

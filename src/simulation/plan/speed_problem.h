@@ -157,8 +157,8 @@ private:
 
     // needed_rows.cpp: which limits are rows
     [[nodiscard]] double acceleration_at_end(std::size_t cell) const;
-    void need_likely_rows();
-    [[nodiscard]] bool need_broken_rows(double part);
+    void add_likely_rows();
+    [[nodiscard]] bool add_violated_rows(double part);
     [[nodiscard]] AtBegin at_begin(std::size_t cell) const;
     [[nodiscard]] std::uint16_t broken_at(const Sample& sample, const AtBegin& at, double part) const;
     [[nodiscard]] bool may_break(const Cell& cell, double part, double acceleration, double square, double jerk,

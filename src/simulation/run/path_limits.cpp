@@ -32,10 +32,10 @@ void NormalAcceleration::measure() {
     const double across = (bend - bend.dot(direction) * direction).norm() * rate_ * rate_;
     const double half_turn = 0.5 * (in_ / before - out_ / after).norm();  // sine of half the turn
     const double along = *std::max_element(changes_.begin(), changes_.end()) * rate_;
-    const double proved = across - along * half_turn;
-    if (!(proved > greatest_)) return;
-    greatest_ = proved;
-    least_bend_ = proved * proved / (rate_ * rate_ * rate_ * rate_);
+    const double lower_bound = across - along * half_turn;
+    if (!(lower_bound > greatest_)) return;
+    greatest_ = lower_bound;
+    least_bend_ = lower_bound * lower_bound / (rate_ * rate_ * rate_ * rate_);
 }
 
 LimitExcessOfPath excess_of_path(const SimulationSummary& s, const Machine& machine) {

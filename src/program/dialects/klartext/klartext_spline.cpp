@@ -102,7 +102,7 @@ void spline(Line& line) {
     if (in.corner_.pending) in.fail("a straight line with feed must follow RND and CHF", line.start + 1);
     Block& block = in.block_;
     block.clear();
-    refuse_beside_spline(in, block);
+    refuse_with_spline(in, block);
     const Vec3 begin = in.state_.programmed();
     std::array<Vec3, 4> points{begin, begin, begin, begin};
     unsigned placed = 0;
