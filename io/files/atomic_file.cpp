@@ -85,7 +85,7 @@ AtomicFile::AtomicFile(std::string path, Replaces replaces, Unfinished unfinishe
     if (unfinished == Unfinished::stays)
         open_part();
     else
-        open_beside();
+        open_in_folder();
 }
 
 void AtomicFile::open_part() {
@@ -100,7 +100,7 @@ void AtomicFile::open_part() {
     stays_ = true;
 }
 
-void AtomicFile::open_beside() {
+void AtomicFile::open_in_folder() {
     descriptor_ = ::open(folder_of(path_).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
     if (descriptor_ >= 0) {
         temporary_ = path_of(descriptor_);
@@ -138,7 +138,7 @@ AtomicFile::~AtomicFile() {
 }
 
 /// A link cannot replace a file, so the file first gets a name next to its target.
-void AtomicFile::give_a_name() {
+void AtomicFile::link_next_to_target() {
     if (named_) return;
     std::random_device random;
     for (int attempt = 0; attempt < 100; ++attempt) {
@@ -200,7 +200,7 @@ void AtomicFile::commit() {
         return;
     }
     if (::fsync(descriptor_) != 0) fail(path_, "cannot write");
-    give_a_name();
+    link_next_to_target();
     if (::close(std::exchange(descriptor_, -1)) != 0) fail(path_, "cannot write");
     if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, "cannot rename into place");
     named_ = false;

@@ -47,11 +47,11 @@ public:
     void commit();
 
 private:
-    void open_beside();
+    void open_in_folder();
     void open_part();
     void open_for_stream();
     void flush();
-    void give_a_name();
+    void link_next_to_target();
     void copy_to_stream();
 
     std::string path_;

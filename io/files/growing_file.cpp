@@ -22,7 +22,7 @@
 namespace clsurf::io {
 namespace {
 
-constexpr double between_looks = 0.02;  ///< [s] interval between checks of a file, which does not signal its growth
+constexpr double poll_interval = 0.02;  ///< [s] interval between checks of a file, which does not signal its growth
 
 [[noreturn]] void fail_to_read(const std::string& name) {
     throw InputError(Place::of_file(name), std::string("cannot read: ") + std::strerror(errno));
@@ -144,7 +144,7 @@ void GrowingFile::wait(double seconds) const {
         (void)::poll(&event, 1, static_cast<int>(1e3 * seconds));
         if ((event.revents & POLLIN) != 0 || (event.revents & POLLHUP) == 0) return;
     }
-    std::this_thread::sleep_for(std::chrono::duration<double>(std::min(seconds, between_looks)));
+    std::this_thread::sleep_for(std::chrono::duration<double>(std::min(seconds, poll_interval)));
 }
 
 Source GrowingFile::whole() const { return map_descriptor(name_, copy_ >= 0 ? copy_ : descriptor_); }

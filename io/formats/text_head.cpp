@@ -12,7 +12,7 @@ bool has_word(const std::vector<std::string>& fields) {
 }
 
 /// The text of a comment without its mark.
-std::string_view said_by(std::string_view comment) {
+std::string_view comment_text(std::string_view comment) {
     const std::size_t at = comment.find_first_not_of("#%/ \t");
     return at == std::string_view::npos ? std::string_view() : comment.substr(at);
 }
@@ -56,7 +56,7 @@ struct LineReader {
             LineReader ahead = *this;
             const std::string_view line = ahead.take();
             if (!is_comment(line)) break;
-            if (!said_by(line).empty()) last = {line, number};
+            if (!comment_text(line).empty()) last = {line, number};
             *this = ahead;
         }
         return last;
@@ -96,7 +96,7 @@ TextHead read_head(std::string_view text, char separator) {
     take_record();
     head.columns.resize(fields.size());
     head.titles.resize(fields.size());
-    const std::vector<std::string> said = split(said_by(comment.text), head.separator);
+    const std::vector<std::string> said = split(comment_text(comment.text), head.separator);
     if (said.size() == fields.size() && !has_value(said) && has_word(said)) {
         name_columns(said, head);
         head.line = comment.line;

@@ -166,7 +166,7 @@ void pass_over_words(const TextHead& head, TextPlan& plan) {
 }
 
 /// Without line feeds all lines would be read as one.
-void refuse_lines_that_end_with_cr(const Source& source) {
+void refuse_cr_line_ends(const Source& source) {
     const std::string_view text = source.text();
     if (text.find('\n') == std::string_view::npos && text.find('\r') != std::string_view::npos)
         throw InputError(Place::of_file(source.name), "its lines end with CR alone, expected LF or CR LF",
@@ -176,7 +176,7 @@ void refuse_lines_that_end_with_cr(const Source& source) {
 }  // namespace
 
 TextPlan plan_text(const Source& source, const Mapping* mapping) {
-    refuse_lines_that_end_with_cr(source);
+    refuse_cr_line_ends(source);
     const TextHead head = read_head(source.text(), mapping != nullptr ? mapping->separator : '\0');
     const Place place = Place::of_line(source.name, head.line);
     TextPlan plan;

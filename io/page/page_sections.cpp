@@ -73,7 +73,7 @@ std::string defect_lines(const Defect& d) {
 
 /// Bars across the page: why there is no verdict, and what the log lacks.
 std::string alarm_bars(const ReportPage& page) {
-    constexpr double worth_saying = 0.01;  // share of the program's motions
+    constexpr double least_missing = 0.01;  // share of the program's motions
     const QualityReport& report = *page.quality.report;
     const PageSurface& s = page.surfaces.front();
     const auto bar = [](std::string_view what, const std::string& why) {
@@ -88,11 +88,11 @@ std::string alarm_bars(const ReportPage& page) {
     const double missing = s.lines->match().missing;
     if (!s.log->closed)
         text += bar("The log is cut off.",
-                    missing > worth_saying
+                    missing > least_missing
                         ? fmt::format(" Its recording was not closed, and it lacks {:.0f} % of the program's motions.",
                                       100 * missing)
                         : " Its recording was not closed: records at its end may be missing.");
-    else if (missing > worth_saying && report.judgement.judged())
+    else if (missing > least_missing && report.judgement.judged())
         text += bar("The log is not complete.",
                     fmt::format(" It lacks {:.0f} % of the program's motions, which nothing on this page judges.",
                                 100 * missing));

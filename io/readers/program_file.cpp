@@ -19,7 +19,7 @@ namespace {
 SourceText source_text(const Source& source) { return {source.name, source.text(), source.keep_alive}; }
 
 /// Subprograms are in the folder of the program, with the name that the control gives them.
-std::optional<SourceText> load_beside(const std::filesystem::path& folder, const std::string& name) {
+std::optional<SourceText> load_from_folder(const std::filesystem::path& folder, const std::string& name) {
     static constexpr std::array<std::string_view, 14> endings{"",     ".ngc", ".nc", ".NC", ".spf", ".SPF", ".mpf",
                                                               ".MPF", ".tap", ".i",  ".I",  ".txt", ".h",   ".H"};
     // A name with a path could leave the folder.
@@ -50,7 +50,7 @@ InterpreterOptions interpreter_options(const Source& source, const ProgramOption
         }
     }
     const std::filesystem::path folder = std::filesystem::path(source.name).parent_path();
-    options.load = [folder](const std::string& name) { return load_beside(folder, name); };
+    options.load = [folder](const std::string& name) { return load_from_folder(folder, name); };
     if (source.bytes.empty()) throw InputError(Place::of_file(source.name), "is empty, expected an NC program");
     require_program_text(source);
     return options;

@@ -51,7 +51,7 @@ void append_pass(Passes& passes, Pass piece);
 }
 
 /// One cut of `count` points: for statistics over all values of a field without passes.
-[[nodiscard]] inline Passes all_as_one_cut(PointIndex count) { return Passes(1, Pass{0, count - 1, PassKind::cut}); }
+[[nodiscard]] inline Passes as_one_pass(PointIndex count) { return Passes(1, Pass{0, count - 1, PassKind::cut}); }
 
 /// Cutting runs and the points between them. A vertical approach or retract at the ends of a run, and points without
 /// a position, are not cutting. O(points), parallel.

@@ -71,7 +71,7 @@ std::string second_sentence(const std::string& text) {
 
 ExitCode show_trend(const HistoryCall& call) {
     TrendOptions options = read_trend_options(call.values);
-    const bool json = read_json_beside_output(call.values);
+    const bool json = read_json_with_output(call.values);
     std::optional<PictureOutput> output;
     if (!options.output.empty()) output.emplace(options.output, "-o", PictureKind::drawing);
     io::guard_input(call.database);

@@ -126,7 +126,7 @@ void declare_json(po::options_description& options) {
 
 bool read_json(const po::variables_map& values) { return values.count("json") > 0; }
 
-bool read_json_beside_output(const po::variables_map& values) {
+bool read_json_with_output(const po::variables_map& values) {
     const bool json = read_json(values);
     if (json && values.count("output") > 0 && is_standard_output(values["output"].as<std::string>()))
         throw UsageError("--json and -o both write to standard output");

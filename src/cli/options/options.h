@@ -79,7 +79,7 @@ void note_overruled(Diagnostics& diagnostics, const Log& log, const std::string&
 [[nodiscard]] std::string required(const po::variables_map& values, const char* name);
 
 /// --json of a subcommand whose output is another file. Throws UsageError if both go to standard output.
-[[nodiscard]] bool read_json_beside_output(const po::variables_map& values);
+[[nodiscard]] bool read_json_with_output(const po::variables_map& values);
 
 /// Writes messages of a subcommand for the user: nothing with -q, and to standard error if its output goes to
 /// standard output. Throws SystemError.

@@ -69,13 +69,13 @@ PartOptions read_options_of_one_file(const po::variables_map& values) {
     return options;
 }
 
-constexpr const char* program_beside_log = "give both: PROGRAM LOG";
+constexpr const char* both_needed = "give both: PROGRAM LOG";
 
 }  // namespace
 
 PartOptions read_part_or_log_options(const po::variables_map& values) {
     if (values.count("LOG") > 0) return read_part_options(values);
-    refuse_program_options(values, program_beside_log);
+    refuse_program_options(values, both_needed);
     return read_options_of_one_file(values);
 }
 
@@ -85,7 +85,7 @@ PartOptions read_part_or_program_options(const po::variables_map& values) {
     if (options.log == "-" || !is_log(io::open_source(options.log), options.log_options))
         options.program = std::exchange(options.log, {});
     else
-        refuse_program_options(values, program_beside_log);
+        refuse_program_options(values, both_needed);
     return options;
 }
 

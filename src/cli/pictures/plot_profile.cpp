@@ -35,7 +35,7 @@ bool asks_for_profile(const po::variables_map& values) {
 
 ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz::ChartLook look,
                       const std::string& output_name) {
-    const bool json = read_json_beside_output(values);
+    const bool json = read_json_with_output(values);
     if (options.program.empty()) throw UsageError("--profile needs the program: PROGRAM LOG");
     const std::vector<double> ends = parse_numbers(values["profile"].as<std::string>(), "--profile", 4);
     const Vec2 from(ends[0], ends[1]);

@@ -20,7 +20,7 @@
 namespace clsurf::cli {
 namespace {
 
-void refuse_what_needs_the_whole(const RenderOptions& options, const po::variables_map& values) {
+void refuse_whole_log_options(const RenderOptions& options, const po::variables_map& values) {
     refuse_with_survey(
         values, {"defects", "before", "programmed", "mark-point", "mark-line", "points", "lines", "passes", "follow"});
     if (options.part.as_machined || options.part.role)
@@ -125,7 +125,7 @@ void declare_render_with_shards(po::options_description& options) {
 bool draw_in_shards(const RenderOptions& options, const po::variables_map& values) {
     refuse_unclear_shards(values);
     if (values.count("survey") == 0) return false;
-    refuse_what_needs_the_whole(options, values);
+    refuse_whole_log_options(options, values);
     if (const std::optional<ShardNumber> shard = read_shard_number(values)) {
         write_piece(options, *shard, values);
         return true;

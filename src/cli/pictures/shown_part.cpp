@@ -174,8 +174,8 @@ ShownRange range_in_picture(const Shown& shown, const RenderOptions& options, co
     const ShownPoints points = whole ? ShownPoints() : ShownPoints(in_picture);
     if (!shown.relief)
         return find_range(shown.field, shown.surface, options.shown.range, points, shown.defects.report.sections());
-    return find_range(shown.field, all_as_one_cut(static_cast<PointIndex>(shown.field.values.size())),
-                      options.shown.range, points);
+    return find_range(shown.field, as_one_pass(static_cast<PointIndex>(shown.field.values.size())), options.shown.range,
+                      points);
 }
 
 void warn_of_marks_outside(const Shown& shown, const RenderOptions& options, const viz::Camera& camera,

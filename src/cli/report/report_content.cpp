@@ -79,7 +79,7 @@ ReportedForm form_for_report(const ReportLog& shown, const ReportOptions& option
     look.legend = false;
     ReportedForm made;
     made.map = make_as_machined_map(as_machined, {}, viz::placed_map({panel}, look).camera);
-    made.range = find_range(made.map.field, all_as_one_cut(static_cast<PointIndex>(made.map.field.values.size())), {});
+    made.range = find_range(made.map.field, as_one_pass(static_cast<PointIndex>(made.map.field.values.size())), {});
     return made;
 }
 

@@ -55,7 +55,7 @@ DiffOptions read_diff_options(const po::variables_map& values) {
     options.output = text_of(values, "output", "");
     options.shown = parse_quantity(text_of(values, "color", "speed"));
     options.look = read_look_options(values);
-    options.json = read_json_beside_output(values);
+    options.json = read_json_with_output(values);
     refuse_unused(values, options);
     return options;
 }

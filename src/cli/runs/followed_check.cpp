@@ -45,9 +45,9 @@ void FollowedCheck::follow(PartOptions& options, std::optional<Role> measured) {
             FollowRules rules;
             rules.part = rules_of(options);
             rules.measured = measured;
-            Diagnostics said_at_the_end;
-            rules.part.identity = io::check_identity(program, window, said_at_the_end);
-            rules.part.tool = find_tool(options.tool, &window, &*read, said_at_the_end);
+            Diagnostics final_diagnostics;
+            rules.part.identity = io::check_identity(program, window, final_diagnostics);
+            rules.part.tool = find_tool(options.tool, &window, &*read, final_diagnostics);
             run_.emplace(std::move(*read), window, std::move(rules));
             read.reset();
         }

@@ -14,8 +14,8 @@ constexpr double pause_share = 2;
 
 }  // namespace
 
-ExitCode make_while_it_grows(PartOptions& part, const FollowOptions& follow, const std::string& output,
-                             const std::function<ExitCode(bool last)>& make) {
+ExitCode update_while_growing(PartOptions& part, const FollowOptions& follow, const std::string& output,
+                              const std::function<ExitCode(bool last)>& make) {
     std::error_code error;
     const auto status = std::filesystem::status(output, error);
     if (output == "-" || (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)))

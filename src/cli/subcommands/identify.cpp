@@ -62,7 +62,7 @@ std::vector<Part> load_parts(const std::vector<RunFiles>& files, PartOptions opt
 ExitCode run_identify(const po::variables_map& values) {
     const std::vector<RunFiles> files = read_runs(values);
     const std::string output = required(values, "output");
-    const bool json = read_json_beside_output(values);
+    const bool json = read_json_with_output(values);
     const std::vector<RunFiles> test_files = read_tests(values);
     const PartOptions options = read_part_options(values);
     const Machine known = options.machine.empty() ? Machine{} : io::read_machine(options.machine);

@@ -21,7 +21,7 @@ namespace {
 ExitCode run_optimize(const po::variables_map& values) {
     const std::string output_path = required(values, "output");
     require_program_ending(output_path);
-    const bool json = read_json_beside_output(values);
+    const bool json = read_json_with_output(values);
     Diagnostics diagnostics;
     RepairInputs in = read_repair_inputs(values, diagnostics);
     io::AtomicFile output(output_path);

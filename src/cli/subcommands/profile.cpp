@@ -58,7 +58,7 @@ void warn_of_misfit(const MeasuredData& data, const ScanCut& cut, double toleran
 ExitCode run_profile(const po::variables_map& values) {
     const std::string scan = required(values, "SCAN");
     const std::string path = required(values, "output");
-    const bool json = read_json_beside_output(values);
+    const bool json = read_json_with_output(values);
     const ProfileOptions options = read_profile_options(values);
     require_program_ending(path);
     const MeasuredData data = io::read_measured(scan, options.columns);

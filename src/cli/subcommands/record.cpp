@@ -33,7 +33,7 @@ io::RecordingRules read_rules(const po::variables_map& values) {
 ExitCode run_record(const po::variables_map& values) {
     const std::string output = required(values, "output");
     (void)output_format(output, log_formats());
-    const bool json = read_json_beside_output(values);
+    const bool json = read_json_with_output(values);
     const io::ModbusAddress address = io::parse_modbus_address(required(values, "modbus"));
     io::RecordingRules rules = read_rules(values);
     const std::vector<io::RegisterChannel> channels = io::read_register_map(required(values, "map"));

@@ -113,8 +113,8 @@ ExitCode run_render(const po::variables_map& values) {
     if (draw_in_shards(options, values)) return ExitCode::done;
     const std::optional<FollowOptions> follow = read_follow(values);
     if (!follow) return draw_once(std::move(options), values, true);
-    return make_while_it_grows(options.part, *follow, options.output,
-                               [&](bool last) { return draw_once(options, values, last); });
+    return update_while_growing(options.part, *follow, options.output,
+                                [&](bool last) { return draw_once(options, values, last); });
 }
 
 }  // namespace

@@ -86,8 +86,8 @@ ExitCode run_report(const po::variables_map& values) {
     read_report_shards(values, options);
     const std::optional<FollowOptions> follow = read_follow(values);
     if (!follow) return write_page(options, values, true);
-    return make_while_it_grows(options.part, *follow, options.output,
-                               [&](bool last) { return write_page(options, values, last); });
+    return update_while_growing(options.part, *follow, options.output,
+                                [&](bool last) { return write_page(options, values, last); });
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ ExitCode run_simulate(const po::variables_map& values) {
     refuse_settings_options(values);
     const std::string output = required(values, "output");
     (void)output_format(output, log_formats());
-    (void)read_json_beside_output(values);
+    (void)read_json_with_output(values);
     if (const std::optional<ControllerCommand> command = read_controller(values))
         return record_on_controller(*command, required(values, "PROGRAM"), output, values);
     const Machine machine =
