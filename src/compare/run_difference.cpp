@@ -57,8 +57,8 @@ Column<float> lags_of(const ComparedRun& run) {
 /// The upward normal of the CL surface, or of the path if a pass has no adjacent one.
 Eigen::Vector3f normal_at(const ClSurface& surface, PointIndex i, const Eigen::Vector3f& feed) {
     const Positions& p = surface.positions;
-    const PathLocation left = beside(surface, {i, 0}, feed, Side::left);
-    const PathLocation right = beside(surface, {i, 0}, feed, Side::right);
+    const PathLocation left = adjacent_location(surface, {i, 0}, feed, Side::left);
+    const PathLocation right = adjacent_location(surface, {i, 0}, feed, Side::right);
     const Eigen::Vector3f a = left.exists() ? position_at(p, left) : p[i];
     const Eigen::Vector3f b = right.exists() ? position_at(p, right) : p[i];
     const Eigen::Vector3f across = feed.cross(a - b);

@@ -207,7 +207,7 @@ private:
             if (mine == none || i == 0) return;
             const Eigen::Vector3f feed = programmed_.surface.positions[i] - programmed_.surface.positions[i - 1];
             for (const Side side : {Side::left, Side::right}) {
-                const PathLocation at = beside(programmed_.surface, {i, 0}, feed, side);
+                const PathLocation at = adjacent_location(programmed_.surface, {i, 0}, feed, side);
                 if (!at.exists() || of_point_[static_cast<std::size_t>(at.nearest())] == none) continue;
                 double &a = result_.intervals[mine].speed,
                        &b = result_.intervals[of_point_[static_cast<std::size_t>(at.nearest())]].speed;

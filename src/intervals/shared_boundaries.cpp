@@ -94,7 +94,7 @@ std::vector<PointIndex> AdjacentBoundaries::missing_on_adjacent(PointIndex bound
     const Eigen::Vector3f feed = feed_at(surface.positions, boundary, first);
     std::vector<PointIndex> missing;
     for (const Side side : sides) {
-        const PathLocation here{boundary, 0}, at = beside(surface, here, feed, side);
+        const PathLocation here{boundary, 0}, at = adjacent_location(surface, here, feed, side);
         if (!at.exists() || has_at(at)) continue;
         const PathLocation next = beyond(surface, here, at, feed);
         if (next.exists() && has_at(next)) missing.push_back(at.nearest());

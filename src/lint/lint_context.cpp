@@ -93,8 +93,8 @@ std::optional<std::array<PathLocation, 2>> LintContext::both_sides(const Program
         return std::nullopt;
     const Eigen::Vector3f feed = direction_at(surface().positions, pass, point);
     const PathLocation here{point, 0};
-    const std::array<PathLocation, 2> both{beside(surface(), here, feed, Side::left),
-                                           beside(surface(), here, feed, Side::right)};
+    const std::array<PathLocation, 2> both{adjacent_location(surface(), here, feed, Side::left),
+                                           adjacent_location(surface(), here, feed, Side::right)};
     if (!both[0].exists() || !both[1].exists()) return std::nullopt;
     return both;
 }

@@ -94,9 +94,9 @@ void AsMachinedSurface::measure_sections() {
         for (const Section& section : sections_) all.extend(section.cuts);
     }
     const Vec2 origin = surface_.positions.origin.head<2>();
-    const Vec2 beside = Vec2::Constant(std::max(surface_.step_over, usual_cell()));
+    const Vec2 margin = Vec2::Constant(std::max(surface_.step_over, usual_cell()));
     if (!all.isEmpty())
-        bounds_ = Box2(all.min().cast<double>() + origin - beside, all.max().cast<double>() + origin + beside);
+        bounds_ = Box2(all.min().cast<double>() + origin - margin, all.max().cast<double>() + origin + margin);
 }
 
 Vec3 contact_at(const ClSurface& surface, const Signals& signals, const CuttingTool& tool, PointIndex point) {
@@ -232,13 +232,13 @@ void AsMachinedSurface::map_programmed(const PassesBetween& between, const MapFr
         passes_apart * surface_.step_over, take);
 }
 
-void AsMachinedSurface::map_tiles(const MapFrame& frame, const Gather& gather, double beside,
+void AsMachinedSurface::map_tiles(const MapFrame& frame, const Gather& gather, double farthest,
                                   const TakeRows& take) const {
     const std::int64_t most = frame.rows <= few_rows ? tile_of_row : tile_cells;
     const std::int64_t tiles = (frame.columns + most - 1) / most;
     constexpr float nothing = std::numeric_limits<float>::infinity();
     std::vector<float> rows;
-    const double reach = tool_.radius + usual_cell() + beside;
+    const double reach = tool_.radius + usual_cell() + farthest;
     for (std::int64_t first_row = 0; first_row < frame.rows; first_row += tile_cells) {
         const std::int64_t high = std::min(tile_cells, frame.rows - first_row);
         rows.resize(static_cast<std::size_t>(high * frame.columns));

@@ -95,8 +95,8 @@ private:
     void measure(Section& section) const;
     void read_swept(const Section& section, std::vector<double> (&axes)[3]) const;
     void add_swept(const Section& section, const FrameAxes& axes, SweptPieces& pieces) const;
-    /// `beside` [mm]: largest distance of the gathered pieces of a section from its tips.
-    void map_tiles(const MapFrame& frame, const Gather& gather, double beside, const TakeRows& take) const;
+    /// `farthest` [mm]: largest distance of the gathered pieces of a section from its tips.
+    void map_tiles(const MapFrame& frame, const Gather& gather, double farthest, const TakeRows& take) const;
     [[nodiscard]] std::vector<std::size_t> sections_in(const Box2& box, double reach) const;
 
     const ClSurface& surface_;

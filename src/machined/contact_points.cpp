@@ -103,8 +103,8 @@ PointIndex ContactPoints::walk(PointIndex point, PointRange within, double dista
 
 std::optional<ContactPoints::Direction> ContactPoints::across_at(PointIndex point, const Eigen::Vector3f& feed) const {
     const PathLocation here{point, 0};
-    const PathLocation left = beside(surface_, here, feed, Side::left);
-    const PathLocation right = beside(surface_, here, feed, Side::right);
+    const PathLocation left = adjacent_location(surface_, here, feed, Side::left);
+    const PathLocation right = adjacent_location(surface_, here, feed, Side::right);
     if (!left.exists() && !right.exists()) return std::nullopt;
     if (left.exists() && right.exists()) return Direction{right, left, {}, {}};
     // Every second pass of a zigzag may be slightly displaced: steps over two passes are not affected.

@@ -73,7 +73,7 @@ PathLocation on_adjacent_pass(const ClSurface& surface, const PathLocation& from
     for (const Side side : {Side::left, Side::right}) {
         if (!surface.neighbours.has(side, own)) continue;
         if ((p[surface.neighbours.neighbour(side, own)] - there).dot(across) >= 0) continue;
-        const PathLocation back = beside(surface, found, feed, side);
+        const PathLocation back = adjacent_location(surface, found, feed, side);
         const float share = back.exists() ? (position_at(p, back) - here).dot(across) / across.squaredNorm() : 0;
         return share > least_between && share < 1 - least_between ? back : found;
     }
@@ -240,7 +240,7 @@ bool PassesBetween::between(PointIndex point, Side side, Row& row) const {
     const auto adjacent = [&](const PathLocation& from, const PathLocation& found) {
         return on_adjacent_pass(surface_, from, found, feed);
     };
-    const PathLocation next = adjacent(own, beside(surface_, own, feed, side));
+    const PathLocation next = adjacent(own, adjacent_location(surface_, own, feed, side));
     if (!next.exists()) return false;
     Across across;
     across.set(0, smooth(point));
@@ -261,7 +261,7 @@ bool PassesBetween::between(PointIndex point, Side side, Row& row) const {
         }
     };
     const Side other = side == Side::left ? Side::right : Side::left;
-    go_on(own, adjacent(own, beside(surface_, own, feed, other)), -1, -1);
+    go_on(own, adjacent(own, adjacent_location(surface_, own, feed, other)), -1, -1);
     go_on(next, adjacent(next, beyond(surface_, own, next, feed)), 2, 1);
     const AcrossCurve curve(across);
     for (int k = 0; k < count; ++k)

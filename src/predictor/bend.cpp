@@ -121,7 +121,7 @@ Bends::Turn Bends::turn_at(PointIndex point) const {
 /// Whether an adjacent pass takes a similar bend faster.
 bool Bends::is_faster_on_adjacent(PointIndex bend, const Turn& turn) const {
     for (const Side side : {Side::left, Side::right}) {
-        const PathLocation at = beside(surface_, {bend, 0}, signals_.feed(bend), side);
+        const PathLocation at = adjacent_location(surface_, {bend, 0}, signals_.feed(bend), side);
         if (!at.exists() || signals_[at.nearest()].zone == Zone::outside) continue;
         PointIndex slowest = at.nearest();
         for (const int direction : {-1, 1}) {
@@ -141,7 +141,7 @@ bool Bends::turns_alone(PointIndex bend, const Turn& turn) const {
     const float slight = std::acos(turn.cosine) * own_share;
     bool any_adjacent = false;
     for (const Side side : {Side::left, Side::right}) {
-        const PathLocation at = beside(surface_, {bend, 0}, signals_.feed(bend), side);
+        const PathLocation at = adjacent_location(surface_, {bend, 0}, signals_.feed(bend), side);
         if (!at.exists() || signals_[at.nearest()].zone == Zone::outside) continue;
         any_adjacent = true;
         for (float along = -adjacent_reach; along <= adjacent_reach; along += adjacent_spacing) {
@@ -180,7 +180,7 @@ float Bends::adjacent_distance(PointIndex point) const {
     float nearest = std::numeric_limits<float>::infinity();
     const Eigen::Vector3f feed = signals_.feed(point);
     for (const Side side : {Side::left, Side::right}) {
-        const PathLocation at = beside(surface_, {point, 0}, feed, side);
+        const PathLocation at = adjacent_location(surface_, {point, 0}, feed, side);
         if (!at.exists()) continue;
         nearest = std::min(nearest, (position_at(surface_.positions, at) - surface_.positions[point]).norm());
     }
@@ -200,7 +200,7 @@ float Bends::turn_difference(PointIndex point) const {
     const Eigen::Vector3f own = turn(point);
     float least = std::numeric_limits<float>::infinity();
     for (const Side side : {Side::left, Side::right}) {
-        const PathLocation at = beside(surface_, {point, 0}, signals_.feed(point), side);
+        const PathLocation at = adjacent_location(surface_, {point, 0}, signals_.feed(point), side);
         if (!at.exists()) continue;
         // A pass in the opposite direction also turns in the opposite direction: the difference of its feeds is the same.
         const float other = (own - turn(at.nearest())).norm();

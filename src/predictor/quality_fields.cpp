@@ -29,7 +29,7 @@ float acceleration_mismatch(const Comparer& comparer, const Signals&, PointIndex
 float speed_difference(const ClSurface& surface, const Signals& signals, PointIndex i) {
     float most = missing<float>;
     for (const Side side : {Side::left, Side::right}) {
-        const PathLocation at = beside(surface, {i, 0}, signals.feed(i), side);
+        const PathLocation at = adjacent_location(surface, {i, 0}, signals.feed(i), side);
         if (!at.exists()) continue;
         const float d = signals[i].speed - compared_at(signals, at, signals.normal(i)).speed;
         if (!(std::abs(most) >= std::abs(d))) most = d == d ? d : most;

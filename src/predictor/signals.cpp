@@ -256,8 +256,8 @@ private:
         const Eigen::Vector3f feed = out_.feed(i);
         const Positions& p = surface_.positions;
         const Eigen::Vector3f here = p[i];
-        const PathLocation left = beside(surface_, {i, 0}, feed, Side::left);
-        const PathLocation right = beside(surface_, {i, 0}, feed, Side::right);
+        const PathLocation left = adjacent_location(surface_, {i, 0}, feed, Side::left);
+        const PathLocation right = adjacent_location(surface_, {i, 0}, feed, Side::right);
         if (!left.exists() && !right.exists()) return missing<float>;
         const Eigen::Vector3f a = left.exists() ? position_at(p, left) : here;
         const Eigen::Vector3f b = right.exists() ? position_at(p, right) : here;

@@ -39,7 +39,7 @@ Marks spread_aside(const JudgedRun& run, const Marks& marks) {
     for (PointIndex i = 0; i < run.surface.positions.size(); ++i) {
         if (marks[static_cast<std::size_t>(i)] == 0) continue;
         for (const Side side : {Side::left, Side::right}) {
-            const PathLocation at = beside(run.surface, {i, 0}, run.signals.feed(i), side);
+            const PathLocation at = adjacent_location(run.surface, {i, 0}, run.signals.feed(i), side);
             if (at.exists()) spread[static_cast<std::size_t>(at.nearest())] = 1;
         }
     }

@@ -15,7 +15,8 @@ bool cuts(const ClSurface& surface, PointIndex point) {
 
 }  // namespace
 
-PathLocation beside(const ClSurface& surface, const PathLocation& from, const Eigen::Vector3f& feed, Side side) {
+PathLocation adjacent_location(const ClSurface& surface, const PathLocation& from, const Eigen::Vector3f& feed,
+                               Side side) {
     const PointIndex own = from.nearest();
     if (!surface.neighbours.has(side, own)) return {};
     const Positions& p = surface.positions;
@@ -54,7 +55,7 @@ PathLocation beyond(const ClSurface& surface, const PathLocation& before, const 
     for (const Side side : {Side::left, Side::right}) {
         if (!surface.neighbours.has(side, own)) continue;
         const Eigen::Vector3f on = p[surface.neighbours.neighbour(side, own)] - p[own];
-        if (on.dot(across) > 0) return beside(surface, from, feed, side);
+        if (on.dot(across) > 0) return adjacent_location(surface, from, feed, side);
     }
     return {};
 }

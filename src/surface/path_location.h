@@ -32,8 +32,8 @@ template <typename T>
 
 /// The intersection of the pass on that side with the plane through `from`, normal to `feed` (any length); none if
 /// there is no neighbour. O(1): the adjacency has the point next to it.
-[[nodiscard]] PathLocation beside(const ClSurface& surface, const PathLocation& from, const Eigen::Vector3f& feed,
-                                  Side side);
+[[nodiscard]] PathLocation adjacent_location(const ClSurface& surface, const PathLocation& from,
+                                             const Eigen::Vector3f& feed, Side side);
 
 /// The same on the side away from `before`, the location on the previous pass: sides are relative to the feed, which
 /// is reversed on every other pass of a zigzag.
@@ -46,7 +46,7 @@ template <typename T>
 template <typename FeedAt, typename F>
 PathLocation walk_aside(const ClSurface& surface, const PathLocation& from, Side side, FeedAt&& feed, F&& f) {
     PathLocation before = from;
-    const PathLocation adjacent = beside(surface, from, feed(from), side);
+    const PathLocation adjacent = adjacent_location(surface, from, feed(from), side);
     PathLocation at = adjacent;
     while (at.exists() && f(at, before)) {
         const PathLocation next = beyond(surface, before, at, feed(at));

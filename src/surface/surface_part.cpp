@@ -39,10 +39,10 @@ PassNumbers passes_of(const ClSurface& surface, const PointRange& own) {
     PassNumbers fresh;
     for (std::size_t k = first; k <= last; ++k) fresh.insert(k);
     for (int aside = 0; aside < passes_aside; ++aside) {
-        PassNumbers beside;
-        for (const std::size_t k : fresh) add_adjacent(surface, surface.passes[k], beside);
+        PassNumbers adjacent;
+        for (const std::size_t k : fresh) add_adjacent(surface, surface.passes[k], adjacent);
         fresh.clear();
-        for (const std::size_t k : beside) {
+        for (const std::size_t k : adjacent) {
             if (all.insert(k).second) fresh.insert(k);
         }
     }

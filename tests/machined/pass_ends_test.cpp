@@ -125,7 +125,7 @@ TEST(PassEnds, WhatLiesBesideAnEndIsThePassNotTheLift) {
         for (PointIndex i = pass.last - 3; i <= pass.last; ++i) {
             for (const Side side : {Side::left, Side::right}) {
                 // A feed direction with the rounding error of the positions.
-                const PathLocation at = beside(made.surface, {i, 0}, {1, 0, 1e-4F}, side);
+                const PathLocation at = adjacent_location(made.surface, {i, 0}, {1, 0, 1e-4F}, side);
                 if (!at.exists()) continue;
                 const Pass& beside_it = pieces[pass_of(pieces, at.point)];
                 EXPECT_EQ(beside_it.kind, PassKind::cut) << i;

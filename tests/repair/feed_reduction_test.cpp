@@ -97,7 +97,7 @@ TEST(FeedReductionTest, LevelsThePassesBesideASlowSection) {
         }
         const auto point = static_cast<PointIndex>(i);
         for (const Side side : {Side::left, Side::right}) {
-            const PathLocation at = beside(part.run.surface, {point, 0}, part.run.signals.feed(point), side);
+            const PathLocation at = adjacent_location(part.run.surface, {point, 0}, part.run.signals.feed(point), side);
             if (!at.exists()) continue;
             const auto j = static_cast<std::size_t>(at.point);
             const float other =

@@ -97,8 +97,8 @@ FeedEqualiser::FeedEqualiser(const JudgedRun& run)
                 const auto point = static_cast<std::size_t>(i);
                 if (!(own_[point] == own_[point])) continue;
                 const Eigen::Vector3f feed = run.signals.feed(i);
-                adjacent_[point] = {beside(run.surface, {i, 0}, feed, Side::left),
-                                    beside(run.surface, {i, 0}, feed, Side::right)};
+                adjacent_[point] = {adjacent_location(run.surface, {i, 0}, feed, Side::left),
+                                    adjacent_location(run.surface, {i, 0}, feed, Side::right)};
                 for (const PathLocation& at : {adjacent_[point].left, adjacent_[point].right}) {
                     if (!at.exists()) continue;
                     const std::size_t other = pass_of[static_cast<std::size_t>(at.nearest())];

@@ -167,7 +167,7 @@ private:
     [[nodiscard]] double lag_step(PointIndex i) const {
         double most = 0;
         for (const Side side : {Side::left, Side::right}) {
-            const PathLocation at = beside(run_.surface, {i, 0}, run_.signals.feed(i), side);
+            const PathLocation at = adjacent_location(run_.surface, {i, 0}, run_.signals.feed(i), side);
             if (!at.exists()) continue;
             const double step =
                 std::abs(run_.signals[i].lag - compared_at(run_.signals, at, run_.signals.normal(i)).lag);

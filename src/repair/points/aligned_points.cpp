@@ -48,7 +48,7 @@ private:
                 if (!surface_.neighbours.has(side, i) || surface_.neighbours.neighbour(side, i) >= pass.first) continue;
                 const Eigen::Vector3f feed =
                     surface_.positions[std::min(i + 1, pass.last)] - surface_.positions[std::max(i - 1, pass.first)];
-                const PathLocation at = beside(surface_, {i, 0}, feed, side);
+                const PathLocation at = adjacent_location(surface_, {i, 0}, feed, side);
                 if (!at.exists()) continue;
                 const auto j = static_cast<std::size_t>(at.point);
                 const double phase = at.fraction > 0 ? phases_.of_point[j] +
