@@ -102,14 +102,14 @@ std::string draw_in_shards(const viz::MapPanel& panel, int shards, const ShownRa
 }
 
 /// "part.ngc · run.csv"
-std::string names_of(const PicturedPart& shown) {
+std::string program_and_log(const PicturedPart& shown) {
     return fmt::format("{} · {}", file_name(shown.part->program.main().name()), file_name(shown.part->log.name));
 }
 
 viz::MapTexts texts_of(const PicturedPart& shown, const FieldInfo& info, const ShownRange& range) {
     viz::MapTexts texts;
     texts.title = fmt::format("{}, {} surface", info.label, name_of(shown.part->path.role));
-    texts.subtitle = names_of(shown);
+    texts.subtitle = program_and_log(shown);
     texts.frame = common_work_system(shown.part->program.motions);
     if (is_speed(info)) texts.notes.emplace_back(viz::ramps_note);
     if (!range.note.empty()) texts.notes.push_back(range.note);
@@ -125,7 +125,7 @@ io::PagePicture picture_of_defects(const PicturedPart& shown) {
     viz::Look look = map_look(shown);
     look.names = true;
     const viz::MapTexts texts = defect_map_texts(
-        *shown.report, *shown.part, fmt::format("{} · {}", names_of(shown), viz::counts_of(*shown.surface)));
+        *shown.report, *shown.part, fmt::format("{} · {}", program_and_log(shown), viz::counts_of(*shown.surface)));
     return {"Defects", "Numbers are those of the table of all defects.", draw(panel, {}, texts, look)};
 }
 

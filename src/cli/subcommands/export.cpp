@@ -41,7 +41,7 @@ ExitCode list_columns(const po::variables_map& values, const Part& part, StageCl
     return ExitCode::done;
 }
 
-std::vector<std::string> names_of(const po::variables_map& values) {
+std::vector<std::string> requested_columns(const po::variables_map& values) {
     std::vector<std::string> names =
         split_names(given(values, "columns") ? values["columns"].as<std::string>() : "point,time,line,x,y,z,speed");
     if (names.empty()) throw UsageError("--columns: no names");
@@ -57,7 +57,7 @@ ExitCode write_channels(const Log& log, const std::string& output, std::string_v
                         const po::variables_map& values) {
     print(log.diagnostics, values);
     const std::vector<io::ExportColumn> columns =
-        exported_channels(given(values, "columns") ? names_of(values) : std::vector<std::string>(), log);
+        exported_channels(given(values, "columns") ? requested_columns(values) : std::vector<std::string>(), log);
     if (format == "csv")
         io::write_csv(output, columns);
     else if (format == "biip")
@@ -78,7 +78,7 @@ ExitCode run_export(const po::variables_map& values) {
     }
     if (values.count("json") > 0) throw UsageError("--json is a form of --list", "add --list");
     const std::string output = required(values, "output");
-    const std::vector<std::string> names = names_of(values);
+    const std::vector<std::string> names = requested_columns(values);
     const PartOptions options = read_part_or_log_options(values);
     if (const std::optional<ShardNumber> shard = read_shard_number(values))
         return write_shard(options, *shard, names, values);
