@@ -57,12 +57,9 @@ std::string code_html(const Program& program, const DefectSection& section) {
 
 std::string list_of_lines(const std::vector<DefectSection>& sections) {
     constexpr std::size_t most_listed_sections = 6;
-    std::string text;
-    for (std::size_t k = 0; k < std::min(most_listed_sections, sections.size()); ++k)
-        text += fmt::format("{}{} (pass {})", k > 0 ? ", " : "", lines_text(sections[k]), sections[k].pass);
-    if (sections.size() > most_listed_sections)
-        text += fmt::format(" and {} more", sections.size() - most_listed_sections);
-    return text;
+    return list_of_sections(sections, most_listed_sections, [](const DefectSection& section) {
+        return fmt::format("{} (pass {})", lines_text(section), section.pass);
+    });
 }
 
 }  // namespace
@@ -78,6 +75,15 @@ std::string lines_text(const DefectSection& section) {
     if (section.first_line == 0) return "–";
     return section.first_line == section.last_line ? fmt::format("{}", section.first_line)
                                                    : fmt::format("{}–{}", section.first_line, section.last_line);
+}
+
+std::string list_of_sections(std::span<const DefectSection> sections, std::size_t most,
+                             std::string (*text_of)(const DefectSection&)) {
+    std::string text;
+    for (std::size_t k = 0; k < std::min(most, sections.size()); ++k)
+        text += (k > 0 ? ", " : "") + text_of(sections[k]);
+    if (sections.size() > most) text += fmt::format(" and {} more", sections.size() - most);
+    return text;
 }
 
 std::string defect_card_html(const ReportPage& page, std::size_t defect) {

@@ -62,13 +62,8 @@ std::string metadata_text(const Log& log, const char* name) {
 }
 
 std::string defect_lines(const Defect& d) {
-    std::string text;
-    constexpr std::size_t shown = 4;
-    const std::vector<DefectSection> sections = strongest_first(d);
-    for (std::size_t k = 0; k < std::min(shown, sections.size()); ++k)
-        text += (k > 0 ? ", " : "") + lines_text(sections[k]);
-    if (sections.size() > shown) text += fmt::format(" and {} more", sections.size() - shown);
-    return text;
+    constexpr std::size_t most_listed = 4;
+    return list_of_sections(strongest_first(d), most_listed, lines_text);
 }
 
 /// Bars across the page: why there is no verdict, and what the log lacks.
