@@ -20,7 +20,7 @@ namespace clsurf {
 namespace {
 
 // shares_of_tolerance, mixing_rounds, most_mixing_rounds, most_fed, most_equalised_early, more_rounds:
-// docs/experiments/repair.md#the-search-in-detail. worst_alone, slow_as_well: docs/optimize.md#method, step 2. periods_a_line:
+// docs/experiments/repair.md#the-search-in-detail. worst_rules, slow_rules: docs/optimize.md#method, step 2. periods_a_line:
 // planners that put arcs into corners slow down at shorter lines (docs/experiments/kernel.md#what-made-the-difference).
 constexpr std::array<double, 3> shares_of_tolerance{0.2, 0.1, 0.4};  ///< distance of lines from the curve
 constexpr double reserve = 1.1;                     ///< factor for the arc length in a block time or in periods
