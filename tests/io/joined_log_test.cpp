@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "io/formats/biip.h"
+#include "io/formats/log_format.h"
 #include "support/temporary_folder.h"
 
 namespace clsurf::io::joined_log_test {
