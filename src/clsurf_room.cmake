@@ -44,6 +44,19 @@ function(clsurf_arrows name)
   set_property(GLOBAL APPEND_STRING PROPERTY CLSURF_ARROWS "${name}: ${needs}\n")
 endfunction()
 
+# clsurf_listed_sources(VARIABLE LIST): the sources that the rows KIND(name, sources) of a list (.def) name, which are in its
+# folder. C++ includes the same list.
+function(clsurf_listed_sources variable list)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${list})
+  file(STRINGS ${list} rows REGEX "^[A-Z_]+\\(")
+  list(TRANSFORM rows REPLACE "^.*, (.*)\\)$" "\\1")
+  string(REGEX MATCHALL "[^ ;]+" sources "${rows}")
+  list(REMOVE_DUPLICATES sources)
+  get_filename_component(folder ${list} DIRECTORY)
+  list(TRANSFORM sources PREPEND ${folder}/)
+  set(${variable} ${sources} PARENT_SCOPE)
+endfunction()
+
 function(clsurf_room name)
   cmake_parse_arguments(PARSE_ARGV 1 ROOM "" "" "NEEDS;SOURCES;HEADERS;LIBRARIES")
   get_filename_component(base ${CMAKE_CURRENT_SOURCE_DIR} DIRECTORY)
