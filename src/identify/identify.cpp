@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "identify/axis_record.h"
 #include "identify/limit_parameters.h"
 #include "identify/parameter_uncertainty.h"
 #include "identify/planner_rules.h"
@@ -16,20 +17,24 @@
 namespace clsurf {
 namespace {
 
-/// Puts the period of the runs into the machine.
+/// Puts the period of the runs into the machine: the shortest, because a recorder may leave out records, but adds none.
 void identify_period(std::span<const IdentifyRun> runs, Identification& result) {
-    constexpr double same = 1e-6;  // relative
+    const Log& finest = *std::min_element(runs.begin(), runs.end(), [](const IdentifyRun& a, const IdentifyRun& b) {
+                             return a.log->period < b.log->period;
+                         })->log;
     // Controllers count nanoseconds; times in text have rounding errors.
-    const double period = std::round(runs.front().log->period * 1e9) * 1e-9;
+    const double period = std::round(finest.period * 1e9) * 1e-9;
+    std::string note = "of the records";
     for (const auto& [log, lines, tips] : runs) {
-        if (std::abs(log->period - period) > same * period)
-            throw InputError(
-                Place::of_file(log->name),
-                fmt::format("has a period of {} s, but {} has {} s", log->period, runs.front().log->name, period),
-                "identify from logs of one period");
+        if (same_period(log->period, period)) continue;
+        note = "of the records of " + finest.name;
+        result.diagnostics.add(
+            {Severity::note, "identify.period", Place::of_file(log->name),
+             fmt::format("has a period of {:.6g} s, and {} has {:.6g} s", log->period, finest.name, period),
+             "the servo loop of an axis is fitted to the runs of the shortest period that show its gain"});
     }
     result.machine.controller.period = period;
-    result.parameters.push_back({"period", "controller", period, "s", {}, {}, "of the records"});
+    result.parameters.push_back({"period", "controller", period, "s", {}, {}, std::move(note)});
 }
 
 /// Adds the fidelity of a machine in a run to `list`, or the reason why there is none to `result`: limits that the runs of

@@ -11,8 +11,8 @@
 
 namespace clsurf {
 
-/// The values that the runs determine. `known` contains the values known so far; identified values replace them. All runs
-/// must have the same period. Throws InputError: periods differ, or nothing can be identified. O(records), parallel.
+/// The values that the runs determine. `known` contains the values known so far; identified values replace them. The
+/// period is the shortest of the runs. Throws InputError: nothing can be identified. O(records), parallel.
 [[nodiscard]] Identification identify(std::span<const IdentifyRun> runs, const Machine& known);
 
 /// The same for programs with their logs, including the rules of the planner and the fidelity of the fit. Throws what

@@ -27,15 +27,22 @@ struct MotionPiece {
     std::vector<char> rapid;
 };
 
+/// The pieces of the runs of one period.
+struct PeriodMotion {
+    double period = 0;  ///< [s]
+    std::vector<MotionPiece> pieces;
+};
+
 struct Motion {
-    std::string letters;  ///< of the axes; linear ones first
-    double period = 0;
+    std::string letters;             ///< of the axes; linear ones first
     double rounding = 0;             ///< step of the commanded positions [mm or deg]
     std::vector<double> resolution;  ///< resolution of their stored numbers, by axis [mm or deg]
     bool has_tips = false;
     double reach = 0;  ///< greatest distance of the tips from the workpiece's zero [mm]
-    std::vector<MotionPiece> pieces;
+    std::vector<PeriodMotion> parts;
 
+    /// Number of limited quantities: one for each axis, then one for the path.
+    [[nodiscard]] std::size_t quantities() const { return letters.size() + 1; }
     [[nodiscard]] std::size_t linear() const {
         return static_cast<std::size_t>(std::count_if(letters.begin(), letters.end(), [](char c) { return c >= 'x'; }));
     }
@@ -66,7 +73,6 @@ double rounding_of(const ChannelView& channel, std::span<const PointRange> secti
 
 Motion gather_motion(std::span<const IdentifyRun> runs) {
     Motion motion;
-    motion.period = runs.front().log->period;
     for (const char letter : {'x', 'y', 'z', 'a', 'b', 'c'}) {
         const std::string name = std::string("cmd.") + letter;
         const bool all = std::all_of(runs.begin(), runs.end(),
@@ -102,7 +108,7 @@ Motion gather_motion(std::span<const IdentifyRun> runs) {
                 for (const std::vector<double>& tips : piece.tips)
                     for (const double value : tips) motion.reach = std::max(motion.reach, std::abs(value));
             }
-            motion.pieces.push_back(std::move(piece));
+            row_of_period(motion.parts, run.log->period).pieces.push_back(std::move(piece));
         }
     }
     return motion;
@@ -140,22 +146,21 @@ struct Quantities {
     std::vector<char> rapid;
 };
 
-Quantities quantities_of(const MotionPiece& piece, const Motion& motion, int order, std::size_t stride) {
+Quantities quantities_of(const MotionPiece& piece, const Motion& motion, double period, int order, std::size_t stride) {
     Quantities made;
     std::vector<std::vector<double>> velocities;
     for (const std::vector<double>& positions : piece.positions)
-        made.values.push_back(differences(positions, order, stride, motion.period));
+        made.values.push_back(differences(positions, order, stride, period));
     const std::span<const std::vector<double>> along =
         motion.has_tips ? std::span(piece.tips) : std::span(piece.positions).first(motion.linear());
-    for (const std::vector<double>& positions : along)
-        velocities.push_back(differences(positions, 1, stride, motion.period));
+    for (const std::vector<double>& positions : along) velocities.push_back(differences(positions, 1, stride, period));
     made.speeds.resize(velocities.front().size());
     for (std::size_t i = 0; i < made.speeds.size(); ++i) {
         double square = 0;
         for (const std::vector<double>& velocity : velocities) square += velocity[i] * velocity[i];
         made.speeds[i] = std::sqrt(square);
     }
-    made.values.push_back(differences(made.speeds, order - 1, stride, motion.period));
+    made.values.push_back(differences(made.speeds, order - 1, stride, period));
     drop_bends(velocities, made.speeds, static_cast<std::size_t>(order - 1) * stride, made.values.back());
     made.rapid.assign(piece.rapid.begin(),
                       piece.rapid.begin() + static_cast<std::ptrdiff_t>(made.values.front().size()));
@@ -195,28 +200,31 @@ MachineAxis* axis_of(Machine& machine, char letter) {
     return k.rotation.letter == letter ? &machine.rotary[1] : nullptr;
 }
 
-/// The greatest absolute value of each quantity.
-std::vector<double> greatest_of(const Motion& motion, int order, std::size_t stride) {
-    std::vector<double> greatest(motion.letters.size() + 1, 0.0);
-    for (const MotionPiece& piece : motion.pieces) {
+/// Raises the greatest absolute value of each quantity to that of a part.
+void raise_greatest(const Motion& motion, const PeriodMotion& part, int order, std::size_t stride,
+                    std::vector<double>& greatest) {
+    for (const MotionPiece& piece : part.pieces) {
         if (piece.rapid.size() <= static_cast<std::size_t>(order) * stride) continue;
-        const Quantities quantities = quantities_of(piece, motion, order, stride);
+        const Quantities quantities = quantities_of(piece, motion, part.period, order, stride);
         for (std::size_t q = 0; q < greatest.size(); ++q) {
             for (const double value : quantities.values[q]) greatest[q] = std::max(greatest[q], std::abs(value));
         }
     }
-    return greatest;
 }
 
 /// The greatest error of a difference if positions are rounded to `step`: 2^order half steps.
 double error_of(double step, double time, int order) { return std::pow(2.0, order - 1) * step / std::pow(time, order); }
 
 /// The shortest differences whose rounding error is below a percent.
-std::size_t stride_of(const Motion& motion, int order) {
+std::size_t stride_of(const Motion& motion, const PeriodMotion& part, int order) {
     constexpr double exact = 0.01;
     std::size_t stride = 1;
-    const auto error = [&] { return error_of(motion.rounding, static_cast<double>(stride) * motion.period, order); };
-    while (stride < 12 && error() > exact * greatest_of(motion, order, stride).back()) ++stride;
+    const auto is_exact = [&] {
+        std::vector<double> greatest(motion.quantities(), 0.0);
+        raise_greatest(motion, part, order, stride, greatest);
+        return error_of(motion.rounding, static_cast<double>(stride) * part.period, order) <= exact * greatest.back();
+    };
+    while (stride < 12 && !is_exact()) ++stride;
     return stride;
 }
 
@@ -231,23 +239,22 @@ enum class Evidence : std::uint8_t {
 class LimitSearch {
 public:
     LimitSearch(const Motion& motion, const LimitKind& kind) : motion_(motion), kind_(kind) {
-        const std::size_t stride = stride_of(motion, kind.order);
-        time_ = static_cast<double>(stride) * motion.period;
-        for (std::size_t q = 0; q <= motion.letters.size(); ++q)
-            rounding_.push_back(error_of(motion.resolution_along(q), time_, kind.order));
-        greatest_ = greatest_of(motion, kind.order, stride);
-        std::vector<PlateauFinder> finders;
-        for (std::size_t q = 0; q < greatest_.size(); ++q)
-            finders.emplace_back(error_of(motion.rounding, time_, kind.order), kind.least, greatest_[q],
-                                 kind.order == 2);
-        for (const MotionPiece& piece : motion.pieces) {
-            if (piece.rapid.size() <= static_cast<std::size_t>(kind.order) * stride) continue;
-            const Quantities quantities = quantities_of(piece, motion, kind.order, stride);
-            const std::span<const char> allowed =
-                kind.order == 1 ? std::span<const char>(quantities.rapid) : std::span<const char>();
-            for (std::size_t q = 0; q < finders.size(); ++q)
-                finders[q].add(quantities.values, q, quantities.speeds, allowed);
+        greatest_.assign(motion.quantities(), 0.0);
+        std::vector<std::size_t> strides;
+        for (const PeriodMotion& part : motion.parts) {
+            strides.push_back(stride_of(motion, part, kind.order));
+            const double time = static_cast<double>(strides.back()) * part.period;
+            shortest_time_ = std::min(shortest_time_, time);
+            longest_time_ = std::max(longest_time_, time);
+            raise_greatest(motion, part, kind.order, strides.back(), greatest_);
         }
+        for (std::size_t q = 0; q < motion.quantities(); ++q)
+            rounding_.push_back(error_of(motion.resolution_along(q), shortest_time_, kind.order));
+        std::vector<PlateauFinder> finders;
+        for (const double greatest : greatest_)
+            finders.emplace_back(error_of(motion.rounding, shortest_time_, kind.order), kind.least, greatest,
+                                 kind.order == 2);
+        for (std::size_t k = 0; k < motion.parts.size(); ++k) add_plateaus(motion.parts[k], strides[k], finders);
         for (const PlateauFinder& finder : finders) {
             levels_.push_back(finder.highest(least_places, kind.order > 1));
             bounds_.push_back(std::max(finder.nearly_greatest(), finder.held()));
@@ -273,6 +280,17 @@ public:
     }
 
 private:
+    void add_plateaus(const PeriodMotion& part, std::size_t stride, std::vector<PlateauFinder>& finders) const {
+        for (const MotionPiece& piece : part.pieces) {
+            if (piece.rapid.size() <= static_cast<std::size_t>(kind_.order) * stride) continue;
+            const Quantities quantities = quantities_of(piece, motion_, part.period, kind_.order, stride);
+            const std::span<const char> allowed =
+                kind_.order == 1 ? std::span<const char>(quantities.rapid) : std::span<const char>();
+            for (std::size_t q = 0; q < finders.size(); ++q)
+                finders[q].add(quantities.values, q, quantities.speeds, allowed);
+        }
+    }
+
     [[nodiscard]] std::size_t path_number() const { return motion_.letters.size(); }
     /// Whether a quantity is at its greatest value in a plateau.
     [[nodiscard]] bool at_limit(const Plateau& plateau, std::size_t q) const {
@@ -335,7 +353,7 @@ private:
             p.reached.reset();
             p.note = "no limit seen: the acceleration changes between its limits from one record to the next";
         } else {
-            p.value = lower_bound(q) * kind_.factor;
+            p.value = lower_bound(q);
             p.shown = rounded_to(bounds_[q] * kind_.factor, 1e-3 * bounds_[q] * kind_.factor);
             const bool unlimited = target == 0, shared = evidence == Evidence::shared;
             if (shared)
@@ -350,31 +368,34 @@ private:
         result.parameters.push_back(std::move(p));
     }
 
-    /// The lower bound that the motion gives for an unknown limit, reduced by the rounding of positions and of the result.
+    /// The lower bound that the motion gives for an unknown limit [reported unit], reduced by the rounding of positions and of
+    /// the result.
     [[nodiscard]] double lower_bound(std::size_t q) const {
         constexpr double part = 1e-3;
-        const double rounding = std::max(rounding_[q], error_of(motion_.rounding, time_, kind_.order));
+        const double rounding = std::max(rounding_[q], error_of(motion_.rounding, shortest_time_, kind_.order));
         const double shown = std::max(0.0, bounds_[q] - rounding) * kind_.factor;
-        return rounded_to(shown * (1 - part), part * shown) / kind_.factor;
+        return rounded_to(shown * (1 - part), part * shown);
     }
 
     /// Whether rounding alone explains the greatest value.
     [[nodiscard]] bool is_rounding(std::size_t q) const {
         constexpr double several = 4;  // steps of rounding that add up
-        return greatest_[q] * motion_.period < 1e-9 || greatest_[q] <= several * rounding_[q];
+        const auto moves = [&](const PeriodMotion& part) { return greatest_[q] * part.period >= 1e-9; };
+        return std::none_of(motion_.parts.begin(), motion_.parts.end(), moves) ||
+               greatest_[q] <= several * rounding_[q];
     }
 
     /// Whether the acceleration reaches its limit within the time of a difference.
     [[nodiscard]] bool reverses_at_once(const std::string& of, std::size_t q, const Identification& result) const {
         constexpr double acceleration_share = 0.6;
         const IdentifiedParameter* acceleration = result.find("max_acceleration", of);
-        return acceleration != nullptr && greatest_[q] * time_ > acceleration_share * acceleration->value;
+        return acceleration != nullptr && greatest_[q] * longest_time_ > acceleration_share * acceleration->value;
     }
 
     const Motion& motion_;
     const LimitKind& kind_;
-    double time_ = 0;               ///< of a difference [s]
-    std::vector<double> rounding_;  ///< greatest error of a value from rounded positions
+    double shortest_time_ = INFINITY, longest_time_ = 0;  ///< of a difference [s]
+    std::vector<double> rounding_;                        ///< greatest error of a value from rounded positions
     std::vector<double> greatest_, bounds_;
     std::vector<std::optional<PlateauFinder::Level>> levels_;
 };
@@ -383,7 +404,7 @@ private:
 
 void identify_limits(std::span<const IdentifyRun> runs, Identification& result) {
     const Motion motion = gather_motion(runs);
-    if (motion.letters.empty() || motion.linear() == 0 || motion.pieces.empty()) {
+    if (motion.letters.empty() || motion.linear() == 0 || motion.parts.empty()) {
         result.unidentified.push_back({"max_speed, max_acceleration, max_jerk", "path", "no commanded positions"});
         return;
     }

@@ -13,11 +13,18 @@
 namespace clsurf {
 namespace {
 
+/// Records of one axis in runs of one period.
+struct PeriodRecords {
+    double period = 0;  ///< [s]
+    std::vector<AxisRecord> records;
+};
+
 /// An axis with its records in the runs that have both of its positions.
 struct AxisData {
     char letter = 'x';
     bool commanded = false, feedback = false;  ///< recorded in some run
-    std::vector<AxisRecord> records;
+    std::vector<PeriodRecords> records;        ///< the shortest period first
+    double period = 0;                         ///< of the records of the fit [s]
     ServoFit fit;
 
     [[nodiscard]] std::string name() const { return {letter}; }
@@ -38,8 +45,11 @@ std::vector<AxisData> gather_axes(std::span<const Log* const> runs) {
             axis.feedback |= feedback != nullptr;
             if (commanded == nullptr || feedback == nullptr) continue;
             const std::array views{commanded->values, feedback->values};
-            axis.records.push_back({views[0], views[1], find_sections(*log, views)});
+            row_of_period(axis.records, log->period)
+                .records.push_back({views[0], views[1], find_sections(*log, views)});
         }
+        std::sort(axis.records.begin(), axis.records.end(),
+                  [](const PeriodRecords& a, const PeriodRecords& b) { return a.period < b.period; });
         if (axis.commanded || axis.feedback) axes.push_back(std::move(axis));
     }
     return axes;
@@ -65,8 +75,8 @@ void miss_loop(const AxisData& axis, const std::string& reason, Identification& 
 
 class LoopReport {
 public:
-    LoopReport(const AxisData& axis, double period, Identification& result)
-        : axis_(axis), result_(result), period_(period), model_(model_of(axis.fit.parameters, period)) {}
+    LoopReport(const AxisData& axis, Identification& result)
+        : axis_(axis), result_(result), model_(model_of(axis.fit.parameters, axis.period)) {}
 
     void report(ServoModel& target) {
         const ServoFit& fit = axis_.fit;
@@ -83,8 +93,9 @@ public:
         put("velocity_feedforward", gain && fit.knows(ServoTerm::feedforward), error(ServoTerm::feedforward),
             std::max(0.0, model_.velocity_feedforward), "", target.velocity_feedforward, 1,
             lag ? separate : no_dynamics);
-        put("velocity_time_constant", gain && fit.knows(ServoTerm::velocity_step), fit.time_constant_error(period_),
-            model_.velocity_time_constant, "s", target.velocity_time_constant, 1, no_dynamics);
+        put("velocity_time_constant", gain && fit.knows(ServoTerm::velocity_step),
+            fit.time_constant_error(axis_.period), model_.velocity_time_constant, "s", target.velocity_time_constant, 1,
+            no_dynamics);
         put_term(ServoTerm::integral_step, "velocity_integral_time", "s", target.velocity_integral_time, 1);
         if (lag || gain)
             result_.parameters.push_back({"lag",
@@ -123,8 +134,8 @@ private:
     [[nodiscard]] double reported(ServoTerm term, double value) const {
         switch (term) {
             case ServoTerm::friction: return value * seconds_per_minute;
-            case ServoTerm::dead_time: return value * period_;
-            case ServoTerm::integral_step: return period_ / value;
+            case ServoTerm::dead_time: return value * axis_.period;
+            case ServoTerm::integral_step: return axis_.period / value;
             default: return value;
         }
     }
@@ -132,7 +143,8 @@ private:
     /// Its standard error in this unit.
     [[nodiscard]] double reported_error(ServoTerm term) const {
         const double value = axis_.fit.parameters[term];
-        return term == ServoTerm::integral_step ? period_ * error(term) / (value * value) : reported(term, error(term));
+        return term == ServoTerm::integral_step ? axis_.period * error(term) / (value * value)
+                                                : reported(term, error(term));
     }
 
     /// Reports a term that is in the loop only if there is evidence.
@@ -216,11 +228,10 @@ private:
 
     const AxisData& axis_;
     Identification& result_;
-    double period_;
     ServoModel model_;
 };
 
-void report_axis(const AxisData& axis, double period, Identification& result) {
+void report_axis(const AxisData& axis, Identification& result) {
     if (axis.records.empty())
         return miss_loop(
             axis, axis.commanded ? "no log has fed-back positions of it" : "no log has commanded positions of it",
@@ -236,21 +247,31 @@ void report_axis(const AxisData& axis, double period, Identification& result) {
              {},
              fmt::format("axis {} is not in the machine file: the kinematics are not known", axis.letter),
              "give a machine file with [kinematics] by --machine"});
-    LoopReport(axis, period, result).report(target != nullptr ? *target : none);
+    LoopReport(axis, result).report(target != nullptr ? *target : none);
+}
+
+/// Fits the loop to the records of the shortest period that show its gain, else in which the axis moves. The loop of the
+/// model has the period of the records, so that records of several periods have no common fit.
+void fit_axis(AxisData& axis) {
+    for (const PeriodRecords& of : axis.records) {
+        ServoFit fit = fit_servo(of.records, of.period);
+        const bool known = fit.knows(ServoTerm::log_gain);
+        if (known || !axis.fit.moves) {
+            axis.period = of.period;
+            axis.fit = std::move(fit);
+        }
+        if (known) return;
+    }
 }
 
 }  // namespace
 
 void identify_servos(std::span<const Log* const> runs, Identification& result) {
     std::vector<AxisData> axes = gather_axes(runs);
-    const double period = runs.front()->period;
     parallel_for(static_cast<std::int64_t>(axes.size()), 1, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t k = first; k < last; ++k) {
-            AxisData& axis = axes[static_cast<std::size_t>(k)];
-            if (!axis.records.empty()) axis.fit = fit_servo(axis.records, period);
-        }
+        for (std::int64_t k = first; k < last; ++k) { fit_axis(axes[static_cast<std::size_t>(k)]); }
     });
-    for (const AxisData& axis : axes) report_axis(axis, period, result);
+    for (const AxisData& axis : axes) report_axis(axis, result);
 }
 
 }  // namespace clsurf

@@ -3,7 +3,9 @@
 #include "identify/limit_parameters.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -91,6 +93,28 @@ TEST(LimitParameters, LinesAlongTheAxesTellNoneFromThePath) {
         }
         EXPECT_NEAR(result->machine.path.max_jerk, 50000, 500) << "a file that repeats the runs";
     }
+}
+
+/// The same limits in runs of 1 and 2 ms, of which the second alone goes along oblique lines.
+TEST(LimitParameters, RunsOfSeveralPeriodsShowOneLimit) {
+    Machine machine = with_jerks(80000, 50000);
+    std::vector<Part> parts;
+    for (const auto& [period, directions] : {std::pair(0.001, parallel), std::pair(0.002, all_ways)}) {
+        machine.controller.period = period;
+        const std::string text = lines_along(directions);
+        parts.push_back(assemble(read_text(text), simulate_to_log(read_text(text), machine, Vec3::Zero()).log));
+    }
+    const std::array runs{IdentifyRun{&parts[0].log, nullptr, nullptr}, IdentifyRun{&parts[1].log, nullptr, nullptr}};
+    Identification result, first, second;
+    identify_limits(runs, result);
+    identify_limits({&runs[0], 1}, first);
+    identify_limits({&runs[1], 1}, second);
+    EXPECT_EQ(result.find("max_jerk", "path")->reached, true);
+    for (const char* of : {"x", "y", "z"}) expect_no_contradiction(result, of, 80000);
+    expect_no_contradiction(result, "path", 50000);
+    const auto acceleration = [](const Identification& of) { return of.find("max_acceleration", "path")->value; };
+    const double greater = std::max(acceleration(first), acceleration(second));
+    EXPECT_NEAR(acceleration(result), greater, 0.01 * greater);
 }
 
 /// Values of a quantity with some plateaus of 8 records each, at increasing speeds, with ramps between them.

@@ -3,6 +3,7 @@
 #include "identify/servo_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <string_view>
@@ -262,6 +263,36 @@ TEST(ServoParameters, TheMachineHasTheLagOfTheRecords) {
             << "draw " << draw;
     }
     EXPECT_GT(partly_known, 0);
+}
+
+// One run at 4 ms moves X and Y, one at 1 ms moves Y only: X is fitted to the first, Y to the second.
+TEST(ServoParameters, OfEachAxisComeFromTheShortestPeriodThatShowsThem) {
+    std::mt19937_64 random(5);
+    ServoModel x, y;
+    x.position_gain = 60, y.position_gain = 90;
+    x.velocity_time_constant = y.velocity_time_constant = 0.003;
+    const auto log_of = [&](double period, bool with_x) {
+        const std::vector<double> moves = random_moves(random, 12000, period), rest(moves.size(), 0.0);
+        const AxisRun of_x = run_of(x, period, with_x ? moves : rest), of_y = run_of(y, period, moves);
+        return test::log_of_columns(
+            period,
+            {{"cmd.x", of_x.commanded}, {"fb.x", of_x.feedback}, {"cmd.y", of_y.commanded}, {"fb.y", of_y.feedback}});
+    };
+    const Log coarse = log_of(0.004, true), fine = log_of(0.001, false);
+    const std::array runs{&coarse, &fine};
+    Identification found;
+    identify_servos(runs, found);
+    const auto expect = [&](const char* name, const char* axis, double truth) {
+        const IdentifiedParameter* value = found.find(name, axis);
+        ASSERT_NE(value, nullptr) << name << " of " << axis;
+        EXPECT_NEAR(value->value, truth, limit * value->standard_error.value() + 1e-6 * truth)
+            << name << " of " << axis;
+    };
+    expect("position_gain", "x", 60);
+    expect("position_gain", "y", 90);
+    expect("velocity_time_constant", "x", 0.003);
+    expect("velocity_time_constant", "y", 0.003);
+    EXPECT_EQ(found.unidentified.size(), 0U);
 }
 
 TEST(ServoFit, ConstantSpeedTellsTheLagAlone) {

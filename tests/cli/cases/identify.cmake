@@ -98,9 +98,11 @@ clsurf_cli_test(NAME identify_keeps_the_fit_where_a_run_cannot_be_tested
   SETUP "printf 'G21 G90\\nG0 X0 Y0 Z0\\nG1 X50 F3000\\nM2\\n' > p.nc; $CLSURF simulate p.nc --machine @DATA@/machines/three_axis_mill.toml -o r.biip -q; ${gear_cutting}"
   ARGS identify p.nc r.biip -o m.toml --test @DATA@/programs/keychain.mpf gear.json FILE m.toml
   STDOUT "not tested: .*gear.* moves rotary axes, and the kinematics are not known" "r.biip: time" NO_STDOUT "test runs")
-clsurf_cli_test(NAME identify_two_periods
-  SETUP "printf '[controller]\\nperiod = 0.002\\n' > p.toml; $CLSURF simulate @DATA@/programs/dome_loops.nc --machine p.toml -o r.biip -q"
-  ARGS identify ${bottle} @DATA@/programs/dome_loops.nc r.biip -o m.toml EXIT 3 NO_FILE m.toml STDERR "r.biip: error: has a period of 0.002 s, but .* has 0.001 s")
+set(two_periods "${two_parts_of_the_dome}; sed 's/^period.*/period = 0.002/' @DATA@/machines/linuxcnc_kernel.toml > 2ms.toml; $CLSURF simulate test.nc --machine 2ms.toml -o test.biip -q")
+clsurf_cli_test(NAME identify_two_periods SETUP "${two_periods}"
+  ARGS identify test.nc test.biip fit.nc fit.biip -o m.toml -v FILE m.toml
+  STDOUT "period +controller +0[.]001 s +of the records of fit.biip" "position_gain +x +(100|99[.]9[0-9]*|100[.]0[0-9]*) 1/s"
+  STDERR "test.biip: note: has a period of 0.002 s, and fit.biip has 0.001 s")
 # A recording of a SINUMERIK: 0.6 s of a gear-cutting cycle. A counter restarts at its end, which is not a motion.
 clsurf_cli_test(NAME identify_a_short_recording SETUP "${gear_cutting}" ARGS identify @DATA@/programs/keychain.mpf gear.json -o m.toml
   STDOUT "x: the axis does not move" "b: constant speed throughout .max_acceleration" "moves rotary axes, and the kinematics are not known"
