@@ -51,6 +51,28 @@ def write_three_axes(file, mode, feed, passes, form="%.3f"):
     file.write_text("\n".join(lines + ["G0 Z20", "M5", "M2"]) + "\n")
 
 
+def oblique(passes, step_over, degrees, height, ends, error, rng):
+    """Parallel passes at an angle to X, with lines of uneven length. `ends`: where a pass begins and ends."""
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+
+    def point(u, v):
+        x, y = u * c - v * s + 5, u * s + v * c
+        return x, y, height(x, y)
+
+    made = []
+    for k in range(passes):
+        v = k * step_over
+        u, end = ends(v)
+        points = [point(u, v)]
+        while u < end:
+            before, here, after = (point(u + d, v)[2] for d in (-1e-3, 0, 1e-3))
+            bend = max(abs(before - 2 * here + after) / 1e-6, 1e-3)
+            u = min(u + min(2.5, math.sqrt(8 * error / bend)) * rng.uniform(0.5, 1), end)
+            points.append(point(u, v))
+        made.append(points)
+    return zigzag(made)
+
+
 def rounded_rectangle(a, b, radius, steps, z):
     corners = [(a - radius, b - radius, 0), (radius - a, b - radius, 90), (radius - a, radius - b, 180),
                (a - radius, radius - b, 270)]
@@ -108,6 +130,20 @@ def write_three_axis_programs(folder):
         passes.append(points)
     write_three_axes(folder / "plainmode.ngc", "(no G64)", 2800, zigzag(passes))
     write_arcs(folder / "arcs.ngc")
+
+
+def write_oblique_programs(folder):
+    """Adjacent passes differ in their ramps before and after the turns alone."""
+    rng = random.Random(23)
+    write_three_axes(folder / "oblique.ngc", "G64 P0.01", 5000,
+                     oblique(28, 0.4, 23, lambda x, y: 5 * math.sin(x / 9) * math.cos(y / 11) + 0.006 * (x - 20) ** 2,
+                             lambda v: (0, 38), 0.004, rng), "%.4f")
+    write_three_axes(folder / "bounded.ngc", "G64 P0.005", 4000,
+                     oblique(30, 0.35, -13, lambda x, y: 4 * math.sin(x / 8) * math.cos(y / 13),
+                             lambda v: (3 * math.sin(v / 3), 34 - 2 * math.cos(v / 2.5)), 0.004, rng))
+    write_three_axes(folder / "fast.ngc", "G64 P0.01", 6000,
+                     oblique(30, 0.35, 31, lambda x, y: 3.5 * math.sin(x / 11) * math.cos(y / 9) + 0.006 * (x - 20) ** 2,
+                             lambda v: (2 * math.sin(v / 4), 30 - math.cos(v / 2)), 0.005, rng))
 
 
 def angles_of(axis):
@@ -187,6 +223,7 @@ def main():
     folder = pathlib.Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
     write_three_axis_programs(folder)
+    write_oblique_programs(folder)
     write_five_axis_programs(folder)
 
 

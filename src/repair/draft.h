@@ -9,7 +9,9 @@
 #include "machine/machine.h"
 #include "program/program.h"
 #include "repair/optimize_rules.h"
+#include "repair/points/line_rules.h"
 #include "repair/points/orientation.h"
+#include "repair/points/resample.h"
 #include "surface/programmed_surface.h"
 
 namespace clsurf {
@@ -21,6 +23,7 @@ using ReadProgram = std::function<Program(const std::string& text)>;
 struct DraftLines {
     double chord_error = 0;    ///< largest distance of a line from the smooth curve
     double shortest_line = 0;  ///< shorter lines are used only to keep the tolerance
+    EndLines ends{};           ///< of all passes, also where they need no repair
 };
 
 struct Draft {
@@ -42,6 +45,8 @@ public:
 
     /// New points for the motions that need repair (one entry per motion).
     [[nodiscard]] Draft draft(const DraftLines& lines, std::vector<std::uint8_t> needed) const;
+    /// The median length of the lines of the cut passes [mm].
+    [[nodiscard]] double usual_spacing() const { return clsurf::usual_spacing(program_, programmed_); }
     /// The program without changes.
     [[nodiscard]] Draft unchanged() const;
 

@@ -33,7 +33,8 @@ constexpr int most_mixing_rounds = 6;               ///< … or more, while the 
 constexpr std::size_t most_sections_alone = 24;     ///< sections that are tried alone if nothing else is accepted
 constexpr double share_of_drafts = 0.35;            ///< share of all runs for points alone; the others are for feeds
 constexpr double most_time_to_regain = 0.01;        ///< as a share, by motions that get their old points back
-constexpr std::size_t most_fed = 5;                 ///< drafts for which feeds are searched
+constexpr std::size_t most_fed = 5;                 ///< drafts for which feeds are searched …
+constexpr std::size_t most_fed_ends = 2;            ///< … and those with lines that are alike at the ends of passes
 constexpr std::size_t most_equalised_early = 2;     ///< drafts of these that are equalised early
 constexpr double most_behind = 0.2;   ///< by score, after the first rounds: drafts farther behind the best are dropped
 constexpr double small_share = 0.3;   ///< share of the time for a reduction that begins with inexpensive defects …
@@ -47,6 +48,12 @@ constexpr std::size_t most_drafts_of_other_steps = 2;     ///< … for at most t
 /// Steps for the best proposal, one after the other …
 constexpr std::array<double, 4> polishing_steps{FeedReduction::usual_step, 0.85, 0.55, 0.4};
 constexpr double least_polished = 1e-3;  ///< … repeated while the score falls by this much
+
+// docs/experiments/repair.md#the-ends-of-passes.
+constexpr std::array<double, 3> end_steps{2, 1.4, 1};  ///< lengths of the lines near the ends of passes, in usual lines
+constexpr double usual_first_line = 0.25;              ///< length of the first and last line, as a share of these …
+constexpr std::array<double, 2> other_first_lines{0.1, 0.5};  ///< … and other ones for the best of the lengths
+constexpr double least_end_lines = 4;                         ///< lines that are alike at the ends of passes
 
 /// The median feed of the cutting lines [mm/s].
 double usual_feed(const Program& program) {
@@ -181,6 +188,44 @@ private:
         return choices;
     }
 
+    /// Lines of a length [mm] for the ends of passes. They reach as far as the tool needs to stop with half of its acceleration,
+    /// which planners that overlap blocks use.
+    [[nodiscard]] EndLines end_lines(double step) const {
+        double acceleration = machine_.path.max_acceleration;
+        for (const MachineAxis& axis : machine_.axes) {
+            if (axis.max_acceleration > 0) acceleration = std::min(acceleration, axis.max_acceleration);
+        }
+        const double feed = usual_feed(program_);
+        return {usual_first_line * step, step, std::max(feed * feed / acceleration, least_end_lines * step)};
+    }
+
+    /// Proposes the best draft, and the program itself, with lines that are alike at the ends of all passes. The best first.
+    [[nodiscard]] std::vector<TriedProposal> propose_ends(const Drafter& drafter, const Draft& best) {
+        std::vector<TriedProposal> drafts;
+        const auto propose_lines = [&](const EndLines& ends, const std::vector<std::uint8_t>& needed) {
+            DraftLines lines = best.lines;
+            lines.ends = ends;
+            if (evaluator_.has_time(share_of_drafts)) propose(drafter.draft(lines, needed), drafts);
+        };
+        const std::vector<std::uint8_t> nothing(best.needed.size(), 0);
+        for (const double share : end_steps) {
+            const EndLines ends = end_lines(share * drafter.usual_spacing());
+            propose_lines(ends, best.needed);
+            propose_lines(ends, nothing);
+        }
+        sort(drafts);
+        if (drafts.empty()) return drafts;
+        const std::shared_ptr<const Draft> first = drafts.front()->draft;
+        for (const double share : other_first_lines) {
+            EndLines ends = first->lines.ends;
+            ends.first = share * ends.step;
+            propose_lines(ends, first->needed);
+        }
+        mix(drafter, drafts.front(), drafts);
+        sort(drafts);
+        return drafts;
+    }
+
     /// Proposes each draft, and the program itself, with the speeds of its constant-speed intervals.
     void propose_intervals(const Drafter& drafter) {
         std::vector<Draft> drafts;
@@ -211,6 +256,7 @@ private:
             return;
         }
         sort(drafts);
+        const std::vector<TriedProposal> ended = propose_ends(drafter, *drafts.front()->draft);
         std::vector<TriedProposal> mixed, narrow;
         for (std::size_t k = 0; k < std::min(most_mixed, drafts.size()); ++k) {
             mix(drafter, drafts[k], mixed);
@@ -233,6 +279,9 @@ private:
                 if (k < each->size()) order.push_back((*each)[k]);
             }
         }
+        order.resize(std::min(order.size(), most_fed));
+        order.insert(order.end(), ended.begin(),
+                     ended.begin() + static_cast<std::ptrdiff_t>(std::min(ended.size(), most_fed_ends)));
         seek_feeds(order);
     }
 
@@ -245,7 +294,6 @@ private:
         };
         std::vector<Fed> fed;
         for (const TriedProposal& points : drafts) {
-            if (fed.size() == most_fed) break;
             fed.push_back({points, {points, small_share}});
             feeds.reduce_feeds(fed.back().reduction, first_rounds);
         }

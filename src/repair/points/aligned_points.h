@@ -27,6 +27,7 @@ struct AlignedPoint {
     double arc_length = 0;    ///< [mm] from the beginning of the section
     std::int64_t number = 0;  ///< its phase in quarters
     double part = 0;          ///< [mm] of arc length per quarter
+    bool fixed = false;       ///< a line ends here in any case
 };
 
 /// Aligned points between two points of the surface, from a margin after the first one to a margin before the last one, which

@@ -3,6 +3,13 @@
 
 namespace clsurf {
 
+/// Lines that are alike at the ends of all passes.
+struct EndLines {
+    double first = 0;  ///< [mm] length of the first and of the last line of a pass; 0: the ends are not special
+    double step = 0;   ///< [mm] length of the lines next to it, …
+    double reach = 0;  ///< … up to this arc length from the end [mm]
+};
+
 struct LineRules {
     double spacing = 0;        ///< [mm] between aligned points
     double usual = 0;          ///< [mm] usual spacing of the program's points, and largest length of new lines
@@ -11,6 +18,7 @@ struct LineRules {
     double most = 0;           ///< [mm] largest distance of lines from the old ones, before rounding
     double radius = 0;         ///< [mm] of the tube around the curve: the tolerance minus the chord errors
     double most_turned = 0;    ///< [rad] largest angle between the tool axes of new and old lines
+    EndLines ends{};
 };
 
 }  // namespace clsurf

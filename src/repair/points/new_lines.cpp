@@ -50,6 +50,7 @@ private:
             const double wanted =
                 most > 0 ? std::min(std::sqrt(8 * rules_.chord_error / most), rules_.usual) : rules_.usual;
             const AlignedPoint& aligned_point = aligned_points_[k - 1];
+            if (aligned_point.fixed) continue;
             const int level = level_of(wanted, aligned_point.part);
             const double line = std::ldexp(aligned_point.part, level),
                          to_end = std::min(curve_.arc_length[k], curve_.arc_length.back() - curve_.arc_length[k]);
@@ -60,16 +61,17 @@ private:
         return kept;
     }
 
-    /// Of two aligned points closer to each other than the shortest line, drops the one with fewer trailing zero bits in its
-    /// number.
+    /// Of two aligned points closer to each other than the shortest line, drops the one that is not fixed or has fewer trailing
+    /// zero bits in its number.
     void drop_close(std::vector<std::uint8_t>& kept) const {
         std::size_t before = 0;  // last kept point
         for (std::size_t k = 1; k + 1 < kept.size(); ++k) {
             if (kept[k] == 0) continue;
             if (before > 0 && curve_.arc_length[k] - curve_.arc_length[before] < rules_.shortest_line) {
-                const std::int64_t mine = aligned_points_[k - 1].number, other = aligned_points_[before - 1].number;
-                const bool drop_other = (mine & -mine) > (other & -other);
-                kept[drop_other ? before : k] = 0;
+                const AlignedPoint &mine = aligned_points_[k - 1], &other = aligned_points_[before - 1];
+                const bool drop_other =
+                    mine.fixed || (!other.fixed && (mine.number & -mine.number) > (other.number & -other.number));
+                if (!mine.fixed || !other.fixed) kept[drop_other ? before : k] = 0;
                 if (!drop_other) continue;
             }
             before = k;
@@ -84,7 +86,10 @@ private:
         return static_cast<int>(std::clamp(std::max(coarsest, finest), 0.0, most_doublings));
     }
 
-    [[nodiscard]] NewPlace place(std::size_t k) const { return {curve_.arc_length[k], curve_.points[k]}; }
+    [[nodiscard]] NewPlace place(std::size_t k) const {
+        const bool is_aligned = k > 0 && k + 1 < curve_.points.size();
+        return {curve_.arc_length[k], curve_.points[k], is_aligned && aligned_points_[k - 1].fixed};
+    }
 
     /// Adds the point at k, and before it those between `from` and k that the line needs to stay close enough to the old lines.
     void join(std::size_t from, std::size_t k) {
@@ -180,8 +185,10 @@ private:
             const double before = earlier != nullptr ? length(*earlier, kept.back()) : never,
                          after = next != nullptr ? length(end, *next) : never;
             if (length(kept.back(), end) < short_share * std::min(before, after)) {
-                const double without_begin = earlier != nullptr ? error_without(*earlier, kept.back(), end) : never,
-                             without_end = next != nullptr ? error_without(kept.back(), end, *next) : never;
+                const double without_begin =
+                    earlier != nullptr && !kept.back().fixed ? error_without(*earlier, kept.back(), end) : never;
+                const double without_end =
+                    next != nullptr && !end.fixed ? error_without(kept.back(), end, *next) : never;
                 if (without_end < without_begin) continue;
                 if (without_begin < never) kept.pop_back();
             }

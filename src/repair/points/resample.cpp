@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
+#include <utility>
 
 #include "core/parallel.h"
 #include "core/statistics.h"
 #include "numeric/polyline.h"
+#include "repair/points/end_points.h"
 #include "repair/points/new_lines.h"
 #include "repair/points/section_spline.h"
 #include "repair/spline_lines.h"
@@ -47,7 +48,8 @@ LineRules line_rules(const ResampleRules& rules, const Spacings& spacings, doubl
             rules.chord_error,
             most,
             tube_radius(most, rules, spacings),
-            most_turned_used * (rules.most_turned - turn_rounding)};
+            most_turned_used * (rules.most_turned - turn_rounding),
+            rules.ends};
 }
 
 class Resampler {
@@ -67,7 +69,10 @@ public:
           phases_(run_phases(programmed, rules.spacing)) {}
 
     [[nodiscard]] std::vector<ResampledSegment> run() const {
-        const std::vector<ProgrammedPass> passes = cut_passes(programmed_);
+        std::vector<ProgrammedPass> passes = cut_passes(programmed_);
+        if (lines_.ends.first > 0) {
+            for (ProgrammedPass& pass : passes) pass = up_to_corners(programmed_, std::move(pass));
+        }
         std::vector<std::vector<ResampledSegment>> of_pass(passes.size());
         parallel_for(static_cast<std::int64_t>(passes.size()), passes_a_piece,
                      [&](std::int64_t first, std::int64_t last) {
@@ -75,8 +80,11 @@ public:
                              run_pass(passes[k], of_pass[k]);
                      });
         std::vector<ResampledSegment> segments;
-        for (std::vector<ResampledSegment>& mine : of_pass)
-            segments.insert(segments.end(), std::make_move_iterator(mine.begin()), std::make_move_iterator(mine.end()));
+        for (std::vector<ResampledSegment>& mine : of_pass) {
+            // Two passes may share a whole line.
+            for (ResampledSegment& each : mine)
+                if (segments.empty() || each.first > segments.back().last) segments.push_back(std::move(each));
+        }
         return segments;
     }
 
@@ -143,8 +151,9 @@ private:
         if (end < begin + shortest_segment) return;
         const OldSegment old = old_segment(pass, begin, end);
         if (old.length() < lines_.spacing) return;
-        const std::vector<AlignedPoint> aligned_points =
+        std::vector<AlignedPoint> aligned_points =
             aligned_points_between(programmed_, phases_, pass.ends[begin], pass.ends[end], old.length());
+        fix_end_points(aligned_points, old.length(), begin == 0, end + 1 == pass.ends.size(), lines_.ends);
         std::optional<TurningSegment> turning;
         if (turns(old)) turning.emplace(old, *orientation_, aligned_points, lines_);
         ResampledSegment segment{motion(pass.ends[begin + 1]), motion(pass.ends[end]), {}};
@@ -229,6 +238,10 @@ double fitting(const Spacings& spacings, double chord_error) {
 
 double fitting_spacing(const Program& program, const ProgrammedSurface& programmed, double chord_error) {
     return fitting(spacings_of(program, programmed), chord_error);
+}
+
+double usual_spacing(const Program& program, const ProgrammedSurface& programmed) {
+    return spacings_of(program, programmed).usual;
 }
 
 std::vector<ResampledSegment> resample(const Program& program, const ProgrammedSurface& programmed,

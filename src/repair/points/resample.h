@@ -9,6 +9,7 @@
 
 #include "numeric/bezier_curve.h"
 #include "repair/line_edit.h"
+#include "repair/points/line_rules.h"
 #include "repair/points/orientation.h"
 #include "surface/programmed_surface.h"
 
@@ -23,6 +24,7 @@ struct ResampleRules {
     double corner_angle = 0.5;  ///< [rad] points where the path turns by more are not moved
     double most_turned = 0;     ///< [rad] largest error of the tool axis, rounding included
     bool splines = false;       ///< sections become splines if the dialect has them; three axes
+    EndLines ends{};
 };
 
 /// Motions first … last (lines that may be rewritten, on one pass) and the points that replace their ends. The last point is
@@ -37,6 +39,9 @@ struct ResampledSegment {
 /// The spacing of lines where the path bends most [mm]: for a chord error at the 98th percentile of curvature, between
 /// a fifth of the usual spacing of the program and the whole of it.
 [[nodiscard]] double fitting_spacing(const Program& program, const ProgrammedSurface& programmed, double chord_error);
+
+/// The median length of the lines of the cut passes [mm].
+[[nodiscard]] double usual_spacing(const Program& program, const ProgrammedSurface& programmed);
 
 /// Sections of all passes, in the order of the program. `needed`: one entry per motion, 0 if it must not change; empty: all
 /// may. `orientation`: of a program that is run on five axes; otherwise nullptr, and angles do not change. The tool axis at a

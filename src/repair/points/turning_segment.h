@@ -12,6 +12,7 @@ namespace clsurf {
 struct NewPlace {
     double arc_length = 0;         ///< [mm] along the old lines
     Vec3 position = Vec3::Zero();  ///< [mm]
+    bool fixed = false;            ///< as AlignedPoint::fixed
 };
 
 /// The largest angle between the tool axis on a new line and on the old ones.
