@@ -41,8 +41,8 @@ public:
     /// 5·10^4.
     explicit RuleScores(std::span<const RecordedRun> runs);
 
-    /// |difference of speed| at every sample [mm/s]; NaN: not compared. Machines with the same plan, and those that merge
-    /// the same lines, are simulated only once.
+    /// |difference of speed| of every sample, the mean of 32 records [mm/s]; NaN: not compared. Machines with the same plan,
+    /// and those that merge the same lines, are simulated only once.
     [[nodiscard]] std::vector<float> residuals(const Machine& machine);
     /// Mean |difference of speed| over the compared samples [mm/s].
     [[nodiscard]] double mean_error(const Machine& machine);

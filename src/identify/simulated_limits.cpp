@@ -57,7 +57,8 @@ public:
         for (const double end : {lowest, greatest}) {
             if (mean_error(end) < mean_error(best)) best = end;
         }
-        best = of_round_values(best);
+        if (mean_error(best) > scores_.resolution())
+            best = best_of(round_values(best / (1 + about_best), best * (1 + about_best)), best);
         const double is = mean_error(best);
         // If the model differs from the machine, a limit may compensate for other errors.
         return !as_good(now, best) && (is <= (1 - least_gain) * was || scores_.explains(is)) ? best : now;
@@ -71,6 +72,8 @@ public:
         if (lowest < best && beyond_doubt(lowest, best) > 0) found.lowest = end_between(lowest, best, exact);
         if (beyond_doubt(greatest, best) > 0) found.highest = end_between(greatest, best, exact);
         found.exact = mean_error(best) <= scores_.resolution();
+        if (found.exact && found.highest)
+            found.best = best_of(round_values(found.lowest.value_or(lowest), *found.highest), best);
         return found;
     }
 
@@ -146,17 +149,21 @@ private:
         return now * std::exp(share);
     }
 
-    /// A round value near `best` that explains the runs better, or else `best`. The motion of a trapezoidal planner changes
-    /// by whole periods. Therefore the mean error has many minima near the true value, and people choose round values.
-    [[nodiscard]] double of_round_values(double best) const {
-        if (!is_trapezoidal(machine_) || mean_error(best) <= scores_.resolution()) return best;
+    /// The round values from `lowest` to `highest`: the motion of a trapezoidal planner changes by whole periods. Therefore the
+    /// mean error has many minima near the true value, and people choose round values. Empty for other planners.
+    [[nodiscard]] std::vector<double> round_values(double lowest, double highest) const {
         std::vector<double> values;
+        if (!is_trapezoidal(machine_)) return values;
         const auto add_multiples_of = [&](double step) {
-            for (double k = std::ceil(best / (1 + about_best) / step); k * step <= best * (1 + about_best); ++k)
-                values.push_back(k * step);
+            for (double k = std::ceil(lowest / step); k * step <= highest; ++k) values.push_back(k * step);
         };
-        add_multiples_of(std::pow(10, std::floor(std::log10(best))) / round_steps);
+        add_multiples_of(std::pow(10, std::floor(std::log10(highest))) / round_steps);
         if (key_ == speed_key) add_multiples_of(seconds_per_minute);
+        return values;
+    }
+
+    /// The one of `values` that explains the runs best, or `best`.
+    [[nodiscard]] double best_of(const std::vector<double>& values, double best) const {
         prepare(values);
         for (const double value : values) {
             if (mean_error(value) < mean_error(best)) best = value;

@@ -54,6 +54,7 @@ constexpr std::array<double, 3> end_steps{2, 1.4, 1};  ///< lengths of the lines
 constexpr double usual_first_line = 0.25;              ///< length of the first and last line, as a share of these …
 constexpr std::array<double, 2> other_first_lines{0.1, 0.5};  ///< … and other ones for the best of the lengths
 constexpr double least_end_lines = 4;                         ///< lines that are alike at the ends of passes
+constexpr double least_runs_for_ends = 120;  ///< in a shorter search, other steps would miss these runs
 
 /// The median feed of the cutting lines [mm/s].
 double usual_feed(const Program& program) {
@@ -202,6 +203,7 @@ private:
     /// Proposes the best draft, and the program itself, with lines that are alike at the ends of all passes. The best first.
     [[nodiscard]] std::vector<TriedProposal> propose_ends(const Drafter& drafter, const Draft& best) {
         std::vector<TriedProposal> drafts;
+        if (evaluator_.most_runs() < least_runs_for_ends) return drafts;
         const auto propose_lines = [&](const EndLines& ends, const std::vector<std::uint8_t>& needed) {
             DraftLines lines = best.lines;
             lines.ends = ends;

@@ -79,6 +79,8 @@ double Evaluator::most_points() const {
     return most_run_points * (1 - (1 - share_of_large) * size);
 }
 
+double Evaluator::most_runs() const { return most_points() / static_cast<double>(before_.log.records); }
+
 void Evaluator::allow_more_time() {
     more_time_ = rules_.more_time;
     points_ = std::min(points_, 0.5 * most_points());

@@ -66,6 +66,8 @@ public:
     /// Whether one more proposal may be tried (always for the first one). The total number of simulated points is limited, and
     /// a share of it may be used now. The number of consecutive proposals without improvement is also limited.
     [[nodiscard]] bool has_time(double share = 1) const;
+    /// How many runs of the program have as many simulated points as the whole search.
+    [[nodiscard]] double most_runs() const;
 
     /// `targets`: as in a Proposal, or empty.
     TriedProposal propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
