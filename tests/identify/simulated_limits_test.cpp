@@ -72,6 +72,27 @@ TEST(SimulatedLimits, AccelerationsOfBlocksThatOverlapAreFound) {
     }
 }
 
+// Few places show the acceleration of X, and the values that explain the run to the resolution of a model differ by several
+// percent.
+TEST(SimulatedLimits, OfTheValuesThatExplainARunTheBestRoundOneIsTaken) {
+    Machine real = overlapping();
+    real.controller.trapezoid.arc_blends = true;
+    real.controller.period = 0.002;
+    real.axes[0].max_acceleration = 4000;
+    real.axes[1].max_acceleration = 3000;
+    real.axes[2].max_acceleration = 2500;
+    const Part part = waves_on(real);
+    for (const double now : {3930.0, 4270.0}) {
+        Machine known = real;
+        known.axes[0].max_acceleration = now;
+        const Identification result = searched(part, known, "x", 3900).result;
+        const IdentifiedParameter& x = result.parameters.front();
+        ASSERT_TRUE(x.standard_error) << now;
+        EXPECT_DOUBLE_EQ(x.value, 4000) << now;
+        EXPECT_DOUBLE_EQ(result.machine.axes[0].max_acceleration, 4000) << now;
+    }
+}
+
 // The axes are slower than the path.
 TEST(SimulatedLimits, ALimitThatIsOnlyBoundedFromBelowKeepsItsValue) {
     Machine known = overlapping();
