@@ -19,7 +19,7 @@
 namespace clsurf {
 namespace {
 
-constexpr PointIndex sample_every = 32;  ///< records, which give one residual: their mean
+constexpr PointIndex sample_records = 32;  ///< records of one sample; its residual is their mean |difference|
 
 /// The mean |difference| of those that are not NaN; NaN: there are none.
 float mean_size(std::span<const float> differences) {
@@ -44,9 +44,9 @@ void score(const std::vector<std::vector<float>>& residuals, const RuleScores& s
 /// right one of two overrides that the criterion did not distinguish was better by 16 %.
 constexpr double gain_of_equal = 0.1;
 
-/// The share by which mean errors may differ by chance, if the best candidate explains the runs. The criterion takes samples as
-/// independent, but what a model leaves unexplained lasts for many of them: of two overrides, the right one was 1.5 % worse,
-/// which the criterion called decisive.
+/// The share by which mean errors may differ by chance, if the best candidate explains the runs. The criterion takes samples
+/// as independent, but what a model leaves unexplained lasts for many of them: of two overrides, the right one was 1.5 %
+/// worse, which the criterion called decisive.
 constexpr double chance = 0.05;
 
 /// The candidates that explain the runs about as well as the best one.
@@ -207,15 +207,15 @@ RuleScores::Residuals RuleScores::simulated(const RecordedRun& run, const Machin
         simulation = run.simulated(machine);
     } catch (const InputError&) {
         // A machine that cannot run the program did not record the run: all samples differ.
-        const std::size_t samples = (run.surface().positions.size() + sample_every - 1) / sample_every;
+        const std::size_t samples = (run.surface().positions.size() + sample_records - 1) / sample_records;
         result.of_speed.assign(samples, std::numeric_limits<float>::quiet_NaN());
         return result;
     }
     const RunDifferences found = run.differences(*simulation);
     result.usual_speed = found.usual_speed;
     const Column<float>& speed = found.of[index_of(RunQuantity::speed)];
-    for (std::size_t i = 0; i < speed.size(); i += sample_every) {
-        const std::size_t end = std::min<std::size_t>(i + sample_every, speed.size());
+    for (std::size_t i = 0; i < speed.size(); i += sample_records) {
+        const std::size_t end = std::min<std::size_t>(i + sample_records, speed.size());
         result.of_speed.push_back(mean_size(std::span(speed).subspan(i, end - i)));
     }
     return result;

@@ -149,8 +149,8 @@ private:
         return now * std::exp(share);
     }
 
-    /// The round values from `lowest` to `highest`: the motion of a trapezoidal planner changes by whole periods. Therefore the
-    /// mean error has many minima near the true value, and people choose round values. Empty for other planners.
+    /// The round values from `lowest` to `highest`, for a trapezoidal planner. Its motion changes by whole periods. Therefore
+    /// the mean error has many minima near the true value, and people choose round values. Empty for other planners.
     [[nodiscard]] std::vector<double> round_values(double lowest, double highest) const {
         std::vector<double> values;
         if (!is_trapezoidal(machine_)) return values;

@@ -6,6 +6,7 @@
 
 #include "repair/line_edit.h"
 #include "repair/points/end_points.h"
+#include "repair/points/resample.h"
 #include "simulation/path/block_merging.h"
 
 namespace clsurf {
@@ -64,6 +65,8 @@ Draft Drafter::draft(const DraftLines& lines, std::vector<std::uint8_t> needed) 
     draft.needed = std::move(needed);
     return draft;
 }
+
+double Drafter::usual_spacing() const { return clsurf::usual_spacing(program_, programmed_); }
 
 Draft Drafter::unchanged() const {
     Draft draft;

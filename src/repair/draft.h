@@ -11,7 +11,6 @@
 #include "repair/optimize_rules.h"
 #include "repair/points/line_rules.h"
 #include "repair/points/orientation.h"
-#include "repair/points/resample.h"
 #include "surface/programmed_surface.h"
 
 namespace clsurf {
@@ -46,7 +45,7 @@ public:
     /// New points for the motions that need repair (one entry per motion).
     [[nodiscard]] Draft draft(const DraftLines& lines, std::vector<std::uint8_t> needed) const;
     /// The median length of the lines of the cut passes [mm].
-    [[nodiscard]] double usual_spacing() const { return clsurf::usual_spacing(program_, programmed_); }
+    [[nodiscard]] double usual_spacing() const;
     /// The program without changes.
     [[nodiscard]] Draft unchanged() const;
 

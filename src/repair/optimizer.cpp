@@ -12,6 +12,7 @@
 #include "intervals/interval_feeds.h"
 #include "machine/machine_ensemble.h"
 #include "repair/feed_search.h"
+#include "repair/feeds/ramp.h"
 #include "repair/regions.h"
 #include "repair/repair_mask.h"
 #include "toolpath/tip_motions.h"
@@ -189,17 +190,6 @@ private:
         return choices;
     }
 
-    /// Lines of a length [mm] for the ends of passes. They reach as far as the tool needs to stop with half of its acceleration,
-    /// which planners that overlap blocks use.
-    [[nodiscard]] EndLines end_lines(double step) const {
-        double acceleration = machine_.path.max_acceleration;
-        for (const MachineAxis& axis : machine_.axes) {
-            if (axis.max_acceleration > 0) acceleration = std::min(acceleration, axis.max_acceleration);
-        }
-        const double feed = usual_feed(program_);
-        return {usual_first_line * step, step, std::max(feed * feed / acceleration, least_end_lines * step)};
-    }
-
     /// Proposes the best draft, and the program itself, with lines that are alike at the ends of all passes. The best first.
     [[nodiscard]] std::vector<TriedProposal> propose_ends(const Drafter& drafter, const Draft& best) {
         std::vector<TriedProposal> drafts;
@@ -210,8 +200,12 @@ private:
             if (evaluator_.has_time(share_of_drafts)) propose(drafter.draft(lines, needed), drafts);
         };
         const std::vector<std::uint8_t> nothing(best.needed.size(), 0);
+        const double usual = drafter.usual_spacing(), feed = usual_feed(program_);
+        // Planners that overlap blocks stop the tool with half of its acceleration.
+        const double to_stop = feed * feed / ramp_of(machine_).acceleration;
         for (const double share : end_steps) {
-            const EndLines ends = end_lines(share * drafter.usual_spacing());
+            const double step = share * usual;
+            const EndLines ends{usual_first_line * step, step, std::max(to_stop, least_end_lines * step)};
             propose_lines(ends, best.needed);
             propose_lines(ends, nothing);
         }
@@ -287,7 +281,7 @@ private:
         seek_feeds(order);
     }
 
-    /// Searches feeds for the first drafts, a few rounds for each, then all rounds, the best first.
+    /// Searches feeds for the drafts, a few rounds for each, then all rounds, the best first.
     void seek_feeds(const std::vector<TriedProposal>& drafts) {
         FeedSearch feeds(evaluator_, machine_);
         struct Fed {

@@ -1,14 +1,32 @@
 #include "repair/points/end_points.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "repair/points/resample.h"
 #include "toolpath/toolpath.h"
 
 namespace clsurf {
 namespace {
 
-// cos of ResampleRules::corner_angle: beyond it, points do not move.
-constexpr double least_cosine = 0.88;
+/// The ends of motions beyond `first`, an end of a pass, whose lines continue the pass for less than a step-over. `step`: 1
+/// towards the end of the program, −1 towards its beginning; `inward`: from `first` into the pass.
+std::vector<PointIndex> ends_beyond(const ProgrammedSurface& programmed, PointIndex first, PointIndex step,
+                                    const Eigen::Vector3f& inward) {
+    const Positions& positions = programmed.surface.positions;
+    const double least_cosine = std::cos(ResampleRules{}.corner_angle);
+    std::vector<PointIndex> ends;
+    for (PointIndex point = first, end = first;; point = end) {
+        do end += step;
+        while (end >= 0 && end < positions.size() && !programmed.ends_motion(end));
+        if (end < 0 || end == positions.size()) return ends;
+        const Eigen::Vector3f line = positions[point] - positions[end];
+        if ((positions[first] - positions[end]).norm() >= programmed.surface.step_over ||
+            line.dot(inward) < least_cosine * line.norm() * inward.norm())
+            return ends;
+        ends.push_back(end);
+    }
+}
 
 }  // namespace
 
@@ -36,25 +54,11 @@ ProgrammedPass up_to_corners(const ProgrammedSurface& programmed, ProgrammedPass
     const Positions& positions = programmed.surface.positions;
     const Eigen::Vector3f forward = positions[pass.ends[1]] - positions[pass.ends[0]],
                           backward = positions[pass.ends[pass.ends.size() - 2]] - positions[pass.ends.back()];
-    // Whether the line from `point` of the pass on to `end` still belongs to it.
-    const auto belongs = [&](PointIndex point, PointIndex end, PointIndex limit, const Eigen::Vector3f& inward) {
-        const Eigen::Vector3f line = positions[point] - positions[end];
-        return (positions[limit] - positions[end]).norm() < programmed.surface.step_over &&
-               line.dot(inward) >= least_cosine * line.norm() * inward.norm();
-    };
-    for (PointIndex point = pass.points.first, end = point;; point = end) {
-        do --end;
-        while (end >= 0 && !programmed.ends_motion(end));
-        if (end < 0 || !belongs(point, end, pass.points.first, forward)) break;
-        if (!programmed.ends_motion(point)) pass.ends.erase(pass.ends.begin());
-        pass.ends.insert(pass.ends.begin(), end);
-    }
-    for (PointIndex point = pass.points.last, end = point;; point = end) {
-        do ++end;
-        while (end < positions.size() && !programmed.ends_motion(end));
-        if (end == positions.size() || !belongs(point, end, pass.points.last, backward)) break;
-        pass.ends.push_back(end);
-    }
+    const std::vector<PointIndex> before = ends_beyond(programmed, pass.points.first, -1, forward),
+                                  after = ends_beyond(programmed, pass.points.last, 1, backward);
+    if (!before.empty() && !programmed.ends_motion(pass.points.first)) pass.ends.erase(pass.ends.begin());
+    pass.ends.insert(pass.ends.begin(), before.rbegin(), before.rend());
+    pass.ends.insert(pass.ends.end(), after.begin(), after.end());
     return pass;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// End points: near the ends of passes, lines of the same lengths on every pass. There the tool brakes before a turn and speeds up
-// after it, and how fast depends on where its lines end. Adjacent passes run the same ramp forward and backward.
+// End points: near the ends of passes, lines of the same lengths on every pass. There the tool brakes before a turn and speeds
+// up after it. How fast it does so depends on where its lines end.
 
 #include <cstdint>
 #include <vector>
@@ -12,8 +12,8 @@
 
 namespace clsurf {
 
-/// Replaces the aligned points near the ends of a pass by fixed ones at the distances of `ends`. The section is `length` [mm]
-/// long. `from_begin`, `to_end`: whether it begins or ends where its pass does. O(points).
+/// Replaces the aligned points near the ends of a pass by fixed ones at the distances of `ends`. The section is `length`
+/// [mm] long. `from_begin`, `to_end`: whether it begins or ends where its pass does. O(points).
 void fix_end_points(std::vector<AlignedPoint>& aligned_points, double length, bool from_begin, bool to_end,
                     const EndLines& ends);
 

@@ -3,11 +3,12 @@
 
 namespace clsurf {
 
-/// Lines that are alike at the ends of all passes.
+/// Lines of the same lengths at the ends of all passes.
 struct EndLines {
-    double first = 0;  ///< [mm] length of the first and of the last line of a pass; 0: the ends are not special
-    double step = 0;   ///< [mm] length of the lines next to it, …
-    double reach = 0;  ///< … up to this arc length from the end [mm]
+    double first =
+        0;  ///< [mm] of the first and of the last line of a pass; 0: ends of passes are treated as other places
+    double step = 0;   ///< [mm] of the lines next to these …
+    double reach = 0;  ///< … up to this arc length from the end of the pass [mm]
 };
 
 struct LineRules {
@@ -18,7 +19,7 @@ struct LineRules {
     double most = 0;           ///< [mm] largest distance of lines from the old ones, before rounding
     double radius = 0;         ///< [mm] of the tube around the curve: the tolerance minus the chord errors
     double most_turned = 0;    ///< [rad] largest angle between the tool axes of new and old lines
-    EndLines ends{};
+    EndLines ends{};           ///< at the ends of passes
 };
 
 }  // namespace clsurf

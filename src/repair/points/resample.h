@@ -24,7 +24,7 @@ struct ResampleRules {
     double corner_angle = 0.5;  ///< [rad] points where the path turns by more are not moved
     double most_turned = 0;     ///< [rad] largest error of the tool axis, rounding included
     bool splines = false;       ///< sections become splines if the dialect has them; three axes
-    EndLines ends{};
+    EndLines ends{};            ///< at the ends of passes
 };
 
 /// Motions first … last (lines that may be rewritten, on one pass) and the points that replace their ends. The last point is
