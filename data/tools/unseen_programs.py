@@ -133,7 +133,7 @@ def write_three_axis_programs(folder):
 
 
 def write_oblique_programs(folder):
-    """Adjacent passes differ in their ramps before and after the turns alone."""
+    """Adjacent passes differ only in their ramps before and after the turns."""
     rng = random.Random(23)
     write_three_axes(folder / "oblique.ngc", "G64 P0.01", 5000,
                      oblique(28, 0.4, 23, lambda x, y: 5 * math.sin(x / 9) * math.cos(y / 11) + 0.006 * (x - 20) ** 2,
