@@ -27,11 +27,10 @@ Draft Drafter::draft(const DraftLines& lines, std::vector<std::uint8_t> needed) 
     if (lines.ends.first > 0) mark_pass_ends(program_, programmed_, lines.ends.reach, needed);
     LineEditor editor(program_, rules_.least_decimals);
     const double spacing = 0.5 * fitting_spacing(program_, programmed_, lines.chord_error);
-    const std::vector<ResampledSegment> segments =
-        resample(program_, programmed_, editor,
-                 {rules_.tolerance, spacing, lines.chord_error, lines.shortest_line, ResampleRules{}.corner_angle,
-                  most_turned, rules_.splines, lines.ends},
-                 needed, orientation_);
+    const std::vector<ResampledSegment> segments = resample(
+        program_, programmed_, editor,
+        {rules_.tolerance, spacing, lines.chord_error, lines.shortest_line, most_turned, rules_.splines, lines.ends},
+        needed, orientation_);
     const bool all_may_slow = slows_anywhere_ && !rules_.splines;
     std::int64_t old = 0;  // motions so far
     const auto keep_slowing = [&](std::int64_t first, std::int64_t end) {

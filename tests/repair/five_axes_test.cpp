@@ -157,7 +157,7 @@ Resampled resampled(const std::string& text, double tolerance, double spacing, c
     Resampled r{of_the_tip(text, machine), {}, {}};
     const Orientation orientation(r.before, machine, zero, Vec3::Zero());
     LineEditor editor(r.before);
-    const ResampleRules rules{tolerance, spacing, 0.2 * tolerance, 0, 0.5, most_turned};
+    const ResampleRules rules{tolerance, spacing, 0.2 * tolerance, 0, most_turned};
     for (const ResampledSegment& s :
          resample(r.before, build_programmed_surface(r.before), editor, rules, {}, &orientation))
         editor.replace(s.first, s.last, s.points, s.angles);

@@ -337,7 +337,7 @@ TEST(Deviation, OfASplineInPlaceOfALine) {
 int growing_sections(const std::string& text, bool splines) {
     const Program program = read_as(text, "linuxcnc");
     const LineEditor editor(program);
-    const ResampleRules rules{0.005, 0.25, 0.001, 0, 0.5, 0, splines};
+    const ResampleRules rules{0.005, 0.25, 0.001, 0, 0, splines};
     int growing = 0;
     for (const ResampledSegment& s : resample(program, build_programmed_surface(program), editor, rules, {}, nullptr)) {
         EXPECT_FALSE(s.spline);

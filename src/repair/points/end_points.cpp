@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "repair/points/resample.h"
 #include "toolpath/toolpath.h"
 
 namespace clsurf {
@@ -14,7 +13,7 @@ namespace {
 std::vector<PointIndex> ends_beyond(const ProgrammedSurface& programmed, PointIndex first, PointIndex step,
                                     const Eigen::Vector3f& inward) {
     const Positions& positions = programmed.surface.positions;
-    const double least_cosine = std::cos(ResampleRules{}.corner_angle);
+    const double least_cosine = std::cos(least_corner_angle);
     std::vector<PointIndex> ends;
     for (PointIndex point = first, end = first;; point = end) {
         do end += step;

@@ -3,6 +3,9 @@
 
 namespace clsurf {
 
+inline constexpr double least_corner_angle =
+    0.5;  ///< [rad] a pass that turns by more has a corner, and its point stays
+
 /// Lines of the same lengths at the ends of all passes.
 struct EndLines {
     double first =

@@ -61,7 +61,6 @@ public:
           path_(program.motions, Vec3::Zero()),
           programmed_(programmed),
           editor_(editor),
-          corner_angle_(rules.corner_angle),
           splines_(rules.splines && orientation == nullptr && program.motions.rotary.empty()),
           lines_(line_rules(rules, spacings, editor.rounding(), editor.turn_rounding())),
           needed_(needed),
@@ -129,7 +128,7 @@ private:
         for (std::size_t k = 1; k + 1 < n; ++k) {
             const Vec3 before = old.points[k] - old.at(old.arc_length[k] - reach),
                        after = old.at(old.arc_length[k] + reach) - old.points[k];
-            creases[k] = before.dot(after) < std::cos(corner_angle_) * before.norm() * after.norm() ? 1 : 0;
+            creases[k] = before.dot(after) < std::cos(least_corner_angle) * before.norm() * after.norm() ? 1 : 0;
         }
         return creases;
     }
@@ -204,7 +203,6 @@ private:
     Toolpath path_;
     const ProgrammedSurface& programmed_;
     const LineEditor& editor_;
-    double corner_angle_;  ///< [rad]
     bool splines_;
     LineRules lines_;
     std::span<const std::uint8_t> needed_;  ///< one entry per motion, or empty

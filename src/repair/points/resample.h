@@ -21,10 +21,9 @@ struct ResampleRules {
     double chord_error = 0.001;  ///< [mm] from lines to curve; where it bends less, lines are 2, 4 or 8 spacings long
     double shortest_line =
         0;  ///< [mm] for the selection of aligned points: a controller slows down for blocks that it cannot read in time
-    double corner_angle = 0.5;  ///< [rad] points where the path turns by more are not moved
-    double most_turned = 0;     ///< [rad] largest error of the tool axis, rounding included
-    bool splines = false;       ///< sections become splines if the dialect has them; three axes
-    EndLines ends{};            ///< at the ends of passes
+    double most_turned = 0;  ///< [rad] largest error of the tool axis, rounding included
+    bool splines = false;    ///< sections become splines if the dialect has them; three axes
+    EndLines ends{};         ///< at the ends of passes
 };
 
 /// Motions first … last (lines that may be rewritten, on one pass) and the points that replace their ends. The last point is
