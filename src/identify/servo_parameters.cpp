@@ -269,7 +269,7 @@ void fit_axis(AxisData& axis) {
 void identify_servos(std::span<const Log* const> runs, Identification& result) {
     std::vector<AxisData> axes = gather_axes(runs);
     parallel_for(static_cast<std::int64_t>(axes.size()), 1, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t k = first; k < last; ++k) { fit_axis(axes[static_cast<std::size_t>(k)]); }
+        for (std::int64_t k = first; k < last; ++k) fit_axis(axes[static_cast<std::size_t>(k)]);
     });
     for (const AxisData& axis : axes) report_axis(axis, result);
 }
