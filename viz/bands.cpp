@@ -317,7 +317,7 @@ private:
         return arc_length - longest;
     }
 
-    /// Triangles from a vertex to the neighbour's vertices from one to another; own_step [mm] is the own path length. False
+    /// Triangles from a vertex to the neighbour's vertices from one to another; own_step [mm] is the own arc length. False
     /// if these vertices are not on one piece of the path, or far apart: after a jump to another piece there is no neighbour.
     bool fan(std::int64_t own, std::int64_t from, std::int64_t to, float own_step,
              Column<std::uint32_t>& triangles) const {

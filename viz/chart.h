@@ -1,5 +1,5 @@
 #pragma once
-// Signal curves: fields over time or path length, one stacked chart each, with a cursor.
+// Signal curves: fields over time or arc length, one stacked chart each, with a cursor.
 
 #include <span>
 #include <string>

@@ -1,4 +1,4 @@
-// clsurf plot: curves of signals over time or path length.
+// clsurf plot: curves of signals over time or arc length.
 
 #include <algorithm>
 #include <cmath>
@@ -112,7 +112,7 @@ ExitCode run_plot(const po::variables_map& values) {
     options.look.subtitle =
         fmt::format("{}{}points {} to {}, {} positions", file_name(options.part.program),
                     options.part.program.empty() ? "" : " · ", range.first, range.last, name_of(part.path.role));
-    options.look.x_label = options.over_length ? "path length (mm)" : "time (s)";
+    options.look.x_label = options.over_length ? "arc length (mm)" : "time (s)";
     options.look.footnote = note;
     clock.begin("draw");
     const std::span<const double> shown_x(x.data() + range.first, static_cast<std::size_t>(range.size()));
@@ -126,7 +126,7 @@ Subcommand plot_subcommand() {
     return {
         .name = "plot",
         .arguments = "[PROGRAM] LOG -o curve.png",
-        .summary = "curves of signals over time or path length",
+        .summary = "curves of signals over time or arc length",
         .description =
             "One chart for each field, stacked. Every extreme is kept, however long the log is. A log can be\n"
             "plotted without its program, except with --profile. --profile also prints Ra and Rz.\n\n"

@@ -37,7 +37,7 @@ struct Orientations {
 /// axes also every degree of rotation) are measured against the other path within a millimetre of the present position. A
 /// missing pass causes a deviation of at least one step-over. The tool axes compared are those of the controller there and at
 /// the nearest place of the other path; if there are several, for example before and after a rotation in place, the most
-/// similar one counts. Motions as for simulate_five_axis(). O(path length / step).
+/// similar one counts. Motions as for simulate_five_axis(). O(arc length / step).
 [[nodiscard]] Deviation measure_deviation(const Program& before, const Program& after,
                                           double step = Deviation::usual_step, const Orientations& orientations = {});
 
