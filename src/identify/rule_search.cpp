@@ -44,7 +44,7 @@ void score(const std::vector<std::vector<float>>& residuals, const RuleScores& s
 /// as independent, but what a model leaves unexplained lasts for many of them. Of overrides on the same run, read from two files,
 /// the right one had 1.5 and 6.9 % more error than the best, which the criterion called decisive. Where it did not distinguish two
 /// overrides, the right one had 16 % less error.
-constexpr double gain_of_equal = 0.1;
+constexpr double distinct_share = 0.1;
 
 /// The candidates that explain the runs about as well as the best one.
 std::vector<std::size_t> equal_to_best(std::span<const RuleCandidate> candidates, const RuleScores& scores) {
@@ -53,7 +53,7 @@ std::vector<std::size_t> equal_to_best(std::span<const RuleCandidate> candidates
         best = std::min(best, c.score);
         least_error = std::min(least_error, c.speed_error);
     }
-    const double most_error = scores.explains(least_error) ? (1 + gain_of_equal) * least_error : least_error;
+    const double most_error = scores.explains(least_error) ? (1 + distinct_share) * least_error : least_error;
     std::vector<std::size_t> equal;
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const RuleCandidate& c = candidates[k];
@@ -285,7 +285,7 @@ void search_rule(const Rule& rule, std::size_t present, double least_gain, RuleS
     std::size_t chosen = *std::min_element(equal.begin(), equal.end(), [&](std::size_t a, std::size_t b) {
         return candidates[a].speed_error < candidates[b].speed_error;
     });
-    const double needed = keeps ? std::max(least_gain, gain_of_equal) : least_gain;
+    const double needed = keeps ? std::max(least_gain, distinct_share) : least_gain;
     if (present < candidates.size() && candidates[chosen].speed_error >= (1 - needed) * candidates[present].speed_error)
         chosen = present;
     candidates[chosen].chosen = true;
