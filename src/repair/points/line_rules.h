@@ -3,13 +3,11 @@
 
 namespace clsurf {
 
-inline constexpr double least_corner_angle =
-    0.5;  ///< [rad] a pass that turns by more has a corner, and its point stays
+inline constexpr double least_corner_angle = 0.5;  ///< [rad] where a pass turns by more, its point stays
 
 /// Lines of the same lengths at the ends of all passes.
 struct EndLines {
-    double first =
-        0;  ///< [mm] of the first and of the last line of a pass; 0: ends of passes are treated as other places
+    double first = 0;  ///< [mm] of the first and of the last line of a pass; 0: there are no such lines
     double step = 0;   ///< [mm] of the lines next to these …
     double reach = 0;  ///< … up to this arc length from the end of the pass [mm]
 };
