@@ -76,10 +76,17 @@ std::vector<PointRange> sample_pieces(std::span<const PointRange> sections, Poin
             pieces.push_back({first, std::min(section.last, first + piece_size - 1)});
     }
     if (total <= most) return pieces;
-    const auto wanted = std::max<std::size_t>(1, static_cast<std::size_t>(most / piece_size));
+    // A piece is kept if the share of the records before it that were kept is not above that of all records.
     std::vector<PointRange> kept;
-    for (std::size_t k = 0; k < wanted && k < pieces.size(); ++k)
-        kept.push_back(pieces[k * pieces.size() / std::min(wanted, pieces.size())]);
+    PointIndex before = 0, kept_before = 0;
+    for (const PointRange& piece : pieces) {
+        if (static_cast<double>(kept_before) * static_cast<double>(total) <=
+            static_cast<double>(before) * static_cast<double>(most)) {
+            kept.push_back(piece);
+            kept_before += piece.size();
+        }
+        before += piece.size();
+    }
     return kept;
 }
 

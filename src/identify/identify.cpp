@@ -23,7 +23,7 @@ void identify_period(std::span<const IdentifyRun> runs, Identification& result) 
                              return a.log->period < b.log->period;
                          })->log;
     // Controllers count nanoseconds; times in text have rounding errors.
-    const double period = std::round(finest.period * 1e9) * 1e-9;
+    const double period = std::round(finest.period * 1e9) / 1e9;
     std::string note = "of the records";
     for (const auto& [log, lines, tips] : runs) {
         if (same_period(log->period, period)) continue;
@@ -62,6 +62,7 @@ void miss_rules(const std::string& reason, Identification& result) {
 }  // namespace
 
 Identification identify(std::span<const IdentifyRun> runs, const Machine& known) {
+    if (runs.empty()) throw InputError({}, "nothing can be identified without a run");
     Identification result;
     result.machine = known;
     std::vector<const Log*> logs;
@@ -78,7 +79,7 @@ Identification identify(std::span<const IdentifyRun> runs, const Machine& known)
                                                                : "axis " + result.unidentified.front().axis + ": " +
                                                                      result.unidentified.front().reason;
         throw InputError(Place::of_file(runs.front().log->name), "nothing can be identified: " + reason,
-                         "needed are commanded and fed-back positions (cmd.x, fb.x) of a run with changes of speed");
+                         "give a run with changes of speed that has commanded and feedback positions (cmd.x, fb.x)");
     }
     result.machine.uncertainty = uncertainty_of(result);
     return result;

@@ -55,22 +55,6 @@ struct Motion {
     }
 };
 
-/// The step to which positions were rounded when they were written: the step of the channel, or a power of ten.
-double rounding_of(const ChannelView& channel, std::span<const PointRange> sections) {
-    if (const double step = quantum_of(channel); step > 0) return step;
-    for (const double step : {1e-5, 1e-6, 1e-7}) {
-        PointIndex on_grid = 0, examined = 0;
-        for (const PointRange& section : sections) {
-            for (PointIndex i = section.first; i <= section.last && examined < 4000; ++i, ++examined) {
-                const double ratio = channel.at(i) / step;
-                on_grid += std::abs(ratio - std::round(ratio)) < 1e-3 ? 1 : 0;
-            }
-        }
-        if (on_grid > examined * 99 / 100) return step;
-    }
-    return 1e-12;
-}
-
 Motion gather_motion(std::span<const IdentifyRun> runs) {
     Motion motion;
     for (const char letter : {'x', 'y', 'z', 'a', 'b', 'c'}) {
@@ -91,8 +75,8 @@ Motion gather_motion(std::span<const IdentifyRun> runs) {
         const std::vector<PointRange> sections = find_sections(*run.log, channels);
         motion.resolution.resize(channels.size(), 0);
         for (std::size_t k = 0; k < channels.size(); ++k) {
-            motion.rounding = std::max(motion.rounding, rounding_of(channels[k], sections));
             motion.resolution[k] = std::max(motion.resolution[k], resolution_of(channels[k]));
+            motion.rounding = std::max(motion.rounding, motion.resolution[k]);
         }
         for (const PointRange& range : sample_pieces(sections, most_records / static_cast<PointIndex>(runs.size()))) {
             const auto n = static_cast<std::size_t>(range.size());
@@ -335,7 +319,12 @@ private:
         IdentifiedParameter p{kind_.name, of, 0, unit + kind_.unit, std::nullopt, evidence == Evidence::reached, ""};
         if (is_rounding(q) || (kind_.order == 3 && result.find_missing("max_acceleration", of) != nullptr)) {
             const bool moves = kind_.order > 1 && result.find_missing("max_speed", of) == nullptr;
-            result.unidentified.push_back({kind_.name, of, moves ? "constant speed throughout" : "no such motion"});
+            const bool speed_changes =
+                moves && kind_.order > 2 && result.find_missing("max_acceleration", of) == nullptr;
+            result.unidentified.push_back({kind_.name, of,
+                                           speed_changes ? "hidden by the rounding of the positions"
+                                           : moves       ? "constant speed throughout"
+                                                         : "no such motion"});
             return;
         }
         if (evidence == Evidence::reached) {
@@ -344,7 +333,7 @@ private:
             const double error = std::max(levels_[q]->standard_error, margin) * kind_.factor;
             p.value = rounded_to(levels_[q]->value * kind_.factor, error);
             p.standard_error = error;
-            p.note = fmt::format("held in {} places", levels_[q]->plateaus.size());
+            p.note = fmt::format("reached in {} places", levels_[q]->plateaus.size());
             target = p.value / kind_.factor * to_machine;
         } else if (kind_.order == 3 && reverses_at_once(of, q, result)) {
             // The path's jerk limit must be a number; this one has no effect.
@@ -361,7 +350,7 @@ private:
             else if (!unlimited && target < bounds_[q] * to_machine)
                 target = p.shown / kind_.factor * to_machine;
             const std::string held =
-                shared ? fmt::format("held in {} places, by it or by an axis", levels_[q]->plateaus.size())
+                shared ? fmt::format("reached in {} places, by the path or by an axis", levels_[q]->plateaus.size())
                        : "hardly exceeded";
             p.note = fmt::format("{}; the file has {:.6g}", held, target * kind_.factor / to_machine);
         }

@@ -94,12 +94,13 @@ private:
 /// The following error of the log on the compared sections.
 std::optional<double> following_error(const Part& part, const RunDifferences& differences, const Positions& positions) {
     const std::optional<Role> measured = measured_role(part.log, part.path);
-    if (!measured || !part.log.has(Role::commanded) || !differences.has(RunQuantity::lag)) return std::nullopt;
+    if (!measured || !part.log.has(Role::commanded) || !differences.has(RunQuantity::following_error))
+        return std::nullopt;
     const Positions commanded = gather(reconstruct_like(part.log, Role::commanded, part.path));
     const Positions fed_back = gather(reconstruct_like(part.log, *measured, part.path));
     const Eigen::Vector3f apart = (fed_back.origin - commanded.origin).cast<float>();
     AlongPath errors;
-    const Column<float>& lag = differences.of[index_of(RunQuantity::lag)];
+    const Column<float>& lag = differences.of[index_of(RunQuantity::following_error)];
     for (PointIndex i = 1; i < positions.size(); ++i) {
         if (std::isnan(lag[static_cast<std::size_t>(i)])) continue;
         errors.add((fed_back[i] - commanded[i] + apart).norm(), (positions[i] - positions[i - 1]).norm());
@@ -217,7 +218,8 @@ RunFidelity RecordedRun::fidelity(const Machine& machine) const {
         const auto at = static_cast<std::size_t>(i);
         const double length = (positions[i] - positions[i - 1]).norm();
         speeds.add(found.of[index_of(RunQuantity::speed)][at], length);
-        if (found.has(RunQuantity::lag)) lags.add(found.of[index_of(RunQuantity::lag)][at], length);
+        if (found.has(RunQuantity::following_error))
+            lags.add(found.of[index_of(RunQuantity::following_error)][at], length);
     }
     if (!speeds.empty()) {
         out.speed_error_p50 = speeds.quantile(0.5);

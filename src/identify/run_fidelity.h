@@ -51,7 +51,7 @@ private:
     ClSurface surface_;
 };
 
-/// The worst of the runs; nullopt: there are none.
+/// The worst of the runs; recall and precision are those of the defects of all runs; nullopt: there are none.
 [[nodiscard]] std::optional<Fidelity> summary_of(std::span<const RunFidelity> runs, FidelityBasis basis);
 
 }  // namespace clsurf

@@ -120,7 +120,10 @@ ServoFit fit_servo(std::span<const AxisRecord> records, double period) {
     // At constant speed the regression does not determine the gain, and may give a very low one.
     if (problem.count() < least_records) problem.set_settling(settling_of(usual, period));
     fit.records = problem.count();
-    if (fit.records < least_records) return fit;
+    if (fit.records < least_records) {
+        fit.records = 0;
+        return fit;
+    }
     // If the speed hardly changes, any loop with that lag explains the records.
     if (const ConstantLag lag = constant_lag(records, period); lag.residual < least_change) {
         take_lag(lag, period, fit);

@@ -182,6 +182,11 @@ private:
 
     void put_resolution(ServoModel& target, double angle) {
         const ServoFit& fit = axis_.fit;
+        if (!fit.knows(ServoTerm::log_gain)) {
+            for (const char* key : {"quantum", "noise"})
+                result_.unidentified.push_back({key, axis_.name(), "the loop is not identified"});
+            return;
+        }
         // The quantum is a difference of doubles.
         const double quantum = rounded_to(fit.quantum, 1e-5 * fit.quantum);
         target.quantum = quantum * angle;
@@ -221,8 +226,8 @@ private:
         result_.unidentified.push_back(
             {"servo", axis_.name(),
              fmt::format(
-                 "the loop leaves {:.2g} {} rms, of which quantum and noise explain {:.2g}: something moves the axis "
-                 "that the model does not have, and the values may be wrong by more than their standard errors",
+                 "the loop leaves {:.2g} {} rms, of which quantum and noise explain {:.2g}: the axis has an "
+                 "effect that the model does not include, and the values may be wrong by more than their standard errors",
                  fit.residual, axis_.unit(), fit.explained)});
     }
 
@@ -264,6 +269,28 @@ void fit_axis(AxisData& axis) {
     }
 }
 
+/// Values of the known machine that were not identified may not suit the period or an identified gain, and a file with them
+/// would not be read. They become half of what is allowed.
+void keep_stable(const AxisData& axis, Identification& result) {
+    ServoModel* servo = servo_of(result.machine, axis.letter);
+    if (servo == nullptr) return;
+    const auto lower = [&](const char* key, double& value, double allowed, const std::string& because) {
+        if (value < allowed) return;
+        const double kept = 0.5 * allowed;
+        result.diagnostics.add({Severity::note,
+                                "identify.servo",
+                                {},
+                                fmt::format("axis {}: {} = {:.4g} is too large for {}: the file has {:.4g}",
+                                            axis.letter, key, value, because, kept),
+                                {}});
+        value = kept;
+    };
+    const double period = result.machine.controller.period;
+    lower("position_gain", servo->position_gain, 1 / period, fmt::format("a period of {:.4g} s", period));
+    lower("velocity_time_constant", servo->velocity_time_constant, 1 / servo->position_gain,
+          fmt::format("a position_gain of {:.4g} 1/s", servo->position_gain));
+}
+
 }  // namespace
 
 void identify_servos(std::span<const Log* const> runs, Identification& result) {
@@ -271,7 +298,10 @@ void identify_servos(std::span<const Log* const> runs, Identification& result) {
     parallel_for(static_cast<std::int64_t>(axes.size()), 1, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t k = first; k < last; ++k) fit_axis(axes[static_cast<std::size_t>(k)]);
     });
-    for (const AxisData& axis : axes) report_axis(axis, result);
+    for (const AxisData& axis : axes) {
+        report_axis(axis, result);
+        keep_stable(axis, result);
+    }
 }
 
 }  // namespace clsurf

@@ -95,13 +95,11 @@ void add_piece(std::span<const double> commanded, std::span<const double> feedba
         if (static_cast<PointIndex>(i) <= settling) continue;
         sums.squares += residual * residual;
         ++sums.count;
-        if (before == before) sums.squared_changes += (residual - before) * (residual - before);
-        before = residual;
-        const double moved = commanded[i] - commanded[i - 1];
-        if (moved != 0) {
-            sums.along += std::copysign(residual, residual * moved);
-            ++sums.moving;
+        if (!std::isnan(before)) {
+            sums.squared_changes += (residual - before) * (residual - before);
+            ++sums.changes;
         }
+        before = residual;
         if (width == 0) continue;
         sums.normal += derivatives * derivatives.transpose();
         scores += residual * derivatives;

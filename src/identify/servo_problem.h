@@ -52,19 +52,18 @@ using ServoVector = Eigen::Matrix<double, servo_terms, 1>;
 
 /// Sums over the records; rows of inactive terms are zero.
 struct ServoSums {
-    double squares = 0;                          ///< of the residuals [unit²]
-    double squared_changes = 0;                  ///< of the residuals, from one record to the next [unit²]
-    PointIndex count = 0;                        ///< residuals
-    double along = 0;                            ///< Σ residual · sign of the commanded speed [unit]
-    PointIndex moving = 0;                       ///< number of its terms
-    ServoMatrix normal = ServoMatrix::Zero();    ///< Jᵀ J
-    ServoMatrix scatter = ServoMatrix::Zero();   ///< Σ s sᵀ over groups of records, s = Jᵀ e of the group
+    double squares = 0;                         ///< of the residuals [unit²]
+    double squared_changes = 0;                 ///< of the residuals, from one record to the next [unit²]
+    PointIndex count = 0;                       ///< residuals
+    PointIndex changes = 0;                     ///< pairs of successive residuals: a piece has one fewer than residuals
+    ServoMatrix normal = ServoMatrix::Zero();   ///< Jᵀ J
+    ServoMatrix scatter = ServoMatrix::Zero();  ///< Σ s sᵀ over groups of records, s = Jᵀ e of the group
     ServoVector gradient = ServoVector::Zero();  ///< Jᵀ e
 
     [[nodiscard]] double mean_square() const { return count > 0 ? squares / static_cast<double>(count) : 0; }
     /// Half the mean square of the residuals' changes: the variance if residuals were independent [unit²].
     [[nodiscard]] double variance_of_changes() const {
-        return squared_changes / (2 * static_cast<double>(std::max<PointIndex>(count - 1, 1)));
+        return squared_changes / (2 * static_cast<double>(std::max<PointIndex>(changes, 1)));
     }
 };
 

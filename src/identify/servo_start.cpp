@@ -59,7 +59,7 @@ std::optional<ServoStart> solve(const Regression& sums, double period, std::size
     const double step = std::clamp(1 - solution[0], 0.02, 1.0);
     ServoParameters& p = start.parameters;
     p[ServoTerm::velocity_step] = step;
-    p[ServoTerm::log_gain] = std::log(std::clamp(solution[1] / step, 1.0, 0.5 / period));
+    p[ServoTerm::log_gain] = std::log(std::clamp(solution[1] / step, std::min(1.0, 0.5 / period), 0.5 / period));
     p[ServoTerm::feedforward] = std::clamp(solution[2] / step, 0.0, 1.5);
     start.friction = std::max(-solution[3] / step, 0.0);
     p[ServoTerm::dead_time] = static_cast<double>(dead);

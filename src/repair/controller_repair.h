@@ -46,7 +46,7 @@ struct EarlierRound {
 ///
 /// The machine is also fitted to the logs of `rounds`. A candidate must be better than each of them, with a gain that exceeds
 /// theirs by least_gain: by its log, or by its simulation if there is no controller. `before` and `after` of the result are
-/// runs on the controller; without any run of a candidate, `after` is simulated. A failed run counts as one of `runs`.
+/// runs on the controller; without any run of a candidate, both are simulated. A failed run counts as one of `runs`.
 ///
 /// Throws InputError if the program itself cannot be run, or a log of `rounds` does not belong to its program, and what
 /// optimize() throws. Without a controller, `measured` is required.

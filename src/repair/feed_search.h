@@ -35,7 +35,7 @@ public:
 
     /// Slows down around remaining defects, in rounds, until the time budget is used up. Each round tries several variants: one
     /// feed reduction; the same only for the defects that it removed; the last of these with the feeds raised to what its
-    /// speeds need; and a combination of the variants that ran best at each place.
+    /// speeds need; two with gentle ramps; and a combination of the variants that ran best at each place.
     void reduce_feeds(FeedReduction& reduction, int rounds);
 
 private:

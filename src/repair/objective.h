@@ -11,7 +11,7 @@
 
 namespace clsurf {
 
-/// The measures of a run of a program. Lower is better for each.
+/// The measures of a run of a program. Lower is better for each but `speed`, to which the others are compared.
 struct RunMeasures {
     double mismatch = 0;                 ///< [mm/s] 95th percentile of the speed differences between adjacent passes
     double defects = 0;                  ///< their number, as in `check`; may be fractional in a mean

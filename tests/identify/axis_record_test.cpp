@@ -2,6 +2,7 @@
 
 #include "identify/axis_record.h"
 
+#include <algorithm>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -59,6 +60,20 @@ TEST(AxisRecord, AMotionThatBeginsAtOnceIsNoJump) {
     std::vector<double> values(50, 0.0);
     for (const double value : ramp(50)) values.push_back(2 * value);
     EXPECT_EQ(sections_of(values, 0.001).size(), 1U);
+}
+
+// A recorder that loses one record in a thousand: the sample has as many records as without.
+TEST(AxisRecord, ASampleOfShortSectionsHasTheWantedSize) {
+    std::vector<PointRange> sections;
+    for (PointIndex first = 0; first < 2'000'000; first += 1000) sections.push_back({first, first + 998});
+    const std::vector<PointRange> pieces = sample_pieces(sections, 1'000'000);
+    PointIndex records = 0;
+    for (const PointRange& piece : pieces) records += piece.size();
+    EXPECT_NEAR(static_cast<double>(records), 1e6, 1000);
+    // Evenly spaced: half of them in the first half.
+    const auto first_half =
+        std::count_if(pieces.begin(), pieces.end(), [](const PointRange& p) { return p.first < 1'000'000; });
+    EXPECT_NEAR(static_cast<double>(first_half), 0.5 * static_cast<double>(pieces.size()), 1);
 }
 
 }  // namespace

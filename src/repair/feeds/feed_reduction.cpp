@@ -96,7 +96,7 @@ private:
     /// equalisation can cost much more.
     [[nodiscard]] double cost_alone(std::int32_t k) {
         const double cost = equaliser_.lost(reduced({&k, 1}).speeds);
-        if (run_.report.defects[static_cast<std::size_t>(k)].quantity != Quantity::lag) return cost;
+        if (run_.report.defects[static_cast<std::size_t>(k)].quantity != Quantity::normal_deviation) return cost;
         equalised_[static_cast<std::size_t>(k)] = 0;
         const double slowed = equaliser_.lost(reduced({&k, 1}).speeds);
         if (cost >= most_equalised * slowed) return slowed;
@@ -120,7 +120,7 @@ private:
             for (const auto* segments : {&defect.sections, &defect.neighbours}) {
                 for (const DefectSection& segment : *segments) mark(segment.points, k, equalisation);
             }
-            if (defect.quantity == Quantity::lag) slow_for_lag(defect, equalisation.speeds);
+            if (defect.quantity == Quantity::normal_deviation) slow_for_lag(defect, equalisation.speeds);
         }
         equaliser_.equalise({rules_.step, 0, rules_.ramp}, equalisation);
         return {std::move(equalisation.speeds), std::move(equalisation.causes)};
@@ -149,7 +149,7 @@ private:
     }
 
     void slow_for_lag(const Defect& defect, std::vector<float>& speeds) const {
-        const double most = lag_aim * run_.report.thresholds.of[index_of(Quantity::lag)];
+        const double most = lag_aim * run_.report.thresholds.of[index_of(Quantity::normal_deviation)];
         for (const auto* segments : {&defect.sections, &defect.neighbours}) {
             for (const DefectSection& segment : *segments) {
                 for (PointIndex i = segment.points.first; i <= segment.points.last; ++i) {
@@ -169,8 +169,8 @@ private:
         for (const Side side : {Side::left, Side::right}) {
             const PathLocation at = adjacent_location(run_.surface, {i, 0}, run_.signals.feed(i), side);
             if (!at.exists()) continue;
-            const double step =
-                std::abs(run_.signals[i].lag - compared_at(run_.signals, at, run_.signals.normal(i)).lag);
+            const double step = std::abs(run_.signals[i].normal_deviation -
+                                         compared_at(run_.signals, at, run_.signals.normal(i)).normal_deviation);
             if (step > most) most = step;
         }
         return most;
@@ -190,7 +190,7 @@ double lag_power(const Machine& machine) {
         return axis.servo.position_gain == x.position_gain &&
                axis.servo.velocity_feedforward == x.velocity_feedforward &&
                axis.servo.velocity_time_constant == x.velocity_time_constant &&
-               axis.servo.velocity_integral_time == x.velocity_integral_time;
+               axis.servo.velocity_integral_time == x.velocity_integral_time && axis.servo.dead_time == x.dead_time;
     });
     return alike ? 3 : 1;
 }
