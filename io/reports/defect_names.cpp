@@ -95,7 +95,7 @@ std::string headline_of(const QualityReport& report) {
                                d.speed_mismatch < 0 ? "slower" : "faster", whose);
         case Quantity::acceleration:
             return fmt::format("{} {} differently from {} neighbours", who, one ? "accelerates" : "accelerate", whose);
-        case Quantity::lag:
+        case Quantity::normal_deviation:
             return fmt::format("Axis lag on {} differs from the neighbours by {} µm", subject_of(group),
                                range_text(group, 1));
         case Quantity::relief:
@@ -114,7 +114,7 @@ std::string label_of(const Defect& d) {
         case Quantity::speed:
             return fmt::format("{}{:.0f} % speed", d.speed_mismatch < 0 ? "−" : "+", 100 * std::abs(d.speed_mismatch));
         case Quantity::acceleration: return fmt::format("{:.0f} mm/s² acceleration", d.acceleration_jump);
-        case Quantity::lag: return fmt::format("{}{:.1f} µm lag", sign, um_per_mm * d.depth);
+        case Quantity::normal_deviation: return fmt::format("{}{:.1f} µm lag", sign, um_per_mm * d.depth);
         case Quantity::relief: return fmt::format("{}{:.1f} µm relief", sign, um_per_mm * d.depth);
     }
     return {};

@@ -120,7 +120,7 @@ std::string roughness_text(const PartRoughness& f) {
     if (f.patches.empty()) return {};
     const RoughPatch& roughest = f.patches[f.roughest];
     std::string text = fmt::format(
-        "formed surface, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}, at {}), Sa {:.2f}, Sz {:.2f} µm, {}\n",
+        "as-machined surface, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}, at {}), Sa {:.2f}, Sz {:.2f} µm, {}\n",
         f.patches.size(), um(f.ra), um(f.rz), um(roughest.profile.rz), coordinates_text(roughest.contact), um(f.sa),
         um(f.sz), cutoff_text(f.cutoff));
     if (f.unknown >= worth_saying)
@@ -246,15 +246,16 @@ std::string quality_json(const ReportedQuality& q) {
         budget.push_back({{"name", line.name},
                           {"limit", number(line.limit)},
                           {"measured", number(line.measured, 3)},
-                          {"held", line.held}});
+                          {"kept", line.held}});
     }
     const auto quantity = [&](const std::array<float, quantities>& values, Quantity which) {
         return static_cast<double>(values[index_of(which)]);
     };
-    Json thresholds{{"speed_percent", number(100 * quantity(r.thresholds.of, Quantity::speed), 3)},
-                    {"acceleration_mm_s2", number(quantity(r.thresholds.of, Quantity::acceleration), 2)},
-                    {"lag_um", r.has_lag ? number(um(quantity(r.thresholds.of, Quantity::lag)), 3) : Json(nullptr)},
-                    {"relief_um", number(um(quantity(r.thresholds.of, Quantity::relief)), 3)}};
+    Json thresholds{
+        {"speed_percent", number(100 * quantity(r.thresholds.of, Quantity::speed), 3)},
+        {"acceleration_mm_s2", number(quantity(r.thresholds.of, Quantity::acceleration), 2)},
+        {"lag_um", r.has_lag ? number(um(quantity(r.thresholds.of, Quantity::normal_deviation)), 3) : Json(nullptr)},
+        {"relief_um", number(um(quantity(r.thresholds.of, Quantity::relief)), 3)}};
     Json summary{{"judged", r.judgement.judged()},
                  {"not_judged_reasons", r.judgement.reasons},
                  {"verdict", verdict_of(r)},
@@ -345,7 +346,8 @@ std::string quality_text(const ReportedQuality& q) {
         const std::string thresholds = thresholds_text(r);
         if (!thresholds.empty()) text += fmt::format("thresholds: {}; {}\n", thresholds, r.note);
         if (q.scallop > 0)
-            text += fmt::format("scallop between clean passes with {}: {:.2f} µm\n", to_text(*q.tool), um(q.scallop));
+            text += fmt::format("scallop between passes without defects, with {}: {:.2f} µm\n", to_text(*q.tool),
+                                um(q.scallop));
         if (q.as_machined != nullptr) text += roughness_text(q.as_machined->roughness);
         if (!r.has_lag) text += "no measured positions: depths are those of the commanded path alone\n";
         if (!r.expected.empty())
@@ -355,9 +357,9 @@ std::string quality_text(const ReportedQuality& q) {
     if (q.measured != nullptr) text += measured_text(*q.measured);
     for (const BudgetLine& line : q.budget) {
         text += fmt::format("budget {:<28} {:>10.4g} of {:<10.4g} {}\n", line.name, line.measured, line.limit,
-                            line.held                                  ? "held"
+                            line.held                                  ? "kept"
                             : !r.judgement.judged() && !is_limit(line) ? "NOT JUDGED"
-                                                                       : "NOT HELD");
+                                                                       : "NOT KEPT");
     }
     if (q.baseline != nullptr) text += against_baseline(*q.baseline);
     return text + origin_text(q.origin);

@@ -114,11 +114,13 @@ std::array<std::string_view, 2> kind_of(const Defect& d) {
         case Quantity::speed:
             return d.speed_mismatch < 0 ? std::array<std::string_view, 2>{"slower section", "slower sections"}
                                         : std::array<std::string_view, 2>{"faster section", "faster sections"};
-        case Quantity::acceleration: return {"place of different acceleration", "places of different acceleration"};
-        case Quantity::lag: return {"place of different axis lag", "places of different axis lag"};
+        case Quantity::acceleration:
+            return {"section with different acceleration", "sections with different acceleration"};
+        case Quantity::normal_deviation: return {"section with different axis lag", "sections with different axis lag"};
         case Quantity::relief:
-            if (d.cause == Cause::path_tolerance) return {"pass off its program", "passes off their program"};
-            return {"offset pass in the program", "offset passes in the program"};
+            if (d.cause == Cause::path_tolerance)
+                return {"pass that leaves its programmed path", "passes that leave their programmed path"};
+            return {"pass programmed too high or too low", "passes programmed too high or too low"};
     }
     return {"defect", "defects"};
 }
@@ -228,7 +230,7 @@ std::string thresholds_text(const QualityReport& report) {
     };
     add(Quantity::speed, "speed", 100, 1, "%");
     add(Quantity::acceleration, "acceleration", 1, 0, "mm/s²");
-    if (report.has_lag) add(Quantity::lag, "lag", um_per_mm, 1, "µm");
+    if (report.has_lag) add(Quantity::normal_deviation, "lag", um_per_mm, 1, "µm");
     add(Quantity::relief, "relief of the passes", um_per_mm, 1, "µm");
     return text;
 }

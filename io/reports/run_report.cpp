@@ -20,7 +20,7 @@ constexpr int shown_of_quantity = 3;  ///< sections of a run in the text
 const RunQuantityInfo& info_of(RunQuantity q) { return run_quantity_table()[index_of(q)]; }
 
 /// Significant decimals of a quantity in shown units.
-int decimals_of(RunQuantity q) { return q == RunQuantity::lag || q == RunQuantity::height ? 3 : 1; }
+int decimals_of(RunQuantity q) { return q == RunQuantity::following_error || q == RunQuantity::height ? 3 : 1; }
 
 double percent(double part, double whole) { return whole > 0 ? 100 * part / whole : 0; }
 
@@ -112,7 +112,7 @@ std::string roughness_text(const ReportedRun& run) {
         rows += fmt::format("{:<31} {:>10.2f} {:>10.2f} {:>10}\n", name, reference, other, change);
     });
     if (rows.empty()) return {};
-    return fmt::format("\n{:<31} {:>10} {:>10} {:>10}\n", "machined surface", "reference", "run", "change") + rows;
+    return fmt::format("\n{:<31} {:>10} {:>10} {:>10}\n", "as-machined surface", "reference", "run", "change") + rows;
 }
 
 std::string run_text(const ReportedRun& run, const std::string& reference) {
@@ -155,7 +155,7 @@ std::string run_text(const ReportedRun& run, const std::string& reference) {
     if (left_out > 0) text += fmt::format("and {} more: --json lists them\n", left_out);
     for (const BudgetLine& line : run.budget) {
         text += fmt::format("budget {:<34} {:>10.4g} of {:<10.4g} {}\n", line.name, line.measured, line.limit,
-                            line.held ? "held" : "NOT HELD");
+                            line.held ? "kept" : "NOT KEPT");
     }
     return text;
 }

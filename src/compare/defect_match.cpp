@@ -14,7 +14,7 @@ constexpr double usual_reach = 0.5;      ///< [mm] if no step-over is known
 constexpr double least_overlap = 0.25;   ///< share of the shorter defect
 constexpr double sample_spacing = 0.25;  ///< share of the reach between samples along a run
 
-bool is_height(const Defect& d) { return d.quantity == Quantity::lag || d.quantity == Quantity::relief; }
+bool is_height(const Defect& d) { return d.quantity == Quantity::normal_deviation || d.quantity == Quantity::relief; }
 
 /// Evenly spaced places along the sections of a defect [mm].
 std::vector<Vec3> samples_of(const Defect& defect, const Positions& positions, double reach) {

@@ -22,7 +22,7 @@ double speed(const RunReport& report) {
     const RunQuantitySummary* summary = report.find(RunQuantity::speed);
     return summary == nullptr ? unknown : 100 * summary->relative_most;
 }
-double lag(const RunReport& report) { return um_per_mm * most<RunQuantity::lag>(report); }
+double lag(const RunReport& report) { return um_per_mm * most<RunQuantity::following_error>(report); }
 double height(const RunReport& report) { return um_per_mm * most<RunQuantity::height>(report); }
 double time(const RunReport& report) { return 100 * std::abs(report.time_of_b - report.time) / report.time; }
 double aligned(const RunReport& report) { return 100 * report.aligned / report.arc_length; }

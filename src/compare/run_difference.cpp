@@ -15,7 +15,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double smoothing_seconds = 0.015;   ///< window of the mean of lags and heights
+constexpr double smoothing_seconds = 0.015;   ///< window of the mean of following errors and heights
 constexpr double jerk_seconds = 0.050;        ///< window of the root mean square of the jerk
 constexpr double jump_seconds = 0.0125;       ///< half a window of derivatives, plus a record
 constexpr double jerk_jump_seconds = 0.0475;  ///< half of both windows of the jerk, plus a record
@@ -27,7 +27,7 @@ constexpr std::int64_t points_for_usual = 200'000;  ///< points for the computat
 constexpr auto quantity_table = std::to_array<RunQuantityInfo>({
     {RunQuantity::speed, "speed", "Path speed", unit::mm_min, "mm_min"},
     {RunQuantity::acceleration, "acceleration", "Acceleration", unit::mm_s2, "mm_s2"},
-    {RunQuantity::lag, "lag", "Lag along the feed", unit::um, "um"},
+    {RunQuantity::following_error, "lag", "Lag along the feed", unit::um, "um"},
     {RunQuantity::height, "height", "Height of the path", unit::um, "um"},
     {RunQuantity::jerk, "jerk", "RMS jerk over 50 ms", unit::mm_s3, "mm_s3"},
 });
@@ -42,16 +42,16 @@ Vec3 feed_at(const Trajectory& path, PointIndex i) {
     return Vec3::Constant(missing<float>);
 }
 
-/// How far the measured positions trail the commanded ones [mm].
-Column<float> lags_of(const ComparedRun& run) {
-    Column<float> lags(static_cast<std::size_t>(run.path.count));
+/// How far the measured positions trail the commanded ones along the feed [mm].
+Column<float> following_errors_of(const ComparedRun& run) {
+    Column<float> errors(static_cast<std::size_t>(run.path.count));
     for_each_block(run.path.count, [&](PointIndex first, PointIndex last) {
         for (PointIndex i = first; i < last; ++i) {
             const Vec3 behind = run.commanded->at(i) - run.measured->at(i);
-            lags[static_cast<std::size_t>(i)] = static_cast<float>(behind.dot(feed_at(*run.commanded, i)));
+            errors[static_cast<std::size_t>(i)] = static_cast<float>(behind.dot(feed_at(*run.commanded, i)));
         }
     });
-    return lags;
+    return errors;
 }
 
 /// The upward normal of the CL surface, or of the path if a pass has no adjacent one.
@@ -325,14 +325,14 @@ RunDifferences compare_runs(const ComparedRun& a, const ClSurface& surface, cons
     }
     compare_motion(a, b, surface, out);
     const PointIndex window = points_in(smoothing_seconds, a.log->period);
-    float lag_quantum = 0;
+    float error_quantum = 0;
     if (a.commanded && a.measured && b.commanded && b.measured) {
-        Column<float>& lag = out.of[index_of(RunQuantity::lag)];
-        lag = lags_of(a);
-        subtract(lags_of(b), out.alignment, lag);
-        smooth(lag, out.alignment.sections, window);
+        Column<float>& following_error = out.of[index_of(RunQuantity::following_error)];
+        following_error = following_errors_of(a);
+        subtract(following_errors_of(b), out.alignment, following_error);
+        smooth(following_error, out.alignment.sections, window);
         for (const ComparedRun* run : {&a, &b})
-            lag_quantum = std::max({lag_quantum, quantum_of(*run->commanded), quantum_of(*run->measured)});
+            error_quantum = std::max({error_quantum, quantum_of(*run->commanded), quantum_of(*run->measured)});
     }
     const bool measured = a.truest && b.truest;
     const Trajectory& height_a = measured ? *a.truest : a.path;
@@ -350,7 +350,7 @@ RunDifferences compare_runs(const ComparedRun& a, const ClSurface& surface, cons
     out.speed_tolerance =
         rules.period * static_cast<float>(std::max(a.log->period, b.log->period)) * out.usual_acceleration;
     out.threshold = {rules.speed * out.usual_speed + out.speed_tolerance, rules.acceleration * out.usual_acceleration,
-                     std::max(rules.height, rules.lag_quanta * lag_quantum),
+                     std::max(rules.height, rules.following_error_quanta * error_quantum),
                      std::max(rules.height, rules.height_quanta * height_quantum),
                      rules.jerk * out.usual_jerk + out.jerk_tolerance};
     leave_out_rapids(surface.passes, out);

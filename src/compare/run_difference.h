@@ -17,11 +17,11 @@
 namespace clsurf {
 
 enum class RunQuantity : std::uint8_t {
-    speed,         ///< path speed [mm/s]
-    acceleration,  ///< its magnitude [mm/s²]
-    lag,           ///< how far the measured position trails the commanded one along the feed [mm]
-    height,        ///< height of B's path above A's path along the surface normal [mm]
-    jerk,          ///< root mean square of its magnitude over 50 ms [mm/s³]: roughness of the motion
+    speed,            ///< path speed [mm/s]
+    acceleration,     ///< its magnitude [mm/s²]
+    following_error,  ///< along the feed [mm], + if the measured position trails the commanded one; in reports: lag
+    height,           ///< height of B's path above A's path along the surface normal [mm]
+    jerk,             ///< root mean square of its magnitude over 50 ms [mm/s³]: roughness of the motion
 };
 inline constexpr std::size_t run_quantities = 5;
 [[nodiscard]] constexpr std::size_t index_of(RunQuantity q) { return static_cast<std::size_t>(q); }
@@ -39,7 +39,7 @@ struct RunQuantityInfo {
 struct ComparedRun {
     const Log* log = nullptr;
     Trajectory path;                                         ///< runs are aligned by it
-    std::optional<Trajectory> commanded, measured;           ///< if both are given, lags are compared
+    std::optional<Trajectory> commanded, measured;           ///< if both are given, following errors are compared
     std::optional<Trajectory> truest;                        ///< heights are compared along it; nullopt: along `path`
     DerivativeMethod derivative = DerivativeMethod::savgol;  ///< of speeds and accelerations
 };
@@ -49,8 +49,8 @@ struct RunThresholds {
     float least_speed = 0.25F;   ///< … which counts as at least this share of the usual speed
     float period = 0.25F;        ///< plus the change of speed by the usual acceleration in this fraction of a period
     float acceleration = 0.15F;  ///< share of the usual acceleration
-    float height = 0.0015F;      ///< [mm], for lags and heights …
-    float lag_quanta = 1.5F;     ///< … and at least this many steps of the positions
+    float height = 0.0015F;      ///< [mm], for following errors and heights …
+    float following_error_quanta = 1.5F;  ///< … and at least this many steps of the positions
     float height_quanta = 2.4F;
     float jerk = 0.5F;         ///< share of the jerk of the smoother run at the place …
     float usual_jerk = 0.05F;  ///< … plus this share of the usual jerk, and the effect of the steps of the positions
@@ -79,7 +79,7 @@ struct RunDifferences {
 };
 
 /// `surface`: stitched from A's path. Points of rapids are not compared. Windows of derivatives are those of the run with the
-/// longer period; lags and heights are means over 15 ms. O(points of both).
+/// longer period; following errors and heights are means over 15 ms. O(points of both).
 [[nodiscard]] RunDifferences compare_runs(const ComparedRun& a, const ClSurface& surface, const ComparedRun& b,
                                           const RunThresholds& rules = {});
 

@@ -52,7 +52,7 @@ RunRecord record_of(const Part& part, const Quality& quality, bool within_budget
     run.coverage_percent = 100 * report.coverage();
     run.speed_percent = mismatch_of(report.thresholds, Quantity::speed, 100);
     run.acceleration_mm_s2 = mismatch_of(report.thresholds, Quantity::acceleration, 1);
-    if (report.has_lag) run.lag_um = mismatch_of(report.thresholds, Quantity::lag, um_per_mm);
+    if (report.has_lag) run.lag_um = mismatch_of(report.thresholds, Quantity::normal_deviation, um_per_mm);
     run.defects = static_cast<std::int64_t>(report.defects.size());
     run.worst_severity = report.worst_severity();
     for (const Defect& defect : report.defects) {

@@ -44,7 +44,7 @@ PointIndex last_adjacent(const ClSurface& surface, PointIndex point) {
 std::optional<PointIndex> last_for_cause(const Defect& defect, const DefectSurroundings& around) {
     const std::array<std::vector<PointIndex>, 2> sides{points_aside(around, defect.point, Side::left),
                                                        points_aside(around, defect.point, Side::right)};
-    const bool lag = defect.quantity == Quantity::lag && !defect.systematic;
+    const bool lag = defect.quantity == Quantity::normal_deviation && !defect.systematic;
     const bool adjacent_defect = std::any_of(sides.begin(), sides.end(), [&](const std::vector<PointIndex>& side) {
         const std::size_t count = std::min<std::size_t>(side.size(), passes_next_to_defect - 1);
         return std::any_of(side.begin(), side.begin() + static_cast<std::ptrdiff_t>(count), around.has_defect);

@@ -37,7 +37,7 @@ std::vector<FollowedPoint> sample(const Defect& defect, const Trajectory& path, 
             p.velocity = (path.at(i + 1) - path.at(i - 1)) / (2 * path.period);
             p.error = measured.at(i) - path.at(i);
             p.normal = signals.normal(i).cast<double>();
-            p.lag = static_cast<double>(signals[i].lag);
+            p.lag = static_cast<double>(signals[i].normal_deviation);
             if (p.velocity.allFinite() && p.error.allFinite() && p.normal.allFinite() && std::isfinite(p.lag))
                 points.push_back(p);
         }

@@ -87,7 +87,8 @@ bool Border::on_flank(const DefectCandidate& site, const DefectCandidate& at, do
     if (distance >= reach) return false;
     if (distance < along_) return true;
     const std::size_t q = index_of(quantity);
-    if (quantity == Quantity::lag || quantity == Quantity::relief) return site.share[q] < falls_to * at.share[q];
+    if (quantity == Quantity::normal_deviation || quantity == Quantity::relief)
+        return site.share[q] < falls_to * at.share[q];
     if (quantity != Quantity::speed || ramps(site.point)) return true;
     const Comparison& c = site.comparison;
     return (c.adjacent_left.exists() && ramps(c.adjacent_left.nearest())) ||

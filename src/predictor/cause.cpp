@@ -173,14 +173,15 @@ bool CauseFinder::begins_with_reversal(const DefectSection& section) const {
 
 Cause CauseFinder::cause_of(const Defect& defect, std::span<const DefectCandidate* const> sites) const {
     if (defect.quantity == Quantity::relief && leaves_program(defect, sites)) return Cause::path_tolerance;
-    if (defect.quantity == Quantity::relief || (defect.quantity != Quantity::lag && spaced_otherwise(defect)))
+    if (defect.quantity == Quantity::relief ||
+        (defect.quantity != Quantity::normal_deviation && spaced_otherwise(defect)))
         return Cause::point_spacing;
     const auto most_sections = [&](auto&& test) {
         const auto count = std::count_if(defect.sections.begin(), defect.sections.end(), test);
         return 2 * count > static_cast<std::ptrdiff_t>(defect.sections.size());
     };
     if (most_sections([&](const DefectSection& section) { return turns(section); })) return Cause::corner;
-    if (defect.quantity == Quantity::lag) {
+    if (defect.quantity == Quantity::normal_deviation) {
         if (most_sections([&](const DefectSection& section) { return begins_with_reversal(section); }))
             return Cause::reversal;
         return Cause::lag_step;

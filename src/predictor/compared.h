@@ -10,14 +10,15 @@
 
 namespace clsurf {
 
-enum class Quantity : std::uint8_t { speed, acceleration, lag, relief };
+/// In reports, the normal deviation is called lag (name_of).
+enum class Quantity : std::uint8_t { speed, acceleration, normal_deviation, relief };
 inline constexpr std::size_t quantities = 4;
 [[nodiscard]] constexpr std::size_t index_of(Quantity q) { return static_cast<std::size_t>(q); }
 [[nodiscard]] std::string_view name_of(Quantity quantity);  ///< "speed"
 
 /// The compared quantities at one place.
 struct Compared {
-    float speed, lag, relief;
+    float speed, normal_deviation, relief;
     Eigen::Vector3f acceleration;
 };
 

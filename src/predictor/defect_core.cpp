@@ -62,7 +62,7 @@ private:
     /// A run of a motion, cut at the bottom of each dip between two peaks. Heights are not cut, because they oscillate after
     /// their cause.
     [[nodiscard]] std::vector<CandidateSpan> bumps_of(CandidateSpan run) const {
-        if (quantity_ == Quantity::lag || quantity_ == Quantity::relief) return {run};
+        if (quantity_ == Quantity::normal_deviation || quantity_ == Quantity::relief) return {run};
         const std::vector<float> shares = filled(run);
         std::vector<CandidateSpan> bumps;
         std::size_t first = 0, bottom = 0;

@@ -57,7 +57,7 @@ float height_at(HeightOf of, const PathLocation& at, const Compared& there, cons
     Vec3 mark = marks.at(at.point);
     if (at.fraction > 0) mark += static_cast<double>(at.fraction) * (marks.at(at.point + 1) - mark);
     const auto above = static_cast<float>(mark.dot(normal.cast<double>()));
-    return of == HeightOf::measured ? there.lag + above : above;
+    return of == HeightOf::measured ? there.normal_deviation + above : above;
 }
 
 /// The extended sections of the passes that cause the defect. Places on them are no reference.

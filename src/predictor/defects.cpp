@@ -55,7 +55,7 @@ double plateau(const std::vector<double>& values, double sign) {
 /// Quantities that are grouped together.
 using Family = std::span<const Quantity>;
 constexpr std::array motion_family{Quantity::speed, Quantity::acceleration};
-constexpr std::array lag_family{Quantity::lag};
+constexpr std::array lag_family{Quantity::normal_deviation};
 constexpr std::array relief_family{Quantity::relief};
 
 float largest(const std::array<float, quantities>& values, Family family) {
@@ -174,7 +174,7 @@ public:
     /// The one defect of a systematic lag.
     [[nodiscard]] Defect build(const SystematicLag& lag) const {
         Defect defect;
-        defect.quantity = Quantity::lag;
+        defect.quantity = Quantity::normal_deviation;
         defect.cause = Cause::lag_step;
         defect.systematic = true;
         std::vector<double> steps;
@@ -188,7 +188,7 @@ public:
         defect.place.tip = surface_.positions.absolute(defect.point);
         defect.speed = defect.adjacent_speed = signals_[defect.point].speed;
         defect.depth = nearest_quantile(steps, systematic_depth);
-        defect.score = static_cast<float>(defect.depth) / thresholds_.of[index_of(Quantity::lag)];
+        defect.score = static_cast<float>(defect.depth) / thresholds_.of[index_of(Quantity::normal_deviation)];
         for (std::size_t k = 0; k < lag.sites.size();) {
             std::size_t end = k + 1;
             while (end < lag.sites.size() && lag.sites[end].pass == lag.sites[k].pass &&
@@ -226,7 +226,7 @@ private:
             const Comparison& c = s->comparison;
             // Measured and commanded relief differ by the lag. Without measured positions only the relief is known.
             const bool by_relief = defect.quantity == Quantity::relief || !signals_.measured;
-            heights.push_back(c.residual[index_of(by_relief ? Quantity::relief : Quantity::lag)]);
+            heights.push_back(c.residual[index_of(by_relief ? Quantity::relief : Quantity::normal_deviation)]);
             speeds.push_back(c.speed_jump);
             mismatches.push_back(c.residual[index_of(Quantity::speed)]);
             accelerations.push_back(c.step[index_of(Quantity::acceleration)]);

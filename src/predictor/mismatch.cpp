@@ -163,7 +163,7 @@ private:
 /// [mm/s].
 float fill_residuals(const Compared& mine, const SurroundingPasses& others, float least_speed, Comparison& result) {
     const SurroundingValues speeds(others, [](const Compared& v) { return v.speed; });
-    const SurroundingValues lags(others, [](const Compared& v) { return v.lag; });
+    const SurroundingValues deviations(others, [](const Compared& v) { return v.normal_deviation; });
     const SurroundingValues reliefs(others, [](const Compared& v) { return v.relief; });
     const float usual = speeds.usual_motion(mine.speed);
     // The reference for two passes is the mean of both.
@@ -172,7 +172,8 @@ float fill_residuals(const Compared& mine, const SurroundingPasses& others, floa
     const float reference = std::max(of_two == of_two ? of_two : mine.speed, least_speed);
     result.speed_jump = mine.speed - usual;
     result.residual[index_of(Quantity::speed)] = result.speed_jump / reference;
-    result.residual[index_of(Quantity::lag)] = mine.lag - lags.usual(mine.lag);
+    result.residual[index_of(Quantity::normal_deviation)] =
+        mine.normal_deviation - deviations.usual(mine.normal_deviation);
     // The curvature of a part changes over more passes than a motion does, so at most five count.
     const auto nearest = [&](std::size_t s) {
         const std::span<const float> all = reliefs.side(s);
@@ -229,7 +230,7 @@ std::array<float, quantities> Comparer::change_nearby(PointIndex point, float re
              i += direction) {
             const Sample& there = signals_[i];
             widen(Quantity::speed, std::abs(there.speed - mine.speed) / reference);
-            widen(Quantity::lag, std::abs(there.lag - mine.lag));
+            widen(Quantity::normal_deviation, std::abs(there.normal_deviation - mine.normal_deviation));
             widen(Quantity::relief, std::abs(there.relief - mine.relief));
             widen(Quantity::acceleration, (signals_.acceleration(i) - signals_.acceleration(point)).norm());
             if (!((p[i] - p[point]).norm() < slack_step_overs * static_cast<float>(surface_.step_over))) break;
@@ -304,7 +305,8 @@ Comparison Comparer::compare_with(Peers peers, const PathLocation& here, int asi
         const Compared next = count[s] > 1 ? others.of[s][1] : no_pass();
         widen(Quantity::speed, step_beyond_trend(mine.speed, adjacent.speed, next.speed));
         widen(Quantity::acceleration, step_beyond_trend(mine.acceleration, adjacent.acceleration, next.acceleration));
-        widen(Quantity::lag, step_beyond_trend(mine.lag, adjacent.lag, next.lag));
+        widen(Quantity::normal_deviation,
+              step_beyond_trend(mine.normal_deviation, adjacent.normal_deviation, next.normal_deviation));
         widen(Quantity::relief, step_beyond_trend(mine.relief, adjacent.relief, next.relief));
     }
     result.left = others.count[0];
@@ -314,7 +316,8 @@ Comparison Comparer::compare_with(Peers peers, const PathLocation& here, int asi
     result.lesser_step[index_of(Quantity::speed)] /= reference;
     result.uncertainty[index_of(Quantity::speed)] = change_of_two_periods(signals_, &Sample::speed, point) / reference;
     if (signals_.measured)
-        result.uncertainty[index_of(Quantity::lag)] = change_of_two_periods(signals_, &Sample::lag, point);
+        result.uncertainty[index_of(Quantity::normal_deviation)] =
+            change_of_two_periods(signals_, &Sample::normal_deviation, point);
     return result;
 }
 
@@ -340,7 +343,7 @@ Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals, 
         // clean the log.
         std::max({rule.acceleration * thresholds.usual_acceleration, signals.acceleration_noise,
                   least_speed_step * thresholds.usual_speed * signals.speed_step_response}),
-        std::max(rule.height, rule.lag_quanta * signals.quantum),
+        std::max(rule.height, rule.normal_deviation_quanta * signals.quantum),
         std::max(rule.height, rule.relief_quanta * signals.quantum)};
     thresholds.least_speed =
         std::max(rule.least_speed * thresholds.usual_speed, signals.speed_noise / least[index_of(Quantity::speed)]);

@@ -83,9 +83,10 @@ struct ThresholdRule {
     float acceleration =
         0.15F;  ///< least threshold, relative to the usual acceleration; at least the effect of rounding (as for the speed),
                 ///< and at least the acceleration of a sharp change of the speed by its least threshold
-    float least_speed = 0.25F;   ///< share of the usual speed; more if rounding alone reaches the threshold there
-    float height = 0.0015F;      ///< least threshold [mm] …
-    float lag_quanta = 1.5F;     ///< … and in steps of the positions: a whole pass may be rounded in one direction,
+    float least_speed = 0.25F;  ///< share of the usual speed; more if rounding alone reaches the threshold there
+    float height = 0.0015F;     ///< least threshold [mm] …
+    float normal_deviation_quanta =
+        1.5F;                    ///< … and in steps of the positions: a whole pass may be rounded in one direction,
     float relief_quanta = 2.4F;  ///< and a relief depends on three passes
     float spreads = 6;           ///< above the median; the usual scatter of a part is no defect …
     float acceleration_spreads = 9;  ///< (the length of a noise vector has a longer tail)

@@ -42,7 +42,7 @@ float speed_difference_of(const Comparer& comparer, const Signals& signals, Poin
 }
 
 float height(const Comparer&, const Signals& signals, PointIndex i) {
-    return signals.measured ? signals[i].lag : signals[i].relief;
+    return signals.measured ? signals[i].normal_deviation : signals[i].relief;
 }
 
 float speed_threshold(const Thresholds& thresholds, bool) {
@@ -54,7 +54,7 @@ float acceleration_threshold(const Thresholds& thresholds, bool) {
 }
 
 float height_threshold(const Thresholds& thresholds, bool measured) {
-    return thresholds.of[index_of(measured ? Quantity::lag : Quantity::relief)];
+    return thresholds.of[index_of(measured ? Quantity::normal_deviation : Quantity::relief)];
 }
 
 constexpr auto quality_rows = std::to_array<QualityFieldRow>({

@@ -194,7 +194,7 @@ public:
             const double speed = velocity.norm();
             Sample& sample = out_[i];
             sample.speed = static_cast<float>(speed);
-            sample.lag = missing<float>;
+            sample.normal_deviation = missing<float>;
             for (Eigen::Index axis = 0; axis < 3; ++axis) {
                 sample.feed[axis] = speed > slowest ? static_cast<float>(velocity[axis] / speed) : missing<float>;
                 sample.acceleration[axis] = static_cast<float>(a[static_cast<std::size_t>(axis)][k]);
@@ -231,7 +231,8 @@ public:
         std::vector<float>& lag = relief;
         measure_lag(from, to, normals, lag);
         smoother_.apply(lag, skip, 1, smooth);
-        for (std::size_t k = 0; k < smooth.size(); ++k) out_[first + static_cast<PointIndex>(k)].lag = smooth[k];
+        for (std::size_t k = 0; k < smooth.size(); ++k)
+            out_[first + static_cast<PointIndex>(k)].normal_deviation = smooth[k];
     }
 
 private:

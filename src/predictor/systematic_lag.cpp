@@ -45,7 +45,7 @@ public:
         for (const Side side : {Side::left, Side::right}) {
             Directions& mine = sides[static_cast<std::size_t>(side)];
             const auto read = [&](const PathLocation& at, int) {
-                const float lag = compared_at(signals_, at, normal).lag;
+                const float lag = compared_at(signals_, at, normal).normal_deviation;
                 if (!(lag == lag)) return;
                 const bool against = signals_.feed(at.nearest()).dot(signals_.feed(point)) < 0;
                 (against ? mine.other : mine.own).add(lag);
@@ -53,7 +53,7 @@ public:
             };
             for_each_judged_neighbour(surface_, signals_, here, side, lag_passes_aside, along_or_against, read);
         }
-        const float lag = compared_at(signals_, here, normal).lag;
+        const float lag = compared_at(signals_, here, normal).normal_deviation;
         const float usual = balanced_median(sides[0].own, sides[1].own);
         const float bend = bend_across(sides[0].own, sides[1].own);
         LagAround result;
@@ -116,7 +116,7 @@ private:
         for (const PointIndex direction : {-1, 1}) {
             for (PointIndex i = point + direction; i >= 0 && i < p.size() && signals_[i].zone != Zone::outside;
                  i += direction) {
-                change = std::max(change, std::abs(signals_[i].lag - signals_[point].lag));
+                change = std::max(change, std::abs(signals_[i].normal_deviation - signals_[point].normal_deviation));
                 if (!((p[i] - p[point]).norm() < shift_step_overs * static_cast<float>(surface_.step_over))) break;
             }
         }
@@ -138,7 +138,8 @@ struct Candidate {
 std::vector<Candidate> find_candidates(const LagComparer& comparer, const Thresholds& thresholds,
                                        FoundCandidates& found, const ForgetBlocks& forget) {
     std::vector<Candidate> all;
-    for (DefectCandidate* defect_candidate : found.with_share_of(Quantity::lag)) all.push_back({defect_candidate, {}});
+    for (DefectCandidate* defect_candidate : found.with_share_of(Quantity::normal_deviation))
+        all.push_back({defect_candidate, {}});
     // A size of portions for threads; results do not depend on it.
     constexpr std::int64_t grain = 1024;
     for_each_portion(
@@ -151,7 +152,7 @@ std::vector<Candidate> find_candidates(const LagComparer& comparer, const Thresh
             });
         });
     std::erase_if(all, [&](const Candidate& c) {
-        return std::abs(c.lag.alternating) < alternates * thresholds.of[index_of(Quantity::lag)];
+        return std::abs(c.lag.alternating) < alternates * thresholds.of[index_of(Quantity::normal_deviation)];
     });
     return all;
 }
@@ -181,7 +182,7 @@ bool is_wide(std::span<const std::size_t> region, const std::vector<Candidate>& 
 
 /// Replaces the lag difference of a candidate by the one to the passes of its own direction; 0 if that is not known.
 void subtract(const Candidate& candidate, const Thresholds& thresholds) {
-    constexpr std::size_t q = index_of(Quantity::lag);
+    constexpr std::size_t q = index_of(Quantity::normal_deviation);
     DefectCandidate& s = *candidate.defect_candidate;
     const LagAround& lag = candidate.lag;
     const float left = candidate.known() ? std::max(std::abs(lag.residual) - lag.slack, 0.0F) : 0;
@@ -210,7 +211,7 @@ SystematicLag take_systematic_lag(const ClSurface& surface, const Signals& signa
         if (is_wide(members, candidates)) wide.insert(wide.end(), members.begin(), members.end());
     }
     std::sort(wide.begin(), wide.end());
-    const float threshold = thresholds.of[index_of(Quantity::lag)];
+    const float threshold = thresholds.of[index_of(Quantity::normal_deviation)];
     for (const std::size_t k : wide) {
         const Candidate& c = candidates[k];
         if (std::abs(c.lag.alternating) >= threshold)

@@ -26,7 +26,7 @@ Marks marked_places(const JudgedRun& run, const RepairMaskRules& rules) {
         if (differs || run.signals[i].speed < slow) marks[static_cast<std::size_t>(i)] = 1;
     }
     for (const Defect& defect : run.report.defects) {
-        if (defect.quantity == Quantity::lag) continue;
+        if (defect.quantity == Quantity::normal_deviation) continue;
         for (const DefectSection& r : defect.sections) mark(marks, r.points);
         for (const DefectSection& r : defect.neighbours) mark(marks, r.points);
     }

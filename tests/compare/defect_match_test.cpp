@@ -44,7 +44,7 @@ DefectMatch match(const std::vector<Defect>& before, const std::vector<Defect>& 
 
 TEST(DefectMatch, OfARunWithItselfRemainsWhole) {
     const std::vector<Defect> defects{defect_on(3, 50, 80), defect_on(4, 50, 80), defect_on(9, 10, 11),
-                                      defect_on(9, 10, 11, Quantity::lag)};
+                                      defect_on(9, 10, 11, Quantity::normal_deviation)};
     const DefectMatch found = match(defects, defects);
     for (std::size_t i = 0; i < defects.size(); ++i) EXPECT_EQ(found.before_of[i], i);
     EXPECT_TRUE(found.gone.empty());
@@ -75,9 +75,9 @@ TEST(DefectMatch, NeedsAQuarterOfTheShorterOne) {
 TEST(DefectMatch, KindsDoNotMix) {
     EXPECT_EQ(match({defect_on(3, 50, 80)}, {defect_on(3, 50, 80, Quantity::relief)}).remaining(), 0U);
     EXPECT_EQ(match({defect_on(3, 50, 80)}, {defect_on(3, 50, 80, Quantity::acceleration)}).remaining(), 1U);
-    Defect whole = defect_on(3, 50, 80, Quantity::lag);
+    Defect whole = defect_on(3, 50, 80, Quantity::normal_deviation);
     whole.systematic = true;
-    EXPECT_EQ(match({whole}, {defect_on(3, 50, 80, Quantity::lag)}).remaining(), 0U);
+    EXPECT_EQ(match({whole}, {defect_on(3, 50, 80, Quantity::normal_deviation)}).remaining(), 0U);
     EXPECT_EQ(match({whole}, {whole}).remaining(), 1U);
 }
 

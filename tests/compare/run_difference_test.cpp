@@ -121,7 +121,7 @@ TEST(RunDifference, FindsADipOfSpeed) {
     EXPECT_NEAR(found[0].time, 8 / 27.0 - 8 / 30.0, 0.004);
     // Heights and lags are the same.
     EXPECT_TRUE(sections_of(c.report, RunQuantity::height).empty());
-    EXPECT_TRUE(sections_of(c.report, RunQuantity::lag).empty());
+    EXPECT_TRUE(sections_of(c.report, RunQuantity::following_error).empty());
 }
 
 // The same speed on average, but oscillating: v = v0 + a sin ωt has the jerk a ω² |sin ωt|, root mean square a ω²/√2.
@@ -191,7 +191,7 @@ TEST(RunDifference, FindsALagOfThreeMicrometres) {
     const MadeRun a = make_run(recipe);
     recipe.off = [feed](double s) { return Vec3(-(s > 60 && s < 70 ? 0.013 : 0.010) * feed(s)); };
     const Compared c = compare(a, make_run(recipe));
-    const auto found = sections_of(c.report, RunQuantity::lag);
+    const auto found = sections_of(c.report, RunQuantity::following_error);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_NEAR(found[0].peak, 0.003, 1e-4);
     EXPECT_NEAR(found[0].length, 10, 0.8);

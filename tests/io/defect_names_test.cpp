@@ -49,7 +49,7 @@ TEST(Headline, CountsThePassesOfOneKind) {
 TEST(Headline, LeavesOutWhatIsLessThanHalfAsStrongOrOfAnotherKind) {
     QualityReport report;
     Defect lag = slow(9, 0, 9);
-    lag.quantity = Quantity::lag;
+    lag.quantity = Quantity::normal_deviation;
     report.defects = {slow(2, -0.40, 10), lag, slow(4, 0.50, 9), slow(6, -0.20, 4)};
     EXPECT_EQ(headline_of(report), "Pass 2 runs 40 % slower than its neighbours");
 }
@@ -74,7 +74,7 @@ TEST(Headline, SaysWhoLeavesTheProgram) {
 TEST(Headline, NamesSystematicLagFirst) {
     QualityReport report;
     Defect d;
-    d.quantity = Quantity::lag;
+    d.quantity = Quantity::normal_deviation;
     d.systematic = true;
     d.depth = 0.067;
     d.share = 0.31;
@@ -98,7 +98,7 @@ TEST(Label, SaysWhichWay) {
     EXPECT_EQ(label_of(d), "+12.1 µm relief");
     d.pit = true;
     EXPECT_EQ(label_of(d), "−12.1 µm relief");
-    d.quantity = Quantity::lag;
+    d.quantity = Quantity::normal_deviation;
     d.systematic = true;
     EXPECT_EQ(label_of(d), "±12.1 µm lag");
 }

@@ -22,7 +22,8 @@ struct Group {
             positions.z.push_back(0);
             DefectCandidate candidate{};
             candidate.point = static_cast<PointIndex>(k);
-            candidate.share[index_of(Quantity::speed)] = candidate.share[index_of(Quantity::lag)] = shares[k];
+            candidate.share[index_of(Quantity::speed)] = candidate.share[index_of(Quantity::normal_deviation)] =
+                shares[k];
             kept.push_back(candidate);
         }
         for (const DefectCandidate& candidate : kept) candidates.push_back(&candidate);
@@ -82,7 +83,7 @@ TEST(DefectCore, KeepsAPeakThatIsLessThanHalfOfAnotherOneBeyondADip) {
     const Group group({10, 10, 10, 2, 0.5, 0.3, 0.2, 0.3, 0.5, 4, 1, 4, 1, 4});
     EXPECT_EQ(group.core(), (Points{0, 1, 2, 9, 10, 11, 12, 13}));
     EXPECT_TRUE(group.rest().empty());
-    EXPECT_EQ(Group::points(group.sites(Quantity::lag).core), (Points{0, 1, 2})) << "heights swing";
+    EXPECT_EQ(Group::points(group.sites(Quantity::normal_deviation).core), (Points{0, 1, 2})) << "heights swing";
     // The same in reverse order.
     const Group mirrored({4, 1, 4, 1, 4, 0.5, 0.3, 0.2, 0.3, 0.5, 2, 10, 10, 10});
     EXPECT_EQ(mirrored.core(), (Points{0, 1, 2, 3, 4, 11, 12, 13}));

@@ -320,7 +320,7 @@ TEST(Defects, AreListedByHowFarTheyStandOut) {
     const QualityReport report = planted::judge(log);
     ASSERT_EQ(report.defects.size(), 2U);
     EXPECT_EQ(report.defects[0].quantity, Quantity::speed);
-    EXPECT_EQ(report.defects[1].quantity, Quantity::lag);
+    EXPECT_EQ(report.defects[1].quantity, Quantity::normal_deviation);
     EXPECT_GT(report.defects[0].score, report.defects[1].score);
     EXPECT_NEAR(report.defects[0].score, 0.4 / report.thresholds.of[index_of(Quantity::speed)], 0.3);
     EXPECT_LT(report.defects[0].depth, report.defects[1].depth);

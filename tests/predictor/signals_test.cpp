@@ -32,7 +32,7 @@ TEST(Signals, ALagAlongThePathIsNoHeight) {
         test::flat_zigzag(9, 30, 0.4, 50, [](const Vec3& p, const Vec3& feed) { return Vec3(p - 1.0 * feed); });
     const Signals s = made.signals();
     for_each_inner(s, [&](PointIndex i) {
-        const float lag = s[i].lag;
+        const float lag = s[i].normal_deviation;
         if (lag == lag) { EXPECT_NEAR(lag, 0.0F, 1e-6F) << i; }
     });
 }
@@ -43,7 +43,7 @@ TEST(Signals, AnOffsetAlongTheNormalIsTheHeight) {
     const Signals s = made.signals();
     std::int64_t with = 0;
     for_each_inner(s, [&](PointIndex i) {
-        const float lag = s[i].lag;
+        const float lag = s[i].normal_deviation;
         if (!(lag == lag)) return;  // the outermost passes do have a normal, but from one side only
         EXPECT_NEAR(lag, 0.005F, 1e-6F) << i;
         ++with;
@@ -74,7 +74,9 @@ TEST(Signals, AreTheSameWhenTheyAreDerivedWhereTheyAreRead) {
             const PointIndex i = (k * 7919) % whole.size();
             const Sample &a = whole[i], &b = read[i];
             ASSERT_EQ(a.zone, b.zone) << i;
-            ASSERT_TRUE(same(a.speed, b.speed) && same(a.lag, b.lag) && same(a.relief, b.relief)) << i;
+            ASSERT_TRUE(same(a.speed, b.speed) && same(a.normal_deviation, b.normal_deviation) &&
+                        same(a.relief, b.relief))
+                << i;
             for (int axis = 0; axis < 3; ++axis) {
                 ASSERT_TRUE(same(a.feed[axis], b.feed[axis]) && same(a.normal[axis], b.normal[axis]) &&
                             same(a.acceleration[axis], b.acceleration[axis]))
@@ -173,8 +175,8 @@ TEST(Signals, AMeasuredPathOutsideAWallRunsAboveItWhicheverWayTheToolRuns) {
         const Signals signals = made.signals();
         int seen = 0;
         for (PointIndex i = 0; i < signals.size(); ++i) {
-            if (signals[i].zone == Zone::outside || !(signals[i].lag == signals[i].lag)) continue;
-            EXPECT_NEAR(signals[i].lag, 0.01F, 1e-4F);
+            if (signals[i].zone == Zone::outside || std::isnan(signals[i].normal_deviation)) continue;
+            EXPECT_NEAR(signals[i].normal_deviation, 0.01F, 1e-4F);
             ++seen;
         }
         EXPECT_GT(seen, 1000);

@@ -208,7 +208,7 @@ viz::Image draw_defect_card(const JudgedPart& judged, std::size_t index, int wid
     speed.title = "Speed [mm/min]";
     label_lines(speed, profile);
     const bool by_lag = profile.height_of == DefectProfile::HeightOf::measured && d.quantity != Quantity::relief;
-    const float height_threshold = thresholds.of[index_of(by_lag ? Quantity::lag : Quantity::relief)];
+    const float height_threshold = thresholds.of[index_of(by_lag ? Quantity::normal_deviation : Quantity::relief)];
     viz::CardChart heights = chart_along(profile, profile.height, profile.usual_height, um_per_mm,
                                          std::vector<double>(profile.along.size(), height_threshold), rgb);
     heights.title = title_of(profile.height_of, d.cause);

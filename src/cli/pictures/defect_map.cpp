@@ -21,7 +21,7 @@ viz::DefectKind kind_of(Quantity quantity) {
     switch (quantity) {
         case Quantity::speed: return {"speed", {200, 70, 0}, viz::StrokeStyle::solid};
         case Quantity::acceleration: return {"acceleration", {190, 125, 0}, viz::StrokeStyle::dashed};
-        case Quantity::lag: return {"axis lag", {0, 105, 170}, viz::StrokeStyle::double_line};
+        case Quantity::normal_deviation: return {"axis lag", {0, 105, 170}, viz::StrokeStyle::double_line};
         case Quantity::relief: return {"relief", {0, 130, 95}, viz::StrokeStyle::dotted};
     }
     return {};
@@ -39,7 +39,8 @@ PointIndex named_point(const Defect& d) {
 
 viz::DefectMap defect_map_of(const QualityReport& report) {
     viz::DefectMap map;
-    constexpr std::array quantities{Quantity::speed, Quantity::acceleration, Quantity::lag, Quantity::relief};
+    constexpr std::array quantities{Quantity::speed, Quantity::acceleration, Quantity::normal_deviation,
+                                    Quantity::relief};
     std::array<std::size_t, quantities.size()> index{};
     for (std::size_t q = 0; q < quantities.size(); ++q) {
         const bool occurs = std::any_of(report.defects.begin(), report.defects.end(),
