@@ -156,9 +156,10 @@ ColourMap make_colour_map(const std::string& text) {
         std::vector<std::string_view> names;
         for (const ColourMapInfo& info : infos) names.push_back(info.name);
         const std::string nearest = did_you_mean(text, names);
-        throw UsageError(
-            "--colormap: unknown map '" + text + "'",
-            nearest.empty() ? "a name of `clsurf help colormaps`, or own stops: #0000ff,#ffff00,#ff0000" : nearest);
+        throw UsageError("--colormap: unknown map '" + text + "'",
+                         nearest.empty()
+                             ? "a name of `clsurf help colormaps`, or your own colours: #0000ff,#ffff00,#ff0000"
+                             : nearest);
     }
     std::vector<ColourStop> stops;
     std::size_t at = 0;

@@ -251,8 +251,8 @@ void add_words(Sheet& sheet, const MapPanel& map, const ColourScale& scale, cons
 
 void note_labels_without_room(int count, MapTexts& texts) {
     if (count > 0)
-        texts.notes.push_back(count == 1 ? "1 label has no room in this picture"
-                                         : fmt::format("{} labels have no room in this picture", count));
+        texts.notes.push_back(count == 1 ? "1 label does not fit in this picture"
+                                         : fmt::format("{} labels do not fit in this picture", count));
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ void write_vtkhdf(const std::string& path, VtkPiece piece, const PointRange& own
                   const std::vector<PointData>& data);
 
 /// One file with a partition for each piece, in the order of their points. Throws InputError: a file is not a piece, is
-/// damaged, or has other columns than the first one; UsageError: points of the surface are in no piece or in two;
+/// damaged, or has different columns from the first one; UsageError: points of the surface are in no piece or in two;
 /// SystemError. O(points), in the memory of a block of points.
 void merge_vtkhdf(const std::string& path, const std::vector<std::string>& pieces);
 

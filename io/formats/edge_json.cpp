@@ -100,7 +100,7 @@ std::set<std::string> turning_axes(const EdgeRecording& recording, const std::ve
              "log.rotary-axis",
              Place::of_file(log.name),
              fmt::format(
-                 "axis '{}' turns: {} jumps by 360 while it moves on. It is no {}: its signals keep their names",
+                 "axis '{}' turns: {} jumps by 360 while it moves on. It is not {}: its signals keep their names",
                  signal.axis, signal.name, static_cast<char>(std::toupper(static_cast<unsigned char>(letter)))),
              {}});
     }

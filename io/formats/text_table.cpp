@@ -107,7 +107,7 @@ void refuse_wide_rows(const Source& source, const TextPlan& plan, const std::vec
             throw InputError(
                 Place::of_line(source.name, before + chunk.first_wide),
                 fmt::format("a row has {} fields, the header {}", chunk.fields_of_wide, plan.columns.size()),
-                plan.separator == ',' ? "decimal commas need another separator than the comma" : "");
+                plan.separator == ',' ? "with decimal commas the separator cannot be a comma" : "");
         before += chunk.lines;
     }
 }

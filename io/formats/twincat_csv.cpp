@@ -261,9 +261,9 @@ Log open_twincat(const Source& source, const LogOptions& options) {
              Place::of_line(source.name, header.plan.first_data_line),
              held_channels == 1
                  ? std::string(
-                       "1 channel has other times than the fastest one; between its samples it keeps the last value")
+                       "1 channel has different times from the fastest one; between its samples it keeps the last value")
                  : fmt::format(
-                       "{} channels have other times than the fastest one; between their samples they keep the last value",
+                       "{} channels have different times from the fastest one; between their samples they keep the last value",
                        held_channels),
              {}});
     }

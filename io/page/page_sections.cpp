@@ -78,7 +78,7 @@ std::string alarm_bars(const ReportPage& page) {
     if (!report.judgement.judged()) {
         std::string why;
         for (const std::string& reason : report.judgement.reasons) why += " " + html(reason);
-        text += bar("Not judged.", why + " What was found is shown in grey: it proves nothing.");
+        text += bar("Not judged.", why + " Findings are shown in grey and are not reliable.");
     }
     const double missing = s.lines->match().missing;
     if (!s.log->closed)
@@ -89,8 +89,7 @@ std::string alarm_bars(const ReportPage& page) {
                         : " Its recording was not closed: records at its end may be missing.");
     else if (missing > least_missing && report.judgement.judged())
         text += bar("The log is not complete.",
-                    fmt::format(" It lacks {:.0f} % of the program's motions, which nothing on this page judges.",
-                                100 * missing));
+                    fmt::format(" It lacks {:.0f} % of the program's motions; they are not judged.", 100 * missing));
     return text;
 }
 
@@ -190,7 +189,7 @@ std::string roughness_change_html(const PageChange& change) {
     if (rows.empty()) return {};
     return "<p>Both surfaces at the same places, over the form of the log before:</p>\n" +
            wide_table("roughness before and after",
-                      "<th>Formed surface</th><th>before</th><th>after</th><th>change</th>", rows);
+                      "<th>As-machined surface</th><th>before</th><th>after</th><th>change</th>", rows);
 }
 
 /// The changes in defects and surface since the earlier log.
@@ -273,7 +272,7 @@ std::string numbers_section(const ReportPage& page) {
     if (page.quality.as_machined != nullptr && !page.quality.as_machined->roughness.patches.empty()) {
         const PartRoughness& f = page.quality.as_machined->roughness;
         text += fmt::format(
-            "<p>Formed surface with {}, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}), Sa {:.2f}, Sz {:.2f} µm, {}.</p>\n",
+            "<p>As-machined surface with {}, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}), Sa {:.2f}, Sz {:.2f} µm, {}.</p>\n",
             html(to_text(*page.quality.tool)), f.patches.size(), f.ra * um_per_mm, f.rz * um_per_mm,
             f.patches[f.roughest].profile.rz * um_per_mm, f.sa * um_per_mm, f.sz * um_per_mm, cutoff_text(f.cutoff));
         text += fmt::format("<p>The form is not known on {:.0f} % of these patches: nothing is measured there.</p>\n",

@@ -87,7 +87,7 @@ std::string trend_figure(const ShopPage& page, const HistoryQuantity& quantity,
         svg.before = trend.change->before;
         svg.after = trend.change->after;
         const TrendPoint& since = trend.points[trend.change->first];
-        note = fmt::format(" Since run {} ({}) the median is {:.4g}, before it was {:.4g}.", since.run,
+        note = fmt::format(" Since run {} ({}) the median has been {:.4g}; before that it was {:.4g}.", since.run,
                            day_of(since.time), svg.after, svg.before);
     }
     return fmt::format("<figure><figcaption><b>{}</b>{}{}</figcaption>{}</figure>\n", html(quantity.label),
@@ -168,7 +168,7 @@ std::string programs_section(const ShopPage& page) {
     const std::vector<ProgramRow> rows = program_rows(page.runs);
     std::string text =
         "<section id=\"programs\"><h2>Worst programs</h2>\n<div class=\"wide\"><table><thead><tr><th scope=\"col\">Program</th><th scope=\"col\">Runs</th><th scope=\"col\">Not judged</th><th scope=\"col\">Over budget</th>"
-        "<th scope=\"col\">Defects a run</th><th scope=\"col\">Highest score</th><th scope=\"col\">Deepest [µm]</th><th scope=\"col\">Latest run</th><th scope=\"col\">Its score</th></tr></thead><tbody>\n";
+        "<th scope=\"col\">Defects per run</th><th scope=\"col\">Highest score</th><th scope=\"col\">Deepest [µm]</th><th scope=\"col\">Latest run</th><th scope=\"col\">Its score</th></tr></thead><tbody>\n";
     for (std::size_t i = 0; i < std::min(rows.size(), most_programs); ++i) {
         const ProgramRow& r = rows[i];
         text += fmt::format(

@@ -126,8 +126,8 @@ std::string trend_text(const ReportedTrend& r) {
     if (r.trend->change) {
         const TrendChange& c = *r.trend->change;
         const TrendPoint& since = r.trend->points[c.first];
-        text += fmt::format("Since run {} ({}) the median is {}, before it was {} (p = {:.2g}).\n", since.run,
-                            minute_of(since.time), with_unit(c.after, unit), with_unit(c.before, unit), c.p);
+        text += fmt::format("Since run {} ({}) the median has been {}; before that it was {} (p = {:.2g}).\n",
+                            since.run, minute_of(since.time), with_unit(c.after, unit), with_unit(c.before, unit), c.p);
     } else if (runs < least_runs_for_change) {
         text += fmt::format("A change of level needs at least {} runs.\n", least_runs_for_change);
     } else {

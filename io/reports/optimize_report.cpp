@@ -80,7 +80,7 @@ std::string ensemble_text(const EnsembleResult& ensemble) {
             objective_mismatch(run.before, run.after) * seconds_per_minute, run.before.defects, run.after.defects,
             100 * run.gain);
     };
-    return fmt::format("on {} other machines that the machine file allows\n", ensemble.runs.size()) +
+    return fmt::format("on {} other machines within the uncertainty of the machine file\n", ensemble.runs.size()) +
            words("mean", ensemble.mean()) + words("worst", ensemble.worst());
 }
 

@@ -30,7 +30,7 @@ public:
                 break;
         }
         if (!is_poly_ || !done_)
-            throw InputError(Place::of_file(source.name), "is no piece that clsurf export --shard writes");
+            throw InputError(Place::of_file(source.name), "is not a piece that clsurf export --shard writes");
     }
 
     [[nodiscard]] const std::string& columns() const { return columns_; }
@@ -87,7 +87,7 @@ std::string pvtp_text(const std::vector<std::string>& pieces, const std::string&
             columns = head.columns();
             points = head.points();
         } else if (head.columns() != columns || head.points() != points) {
-            throw InputError(Place::of_file(piece), "has other columns than " + pieces.front());
+            throw InputError(Place::of_file(piece), "has different columns from " + pieces.front());
         }
         sources += fmt::format("    <Piece Source=\"{}\"/>\n", xml_escaped(named_from(piece, folder)));
     }

@@ -33,7 +33,7 @@ void say_config() {
     std::string keys;
     for (const auto& [key, where] : config.places) keys += (keys.empty() ? "" : ", ") + key;
     std::fprintf(stderr, "options from %s: %s\n", config.path.c_str(),
-                 keys.empty() ? "none of use here" : keys.c_str());
+                 keys.empty() ? "none applies to this subcommand" : keys.c_str());
 }
 
 ExitCode run(const Subcommand& subcommand, const std::vector<std::string>& words) {

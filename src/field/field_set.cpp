@@ -123,8 +123,8 @@ namespace {
 /// What a log must contain to provide the field; empty: no log provides it.
 std::string what_has(std::string_view name) {
     if (name == "limit")
-        return "only a simulated log says what limits its speed: leave the log out, and give --machine FILE; of a recorded "
-               "log with --machine FILE: speed_share, acceleration_share, jerk_share";
+        return "only a simulated log has this field: leave out the log and give --machine FILE; for a recorded log, "
+               "--machine FILE provides speed_share, acceleration_share and jerk_share";
     if (is_known_name(name)) return "a channel that this log does not have; `clsurf info` lists those of a log";
     return {};
 }

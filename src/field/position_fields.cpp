@@ -89,7 +89,7 @@ Role measured_role_of(const Trajectory& path) { return path.role == Role::comman
 std::optional<UsageError> refusal(const FieldRow& row, const Log& log, const Trajectory& path,
                                   const Derivation& derivation) {
     if ((row.needs & needs::sigmas) != 0 && !derivation.estimate)
-        return UsageError(fmt::format("field '{}' is what a Kalman smoother leaves open", row.name),
+        return UsageError(fmt::format("field '{}' is the standard deviation of a Kalman smoother's estimate", row.name),
                           "--derivative kalman");
     if ((row.needs & needs::position_sigma) != 0 && derivation.estimate->fused() == nullptr)
         return UsageError(

@@ -19,7 +19,7 @@ constexpr auto table = std::to_array<ChannelInfo>({
     {"line", "", "", "physical line of the program file, from 1; 0: no block is active"},
     {"program", "", "", "index into the log's list of programs"},
     {"time", "s", "", "time since the first record; default: record number times period"},
-    {"speed", "mm/min", "", "path speed as the controller saw it"},
+    {"speed", "mm/min", "", "path speed as the controller reported it"},
     {"speed.", "mm/min", "deg/min", "speed of an axis as the controller saw it"},
     {"acceleration.", "mm/s²", "deg/s²", "acceleration of an axis as the controller saw it"},
     {"override", "%", "", "feed override"},

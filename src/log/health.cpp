@@ -22,7 +22,8 @@ void check_channels(const Log& log, Diagnostics& found) {
     };
     const bool measured = log.has(Role::feedback) || log.has(Role::actual);
     if (!log.has(Role::commanded) && !measured) {
-        add(Severity::error, "no role has x, y and z: nothing can be drawn",
+        add(Severity::error,
+            "neither commanded, feedback nor actual positions have all of x, y and z: nothing can be drawn",
             "name the channels with --mapping or --layout; a log of slow channels is joined to that of a run with clsurf convert --join");
         return;
     }

@@ -73,7 +73,7 @@ public:
             }
             warn("map.restart", runs[k].first,
                  fmt::format("{}the run goes on from line {}: lines {}-{} ran twice", left, from, from, to),
-                 "both cuts are compared with the passes of their own; a stop may have left a mark");
+                 "each cut is compared with the passes of its own run; the stop may have left a mark");
         }
     }
 

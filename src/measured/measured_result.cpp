@@ -24,7 +24,7 @@ std::optional<std::string> doubt_of(const MeasuredComparison& c) {
     const double expected = alike ? std::min(1.0, c.predicted.rq / c.measured.rq) : 1.0;
     if (c.correlation >= least_correlation * expected) return std::nullopt;
     return fmt::format(
-        "it has another surface than the place where it fits best (correlation {:.3f}, Ra {:.3f} µm measured, {:.3f} µm "
+        "its roughness differs from that of the place where it fits best (correlation {:.3f}, Ra {:.3f} µm measured, {:.3f} µm "
         "predicted): the start or its angle is wrong, or another part was measured",
         c.correlation, c.measured.ra * um_per_mm, c.predicted.ra * um_per_mm);
 }

@@ -70,13 +70,13 @@ Quality judge(const Part& part, const ClSurface& surface, const PartSignals& rea
     quality.report = find_defects(part, surface, read, rules);
     note_reasons(quality.report, part, quality.diagnostics);
     if (!part.tool || surface.step_over <= 0) return quality;
-    begin_stage(stages, "measure the formed surface");
+    begin_stage(stages, "measure the as-machined surface");
     const PartContacts contacts(part, surface, *part.tool);
     contacts.locate(quality.report);
     if (!contacts.known()) {
         quality.diagnostics.add({Severity::warning, "quality.tool-axis", Place::of_file(part.log.name),
                                  "the axis of " + to_text(*part.tool) +
-                                     " is not known: positions are those of tips, and there is no formed surface",
+                                     " is not known: positions are those of tips, and there is no as-machined surface",
                                  "give the kinematics with --machine FILE"});
         return quality;
     }
@@ -86,7 +86,7 @@ Quality judge(const Part& part, const ClSurface& surface, const PartSignals& rea
              "quality.tilted-tool",
              Place::of_file(part.log.name),
              to_text(*part.tool) +
-                 " is tilted: the formed surface and its roughness are available for ball-end tools only",
+                 " is tilted: the as-machined surface and its roughness are available for ball-end tools only",
              {}});
         return quality;
     }

@@ -35,7 +35,7 @@ ProgramMatch match_log(Program program, const Log& log, const FramePoses& given,
         {Severity::note,
          "map.distance",
          Place::of_file(log.name),
-         fmt::format("positions lie {:.4f} mm (median) and {:.4f} mm (95th percentile) from the lines of {}",
+         fmt::format("positions deviate by {:.4f} mm (median) and {:.4f} mm (95th percentile) from the lines of {}",
                      a.median_distance, a.p95_distance, program.main().name()),
          {}});
     return lines.match();

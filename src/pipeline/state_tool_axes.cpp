@@ -20,7 +20,7 @@ void note_unknown_axis(const Program& program, const StatedAxes& stated, Diagnos
     const std::string& file = program.files[motions.file.empty() ? 0 : motions.file[at]].name();
     diagnostics.add({Severity::warning, "path.tool-axis", Place::of_line(file, motions.line[at]),
                      "rotary axes turn the tool or the part: without the machine's kinematics there are no contact "
-                     "points, no formed surface and no roughness",
+                     "points, no as-machined surface and no roughness",
                      "give the kinematics with --machine FILE"});
 }
 

@@ -45,11 +45,13 @@ std::string why_not_better(const EnsembleResult& result, double more_time) {
     if (result.runs.empty()) return {};
     const EnsembleRun mean = result.mean();
     if (const std::string reason = why_not_better(mean.before, mean.after, more_time); !reason.empty())
-        return fmt::format("on the mean of {} machines that the machine file allows, {}", result.runs.size(), reason);
+        return fmt::format("on the mean of {} machines within the uncertainty of the machine file, {}",
+                           result.runs.size(), reason);
     const std::string what =
-        fmt::format("the mean gain on {} machines that the machine file allows", result.runs.size());
+        fmt::format("the mean gain on {} machines within the uncertainty of the machine file", result.runs.size());
     if (std::string reason = too_little_gain(what, mean.gain); !reason.empty()) return reason;
-    const std::string on_one = fmt::format("on one of {} machines that the machine file allows, ", result.runs.size());
+    const std::string on_one =
+        fmt::format("on one of {} machines within the uncertainty of the machine file, ", result.runs.size());
     for (const EnsembleRun& run : result.runs) {
         const double longest = run.before.duration * (1 + more_time + most_time_on_one_machine);
         if (run.after.duration > longest)

@@ -54,7 +54,7 @@ std::string why_not_better(const RunMeasures& before, const RunMeasures& after, 
     if (after.duration > longest)
         return fmt::format("it would take {:.3f} instead of {:.3f} s", after.duration, longest);
     if (after.roughness > before.roughness * (1 + roughness_agrees))
-        return fmt::format("the machined surface would be rougher: Ra {:.2f} instead of {:.2f} µm",
+        return fmt::format("the as-machined surface would be rougher: Ra {:.2f} instead of {:.2f} µm",
                            after.roughness * um_per_mm, before.roughness * um_per_mm);
     return {};
 }

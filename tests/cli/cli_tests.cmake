@@ -112,19 +112,19 @@ clsurf_runner_test(nothing_left --left yes -- -c "exit 0")
 # ---- answers of the subcommands ----
 set(run @LOGS@/bottle_uneven.biip)
 clsurf_cli_test(NAME moves_columns ARGS moves @DATA@/programs/mixed.ngc STDOUT "line,kind,x,y,z,a,b,c,ci,cj,ck,turns,plane,feed" "ccw,")
-clsurf_cli_test(NAME info_of_both ARGS info ${part} ${run} STDOUT "positions lie 0.000[0-9] mm")
+clsurf_cli_test(NAME info_of_both ARGS info ${part} ${run} STDOUT "positions deviate by 0.000[0-9] mm")
 # A recorded log is fine: there is one note, about its distance to the program.
 foreach(sample bottle_uneven.nc bottle_zigzag.nc dome_loops.nc transition_g61.nc petal_zigzag_g64.ngc petal_zigzag_irregular.ngc petal_loops_g64.ngc)
   string(REGEX REPLACE "[.].*" "" name ${sample})
   clsurf_cli_test(NAME info_of_good_${name} ARGS info @DATA@/programs/${sample} @LOGS@/${name}.biip
-    STDOUT "togo.*note: [^:]*: positions lie 0.0" NO_STDOUT "log, format.*(warning|error|remark|note:.*note:)")
+    STDOUT "togo.*note: [^:]*: positions deviate by 0.0" NO_STDOUT "log, format.*(warning|error|remark|note:.*note:)")
 endforeach()
 # Generated logs are fine as well, and reproducible.
 set(make_sample $<TARGET_FILE:clsurf_make_sample>)
 foreach(pattern zigzag one-way loops)
   clsurf_cli_test(NAME info_of_made_${pattern}
     SETUP "${make_sample} ${pattern} 100000 a.nc a.biip; cp a.nc first.nc; ${make_sample} ${pattern} 100000 a.nc b.biip; cmp a.nc first.nc; cmp a.biip b.biip"
-    ARGS info a.nc a.biip STDOUT "100000 records" "positions lie 0.0000 mm .median. and 0.0000 mm" NO_STDOUT "log, format.*(warning|error|remark|note:.*note:)")
+    ARGS info a.nc a.biip STDOUT "100000 records" "positions deviate by 0.0000 mm .median. and 0.0000 mm" NO_STDOUT "log, format.*(warning|error|remark|note:.*note:)")
 endforeach()
 clsurf_cli_test(NAME render_of_made_one_way SETUP "${make_sample} one-way 200000 a.nc a.biip"
   ARGS render a.nc a.biip -o map.png --size 160x120 -v FILE map.png)
@@ -143,7 +143,7 @@ clsurf_cli_test(NAME export_of_a_log_without_lines SETUP "(echo time,x,z; seq 0 
 # One run in the formats of several controls: lines and positions fit the program in each.
 foreach(form halscope.csv twincat.csv trace.xml)
   clsurf_cli_test(NAME info_of_${form} ARGS info @DATA@/programs/dome_loops.nc @LOGS@/dome_loops.${form}
-    STDOUT "18531 records every 1 ms" "positions lie 0.0" NO_STDOUT "log, format.*(warning|error)")
+    STDOUT "18531 records every 1 ms" "positions deviate by 0.0" NO_STDOUT "log, format.*(warning|error)")
   clsurf_cli_test(NAME query_of_${form} ARGS query @DATA@/programs/dome_loops.nc @LOGS@/dome_loops.${form} --point 9000 --json STDOUT "\"line\": 863" "\"confidence\": 1.0")
 endforeach()
 clsurf_cli_test(NAME query_of_events ARGS query @DATA@/programs/dome_loops.nc @LOGS@/dome_loops.signals.csv --mapping @DATA@/logs/dome_loops.events.mapping.toml --point 9000 --json
@@ -183,7 +183,7 @@ clsurf_cli_test(NAME unit_unknown
   SETUP "$CLSURF export ${part} ${run} -o mm.csv --columns time,x,y,z,line && awk -F, 'NR == 1 { print \"time,cmd.x,cmd.y,cmd.z,line\"; next } { printf \"%s,%.7f,%.7f,%.7f,%s\\n\", $1, $2 / 25.4, $3 / 25.4, $4 / 25.4, $5 }' mm.csv > run.csv"
   ARGS check ${part} run.csv EXIT 3 STDERR "as if they were in inch" "hint: name the unit in the header of the log, as in .x .inch..")
 clsurf_cli_test(NAME work_offset_given SETUP "${displace}" ARGS info ${part} run.csv --work-offset 312.5,-48.125,-101.3
-  STDOUT "positions lie 0.000[0-9] mm" NO_STDOUT "displaced" "another program")
+  STDOUT "positions deviate by 0.000[0-9] mm" NO_STDOUT "displaced" "another program")
 clsurf_cli_test(NAME work_offset_given_without_lines SETUP "${displace_without_lines}"
   ARGS query ${part} run.csv --point 5000 --work-offset 312.5,-48.125,-101.3 STDOUT "^line 63[78]" "confidence 1.0")
 clsurf_cli_test(NAME work_offset_wrong ARGS info ${part} ${run} --work-offset 1,2 EXIT 2 STDERR "--work-offset: '1,2' is not 3 or 4 numbers")
@@ -244,7 +244,7 @@ clsurf_cli_test(NAME export_unknown_form ARGS export ${part} ${run} -o p.xls EXI
 clsurf_cli_test(NAME convert ARGS convert @LOGS@/mixed.csv --period 0.001 -o m.biip FILE m.biip)
 clsurf_cli_test(NAME convert_names_the_program
   SETUP "cp ${part} part.nc; $CLSURF convert ${run} --program part.nc --program @DATA@/programs/mixed.ngc -o run.biip"
-  ARGS info part.nc run.biip STDOUT "positions lie 0.000[0-9] mm" NO_STDOUT "SHA-256")
+  ARGS info part.nc run.biip STDOUT "positions deviate by 0.000[0-9] mm" NO_STDOUT "SHA-256")
 clsurf_cli_test(NAME edited_program_in_info
   SETUP "cp ${part} part.nc; $CLSURF convert ${run} --program part.nc -o run.biip; echo '(edited)' >> part.nc"
   ARGS info part.nc run.biip

@@ -109,7 +109,7 @@ test('what does not fit is said', async () => {
     const broken = path.join(folder, 'broken.json');
     fs.writeFileSync(broken, '{"clsurf_accepted": 2}');
     await open(page, broken);
-    assert.match(await page.textContent('.note-of-file'), /broken.json: this is no file of accepted defects/);
+    assert.match(await page.textContent('.note-of-file'), /broken.json: this is not a file of accepted defects/);
 });
 
 test('the card prints with its lines', async () => {

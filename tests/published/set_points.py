@@ -17,7 +17,7 @@ def read_log(path):
     with open(path, "rb") as file:
         raw = file.read()
     if raw[:8] != MAGIC:
-        raise ValueError(f"{path} is no BIIP log")
+        raise ValueError(f"{path} is not a BIIP log")
     _, _, header, record, count, _, period, _, _ = struct.unpack_from("<HHIIIQdII", raw, 8)
     channels = {}
     for k in range(count):

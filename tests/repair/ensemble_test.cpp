@@ -43,8 +43,9 @@ TEST(Ensemble, NoMachineMayHaveMoreDefects) {
         return EnsembleRun{before, {.mismatch = 4, .defects = defects, .duration = 100, .speed = 50}, 0.2};
     };
     EXPECT_EQ(why_not_better(EnsembleResult{{with(10), with(20)}}, 0), "");
-    EXPECT_EQ(why_not_better(EnsembleResult{{with(10), with(21)}}, 0),
-              "on one of 2 machines that the machine file allows, there would be 21 defects instead of 20");
+    EXPECT_EQ(
+        why_not_better(EnsembleResult{{with(10), with(21)}}, 0),
+        "on one of 2 machines within the uncertainty of the machine file, there would be 21 defects instead of 20");
 }
 
 }  // namespace

@@ -214,7 +214,8 @@ public:
         return read(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose);
     }
     [[noreturn]] void refuse() const {
-        throw InputError(Place::of_file(path_), "is no .vtkhdf piece that clsurf export --shard writes, or damaged");
+        throw InputError(Place::of_file(path_),
+                         "is not a .vtkhdf piece that clsurf export --shard writes, or is damaged");
     }
 
     PointRange own;
@@ -316,8 +317,8 @@ std::vector<std::string> in_order(const std::vector<std::string>& pieces, Totals
         const PieceFile piece(path);
         if (!piece.has_columns_of(first) || piece.of != first.of) {
             throw InputError(Place::of_file(path), piece.of != first.of
-                                                       ? "is a piece of another surface than " + pieces.front()
-                                                       : "has other columns than " + pieces.front());
+                                                       ? "belongs to a different surface from that of " + pieces.front()
+                                                       : "has different columns from " + pieces.front());
         }
         all.add(piece);
         known.push_back({path, piece.own});

@@ -20,7 +20,7 @@ RangeRule parse_range(const std::string& text) {
     const std::vector<double> pair = parse_numbers(numbers, "--range", 2);
     rule.low = pair[0];
     rule.high = pair[1];
-    if (rule.low > rule.high) throw UsageError("--range: the lower end is above the upper one");
+    if (rule.low > rule.high) throw UsageError("--range: MIN must be below MAX");
     if (rule.kind == RangeRule::Kind::percentiles && (rule.low < 0 || rule.high > 100))
         throw UsageError("--range: percentiles are 0 … 100");
     return rule;
@@ -71,7 +71,7 @@ void declare_look(po::options_description& options) {
         ("zoom", po::value<std::string>()->value_name("X0,Y0,X1,Y1"), "part of the map, as fractions from its upper left corner")
         ("box", po::value<std::string>()->value_name("X0,Y0,Z0,X1,Y1,Z1"), "part of the workpiece [mm]; the rest is left out")
         ("range", po::value<std::string>()->value_name("auto|MIN,MAX|pLOW,pHIGH"), "values at both ends of the colour scale, or percentiles of the cutting points shown (default: auto, the fixed range of the field, such as 0 to 100 % of the feed, or p1,p99 widened to include patches of 20 points and all defects)")
-        ("colormap", po::value<std::string>()->value_name("COLORMAP|RGB,RGB,…"), "a named map (`clsurf help colormaps`) or own stops, #RRGGBB,#RRGGBB,… ; NAME_r: from its other end (default: magma for speeds, magma_r for errors, coolwarm for signed values, viridis)")
+        ("colormap", po::value<std::string>()->value_name("COLORMAP|RGB,RGB,…"), "a named map (`clsurf help colormaps`) or your own colours, #RRGGBB,#RRGGBB,… ; NAME_r reverses a named map (default: magma for speeds, magma_r for errors, coolwarm for signed values, viridis)")
         ("bins", po::value<int>()->value_name("N"), "colours in N steps")
         ("size", po::value<std::string>()->value_name("WxH|hd|4k"), "size in pixels (default: 1600x1200)")
         ("background", po::value<std::string>()->value_name("white|black|#RRGGBB"), "background colour (default: white)")

@@ -46,8 +46,8 @@ void check_number(const std::string& option, const std::type_info& type, const s
     if (good) return;
     throw UsageError("--" + option + ": " + "'" + text + "'" +
                      (real      ? " is not a number"
-                      : counted ? " is not a whole number from 0 on that fits"
-                                : " is not a whole number that fits"));
+                      : counted ? " is not a whole number of at least 0, or is too large"
+                                : " is not a whole number, or is too large"));
 }
 
 void check_word(const std::string& option, const std::string& value_name, const std::string& text) {

@@ -192,7 +192,7 @@ void note_overruled(Diagnostics& diagnostics, const Log& log, const std::string&
                     const std::string& recorded) {
     diagnostics.add({Severity::note, "config.overruled", Place::of_file(log.name),
                      fmt::format("the log says {} {}: {} of {} is not used", option, recorded, configured, config_name),
-                     fmt::format("--{} on the command line comes first", option)});
+                     fmt::format("--{} on the command line takes precedence", option)});
 }
 
 std::string required(const po::variables_map& values, const char* name) {

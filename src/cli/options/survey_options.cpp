@@ -25,7 +25,7 @@ void declare_shard(po::options_description& options, const char* what) {
 
 void refuse_without_survey(const po::variables_map& values, std::initializer_list<const char*> names) {
     for (const char* name : names) {
-        if (given(values, name)) throw UsageError(fmt::format("--{} goes with --survey", name));
+        if (given(values, name)) throw UsageError(fmt::format("--{} needs --survey", name));
     }
 }
 

@@ -120,7 +120,7 @@ AsMachinedMap make_as_machined_map(const AsMachinedPart& part, const Box3& box, 
     }
     AsMachinedMap map;
     viz::Relief& relief = map.relief;
-    if (region.isEmpty()) throw UsageError("nothing of the formed surface lies in the part that is shown");
+    if (region.isEmpty()) throw UsageError("nothing of the as-machined surface lies in the part that is shown");
     const double cell = std::max(as_machined.usual_cell(), std::sqrt(region.volume() / most_cells));
     const auto per_vertex = std::max<std::int64_t>(1, std::lround(camera.mm_per_pixel / cell));
     // Finer than the usual cells if the picture is, so that cusps stay sharp.

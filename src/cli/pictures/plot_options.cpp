@@ -17,7 +17,7 @@ void declare_plot(po::options_description& options) {
         ("to", po::value<double>()->value_name("X"), "last x to show [s or mm]")
         ("line", po::value<long long>()->value_name("N"), "show the points of a line and some before and after; a cursor at its first point")
         ("mark-point", po::value<std::vector<long long>>()->value_name("N"), "a cursor at a point; may be repeated")
-        ("defect", po::value<long long>()->value_name("N"), "instead of curves, the card of a defect of `clsurf check`: where it is, and speed and height of its pass next to the adjacent passes; with the tool, its contact point and its height in the formed surface")
+        ("defect", po::value<long long>()->value_name("N"), "instead of curves, the card of a defect of `clsurf check`: where it is, and speed and height of its pass next to the adjacent passes; with the tool, its contact point and its height in the as-machined surface")
         ("size", po::value<std::string>()->value_name("WxH|hd|4k"), "size in pixels (default: 1600x900; of a card 1600x760)")
         ("gl", po::value<std::string>()->value_name("osmesa|egl"), "renderer: osmesa uses the processor, egl a graphics card (default: osmesa)");
     // clang-format on

@@ -12,14 +12,14 @@ namespace {
 void read_as_machined(const po::variables_map& values, RenderOptions& options) {
     if (!options.part.as_machined) {
         if (given(values, "swept"))
-            throw UsageError("--swept needs the formed surface", "--surface formed --tool ball:6");
+            throw UsageError("--swept needs the as-machined surface", "--surface formed --tool ball:6");
         return;
     }
     if (values.count("swept") > 0) options.swept = parse_role(values["swept"].as<std::string>());
     if (given(values, "color"))
-        throw UsageError("--color does not apply to the formed surface, which shows its height over the form");
+        throw UsageError("--color does not apply to the as-machined surface, which shows its height over the form");
     if (given(values, "style") && options.shown.look.style != viz::Style::surface)
-        throw UsageError("--style does not apply to the formed surface, which is drawn as a surface");
+        throw UsageError("--style does not apply to the as-machined surface, which is drawn as a surface");
 }
 
 /// "A..B", "A..", "..B" or "N".
@@ -69,7 +69,7 @@ Selection read_selection(const po::variables_map& values) {
 void refuse_selection(const RenderOptions& options) {
     if (options.selection.is_all()) return;
     if (options.part.as_machined)
-        throw UsageError("--points, --lines and --passes do not apply to the formed surface", "--box cuts it");
+        throw UsageError("--points, --lines and --passes do not apply to the as-machined surface", "--box cuts it");
     if (options.defects)
         throw UsageError("--points, --lines and --passes do not apply to --defects",
                          "--box shows the defects of a region");

@@ -24,14 +24,15 @@ void refuse_whole_log_options(const RenderOptions& options, const po::variables_
     refuse_with_survey(
         values, {"defects", "before", "programmed", "mark-point", "mark-line", "points", "lines", "passes", "follow"});
     if (options.part.as_machined || options.part.role)
-        throw UsageError("--surface does not go with --survey: the map shows the positions that were surveyed");
+        throw UsageError("--surface cannot be combined with --survey: the map shows the positions that were surveyed");
     if (options.part.log.empty())
         throw UsageError("--survey needs the log that was surveyed: clsurf render part.nc run.biip …");
 }
 
 void refuse_unclear_shards(const po::variables_map& values) {
     const auto both = [&](const char* a, const char* b) {
-        if (given(values, a) && given(values, b)) throw UsageError(fmt::format("--{} does not go with --{}", a, b));
+        if (given(values, a) && given(values, b))
+            throw UsageError(fmt::format("--{} cannot be combined with --{}", a, b));
     };
     both("shard", "shards");
     both("shard", "merge");

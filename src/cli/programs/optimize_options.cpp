@@ -40,8 +40,9 @@ void declare_optimize(po::options_description& options) {
         options,
         "the tool, diameter and corner radius in mm: the new program must not leave a rougher surface (default: from the metadata of --log or from --tools)");
     declare_controller(options);
-    options.add_options()("runs", po::value<int>()->value_name("N"),
-                          "how often --controller runs, the program itself included if it has no --log (default: 3)");
+    options.add_options()(
+        "runs", po::value<int>()->value_name("N"),
+        "number of runs on the controller, including the program itself if it has no --log (default: 3)");
     declare_front(
         options,
         "the Pareto front of the candidates of the search by time, speed difference between adjacent passes, and jerk: a picture (.png, .jpg, .tif, .webp, .svg or .pdf) or a table (.csv or .json)",
@@ -69,7 +70,8 @@ OptimizeRules read_optimize_rules(const po::variables_map& values) {
     rules.keeps_front = trades_off(values);
     rules.weight = read_weight(values);
     if (rules.keeps_front && values.count("controller") + values.count("round") > 0)
-        throw UsageError("--tradeoff and --weight choose by simulation: they do not go with --controller and --round");
+        throw UsageError(
+            "--tradeoff and --weight choose by simulation: they cannot be combined with --controller or --round");
     rules.derivative = read_derivative(values);
     rules.splines = values.count("splines") > 0;
     if (rules.splines && rules.feeds == FeedChoice::intervals)

@@ -42,7 +42,7 @@ PlannedCut planned_cut(const MeasuredData& data, const ProfileOptions& options) 
     if (cut.residuals.worst > rules.tolerance)
         throw InputError(
             Place::of_file(options.pass),
-            fmt::format("the corrected profile is met within {:.4f} mm only, at X {:.3f} mm: the tolerance is {:g}",
+            fmt::format("the pass is up to {:.4f} mm from the corrected profile, at X {:.3f} mm: the tolerance is {:g}",
                         cut.residuals.worst, cut.residuals.worst_x, rules.tolerance),
             "a pass of lines has corners as high as its tolerance: a larger --tolerance");
     return {std::move(cut), tips.y, io::CorrectedPass{options.pass, std::move(by)}};

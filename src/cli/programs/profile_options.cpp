@@ -44,7 +44,7 @@ void declare_profile_options(po::options_description& options) {
         ("degree", po::value<int>()->value_name("N")->default_value(3), "degree of the polynomials, 1 to 9")
         ("window", po::value<int>()->value_name("POINTS")->default_value(10), "scanned points of a window")
         ("join", po::value<std::string>()->value_name("c1|blend|none"), "how windows meet (default: c1): c1, one fit with continuous slope; blend, windows that overlap by half and pass into each other; none, each window by itself, with jumps")
-        ("tool-offset", po::value<double>()->value_name("RADIUS")->default_value(0, "0"), "radius of a ball that leaves the fitted profile [mm]: its tip is programmed; without it the tip follows the fit")
+        ("tool-offset", po::value<double>()->value_name("RADIUS")->default_value(0, "0"), "radius of a ball-end tool that cuts the fitted profile [mm]: its tip is programmed; without it the tip follows the fit")
         ("compensate", po::value<std::string>()->value_name("PROGRAM"), "SCAN has deviations along this finished pass, measured height less wanted height: the pass is corrected by them; --tool-offset is then the radius of the ball that made it")
         ("tolerance", po::value<double>()->value_name("MM")->default_value(0.01, "0.01"), "distance between program and path [mm], at most")
         ("blocks", po::value<std::string>()->value_name("lines|splines"), "what is written (default: lines): G1 (L), or cubic splines: POLY of siemens, SPL of klartext, G06.2 of fanuc")

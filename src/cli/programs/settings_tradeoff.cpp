@@ -80,7 +80,8 @@ void refuse_settings_options(const po::variables_map& values) {
 }
 
 ExitCode trade_off_settings(const po::variables_map& values) {
-    if (values.count("controller") > 0) throw UsageError("--tradeoff simulates: it does not go with --controller");
+    if (values.count("controller") > 0)
+        throw UsageError("--tradeoff simulates: it cannot be combined with --controller");
     const bool json = read_json_with_output(values);
     const std::optional<double> weight = read_weight(values);
     const SettingsRules rules = read_settings_rules(values);

@@ -158,7 +158,7 @@ std::vector<io::PageColourMap> page_colour_maps() {
         maps.push_back(std::move(page));
     };
     for (const viz::ColourMapInfo& info : viz::colour_maps()) add(std::string(info.name), std::string(info.summary));
-    add("magma_r", "magma from its other end, for errors");
+    add("magma_r", "magma reversed, for errors");
     return maps;
 }
 

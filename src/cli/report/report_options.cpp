@@ -22,7 +22,7 @@ void declare_report(po::options_description& options) {
     options.add_options()
         ("output,o", po::value<std::string>()->value_name("FILE"), "the page (HTML)")
         ("before", po::value<std::string>()->value_name("LOG"), "another log of the program, shown on the same scale")
-        ("accepted", po::value<std::string>()->value_name("FILE"), "accepted defects (JSON) that the page saved: it begins with them")
+        ("accepted", po::value<std::string>()->value_name("FILE"), "accepted defects (JSON) that an earlier page saved; the new page shows them as accepted")
         ("fields", po::value<std::string>()->value_name("FIELD,…"), "fields for colouring and plotting (default: motion, also of each axis, errors, differences to adjacent passes, the log's own channels)")
         ("color", po::value<std::string>()->value_name("FIELD"), "field that is shown first (default: the first of the fields)")
         ("max-size", po::value<double>()->value_name("MB"), "largest size of the file; points are left out if necessary (default: 30)")

@@ -51,13 +51,14 @@ ExitCode check_shard(PartOptions options, const ShardNumber& shard, const po::va
 
 std::optional<MergedShards> read_merged(const PartOptions& options, const po::variables_map& values, std::size_t logs) {
     if (values.count("merge") == 0) {
-        if (given(values, "survey")) throw UsageError("--survey goes with --shard or --merge");
-        if (given(values, "scratch")) throw UsageError("--scratch goes with --merge");
+        if (given(values, "survey")) throw UsageError("--survey needs --shard or --merge");
+        if (given(values, "scratch")) throw UsageError("--scratch needs --merge");
         return std::nullopt;
     }
     if (logs > 1) throw UsageError("--merge takes one log");
     for (const char* name : {"measured", "follow"}) {
-        if (given(values, name)) throw UsageError(fmt::format("--{} goes with a log that is judged as a whole", name));
+        if (given(values, name))
+            throw UsageError(fmt::format("--{} cannot be combined with --merge: it needs the whole log", name));
     }
     MergedShards merged =
         shards_of_files(read_surveyed_log(options, values), values["merge"].as<std::vector<std::string>>());

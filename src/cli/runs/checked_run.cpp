@@ -62,7 +62,7 @@ void declare_judging(po::options_description& options) {
     options.add_options()
         ("budget", po::value<std::string>()->value_name("FILE"), "limits (TOML); exit code 1 if one is exceeded; max_speed_mismatch_percent limits the speed jump of each defect and the speed differences of the whole part (docs/predictor.md)")
         ("fail-on", po::value<std::string>()->value_name(severity_words), "exit code 1 if a defect has at least this severity")
-        ("accepted", po::value<std::string>()->value_name("FILE"), "accepted defects (JSON, from the page of report): they are listed, and no limit counts them")
+        ("accepted", po::value<std::string>()->value_name("FILE"), "accepted defects (JSON, from the page of report): they are listed, but do not count towards any limit")
         ("max-depth", po::value<std::string>()->value_name("LENGTH"), "exit code 1 if a defect is deeper, for example 5um or 0.005mm");
     // clang-format on
     declare_part(options, MachineUse::limits);

@@ -47,7 +47,7 @@ Subcommand align_subcommand() {
     return {
         .name = "align",
         .arguments = "POINTS PROGRAM LOG",
-        .summary = "the pose of measured points on the predicted surface",
+        .summary = "finds the pose of measured points on the predicted surface",
         .description =
             "POINTS is what was measured on the finished part: a profile (x, z) or points of a coordinate measuring machine\n"
             "(x, y, z) as delimited text, or an areal map as a surface data file (ISO 25178-71, .sdf). The fit is a least-squares\n"
@@ -55,9 +55,9 @@ Subcommand align_subcommand() {
             "positions of the log. Each fitted value has a standard error. The first fit starts from the stated start and uses\n"
             "the form alone. Poses near its result are compared next, because a surface with scallops fits nearly as well when\n"
             "it is displaced by one step-over.\n"
-            "The exit code is 5 if the data do not determine the pose. The reason is given: a plane can be shifted, a profile\n"
-            "without a known start can be anywhere, without a mark or a form two poses fit equally well, and the roughness\n"
-            "shows where the start is wrong.\n\n"
+            "The exit code is 5 if the data do not determine the pose. The message gives the reason, for example: a plane can be\n"
+            "shifted in itself; the start of a profile is not given; two poses fit equally well, because there is no mark or form;\n"
+            "the roughness differs from that of the place, so the start is wrong.\n\n"
             "  clsurf align cmm.csv part.nc run.biip --tool ball:6\n"
             "  clsurf align stylus.csv part.nc run.biip --tool ball:6 --measured-at 12.5,3,90",
         .declare =

@@ -97,11 +97,11 @@ Subcommand convert_subcommand() {
                 // clang-format off
             options.add_options()
                 ("output,o", po::value<std::string>()->value_name("FILE"), "the BIIP log")
-                ("program", po::value<std::vector<std::string>>()->value_name("FILE"), "the program that ran (again: its subprograms); name, size and SHA-256 go into the log")
+                ("program", po::value<std::vector<std::string>>()->value_name("FILE"), "the program that ran; repeat the option for its subprograms; name, size and SHA-256 go into the log")
                 ("param", po::value<std::vector<std::string>>()->value_name("NAME=VALUE"), "a parameter of the run, such as coolant=MQL, kept in the log's metadata; may be repeated")
                 ("parameters", po::value<std::string>()->value_name("FILE"), "rules for the parameters of runs, with unit and range (TOML)")
                 ("join", po::value<std::string>()->value_name("FILE"), "a log of slow channels, which are added to LOG by time")
-                ("join-offset", po::value<double>()->value_name("S"), "time in the slow log at which LOG begins, in seconds (default: from the times that both logs say they were recorded)")
+                ("join-offset", po::value<double>()->value_name("S"), "time in the slow log at which LOG begins, in seconds (default: from the recording times that both logs state)")
                 ("join-age", po::value<double>()->value_name("S"), "seconds for which a value is held; later records have none (default: three periods of the slow log)");
                 // clang-format on
                 declare_log_options(options);

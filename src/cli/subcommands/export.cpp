@@ -76,13 +76,13 @@ ExitCode run_export(const po::variables_map& values) {
         print(part.diagnostics, values);
         return list_columns(values, part, clock);
     }
-    if (values.count("json") > 0) throw UsageError("--json is a form of --list", "add --list");
+    if (values.count("json") > 0) throw UsageError("--json needs --list", "add --list");
     const std::string output = required(values, "output");
     const std::vector<std::string> names = requested_columns(values);
     const PartOptions options = read_part_or_log_options(values);
     if (const std::optional<ShardNumber> shard = read_shard_number(values))
         return write_shard(options, *shard, names, values);
-    if (given(values, "survey")) throw UsageError("--survey goes with --shard");
+    if (given(values, "survey")) throw UsageError("--survey needs --shard");
     const std::string_view format = output_format(output, table_formats()).name;
     StageClock clock(read_common(values), 5);
     std::optional<Log> alone;
@@ -116,7 +116,7 @@ Subcommand export_subcommand() {
     return {
         .name = "export",
         .arguments = "[PROGRAM] LOG -o FILE",
-        .summary = "per-point columns as .csv, .biip, .vtp, .vtkhdf",
+        .summary = "writes columns per point as .csv, .biip, .vtp or .vtkhdf",
         .description =
             "The file's ending chooses the format. Columns: point, time, line, pass, confidence, x, y, z and\n"
             "every field of `clsurf help fields`. VTK files hold the passes as polylines and the stitched\n"
@@ -124,9 +124,9 @@ Subcommand export_subcommand() {
             "32-bit integers there, times and positions 64-bit numbers. Without a program, lines are those of\n"
             "the log.\n"
             "The surface of a log that is too large for memory is written in pieces (`clsurf survey`, docs/howto/shards.md):\n"
-            "--shard writes one of them, and --merge a file of the whole that ParaView opens: of .vtp pieces a .pvtp file that names\n"
-            "them, of .vtkhdf pieces one .vtkhdf file with a partition for each. Fields of a shard are those of positions, and\n"
-            "channels.\n\n"
+            "--shard writes one piece, and --merge combines all of them into a file that ParaView opens: a .pvtp file that names\n"
+            "the .vtp pieces, or one .vtkhdf file with a partition for each .vtkhdf piece. A shard has the channels, and the fields\n"
+            "that are computed from positions alone.\n\n"
             "  clsurf export part.nc run.biip -o points.csv --columns line,x,y,z,speed,acceleration\n"
             "  clsurf export part.nc run.biip --list",
         .declare =

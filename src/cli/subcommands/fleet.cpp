@@ -98,7 +98,7 @@ Subcommand fleet_subcommand() {
         .arguments = "RUNS.toml|FOLDER -o DB",
         .summary = "judges many runs into a history, on one machine or on many",
         .description =
-            "RUNS.toml lists the runs; in a FOLDER each log is judged with the program of its name. Each run is\n"
+            "RUNS.toml lists the runs; in a FOLDER each log is judged with the program whose name its own name begins with. Each run is\n"
             "judged in a process of its own, and recorded as `clsurf history DB add` does. A run that fails is\n"
             "recorded with its cause. Runs that DB has already, of the same content and judged by the same\n"
             "options, are not judged again: a stopped fleet resumes where it was.\n"

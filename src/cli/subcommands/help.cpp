@@ -50,7 +50,7 @@ ExitCode run_help(const po::variables_map& values) {
 
 Subcommand help_subcommand() {
     // The texts are static, because views of them outlive the call.
-    static const std::string summary = "a subcommand's options; " + vocabulary_names();
+    static const std::string summary = "shows the options of a subcommand, or a list: " + vocabulary_names();
     static const std::string description = "TOPIC is a subcommand, or a list of words that options take as values:\n" +
                                            vocabulary_names() + ". Lists can be had as JSON.";
     return {

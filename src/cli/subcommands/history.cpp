@@ -65,7 +65,7 @@ Subcommand history_subcommand() {
     return {
         .name = "history",
         .arguments = "DB add|list|show|trend|against|outliers|report …",
-        .summary = "keeps judged runs in a database and shows what changed: trends, outliers, since when",
+        .summary = "keeps judged runs in a database and shows trends, outliers, and when a level changed",
         .description =
             "DB is one SQLite file; `add` makes it. Several programs may add to it at the same time.\n\n"
             "  add PROGRAM LOG       judge a run as `check` does, and record it\n"

@@ -101,7 +101,7 @@ Subcommand identify_subcommand() {
     return {
         .name = "identify",
         .arguments = "PROGRAM LOG [PROGRAM LOG]… -o machine.toml",
-        .summary = "a machine file from recorded runs: servo loops, limits and planner rules, with the evidence",
+        .summary = "fits a machine file to recorded runs: servo loops, limits and planner rules, with the evidence",
         .description =
             "Fits the servo loop of each axis to the commanded and the fed-back positions of one or more runs: position gain, velocity\n"
             "feed-forward, time constant and integral time of the velocity loop, dead time, friction, backlash and resolution. The loop is that of simulate.\n"
@@ -112,7 +112,8 @@ Subcommand identify_subcommand() {
             "limit of --machine, or the default, if that is greater. Values that the runs do not determine are listed with the reason.\n"
             "The rules of the planner are selected by simulation: each value is scored by the speed along the path. The fidelity of the result\n"
             "is measured on the runs of --test, else by leaving out one run after the other, else on the fitted run, and is kept in the file.\n"
-            "Exit code 3 says that nothing could be identified, or that the picture cannot be drawn; the machine file is written even then.\n\n"
+            "Exit code 3 means that nothing could be identified, or that only the picture could not be drawn: then the machine file is\n"
+            "written.\n\n"
             "  clsurf identify part.nc run.biip -o mill.toml\n"
             "  clsurf identify a.nc a.biip b.nc b.biip --machine five_axis.toml -o mill.toml --test c.nc c.biip --picture residual.png",
         .declare =
@@ -120,7 +121,7 @@ Subcommand identify_subcommand() {
                 // clang-format off
                 options.add_options()
                     ("output,o", po::value<std::string>()->value_name("FILE"), "the machine file")
-                    ("picture", po::value<std::string>()->value_name("FILE"), "map of the speed of the simulation minus that of the log, of the run where they differ most: of --test, else of the fit (.png, .jpg, .tif, .webp, .svg or .pdf)")
+                    ("picture", po::value<std::string>()->value_name("FILE"), "map of simulated minus recorded speed, for the run in which they differ most, of those of --test, else of the fitted ones (.png, .jpg, .tif, .webp, .svg or .pdf)")
                     ("test", po::value<std::vector<std::string>>()->multitoken()->value_name("PROGRAM LOG"), "a run that is not used for the fit but compared with its simulation; repeatable");
                 // clang-format on
                 declare_part(options, MachineUse::known);

@@ -113,12 +113,13 @@ Subcommand info_subcommand() {
     return {
         .name = "info",
         .arguments = "FILE…",
-        .summary = "contents and health of programs and logs",
+        .summary = "describes programs and logs, and lists their problems",
         .description =
-            "The content decides whether a file is a program or a log. A log that follows its program is\n"
+            "The content decides whether a file is a program or a log. A log that is given after its program is\n"
             "checked against it: wrong program, lines that do not exist, a missing work offset. Exit code 3\n"
             "means that a log has errors or does not belong to the program.\n"
-            "A table with unknown columns is listed, with a mapping file to start from, and exit code 3.\n\n"
+            "For a table with unknown columns, it lists the columns and prints a mapping file to start from; the exit\n"
+            "code is 3.\n\n"
             "  clsurf info part.nc run.biip\n"
             "  clsurf info --suggest-mapping own.csv -o mapping.toml",
         .declare =

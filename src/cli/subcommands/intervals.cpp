@@ -49,7 +49,7 @@ Subcommand intervals_subcommand() {
     return {
         .name = "intervals",
         .arguments = "PROGRAM",
-        .summary = "constant-speed intervals of the passes, and the speed planned for each",
+        .summary = "plans constant-speed intervals of the passes, and a speed for each",
         .description =
             "Divides each pass where the spacing of its points or its curvature changes, after Wu et al.\n"
             "(Machines 10 (2022) 558). Adjacent passes get their boundaries at the same places. The speed of\n"

@@ -92,7 +92,7 @@ Subcommand lint_subcommand() {
     return {
         .name = "lint",
         .arguments = "PROGRAM…",
-        .summary = "problems in the program itself: uneven points, chord errors, reversals, feeds, pass ends",
+        .summary = "lists problems in the program itself: uneven points, chord errors, reversals, feeds, pass ends",
         .description =
             "Compares adjacent programmed passes, without a log, and lists the lines that a controller will\n"
             "run differently from their neighbours: points closer or farther apart than on both adjacent\n"

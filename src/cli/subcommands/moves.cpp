@@ -50,7 +50,7 @@ Subcommand moves_subcommand() {
     return {
         .name = "moves",
         .arguments = "PROGRAM",
-        .summary = "the motions of a program as CSV",
+        .summary = "writes the motions of a program as CSV",
         .description =
             "One row per motion, in the active work coordinate system, mm and deg:\n"
             "line,kind,x,y,z,a,b,c,ci,cj,ck,turns,plane,feed. Kinds are rapid, feed, cw, ccw,\n"

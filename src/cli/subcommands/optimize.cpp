@@ -61,7 +61,7 @@ Subcommand optimize_subcommand() {
     return {
         .name = "optimize",
         .arguments = "PROGRAM -o better.nc",
-        .summary = "a smoother program within a tolerance, verified by simulation",
+        .summary = "writes a smoother program within a tolerance, verified by simulation",
         .description =
             "Simulates the program, aligns the points of its finishing passes with those of adjacent passes\n"
             "on the smoothest curve within the tolerance, and simulates it again. The new program is written\n"
@@ -69,7 +69,7 @@ Subcommand optimize_subcommand() {
             "not take longer (or at most by --more-time), and it stays within the tolerance. Otherwise the\n"
             "exit code is 1, with the reason. Lines that contain anything but line number, G1, X, Y, Z, A, B,\n"
             "C are kept byte for byte. With --tool, the machined surface must not get rougher either.\n"
-            "It must also be better on other machines that the machine file allows (--machines). With --log and\n"
+            "It must also be better on other machines within the uncertainty of the machine file (--machines). With --log and\n"
             "without --machine, the machine is fitted to the log. With --controller, your own controller runs the\n"
             "program and the best candidates, --runs times in all, and its logs decide. After a new program has\n"
             "run, --round adds it and its log: the next program is written only if it is better.\n"

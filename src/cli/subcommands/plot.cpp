@@ -126,7 +126,7 @@ Subcommand plot_subcommand() {
     return {
         .name = "plot",
         .arguments = "[PROGRAM] LOG -o curve.png",
-        .summary = "curves of signals over time or arc length",
+        .summary = "draws signals over time or arc length",
         .description =
             "One chart for each field, stacked. Every extreme is kept, however long the log is. A log can be\n"
             "plotted without its program, except with --profile. --profile also prints Ra and Rz.\n\n"

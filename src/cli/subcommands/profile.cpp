@@ -103,7 +103,7 @@ Subcommand profile_subcommand() {
     return {
         .name = "profile",
         .arguments = "SCAN -o cut.nc",
-        .summary = "a tool path from scanned points",
+        .summary = "writes a program that follows scanned points",
         .description =
             "SCAN has points along X, as delimited text (comma, semicolon, tab or blanks): x and z in mm, or in the unit that\n"
             "follows the column's name, as in z [µm]. Outliers are rejected. Polynomials are fitted to windows of points, by\n"
@@ -112,7 +112,7 @@ Subcommand profile_subcommand() {
             "spindle and work offset yourself.\n\n"
             "The window decides what is form and what is noise: a long one is smooth and misses short waves. --picture shows\n"
             "the residuals.\n\n"
-            "With --tool-offset the tool is a ball that leaves the fitted profile. If it would cut too deep, because the profile\n"
+            "With --tool-offset the tool is a ball-end tool that cuts the fitted profile. If it would cut too deep, because the profile\n"
             "curves more tightly than the ball, the message says where, and no program is written.\n\n"
             "With --compensate SCAN has deviations that were measured along a finished pass, such as x and dz [µm]. Where\n"
             "the part is too high, the corrected pass cuts deeper at the point that the ball touches.\n\n"

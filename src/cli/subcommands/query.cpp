@@ -52,14 +52,14 @@ void print_matches(const std::vector<QueryMatch>& matches, bool of_a_line) {
 void print_answer(const QueryAnswer& answer, const po::variables_map& values) {
     print_matches(answer.matches, values.count("line") > 0);
     if (answer.tip_line) {
-        fmt::print("On a map, whose axes show the tool tip, these numbers are in line {}: --at tip:{}\n",
+        fmt::print("If this place was read off a map, it is a tool tip and belongs to line {}: --at tip:{}\n",
                    *answer.tip_line, values["at"].as<std::string>());
     }
 }
 
 ExitCode run_query(const po::variables_map& values) {
     if (values.count("point") + values.count("at") + values.count("line") + values.count("time") == 0) {
-        throw UsageError("what to look for is missing", "--point N, --at X,Y,Z, --line N or --time T");
+        throw UsageError("no point is given", "give one of --point N, --at X,Y,Z, --line N and --time T");
     }
     StageClock clock(read_common(values), 3);
     const Part part = load_part(read_part_options(values), clock);
@@ -80,7 +80,7 @@ Subcommand query_subcommand() {
     return {
         .name = "query",
         .arguments = "PROGRAM LOG",
-        .summary = "the line and the point at a place, number or time, with the values there",
+        .summary = "gives the line, the point and its values at a place, number or time",
         .description =
             "Finds points by number, place, line or time and names the program line that made them. The exit\n"
             "code is 1 if there are none. For points in a subprogram it also names the subprogram's line and\n"

@@ -123,7 +123,7 @@ Subcommand render_subcommand() {
     return {
         .name = "render",
         .arguments = "PROGRAM [LOG] -o map.png",
-        .summary = "the quality map: the CL surface coloured by speed, acceleration and more",
+        .summary = "draws the CL surface, coloured by speed, acceleration and more",
         .description =
             "Maps each logged point to its line, rebuilds the cutter-location surface from adjacent passes,\n"
             "colours it by a field and draws it without a display. Without a log the program is simulated on\n"

@@ -96,7 +96,7 @@ Subcommand report_subcommand() {
     return {
         .name = "report",
         .arguments = "PROGRAM LOG -o report.html",
-        .summary = "the linked page: surface, program, curves and defects in one HTML file",
+        .summary = "links surface, program, curves and defects in one HTML file",
         .description =
             "Writes one file that any browser opens offline: the surface, which can be turned, each place\n"
             "linked with its line and its point on the curves, the defects with pictures, the health of the\n"

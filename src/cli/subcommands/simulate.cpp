@@ -45,7 +45,7 @@ Subcommand simulate_subcommand() {
     return {
         .name = "simulate",
         .arguments = "PROGRAM -o run.biip",
-        .summary = "simulates the controller: the log that a machine would write",
+        .summary = "simulates a controller and writes the log that it would record",
         .description =
             "Plans and interpolates a program as a controller does: limits of speed, acceleration and jerk,\n"
             "corners rounded within the tolerance, a look-ahead, and a servo loop for each axis. Writes\n"
@@ -57,8 +57,8 @@ Subcommand simulate_subcommand() {
             "the position of the program's zero with both angles at zero, and blocks that an axis cannot\n"
             "follow run slower. With --controller, your own controller runs the program instead, and its log is\n"
             "kept.\n"
-            "With --tradeoff or --weight the program is simulated at many settings: shares of the limits of jerk and\n"
-            "acceleration, of the feeds, and feeds of constant-speed intervals. The Pareto front of time, speed\n"
+            "With --tradeoff or --weight the program is simulated at many settings: lower limits of jerk and acceleration,\n"
+            "lower feeds, and the feeds of constant-speed intervals. The Pareto front of time, speed\n"
             "difference between adjacent passes and jerk is drawn, and --weight W chooses from it: the settings\n"
             "with the smallest value of (1 - W) t + W (m + j) / 2, where t, m and j are time, difference and jerk (95th percentiles)\n"
             "relative to those of the machine file. -o writes the log of that run, --settings its machine file.\n\n"

@@ -39,7 +39,7 @@ Subcommand survey_subcommand() {
     return {
         .name = "survey",
         .arguments = "PROGRAM LOG -o run.survey",
-        .summary = "analyses a whole long log, so that it can be judged in shards",
+        .summary = "analyses a long log as a whole, so that it can be judged in shards",
         .description =
             "Finds the passes of a log, the neighbours of each point and the thresholds of its defects, and keeps\n"
             "them in a file. With it `clsurf check --shard` and `clsurf export --shard` work on a part of the log without\n"

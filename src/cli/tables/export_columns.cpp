@@ -143,8 +143,9 @@ std::vector<io::ExportColumn> exported_channels(const std::vector<std::string>& 
                 column.exact = {};
             }
         } else {
-            throw UsageError(fmt::format("--columns: '{}' is no channel of {}, which has no positions", name, log.name),
-                             fmt::format("one of point, {}", fmt::join(known, ", ")));
+            throw UsageError(
+                fmt::format("--columns: '{}' is not a channel of {}, which has no positions", name, log.name),
+                fmt::format("one of point, {}", fmt::join(known, ", ")));
         }
         columns.push_back(std::move(column));
     }

@@ -145,7 +145,7 @@ QueryAnswer find_matches(const Part& part, const po::variables_map& values, Diag
     if (values.count("nearest") > 0) {
         const int k = values["nearest"].as<int>();
         if (k < 1 || k > most_nearest) throw UsageError(fmt::format("--nearest must be 1 … {}", most_nearest));
-        if (!wanted) throw UsageError("--nearest goes with --at");
+        if (!wanted) throw UsageError("--nearest needs --at");
         wanted->pieces = static_cast<std::size_t>(k);
     }
     const PointQuery query(part, wanted.has_value());

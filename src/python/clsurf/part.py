@@ -276,7 +276,7 @@ class Part:
         if point is None and line is None and at is None and time is None:
             from .errors import UsageError
 
-            raise UsageError("what to look for is missing", "point=, line=, at= or time=")
+            raise UsageError("no point is given", "give one of point=, line=, at= and time=")
         place = None if at is None else [float(x) for x in at]
         report = self._native.query(
             point=point, line=line, file=file, time=time, at=place, of_tip=of_tip, nearest=nearest

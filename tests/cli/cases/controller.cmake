@@ -60,7 +60,7 @@ clsurf_cli_test(NAME optimize_controller_stops_candidates_early EXIT 1
 # With a log and without a machine file, the machine is fitted to the log.
 clsurf_cli_test(NAME optimize_fits_the_machine_to_the_log SETUP "${crowded_part}; $CLSURF simulate part.nc --machine ${mill} -o run.biip -q"
   ARGS optimize part.nc --log run.biip -o better.nc
-  STDOUT "machine: fitted to run.biip" "on 4 other machines that the machine file allows" "Fidelity of this machine file [(]the fitted runs: 1[)]")
+  STDOUT "machine: fitted to run.biip" "on 4 other machines within the uncertainty of the machine file" "Fidelity of this machine file [(]the fitted runs: 1[)]")
 clsurf_cli_test(NAME optimize_without_an_ensemble SETUP "${crowded_part}"
   ARGS optimize part.nc --machine @DATA@/machines/linuxcnc_kernel.toml --machines 0 -o better.nc NO_STDOUT "other machines")
 clsurf_cli_test(NAME machine_file_with_uncertainty

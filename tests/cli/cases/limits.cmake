@@ -51,4 +51,4 @@ string(CONCAT turning
 clsurf_cli_test(NAME a_wrap_of_a_modulo_axis_is_no_motion SETUP "${turning}" ARGS check turning.nc turning.csv --machine c.toml
   EXIT 5 STDOUT "^The commanded motion keeps all 2 limits that are stated for it")
 clsurf_cli_test(NAME a_modulo_axis_is_noted SETUP "${turning}" ARGS info turning.csv
-  STDOUT "axis c counts within one turn and wraps 1 time, first here: its positions are made to count on")
+  STDOUT "axis c counts within one turn and wraps 1 time, first here: its positions are unwrapped")

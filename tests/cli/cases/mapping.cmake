@@ -39,11 +39,11 @@ clsurf_cli_test(NAME feed_raised_after_the_run SETUP "sed 's/F3000/F4000/' ${une
   STDERR "lines 1[0-9]-37[0-9][0-9] ran at 30[0-9][0-9] mm/min, the program says F4000")
 clsurf_cli_test(NAME comment_does_not_change_a_feed SETUP "${insert_comment}" ARGS info bottle_uneven.nc ${uneven_log} STDOUT "inserted" NO_STDOUT "ran at")
 clsurf_cli_test(NAME crlf_is_the_same_program SETUP "sed 's/$/\\r/' ${uneven} > bottle_uneven.nc" ARGS info bottle_uneven.nc ${uneven_log}
-  STDOUT "positions lie" NO_STDOUT "edited" "another program")
+  STDOUT "positions deviate" NO_STDOUT "edited" "another program")
 # A log recorded from a text with mixed line ends, and the text with LF only.
 clsurf_cli_test(NAME mixed_line_ends_are_the_same_program
   SETUP "sed '1~2s/$/\\r/' ${uneven} > bottle_uneven.nc && $CLSURF convert ${uneven_log} --program bottle_uneven.nc -o run.biip && cp ${uneven} bottle_uneven.nc"
-  ARGS info bottle_uneven.nc run.biip STDOUT "positions lie" NO_STDOUT "edited" "another program")
+  ARGS info bottle_uneven.nc run.biip STDOUT "positions deviate" NO_STDOUT "edited" "another program")
 # A kernel's line numbers are two records ahead of its axes, in which the tool passes several of the shorter lines.
 set(irregular @DATA@/programs/petal_zigzag_irregular.ngc)
 clsurf_cli_test(NAME comment_appended_after_the_run SETUP "(cat ${irregular} && echo '(the end)') > petal_zigzag_irregular.ngc"
@@ -57,7 +57,7 @@ set(led "$CLSURF export ${zigzag} @LOGS@/bottle_zigzag.biip --columns line,cmd.x
   "(head -n 1 all.csv && paste -d, <(tail -n +5 all.csv | cut -d, -f1) <(tail -n +2 all.csv | head -n -3 | cut -d, -f2-)) > run.csv")
 list(JOIN led " && " led)
 clsurf_cli_test(NAME lines_that_lead_are_kept SETUP "${led}" ARGS info ${zigzag} run.csv --period 0.001
-  STDOUT "positions lie" NO_STDOUT "do not fit" "since the run")
+  STDOUT "positions deviate" NO_STDOUT "do not fit" "since the run")
 # The log of petal_spiral has no hash.
 clsurf_cli_test(NAME lines_inserted_without_a_hash SETUP "sed -e '3000i (a)' -e '3000i (b)' @DATA@/programs/petal_spiral.ngc > petal_spiral.ngc"
   ARGS query petal_spiral.ngc @LOGS@/petal_spiral.raw --layout @DATA@/logs/petal_spiral.layout.toml --point 70000

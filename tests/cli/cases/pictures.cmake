@@ -38,7 +38,7 @@ clsurf_cli_test(NAME render_lines_of_two_logs ARGS render ${bottle} -o map.png -
 
 # A field that the log cannot have: the message says which logs have it.
 clsurf_cli_test(NAME render_limit_of_a_recorded_log ARGS render ${bottle} -o map.png --color limit EXIT 2
-  STDERR "unknown field 'limit'" "leave the log out, and give --machine FILE" "acceleration_share")
+  STDERR "unknown field 'limit'" "leave out the log and give --machine FILE" "acceleration_share")
 clsurf_cli_test(NAME render_channel_that_is_not_there ARGS render ${bottle} -o map.png --color spindle.load EXIT 2
   STDERR "a channel that this log does not have")
 

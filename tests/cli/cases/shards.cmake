@@ -46,8 +46,8 @@ clsurf_cli_test(NAME shards_that_are_none AFTER shards_say_what_they_read SETUP 
 clsurf_cli_test(NAME shards_of_another_log AFTER shards_say_what_they_read SETUP "${same_shards}; cp @LOGS@/planted_loops.biip longer.biip; tail -c 100 longer.biip >> longer.biip" ARGS check @DATA@/programs/planted_loops.nc longer.biip --survey run.survey --shard 1/2 -o shard.json EXIT 3 STDERR "run.survey: error: is the survey of another log")
 clsurf_cli_test(NAME shards_with_other_options AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${merge_args} --shard 1/2 --ignore-lines -o shard.json EXIT 3 STDERR "was made with no options, not with --ignore-lines")
 clsurf_cli_test(NAME shards_without_a_survey ARGS check @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip --shard 1/2 -o shard.json EXIT 2 STDERR "shards need the survey of the log")
-clsurf_cli_test(NAME shards_survey_alone AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${merge_args} EXIT 2 STDERR "--survey goes with --shard or --merge")
-clsurf_cli_test(NAME shards_scratch_alone ARGS check @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip --scratch . EXIT 2 STDERR "--scratch goes with --merge")
+clsurf_cli_test(NAME shards_survey_alone AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${merge_args} EXIT 2 STDERR "--survey needs --shard or --merge")
+clsurf_cli_test(NAME shards_scratch_alone ARGS check @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip --scratch . EXIT 2 STDERR "--scratch needs --merge")
 clsurf_cli_test(NAME shards_scratch_that_is_not_there AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${merge_args} --merge shard1.json shard2.json --scratch nowhere EXIT 4 STDERR "cannot keep columns in nowhere: No such file or directory")
 clsurf_cli_test(NAME shards_wrong_number AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${merge_args} --shard 3/2 -o shard.json EXIT 2 STDERR "--shard: '3/2' is not a shard such as 3/8")
 clsurf_cli_test(NAME shards_with_a_budget AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${merge_args} --shard 1/2 --max-depth 1um -o shard.json EXIT 2 STDERR "--max-depth does not apply to --shard")
@@ -77,8 +77,8 @@ clsurf_pieces_test(transition_g61.nc transition_g61 3 point,speed)
 set(piece_args export @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip --survey run.survey --shard 1/2)
 clsurf_cli_test(NAME shards_piece_of_another_kind AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${piece_args} -o map.csv EXIT 2 STDERR "--shard writes a .vtp or a .vtkhdf file")
 clsurf_cli_test(NAME shards_piece_with_a_field_of_the_whole AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${piece_args} --columns speed_mismatch -o map.vtp EXIT 2 STDERR "'speed_mismatch' is a field of the whole log, not of a shard")
-clsurf_cli_test(NAME shards_pieces_that_differ AFTER shards_say_what_they_read SETUP "${same_shards}; $CLSURF export ${shard_run} --survey run.survey --shard 1/2 -o a.vtp -q; $CLSURF export ${shard_run} --survey run.survey --shard 2/2 --columns point -o b.vtp -q" ARGS export --merge a.vtp b.vtp -o map.pvtp EXIT 3 STDERR "b.vtp: error: has other columns than a.vtp")
-clsurf_cli_test(NAME shards_pieces_that_are_none SETUP "echo '<VTKFile/>' > a.vtp" ARGS export --merge a.vtp -o map.pvtp EXIT 3 STDERR "a.vtp: error: is no piece that clsurf export --shard writes")
+clsurf_cli_test(NAME shards_pieces_that_differ AFTER shards_say_what_they_read SETUP "${same_shards}; $CLSURF export ${shard_run} --survey run.survey --shard 1/2 -o a.vtp -q; $CLSURF export ${shard_run} --survey run.survey --shard 2/2 --columns point -o b.vtp -q" ARGS export --merge a.vtp b.vtp -o map.pvtp EXIT 3 STDERR "b.vtp: error: has different columns from a.vtp")
+clsurf_cli_test(NAME shards_pieces_that_are_none SETUP "echo '<VTKFile/>' > a.vtp" ARGS export --merge a.vtp -o map.pvtp EXIT 3 STDERR "a.vtp: error: is not a piece that clsurf export --shard writes")
 clsurf_cli_test(NAME shards_pieces_into_no_pvtp SETUP "echo > a.vtp" ARGS export --merge a.vtp -o map.vtp EXIT 2 STDERR "--merge writes a .pvtp file")
 clsurf_cli_test(NAME shards_pieces_with_marks_of_xml_in_their_names AFTER shards_say_what_they_read
   SETUP "${same_shards}; $CLSURF export ${shard_run} --columns point -o whole.vtp -q; $CLSURF export ${shard_run} --survey run.survey --shard 1/2 --columns point -o 'top & <side>.vtp' -q; $CLSURF export ${shard_run} --survey run.survey --shard 2/2 --columns point -o b.vtp -q; $CLSURF export --merge 'top & <side>.vtp' b.vtp -o map.pvtp; /usr/bin/python3 ${PROJECT_SOURCE_DIR}/tests/cli/read_pieces.py whole.vtp map.pvtp"
@@ -97,10 +97,10 @@ clsurf_partitions_error_test(one_is_missing : "piece1.vtkhdf;piece3.vtkhdf;-o;ma
 clsurf_partitions_error_test(the_last_is_missing : "piece1.vtkhdf;piece2.vtkhdf;-o;map.vtkhdf" 2 "points [0-9]+ … 44929 are in none of the pieces")
 clsurf_partitions_error_test(one_is_there_twice : "piece1.vtkhdf;piece2.vtkhdf;piece3.vtkhdf;piece2.vtkhdf;-o;map.vtkhdf" 2 "points [0-9]+ … [0-9]+ are in two of the pieces")
 clsurf_partitions_error_test(one_is_the_output : "piece1.vtkhdf;piece2.vtkhdf;piece3.vtkhdf;-o;piece3.vtkhdf" 2 "'piece3.vtkhdf' is an input: it would be overwritten")
-clsurf_partitions_error_test(one_is_no_piece "cp @AFTER@/whole.vtkhdf ." "piece1.vtkhdf;whole.vtkhdf;-o;map.vtkhdf" 3 "whole.vtkhdf: error: is no .vtkhdf piece that clsurf export --shard writes")
-clsurf_partitions_error_test(one_is_cut "head -c 300000 piece2.vtkhdf > cut.vtkhdf" "piece1.vtkhdf;cut.vtkhdf;piece3.vtkhdf;-o;map.vtkhdf" 3 "cut.vtkhdf: error: is no .vtkhdf piece that clsurf export --shard writes, or damaged")
+clsurf_partitions_error_test(one_is_no_piece "cp @AFTER@/whole.vtkhdf ." "piece1.vtkhdf;whole.vtkhdf;-o;map.vtkhdf" 3 "whole.vtkhdf: error: is not a .vtkhdf piece that clsurf export --shard writes")
+clsurf_partitions_error_test(one_is_cut "head -c 300000 piece2.vtkhdf > cut.vtkhdf" "piece1.vtkhdf;cut.vtkhdf;piece3.vtkhdf;-o;map.vtkhdf" 3 "cut.vtkhdf: error: is not a .vtkhdf piece that clsurf export --shard writes, or is damaged")
 clsurf_partitions_error_test(one_is_not_there : "piece1.vtkhdf;nowhere.vtkhdf;-o;map.vtkhdf" 3 "nowhere.vtkhdf.*No such file")
-clsurf_cli_test(NAME shards_partitions_that_differ AFTER shards_partitions SETUP "${same_partitions}; $CLSURF export ${shard_run} --survey @AFTER@/run.survey --shard 2/3 --columns point -o other.vtkhdf -q" ARGS export --merge piece1.vtkhdf other.vtkhdf piece3.vtkhdf -o map.vtkhdf EXIT 3 STDERR "other.vtkhdf: error: has other columns than piece1.vtkhdf")
+clsurf_cli_test(NAME shards_partitions_that_differ AFTER shards_partitions SETUP "${same_partitions}; $CLSURF export ${shard_run} --survey @AFTER@/run.survey --shard 2/3 --columns point -o other.vtkhdf -q" ARGS export --merge piece1.vtkhdf other.vtkhdf piece3.vtkhdf -o map.vtkhdf EXIT 3 STDERR "other.vtkhdf: error: has different columns from piece1.vtkhdf")
 
 # ---- the map, drawn shard by shard, at once or in pieces: the same picture, byte for byte ----
 # With COUNT shards.
@@ -125,7 +125,7 @@ clsurf_cli_test(NAME shards_map_without_a_range AFTER shards_say_what_they_read 
 clsurf_cli_test(NAME shards_map_of_a_field_of_the_whole AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${map_args} --survey run.survey --color speed_mismatch EXIT 2 STDERR "'speed_mismatch' is a field of the whole log, not of a shard")
 clsurf_cli_test(NAME shards_map_of_classes AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${map_args} --survey run.survey --color line EXIT 2 STDERR "'line' has classes")
 clsurf_cli_test(NAME shards_map_with_marks AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${map_args} --survey run.survey --mark-point 7 EXIT 2 STDERR "--mark-point needs the whole log: leave out --survey")
-clsurf_cli_test(NAME shards_map_without_a_survey ARGS ${map_args} --shards 3 EXIT 2 STDERR "--shards goes with --survey")
+clsurf_cli_test(NAME shards_map_without_a_survey ARGS ${map_args} --shards 3 EXIT 2 STDERR "--shards needs --survey")
 # One sample of these two is equally near on a line and on a triangle of the adjacent shard.
 clsurf_map_of_shards_test(ties dome_loops.nc dome_loops 5 --size 1600x1200)
 set(piece_made "$CLSURF render ${shard_run} --survey run.survey --size 400x300 -q")
@@ -141,9 +141,9 @@ clsurf_map_piece_error_test(of_another_look "true" "--merge;a.piece;b.piece;--vi
 clsurf_map_piece_error_test(is_cut "head -c -1 b.piece > c.piece" "--merge;a.piece;c.piece" 3 "c.piece: error: is cut or damaged: the checksum of its pixels differs")
 clsurf_map_piece_error_test(is_damaged "sed s/settings/settinks/ b.piece > c.piece" "--merge;a.piece;c.piece" 3 "c.piece: error: is cut or damaged: the checksum of its head differs")
 clsurf_map_piece_error_test(is_none "cp @AFTER@/run.survey c.piece" "--merge;a.piece;c.piece" 3 "c.piece: error: is not what clsurf render --shard writes")
-clsurf_map_piece_error_test(and_shards "true" "--merge;a.piece;b.piece;--shards;2" 2 "--shards does not go with --merge")
+clsurf_map_piece_error_test(and_shards "true" "--merge;a.piece;b.piece;--shards;2" 2 "--shards cannot be combined with --merge")
 clsurf_map_piece_error_test(with_marks "true" "--shard;1/2;--mark-line;7" 2 "--mark-line needs the whole log: leave out --survey")
-clsurf_cli_test(NAME shards_map_piece_without_a_survey ARGS ${map_args} --shard 1/3 EXIT 2 STDERR "--shard goes with --survey")
+clsurf_cli_test(NAME shards_map_piece_without_a_survey ARGS ${map_args} --shard 1/3 EXIT 2 STDERR "--shard needs --survey")
 clsurf_cli_test(NAME shards_map_of_no_shards AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${map_args} --survey run.survey --shards 0 EXIT 2 STDERR "--shards: 0 is not 1")
 
 # ---- the page: the same, byte for byte ----
@@ -159,7 +159,7 @@ clsurf_cli_test(NAME shards_page AFTER shards_say_what_they_read
 set(page_args report @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip -o page.html)
 clsurf_cli_test(NAME shards_page_before AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${page_args} --survey run.survey --before @LOGS@/planted_loops.biip EXIT 2 STDERR "--before needs the whole log: leave out --survey")
 clsurf_cli_test(NAME shards_page_shard_with_fields AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS report ${shard_run_args} --survey run.survey --shard 1/2 --fields speed -o shard.json EXIT 2 STDERR "--fields does not apply to --shard, only to the whole log")
-clsurf_cli_test(NAME shards_page_without_a_survey ARGS ${page_args} --shards 3 EXIT 2 STDERR "--shards goes with --survey")
+clsurf_cli_test(NAME shards_page_without_a_survey ARGS ${page_args} --shards 3 EXIT 2 STDERR "--shards needs --survey")
 clsurf_cli_test(NAME shards_page_with_one_missing AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${page_args} --survey run.survey --merge shard2.json EXIT 2 STDERR "points 0 … [0-9]+ are in none of the shards")
 
 # ---- generated logs of any length ----

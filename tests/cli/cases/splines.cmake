@@ -17,7 +17,7 @@ clsurf_cli_test(NAME spline_query SETUP "$CLSURF simulate @DATA@/programs/triden
   ARGS query @DATA@/programs/trident.nc run.biip --at 16.4583,14.375,0 STDOUT "^line 9: K0 X10 Y20 R1" "0[.]0[0-4][0-9]* mm away")
 clsurf_cli_test(NAME spline_log_belongs SETUP "$CLSURF simulate @DATA@/programs/butterfly_nurbs.mpf -o run.biip -q"
   ARGS info @DATA@/programs/butterfly_nurbs.mpf run.biip
-  STDOUT "48 splines" "positions lie 0[.]000. mm .median. and 0[.]00[0-9]* mm" NO_STDOUT "note: .*jumps")
+  STDOUT "48 splines" "positions deviate by 0[.]000. mm .median. and 0[.]00[0-9]* mm" NO_STDOUT "note: .*jumps")
 clsurf_cli_test(NAME spline_lint ARGS lint @DATA@/programs/trident.nc STDOUT "chord error 0[.]00 µm")
 clsurf_cli_test(NAME spline_by_the_trapezoidal_planner
   SETUP "printf '[controller]\\nperiod = 0.001\\nplanner = \"trapezoidal\"\\n' > machine.toml"

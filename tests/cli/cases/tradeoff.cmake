@@ -34,7 +34,7 @@ clsurf_cli_test(NAME tradeoff_wrong_weight ARGS simulate part.nc --weight 1.5 EX
 clsurf_cli_test(NAME tradeoff_wrong_ending ARGS simulate part.nc --tradeoff front.biip EXIT 2 STDERR "--tradeoff" ".csv")
 clsurf_cli_test(NAME tradeoff_to_standard_output ARGS simulate part.nc --tradeoff - EXIT 2 STDERR "--tradeoff writes a file, not standard output")
 clsurf_cli_test(NAME tradeoff_settings_alone ARGS simulate part.nc --settings best.toml -o run.biip EXIT 2 STDERR "--settings needs --tradeoff or --weight")
-clsurf_cli_test(NAME tradeoff_controller ARGS simulate part.nc --tradeoff f.png --controller "x {program} {log}" EXIT 2 STDERR "does not go with --controller")
+clsurf_cli_test(NAME tradeoff_controller ARGS simulate part.nc --tradeoff f.png --controller "x {program} {log}" EXIT 2 STDERR "cannot be combined with --controller")
 clsurf_cli_test(NAME tradeoff_one_pass SETUP "printf 'G21 G90\\nG1 X50 F3000\\nM2\\n' > part.nc" ARGS simulate part.nc --tradeoff front.png EXIT 3 STDERR "has no adjacent passes" NO_FILE front.png)
 clsurf_cli_test(NAME tradeoff_overwrites_nothing SETUP "${waves}" ARGS simulate part.nc --weight 0.5 --runs 3 --settings part.nc EXIT 2 NO_FILE run.biip)
 

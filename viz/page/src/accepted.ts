@@ -42,7 +42,7 @@ interface Entry {
 export function readOpinions(manifest: Manifest, text: string): { opinions: Opinions; note: string } {
     const file = JSON.parse(text) as { clsurf_accepted?: number; defects?: Entry[] };
     if (file?.clsurf_accepted !== 1 || !Array.isArray(file.defects))
-        throw new Error('this is no file of accepted defects');
+        throw new Error('this is not a file of accepted defects');
     const opinions = new Map<number, Opinion>();
     let [unknown, worse] = [0, 0];
     for (const entry of file.defects) {
