@@ -97,6 +97,8 @@ TEST(Klartext, CutsCornersBetweenLines) {
     EXPECT_NE(error("L X+0 Y+0 Z+0 FMAX\nL X+10 F600\nRND R20\nL Y+10\n").find("does not fit"), std::string::npos);
     EXPECT_NE(error("L X+0 Y+0 Z+0 FMAX\nL X+10 F600\nRND R2\nC X+0 DR+\n").find("4:1: error: a straight line"),
               std::string::npos);
+    EXPECT_NE(error("L X+0 Y+0 Z+0 FMAX\nL X+10 F600\nCHF 2\nQ1 = 3\n").find("4: error: a straight line with feed"),
+              std::string::npos);
     EXPECT_NE(error("L X+0 Y+0 Z+0 FMAX\nL X+10 F600\nRND R2\nL Z+10\n").find("working plane"), std::string::npos);
 }
 

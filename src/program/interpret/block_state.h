@@ -1,6 +1,5 @@
 #pragma once
-// State that blocks pass to the next one besides modes: the form of arcs, open splines, corners to cut; and flags of a
-// single block.
+// State that blocks pass to the next one besides modes: the form of arcs and open splines; and flags of a single block.
 
 #include <cstdint>
 #include <limits>
@@ -65,15 +64,6 @@ struct CurveState {
     int degree = 3;                                                  ///< SD
 
     [[nodiscard]] bool is_open() const { return open.kind != SplineKind::none; }
-};
-
-/// A corner that the next line cuts: RND, CHF.
-struct Corner {
-    bool pending = false;
-    bool rounded = false;  ///< else a chamfer
-    double size = 0;       ///< radius, or length removed from each line [mm]
-    double feed = 0;       ///< as programmed
-    LineNumber line = 0;
 };
 
 struct CycleState {

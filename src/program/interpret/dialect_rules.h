@@ -141,6 +141,8 @@ struct DialectRules {
     // Hooks for what a table cannot express. nullptr: nothing.
     /// State that the dialect keeps from block to block.
     std::unique_ptr<DialectState> (*make_state)() = nullptr;
+    /// Whether a line of plain words may move at once. False: it is read like other lines. nullptr: always.
+    bool (*plain_moves)(Interpreter&) = nullptr;
     /// Before the first line: initial position and state.
     void (*begin)(Interpreter&) = nullptr;
     /// `%` and the title after it (TextRules::named_titles).
@@ -155,6 +157,8 @@ struct DialectRules {
     void (*after_motion)(Interpreter&, const Block&) = nullptr;
     /// After its M codes: calls.
     void (*after_block)(Interpreter&, const Block&) = nullptr;
+    /// After the last line.
+    void (*at_end)(Interpreter&) = nullptr;
     /// An arc given by words other than I J K and R. Returns whether it was one.
     bool (*arc)(Interpreter&, const Block&, ArcWords&) = nullptr;
     /// The called macro or cycle of a modal call. Returns whether it was one of the dialect's own.

@@ -63,7 +63,7 @@ std::int64_t Interpreter::read_on(std::int64_t motions) {
     if (!ended_) {
         while (!ended_ && settled() < motions) run_line();
         if (ended_ && curves_.is_open()) close_spline(*this, Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
-        if (ended_ && corner_.pending) fail("a straight line with feed must follow RND and CHF");
+        if (ended_ && rules_->at_end != nullptr) rules_->at_end(*this);
     }
     return settled();
 }
@@ -169,7 +169,7 @@ bool Interpreter::run_plain(const Words& words) {
     const bool ordinary = (mode == MotionMode::rapid || mode == MotionMode::feed) && !state_.incremental &&
                           state_.feed_mode == FeedMode::per_minute && !modal_call_.active && !polar_.on &&
                           !state_.frame.active() && !curves_.is_open() && !state_.diameter &&
-                          !compensation_.path.on() && !corner_.pending;
+                          !compensation_.path.on() && (rules_->plain_moves == nullptr || rules_->plain_moves(*this));
     if (!ordinary) return false;
     state_.motion = mode;
     const double unit = state_.unit_mm;

@@ -89,7 +89,6 @@ public:
     CycleState cycle_;
     ArcState arcs_;
     CurveState curves_;
-    Corner corner_;
     std::unique_ptr<DialectState> dialect_state_;  ///< nullptr: the dialect keeps nothing
 
     bool feed_missed_ = false;  ///< a cutting motion without feed has been reported

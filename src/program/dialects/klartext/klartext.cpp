@@ -150,13 +150,14 @@ void cut_corner(Line& line) {
     const KlartextWords words = words_of(line);
     if (!(size > 0)) in.fail("RND and CHF need a length above 0", column);
     const bool after_line = !in.program_.motions.kind.empty() && in.program_.motions.kind.back() == MotionKind::feed;
-    if (!after_line || in.corner_.pending) in.fail("RND and CHF are read between straight lines with feed", column);
+    if (!after_line || state_of(in).corner.pending)
+        in.fail("RND and CHF are read between straight lines with feed", column);
     if (in.compensation_.path.on()) in.fail("RND and CHF under RL or RR with a tool radius are not supported", column);
-    in.corner_ = {.pending = true,
-                  .rounded = rounded,
-                  .size = size,
-                  .feed = words.feed == KlartextFeed::number ? words.feed_value : in.state_.feed,
-                  .line = in.place_.line};
+    state_of(in).corner = {.pending = true,
+                           .rounded = rounded,
+                           .size = size,
+                           .feed = words.feed == KlartextFeed::number ? words.feed_value : in.state_.feed,
+                           .line = in.place_.line};
 }
 
 [[noreturn]] void refuse(Line& line) {
@@ -289,7 +290,7 @@ bool carry_out(Interpreter& in, const Statement& statement) {
     const std::string id = line.c.identifier();
     if (id == "LBL") return false;
     const bool is_q = id.size() > 1 && id[0] == 'Q';
-    if (in.corner_.pending && !takes_corner(id) && !is_q)
+    if (state_of(in).corner.pending && !takes_corner(id) && !is_q)
         in.fail("a straight line with feed must follow RND and CHF", line.start + 1);
     if (is_q) {
         if (id.starts_with("QS"))
@@ -370,7 +371,12 @@ const DialectRules klartext_rules{
     .signs = {.words = klartext::word_signs, .endings = klartext::ending_signs, .marks = klartext::mark_signs},
     .plain = read_plain_klartext,
     .make_state = make_state<klartext::State>,
+    .plain_moves = [](Interpreter& in) { return !klartext::state_of(in).corner.pending; },
     .statement = klartext::carry_out,
+    .at_end =
+        [](Interpreter& in) {
+            if (klartext::state_of(in).corner.pending) in.fail("a straight line with feed must follow RND and CHF");
+        },
     .arc = arc_about_pole,
     .about_pole =
         [](Interpreter& in, const Block& block, Vec3& end) {

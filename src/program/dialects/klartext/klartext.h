@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/point.h"
 #include "program/dialects/heidenhain/heidenhain_codes.h"
 #include "program/dialects/klartext/klartext_words.h"
 #include "program/dialects/known_dialects.h"
@@ -13,9 +14,19 @@
 
 namespace clsurf::klartext {
 
+/// A corner that the next line cuts: RND, CHF.
+struct Corner {
+    bool pending = false;
+    bool rounded = false;  ///< else a chamfer
+    double size = 0;       ///< radius, or length removed from each line [mm]
+    double feed = 0;       ///< as programmed
+    LineNumber line = 0;
+};
+
 struct State final : HeidenhainState {
     double tool_feed = 0;  ///< F of TOOL CALL, used by F AUTO
     KlartextSide side = KlartextSide::none;
+    Corner corner;
 };
 [[nodiscard]] inline State& state_of(Interpreter& in) { return static_cast<State&>(*in.dialect_state_); }
 

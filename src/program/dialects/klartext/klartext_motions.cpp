@@ -37,10 +37,10 @@ CutCorner cut(Interpreter& in, const Vec3& before, const Vec3& corner, const Vec
     CutCorner result;
     result.begin = result.end = result.centre = corner;
     if (!(angle > least_angle && angle < std::numbers::pi - least_angle)) return result;
-    const double size = in.corner_.size;
-    const double setback = in.corner_.rounded ? size / std::tan(angle / 2) : size;
+    const double size = state_of(in).corner.size;
+    const double setback = state_of(in).corner.rounded ? size / std::tan(angle / 2) : size;
     if (!(setback <= back.norm() && setback <= on.norm()))
-        in.fail(fmt::format("{} {:g} does not fit between its lines", in.corner_.rounded ? "RND R" : "CHF",
+        in.fail(fmt::format("{} {:g} does not fit between its lines", state_of(in).corner.rounded ? "RND R" : "CHF",
                             size / in.state_.unit_mm));
     const Vec3 first = back.normalized();
     const Vec3 second = on.normalized();
@@ -54,14 +54,14 @@ CutCorner cut(Interpreter& in, const Vec3& before, const Vec3& corner, const Vec
 /// Moves the end of the last line back to the beginning of the cut corner, and cuts it.
 void finish_corner(Line& line, const KlartextWords& words, const Block& block) {
     Interpreter& in = line.in;
-    const Corner corner = in.corner_;
+    const Corner corner = state_of(in).corner;
     const std::optional<ProgramFrame::Circle> circle = in.state_.frame.circle(in.state_.plane_axis);
     if (!circle || circle->axis != in.state_.plane_axis)
         in.fail("RND and CHF in a tilted or unevenly scaled frame are not supported");
     if (words.feed == KlartextFeed::rapid) in.fail("a line with feed must follow RND and CHF", line.start + 1);
     const Vec3 after = target_of(in, block, false);
     const CutCorner shape = cut(in, in.arcs_.begin_of_last, in.state_.position, after);
-    in.corner_.pending = false;
+    state_of(in).corner.pending = false;
     if (shape.begin == shape.end) return;
     in.program_.motions.end.back() = Xyz(shape.begin);
     in.state_.position = shape.begin;
@@ -140,7 +140,7 @@ void move_with(Line& line, const KlartextWords& words, int code) {
         block.words.has &= ~(Words::bit('A') | Words::bit('B') | Words::bit('C'));
         turn_to_plane(in, in.state_.frame.direction_to_work(Vec3::UnitZ()).normalized(), false, "PLANE");
     }
-    if (in.corner_.pending) finish_corner(line, words, block);
+    if (state_of(in).corner.pending) finish_corner(line, words, block);
     in.execute(block);
     if (words.retract) retract(line, *words.retract);
 }

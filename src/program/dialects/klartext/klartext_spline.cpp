@@ -99,7 +99,7 @@ void spline(Line& line) {
     const std::size_t at = line.c.at;
     Line whole{in, Cursor{text, at}, line.start};
     const SplineWords words = read_words(whole);
-    if (in.corner_.pending) in.fail("a straight line with feed must follow RND and CHF", line.start + 1);
+    if (state_of(in).corner.pending) in.fail("a straight line with feed must follow RND and CHF", line.start + 1);
     Block& block = in.block_;
     block.clear();
     refuse_with_spline(in, block);
