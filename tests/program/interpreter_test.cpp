@@ -74,6 +74,16 @@ TEST(Interpreter, ShiftsWithG92AndWorkOffsets) {
         (Rows{"rapid 1 0 0", "rapid 11 0 0", "rapid 0 0 0", "rapid 0 0 0", "rapid -5 0 0"}));
 }
 
+TEST(Interpreter, ReturnsToKeptReferencePoints) {
+    // G92 shifts X by 4, after both points are kept: machine X 1 is −3, X 4 is 0. Each return first moves through the
+    // present position. The parameters count inches (stand_alone_tools).
+    EXPECT_EQ(motions(parse("G0 X1 Y2 Z3 A10\nG28.1\nG0 X4 Y5 Z6 A20\nG30.1\nG92 X0\nG28\nG30\n"
+                            "G0 X[25.4*#5161] Y#5164 Z[25.4*#5211]\nG0 X[25.4*#5181] Y#5184\n",
+                            "linuxcnc")),
+              (Rows{"rapid 1 2 3", "rapid 4 5 6", "rapid 0 5 6", "rapid -3 2 3", "rapid -3 2 3", "rapid 0 5 6",
+                    "rapid 1 10 4", "rapid 4 20 4"}));
+}
+
 TEST(Interpreter, RunsCannedCyclesAsMotions) {
     // G83, Q 2 from R 1 to Z −3: pecks at −1 and −3, retraction to R in between, then to 0.254 mm above the last depth.
     EXPECT_EQ(motions(parse("G0 X0 Y0 Z5\nG98 G83 X1 Y2 Z-3 R1 Q2 F60\nG80\n", "linuxcnc")),

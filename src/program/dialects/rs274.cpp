@@ -105,22 +105,19 @@ double numbered_parameter(Interpreter& in, int number) {
     const double machine_unit = in.tools_.table.unit_mm;
     const Vec3 at = tool_position(in.compensation_, in.state_);
     const Vec3 known = at.array().isNaN().select(0.0, at);
-    const auto axis_of = [&](int first, const Vec3& lengths, const Vec3& angles, double per) {
+    const auto axis_of = [&](int first, const AxisValues& values, double per) {
         const int k = number - first;
-        return k < 3 ? lengths[k] / per : k < 6 ? angles[k - 3] : 0.0;
+        return k < 3 ? values.linear[k] / per : k < 6 ? values.rotary[k - 3] : 0.0;
     };
-    const Vec3 none_turned = Vec3::Zero();
-    if (number >= 5420 && number <= 5428) return axis_of(5420, known, in.state_.rotary, unit);
-    if (number >= 5161 && number <= 5169) return axis_of(5161, in.state_.home, in.state_.home_rotary, machine_unit);
-    if (number >= 5181 && number <= 5189)
-        return axis_of(5181, in.state_.second_home, in.state_.second_home_rotary, machine_unit);
-    if (number >= 5211 && number <= 5219) return axis_of(5211, in.state_.shift, in.state_.rotary_shift, machine_unit);
-    if (number == 5220) return in.state_.work_system;
+    if (number >= 5420 && number <= 5428) return axis_of(5420, {known, in.state_.rotary}, unit);
+    if (number >= 5161 && number <= 5169) return axis_of(5161, in.state_.home, machine_unit);
+    if (number >= 5181 && number <= 5189) return axis_of(5181, in.state_.second_home, machine_unit);
+    if (number >= 5211 && number <= 5219) return axis_of(5211, in.state_.work_offsets.shift, machine_unit);
+    if (number == 5220) return in.state_.work_offsets.system;
     if (number >= 5221 && number < 5221 + 9 * 20) {
         const int system = (number - 5221) / 20 + 1;
         const int axis = (number - 5221) % 20;
-        const auto found = in.state_.work_offsets.find(system);
-        const WorkOffset offset = found == in.state_.work_offsets.end() ? WorkOffset{} : found->second;
+        const WorkOffset offset = in.state_.work_offsets.of(system);
         if (axis == 9) return offset.rotation;
         if (axis >= 3 && axis < 6) return offset.rotary[axis - 3];
         return axis < 3 ? offset.shift[axis] / machine_unit : 0.0;
@@ -133,7 +130,7 @@ double numbered_parameter(Interpreter& in, int number) {
         case 5413: return in.tools_.in_spindle.orientation;
         default: break;
     }
-    if (number >= 5401 && number <= 5409) return axis_of(5401, in.tools_.in_spindle.offset, none_turned, machine_unit);
+    if (number >= 5401 && number <= 5409) return axis_of(5401, {.linear = in.tools_.in_spindle.offset}, machine_unit);
     return missing<double>;
 }
 
@@ -172,7 +169,7 @@ double axis_parameter(const Interpreter& in, const std::string& name) {
         if (name == "_" + linear) return at[k] / unit;
         if (name == "_abs_" + linear) return machine[k] / unit;
         if (name == "_" + turning) return in.state_.rotary[k];
-        if (name == "_abs_" + turning) return in.state_.rotary[k] + in.state_.rotary_offset()[k];
+        if (name == "_abs_" + turning) return in.state_.rotary[k] + in.state_.work_offsets.rotary()[k];
         if (name == "_" + std::string(1, "uvw"[k])) return 0;  // axes that are not supported
     }
     return missing<double>;
@@ -182,7 +179,7 @@ double axis_parameter(const Interpreter& in, const std::string& name) {
 double named_parameter(Interpreter& in, const std::string& name) {
     if (const double axis = axis_parameter(in, name); !std::isnan(axis)) return axis;
     const double unit = in.state_.unit_mm;
-    const int system = in.state_.work_system;
+    const int system = in.state_.work_offsets.system;
     constexpr int numbered_systems = 6;
     const std::pair<const char*, double> modes[] = {
         {"_metric", unit == 1},
@@ -203,7 +200,7 @@ double named_parameter(Interpreter& in, const std::string& name) {
                    : in.state_.plane_axis == 1 ? 180
                                                : 190},
         {"_coord_system", system <= numbered_systems ? 530 + 10 * system : 590 + system - numbered_systems},
-        {"_tool_offset", !in.state_.tool_offset.isZero()},
+        {"_tool_offset", !in.state_.tool_offset.total.isZero()},
         {"_ccomp", !in.compensation_.path.on()    ? 400
                    : in.compensation_.path.left() ? 410
                                                   : 420},

@@ -139,7 +139,7 @@ Vec3 rotary_target(Interpreter& in, const Block& block) {
         if (((block.shortest | block.positive | block.negative) & bit) != 0)
             in.state_.modulo = static_cast<std::uint8_t>(in.state_.modulo | 1u << axis);
         if (machine) {
-            target[axis] = block.words.of(letter) - in.state_.rotary_offset()[axis];
+            target[axis] = block.words.of(letter) - in.state_.work_offsets.rotary()[axis];
             continue;
         }
         const bool incremental = in.state_.incremental ? (block.absolute & bit) == 0 : (block.incremental & bit) != 0;

@@ -39,11 +39,9 @@ void restore_modes(Interpreter& in, const ModalState& kept) {
     in.state_.retract_to_r = kept.retract_to_r;
     in.state_.diameter = kept.diameter;
     set_path_mode(in, "path-mode", "as it was", kept.path_mode);
-    select_work_system(in, kept.work_system);
-    if (kept.tool_offset.isZero())
-        in.state_.rebase([&] { in.state_.tool_offset = in.state_.assumed_tool = Vec3::Zero(); });
-    const bool shifted = !(kept.shift.isZero() && kept.rotary_shift.isZero());
-    if (!shifted && !(in.state_.shift.isZero() && in.state_.rotary_shift.isZero())) restore_shift(in.state_, 92.2_g);
+    select_work_system(in, kept.work_offsets.system);
+    if (kept.tool_offset.total.isZero()) in.state_.rebase([&] { in.state_.tool_offset = {}; });
+    if (kept.work_offsets.shift.is_zero() && !in.state_.work_offsets.shift.is_zero()) restore_shift(in.state_, 92.2_g);
 }
 
 }  // namespace clsurf

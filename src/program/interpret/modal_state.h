@@ -5,11 +5,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
+#include <limits>
 
 #include "core/geometry.h"
-#include "core/units.h"
 #include "program/interpret/program_frame.h"
+#include "program/interpret/work_offsets.h"
 #include "program/program.h"
 #include "program/work_frame.h"
 
@@ -35,14 +35,10 @@ enum class MotionMode : std::uint8_t {
     cycle,
 };
 
-inline constexpr int plain_work_systems = 6;  ///< G54 … G59
-
-struct WorkOffset {
-    Vec3 shift = Vec3::Zero();   ///< [mm]
-    double rotation = 0;         ///< about z [deg]
-    Vec3 rotary = Vec3::Zero();  ///< A, B, C [deg]
-    std::uint8_t set = 0;        ///< what the program has set: bits as in WorkFrame
-    int measured_from = 0;       ///< not set, but measured in this system of unknown offset (G10 L20); 0: none
+/// What the tool adds to positions [mm].
+struct ToolOffset {
+    Vec3 total = Vec3::Zero();
+    Vec3 assumed = Vec3::Zero();  ///< the part of it that comes from a default table
 };
 
 struct ModalState {
@@ -72,50 +68,32 @@ struct ModalState {
         Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< programmed as a vector, unit; NaN: by angles
     ProgramFrame frame;                                            ///< from programmed coordinates to `position`
 
-    int work_system = 1;  ///< 1: G54
-    std::map<int, WorkOffset> work_offsets;
-    Vec3 shift = Vec3::Zero();                                           ///< G92 and G52 together [mm]
-    Vec3 rotary_shift = Vec3::Zero();                                    ///< the same of A, B, C [deg]
-    Vec3 saved_shift = Vec3::Zero(), saved_rotary_shift = Vec3::Zero();  ///< restored by G92.3
-    Vec3 tool_offset = Vec3::Zero();                                     ///< [mm]
-    Vec3 assumed_tool = Vec3::Zero();                      ///< the part of it that comes from a default table [mm]
-    Vec3 home = Vec3::Zero(), second_home = Vec3::Zero();  ///< G28, G30; machine coordinates
-    Vec3 home_rotary = Vec3::Zero(), second_home_rotary = Vec3::Zero();  ///< [deg]
+    WorkOffsets work_offsets;
+    ToolOffset tool_offset;
+    AxisValues home, second_home;  ///< G28, G30; machine coordinates
 
     /// The least increment of a word: 0.001 mm or 0.0001 in.
     [[nodiscard]] double least_increment() const { return unit_mm == 1 ? 1e-3 : 1e-4; }
 
     /// The position in programmed coordinates [mm].
     [[nodiscard]] Vec3 programmed() const { return frame.to_programmed(position); }
-    [[nodiscard]] WorkOffset work_offset() const {
-        const auto found = work_offsets.find(work_system);
-        return found == work_offsets.end() ? WorkOffset{} : found->second;
-    }
-    [[nodiscard]] Vec3 to_machine(const Vec3& p) const {
-        const WorkOffset offset = work_offset();
-        return rotated(p + shift, offset.rotation) + offset.shift + tool_offset;
-    }
-    [[nodiscard]] Vec3 from_machine(const Vec3& m) const {
-        const WorkOffset offset = work_offset();
-        return rotated(m - tool_offset - offset.shift, -offset.rotation) - shift;
-    }
-    /// From A, B, C as programmed to those of the machine [deg].
-    [[nodiscard]] Vec3 rotary_offset() const { return rotary_shift + work_offset().rotary; }
+    [[nodiscard]] Vec3 to_machine(const Vec3& p) const { return work_offsets.to_machine(p) + tool_offset.total; }
+    [[nodiscard]] Vec3 from_machine(const Vec3& m) const { return work_offsets.from_machine(m - tool_offset.total); }
     /// Changes offsets by `change` while the machine is at rest: the position in the program's coordinates is
     /// recomputed.
     template <typename Change>
     void rebase(Change&& change) {
         const Vec3 machine = to_machine(position);
-        const Vec3 machine_rotary = rotary + rotary_offset();
+        const Vec3 machine_rotary = rotary + work_offsets.rotary();
         const Vec3 before = position;
-        const int system_before = work_system;
+        const int system_before = work_offsets.system;
         change();
         position = from_machine(machine);
-        rotary = machine_rotary - rotary_offset();
+        rotary = machine_rotary - work_offsets.rotary();
         ++frame_changes;
         for (int axis = 0; axis < 3; ++axis) {
             const bool stands = !std::isnan(position[axis]);
-            if (stands && (position[axis] != before[axis] || work_system != system_before))
+            if (stands && (position[axis] != before[axis] || work_offsets.system != system_before))
                 held = static_cast<std::uint8_t>(held | (1u << axis));
         }
     }
@@ -127,14 +105,6 @@ struct ModalState {
     }
     /// The frame of the position.
     [[nodiscard]] WorkFrame work_frame() const;
-
-    /// Rotated about z by an angle [deg].
-    static Vec3 rotated(const Vec3& p, double degrees) {
-        if (degrees == 0) return p;
-        const double c = std::cos(degrees * rad_per_deg);
-        const double s = std::sin(degrees * rad_per_deg);
-        return {c * p.x() - s * p.y(), s * p.x() + c * p.y(), p.z()};
-    }
 };
 
 }  // namespace clsurf

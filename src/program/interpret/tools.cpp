@@ -23,14 +23,15 @@ void set_tool(Interpreter& in, int level, const Block& block) {
     const auto length = [&](char letter) { return block.words.of(letter) * in.state_.unit_mm; };
     ModalState fixture = in.state_;  // the system of the words
     if (level == 11) {
-        fixture.work_system = last_work_system;
-        fixture.shift = Vec3::Zero();
+        fixture.work_offsets.system = last_work_system;
+        fixture.work_offsets.shift.linear = Vec3::Zero();
     }
     Vec3 reads = fixture.from_machine(in.state_.to_machine(in.state_.position));
     for (int axis = 0; axis < 3; ++axis) {
         if (block.words.given("XYZ"[axis])) reads[axis] = length("XYZ"[axis]);
     }
-    const Vec3 wanted = fixture.tool_offset + in.state_.to_machine(in.state_.position) - fixture.to_machine(reads);
+    const Vec3 wanted =
+        fixture.tool_offset.total + in.state_.to_machine(in.state_.position) - fixture.to_machine(reads);
     for (int axis = 0; axis < 3; ++axis) {
         if (block.words.given("XYZ"[axis])) tool.offset[axis] = level == 1 ? length("XYZ"[axis]) : wanted[axis];
     }
@@ -78,7 +79,7 @@ void change_tool(Interpreter& in, const Block& block) {
     const bool edge = in.rules_->tools.edges && block.words.given('D');
     if (!in.rules_->tools.length_with_tool || in.tools_.table.tools.empty() || !(changed || edge)) return;
     const Vec3 offset = edge && block.words.of('D') == 0 ? Vec3(Vec3::Zero()) : in.tools_.in_spindle.offset;
-    in.state_.rebase([&] { in.state_.tool_offset = offset; });
+    in.state_.rebase([&] { in.state_.tool_offset.total = offset; });
 }
 
 void part_from_machine(CompensationState& compensation, std::int64_t motions, const Vec3& by) {
@@ -109,8 +110,7 @@ void tool_length(Interpreter& in, int code, const Block& block) {
         return tool_of(in, static_cast<int>(std::clamp(std::round(block.words.of('H')), 0.0, 1e8)), column);
     };
     const auto assumed_in = [](const Tool& tool) { return tool.assumed ? tool.offset : Vec3(Vec3::Zero()); };
-    Vec3 offset = in.state_.tool_offset;
-    Vec3 assumed = in.state_.assumed_tool;
+    auto [offset, assumed] = in.state_.tool_offset;
     if (code == 43.1_g) {
         in.this_block_.motion_suppressed = true;
         offset = words_move(offset);
@@ -135,11 +135,8 @@ void tool_length(Interpreter& in, int code, const Block& block) {
         offset = tool_of(in, in.tools_.length_row, block.words.given('H') ? block.words.column['H' - 'A'] : 0).offset *
                  (code == 44_g ? -1.0 : 1.0);
     }
-    part_from_machine(in.compensation_, in.program_.motions.size(), offset - in.state_.tool_offset);
-    in.state_.rebase([&] {
-        in.state_.tool_offset = offset;
-        in.state_.assumed_tool = assumed;
-    });
+    part_from_machine(in.compensation_, in.program_.motions.size(), offset - in.state_.tool_offset.total);
+    in.state_.rebase([&] { in.state_.tool_offset = {offset, assumed}; });
     in.event("tool-length", code_text(code) + words_text(block, "H"));
 }
 

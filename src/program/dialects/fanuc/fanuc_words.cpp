@@ -54,7 +54,7 @@ WorkOffset* offset_of_variable(Interpreter& in, int number, int& axis) {
     const auto found = [&](int first, int systems, int first_system) -> WorkOffset* {
         if (number < first || number >= first + systems * per_system) return nullptr;
         axis = (number - first) % per_system;
-        return axis < 3 ? &in.state_.work_offsets[first_system + (number - first) / per_system] : nullptr;
+        return axis < 3 ? &in.state_.work_offsets.by_system[first_system + (number - first) / per_system] : nullptr;
     };
     if (WorkOffset* offset = found(5221, 6, 1)) return offset;
     return found(7001, 48, plain_work_systems + 1);
@@ -189,14 +189,14 @@ bool set_offsets(Interpreter& in, int level, const Block& block) {
             return true;
         }
         const int system = level == 20 ? plain_work_systems + number : number;
-        Vec3 shift = in.state_.work_offsets[system].shift;
+        Vec3 shift = in.state_.work_offsets.by_system[system].shift;
         for (int k = 0; k < 3; ++k) {
             if (!w.given("XYZ"[k])) continue;
             const double value = w.of("XYZ"[k]) * in.state_.unit_mm;
             shift[k] = adds ? shift[k] + value : value;
         }
         in.state_.rebase([&] {
-            WorkOffset& offset = in.state_.work_offsets[system];
+            WorkOffset& offset = in.state_.work_offsets.by_system[system];
             offset.shift = shift;
             if (!adds) offset.set = static_cast<std::uint8_t>(offset.set | axes_named(w));
         });
@@ -253,9 +253,8 @@ double parameter(Interpreter& in, int number) {
     }
     if (number >= 5021 && number < 5027) return axis_of(5021, in.state_.to_machine(known));
     const auto offset = [&](int first, int first_system) {
-        const auto found = in.state_.work_offsets.find(first_system + (number - first) / 20);
         const int axis = (number - first) % 20;
-        return found == in.state_.work_offsets.end() || axis > 2 ? 0.0 : found->second.shift[axis] / unit;
+        return axis > 2 ? 0.0 : in.state_.work_offsets.of(first_system + (number - first) / 20).shift[axis] / unit;
     };
     if (number >= 5221 && number < 5341) return offset(5221, 1);
     if (number >= 7001 && number < 7961) return offset(7001, plain_work_systems + 1);
@@ -274,7 +273,8 @@ double parameter(Interpreter& in, int number) {
         case 4006: return unit == 1 ? 21 : 20;
         case 4009: return in.state_.cycle > 0 && in.state_.motion == MotionMode::cycle ? in.state_.cycle / 10 : 80;
         case 4010: return in.state_.retract_to_r ? 99 : 98;
-        case 4014: return in.state_.work_system <= plain_work_systems ? 53 + in.state_.work_system : 54.1;
+        case 4014:
+            return in.state_.work_offsets.system <= plain_work_systems ? 53 + in.state_.work_offsets.system : 54.1;
         case 4109: return in.state_.feed;
         case 4119: return in.state_.spindle;
         case 4120: return in.tools_.next;

@@ -103,7 +103,7 @@ void call_tool(Line& line) {
     in.execute(block);
     if (in.tools_.table.tools.empty()) return;
     in.tools_.in_spindle.diameter += 2 * wider;
-    if (longer != 0) in.state_.rebase([&] { in.state_.tool_offset[in.state_.plane_axis] += longer; });
+    if (longer != 0) in.state_.rebase([&] { in.state_.tool_offset.total[in.state_.plane_axis] += longer; });
 }
 
 // Motions.
