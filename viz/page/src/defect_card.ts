@@ -7,7 +7,7 @@ import type { Defect, DefectRun, Manifest } from './manifest';
 import type { Store } from './store';
 
 const mostRuns = 6; // of a list of lines
-const oneColumn = matchMedia('(max-width: 700px)'); // as style.css has it
+const oneColumn = matchMedia('(max-width: 700px)'); // as in style/phone.css
 
 export interface CardHandlers {
     step: (by: number) => void;
