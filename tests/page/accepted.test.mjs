@@ -123,6 +123,7 @@ test('the card prints with its lines', async () => {
     assert.ok(await card.isVisible());
     assert.equal(await page.locator('#report').isVisible(), false);
     const text = await card.textContent();
+    assert.ok(text.includes('Adjacent lines'), text);
     const program = fs.readFileSync(bottle.program, 'utf8').split('\n');
     const [first, last] = await page.evaluate(
         () => JSON.parse(document.getElementById('manifest').textContent).defects[0].runs[0].lines,

@@ -153,10 +153,11 @@ test('a defect moves the camera there and marks the lines of both passes', async
             defects[0].lines.some(([first, last]) => line >= first && line <= last),
             `line ${line} is none of defect 1's`,
         );
-    const beside = defects.findIndex((d) => d.neighbours.lines.length > 0);
-    await page.click(`[data-choice="defect-${beside}"]`);
-    await goTo(page, 'line', defects[beside].neighbours.lines[0][0]); // leaves the defect: lines are no longer marked
-    assert.equal(await page.locator('.program .row.beside').count(), 0);
+    const adjacent = defects.findIndex((d) => d.neighbours.lines.length > 0);
+    await page.click(`[data-choice="defect-${adjacent}"]`);
+    assert.ok((await page.textContent('.card')).includes('Adjacent lines'));
+    await goTo(page, 'line', defects[adjacent].neighbours.lines[0][0]); // leaves the defect: lines are no longer marked
+    assert.equal(await page.locator('.program .row.adjacent').count(), 0);
 });
 
 test('a defect brings the field that shows it, and a link to itself', async () => {

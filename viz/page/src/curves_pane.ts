@@ -310,7 +310,7 @@ function extremes(values: (number | null)[]): [number, number] {
     return least <= most ? [least, most] : [0, 1];
 }
 
-/** A second field worth seeing beside the one that is shown. */
+/** A second field worth seeing next to the one that is shown. */
 export function secondCurve(manifest: Manifest, first: number): number {
     for (const name of ['contour_error', 'speed_mismatch', 'acceleration', 'speed']) {
         const k = manifest.fields.findIndex((f) => f.name === name);

@@ -102,7 +102,7 @@ export class DefectCard {
                     element('dd', {}, value),
                 ),
             );
-        facts.append(...this.lines('Lines', defect.runs), ...this.lines('Beside', defect.neighbours));
+        facts.append(...this.lines('Lines', defect.runs), ...this.lines('Adjacent lines', defect.neighbours));
         this.element.replaceChildren(head, element('p', {}, defect.text), facts, this.opinion(defect));
     }
 

@@ -47,7 +47,7 @@ export async function printDefect(
     for (const [name, value] of [
         ...factsOf(defect),
         ['Lines', linesText(defect.runs)],
-        ['Beside', linesText(defect.neighbours)],
+        ['Adjacent lines', linesText(defect.neighbours)],
     ])
         if (value) facts.append(element('div', {}, element('dt', {}, name), element('dd', {}, value)));
     const card = element(

@@ -30,7 +30,7 @@ export interface Mesh {
     xyz: Float32Array;
     normals: Float32Array | null;
     triangles: Uint32Array;
-    segments: Uint32Array; // what has no triangles beside it; with style lines, all of the way
+    segments: Uint32Array; // what has no triangles next to it; with style lines, all of the way
     points: Uint32Array; // vertices that are drawn
 }
 

@@ -53,7 +53,7 @@ export interface OverlayScene {
     zero: Zero;
 }
 
-export const legendWidth = 104; // px beside the map
+export const legendWidth = 104; // px right of the map
 const mostMoved = 60; // px from a place to its marker
 const mostHidden = 99; // that have room in the caption
 const crowdedRoom = 14; // px from line to line

@@ -52,7 +52,7 @@ export class ProgramPane {
                 this.marks.clear();
                 const defect = state.defect === null ? null : manifest.defects[state.defect];
                 for (const [runs, name] of [
-                    [defect?.neighbours ?? [], 'beside'],
+                    [defect?.neighbours ?? [], 'adjacent'],
                     [defect?.runs ?? [], 'fault'],
                 ] as const) {
                     for (const run of runs)
