@@ -59,7 +59,7 @@ public:
           placer_(panel.rect) {}
 
     int draw() {
-        const bool over = look_.style == Style::surface || map_.relief != nullptr;
+        const bool over = look_.style == Style::surface || map_.height_map != nullptr;
         if (over && map_.programmed != nullptr && !map_.programmed->empty()) add_programmed(*map_.programmed);
         for (const PointMark& mark : map_.points) take_ring(place_of(mark.point));
         for (const LineMark& mark : map_.lines) {

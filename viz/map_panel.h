@@ -11,7 +11,7 @@
 #include "viz/defect_map.h"
 #include "viz/detail.h"
 #include "viz/field_classes.h"
-#include "viz/relief.h"
+#include "viz/height_map.h"
 #include "viz/view.h"
 
 namespace clsurf::viz {
@@ -59,9 +59,9 @@ struct MapPanel {
     std::vector<OutlineMark> outlines;
     /// Corners [mm] of lines that are drawn thinly, below all marks and below points and lines of the log; nullptr: none.
     const std::vector<std::vector<Vec3>>* programmed = nullptr;
-    const DefectMap* defects = nullptr;     ///< drawn over a grey relief of the surface, for any field
+    const DefectMap* defects = nullptr;     ///< drawn over the surface in grey, for any field
     const FieldClasses* classes = nullptr;  ///< classes of a field whose values are names
-    const Relief* relief = nullptr;         ///< drawn instead of the surface; the field then has one value per vertex
+    const HeightMap* height_map = nullptr;  ///< drawn instead of the surface; the field then has one value per vertex
     std::vector<PointRange> pale = {};      ///< points in a lighter tone, increasing: ramps that all passes have
     std::function<Vec3(PointIndex)> place_of = {};  ///< position of marked points and lines [mm]; empty: on the surface
 };

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "viz/height_map.h"
 #include "viz/map_axes.h"
-#include "viz/relief.h"
 #include "viz/surface_extent.h"
 
 namespace clsurf::viz {
@@ -79,7 +79,7 @@ PlacedMap placed_map(Arrangement arrangement, const std::vector<MapPanel>& panel
 }  // namespace
 
 Box3 extent_of_panel(const MapPanel& map, const ViewAxes& axes) {
-    return map.relief != nullptr ? extent_of(*map.relief, axes) : extent_of(*map.surface, axes);
+    return map.height_map != nullptr ? extent_of(*map.height_map, axes) : extent_of(*map.surface, axes);
 }
 
 PlacedMap placed_map(const std::vector<MapPanel>& panels, const Look& look) {

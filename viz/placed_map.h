@@ -16,7 +16,7 @@ struct PlacedMap {
     Camera camera;
 };
 
-/// The extent of the surface or the relief of a panel along the axes of a view [mm]. O(points), parallel.
+/// The extent of the surface or the height map of a panel along the axes of a view [mm]. O(points), parallel.
 [[nodiscard]] Box3 extent_of_panel(const MapPanel& map, const ViewAxes& axes);
 
 /// Selects the arrangement in which the part is largest, among those that fit the shape of the picture. The camera has the

@@ -19,10 +19,10 @@ namespace clsurf::viz {
 namespace {
 
 constexpr double shade_dark = 0.80;   ///< brightness of a surface in grazing light
-constexpr double relief_dark = 0.62;  ///< brightness of a grey relief, which shows only its shade
+constexpr double grey_dark = 0.62;    ///< brightness of a grey surface, which shows only its shade
 constexpr double path_width = 3;      ///< [px] width of passes without adjacent ones
 constexpr double path_room = 8;       ///< [px] distance between such a path and its box
-constexpr double relief_grey = 232;   ///< brightness of a grey relief that faces the light
+constexpr double grey_light = 232;    ///< brightness of a grey surface that faces the light
 const Vec3 light(-0.45, 0.55, 0.70);  ///< from the upper left, in the camera's frame
 
 /// Sets the position of vertices on the ramp, and their shade in grazing light.
@@ -96,27 +96,27 @@ Column<std::uint32_t> take_bare(Column<std::uint32_t>& cells, std::size_t size, 
 
 namespace {
 
-/// A grey relief: only its shade, without values.
-void paint_relief(Detail& detail, MeshPanel& panel) {
+/// Grey: only the shade of the surface, without values.
+void paint_grey(Detail& detail, MeshPanel& panel) {
     Geometry& g = detail.geometry;
     const Camera& camera = panel.camera;
     const Vec3 direction = (light.x() * camera.right + light.y() * camera.up + light.z() * camera.towards).normalized();
     g.rgb.resize(g.xyz.size());
-    for (unsigned char& c : g.rgb) c = static_cast<unsigned char>(relief_grey);
+    for (unsigned char& c : g.rgb) c = static_cast<unsigned char>(grey_light);
     if (g.normals.empty()) return;
     parallel_for(static_cast<std::int64_t>(g.xyz.size() / 3), block_points, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t i = first; i < last; ++i) {
             const auto v = 3 * static_cast<std::size_t>(i);
             const Vec3 n(g.normals[v], g.normals[v + 1], g.normals[v + 2]);
-            const double shade = relief_dark + (1 - relief_dark) * std::abs(n.dot(direction));
-            for (std::size_t k = 0; k < 3; ++k) g.rgb[v + k] = static_cast<std::uint8_t>(relief_grey * shade);
+            const double shade = grey_dark + (1 - grey_dark) * std::abs(n.dot(direction));
+            for (std::size_t k = 0; k < 3; ++k) g.rgb[v + k] = static_cast<std::uint8_t>(grey_light * shade);
         }
     });
     g.normals = {};
 }
 
 /// No pass has an adjacent one: only lines are drawn.
-bool is_path(const MapPanel& map) { return map.relief == nullptr && map.surface->step_over <= 0; }
+bool is_path(const MapPanel& map) { return map.height_map == nullptr && map.surface->step_over <= 0; }
 
 /// The shown extent of a part.
 Box3 shown_box(const MapPanel& map, const Look& look) {
@@ -126,7 +126,7 @@ Box3 shown_box(const MapPanel& map, const Look& look) {
 
 Beyond paint_panel(Detail& detail, const MapPanel& map, const ColourScale& scale, const Look& look, MeshPanel& panel) {
     if (map.defects != nullptr) {
-        paint_relief(detail, panel);
+        paint_grey(detail, panel);
         return {};
     }
     if (map.classes == nullptr) return paint(detail, scale, map.field->info.unit.per_inside, look.background, panel);
@@ -146,8 +146,8 @@ Detail detail_of(const MapPanel& map, const Camera& camera, const Look& look, co
     request.style = look.style;
     request.box = look.box;
     request.own = own;
-    return map.relief != nullptr ? relief_detail(*map.relief, map.field->values, request)
-                                 : visible_detail(*map.surface, map.field->values, request);
+    return map.height_map != nullptr ? height_map_detail(*map.height_map, map.field->values, request)
+                                     : visible_detail(*map.surface, map.field->values, request);
 }
 
 /// Whether shown cutting points of a map have values beyond the range. Vertices cannot show this: the mean of the points in a
@@ -174,7 +174,7 @@ Beyond fill_panel(const MapPanel& map, const ColourScale& scale, const Look& loo
                   const PointRange& own = DetailRequest().own) {
     Detail detail = detail_of(map, panel.camera, look, own);
     Beyond here = paint_panel(detail, map, scale, look, panel);
-    if (map.defects == nullptr && map.classes == nullptr && map.relief == nullptr)
+    if (map.defects == nullptr && map.classes == nullptr && map.height_map == nullptr)
         here.widen(beyond_of_points(map, scale, look, panel.camera, own));
     if (!map.pale.empty()) panel.pale = paleness_of(detail.points, map.pale);
     panel.geometry = std::move(detail.geometry);
@@ -190,7 +190,7 @@ Beyond fill_panel(const MapPanel& map, const ColourScale& scale, const Look& loo
 /// Thin lines behind the points or lines of a log, in one colour, as cells of the mesh, so that the log covers them. If the
 /// log is shown as a surface, they are lines over it (map_marks.h).
 void add_programmed_below(const MapPanel& map, const Look& look, MeshPanel& panel) {
-    if (map.programmed == nullptr || map.relief != nullptr || look.style == Style::surface) return;
+    if (map.programmed == nullptr || map.height_map != nullptr || look.style == Style::surface) return;
     Geometry& g = panel.geometry;
     const Vec3 behind = -0.05 * map.surface->step_over * panel.camera.towards - g.origin;
     const auto add = [&](const Vec3& p) {

@@ -78,7 +78,7 @@ struct PageColourMap {
 };
 
 /// A height map of the as-machined surface.
-struct PageRelief {
+struct PageHeightMap {
     Vec3 origin = Vec3::Zero();  ///< [mm]
     double pitch = 0;            ///< [mm]
     std::int64_t columns = 0, rows = 0;
@@ -123,7 +123,7 @@ struct ReportPage {
     std::vector<PagePicture> pictures;
     std::vector<PageColourMap> colour_maps;
     std::vector<std::string> field_maps;  ///< per field, the name of its colour map
-    std::optional<PageRelief> relief;
+    std::optional<PageHeightMap> height_map;
     std::optional<PageProgrammed> programmed;  ///< nothing: not the path of the tool in the workpiece
     std::uint64_t most_bytes = 0;              ///< the size limit for which the points were chosen
 };

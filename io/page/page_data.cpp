@@ -360,19 +360,19 @@ Json gone_json(const ReportPage& page) {
     return all;
 }
 
-void add_relief(Blocks& blocks, Json& manifest, const PageRelief& relief) {
+void add_height_map(Blocks& blocks, Json& manifest, const PageHeightMap& height_map) {
     constexpr double quantum_um = 1e-2;
-    manifest["relief"] = {{"origin_mm", exact_vector(relief.origin)},
-                          {"pitch_mm", relief.pitch},
-                          {"columns", relief.columns},
-                          {"rows", relief.rows},
+    manifest["relief"] = {{"origin_mm", exact_vector(height_map.origin)},
+                          {"pitch_mm", height_map.pitch},
+                          {"columns", height_map.columns},
+                          {"rows", height_map.rows},
                           {"z_quantum_mm", position_quantum},
                           {"deviation_quantum_um", quantum_um},
-                          {"low", number(relief.range.low)},
-                          {"high", number(relief.range.high)},
-                          {"lowest", number(relief.range.lowest)},
-                          {"highest", number(relief.range.highest)},
-                          {"note", relief.note}};
+                          {"low", number(height_map.range.low)},
+                          {"high", number(height_map.range.high)},
+                          {"lowest", number(height_map.range.lowest)},
+                          {"highest", number(height_map.range.highest)},
+                          {"note", height_map.note}};
     const auto steps = [](std::span<const float> values, double quantum) {
         std::vector<std::int64_t> out;
         std::int64_t before = 0;
@@ -380,11 +380,11 @@ void add_relief(Blocks& blocks, Json& manifest, const PageRelief& relief) {
         return pack_integers(out);
     };
     std::string missing;
-    for (std::size_t k = 0; k < relief.z.size(); ++k)
-        missing += !std::isfinite(relief.z[k]) ? '\1' : !std::isfinite(relief.deviation[k]) ? '\2' : '\0';
-    blocks.add(at("/relief", "z"), [&relief, steps] { return steps(relief.z, position_quantum); });
+    for (std::size_t k = 0; k < height_map.z.size(); ++k)
+        missing += !std::isfinite(height_map.z[k]) ? '\1' : !std::isfinite(height_map.deviation[k]) ? '\2' : '\0';
+    blocks.add(at("/relief", "z"), [&height_map, steps] { return steps(height_map.z, position_quantum); });
     blocks.add(at("/relief", "deviation"),
-               [&relief, steps] { return steps(relief.deviation, quantum_um / um_per_mm); });
+               [&height_map, steps] { return steps(height_map.deviation, quantum_um / um_per_mm); });
     blocks.add(at("/relief", "missing"), [flags = std::move(missing)] { return pack_bytes(flags); });
 }
 
@@ -441,7 +441,7 @@ PageData page_data(const ReportPage& page) {
     for (std::size_t k = 0; k < page.surfaces.size(); ++k)
         m["surfaces"].push_back(
             surface_json(blocks, "/surfaces/" + std::to_string(k), page, page.surfaces[k], names[k]));
-    if (page.relief) add_relief(blocks, m, *page.relief);
+    if (page.height_map) add_height_map(blocks, m, *page.height_map);
     if (page.programmed) add_programmed(blocks, m, *page.programmed);
     blocks.add(at("/program", "text"), [&text] { return pack_bytes(text.text()); });
     blocks.pack(data);

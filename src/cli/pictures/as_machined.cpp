@@ -68,8 +68,8 @@ void leave_out_flanks(const Form& form, const MapFrame& frame, std::int64_t firs
 /// Means of blocks of cells, filled row by row.
 class Means {
 public:
-    Means(viz::Relief& relief, Column<float>& values, std::int64_t per_vertex, std::int64_t columns)
-        : relief_(relief),
+    Means(viz::HeightMap& height_map, Column<float>& values, std::int64_t per_vertex, std::int64_t columns)
+        : height_map_(height_map),
           values_(values),
           per_vertex_(per_vertex),
           columns_(columns),
@@ -91,18 +91,18 @@ public:
     }
 
 private:
-    [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(relief_.columns); }
+    [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(height_map_.columns); }
     void put(std::int64_t row) {
-        if (row >= relief_.rows) return;
+        if (row >= height_map_.rows) return;
         for (std::size_t k = 0; k < size(); ++k) {
             const std::size_t at = static_cast<std::size_t>(row) * size() + k;
-            relief_.z[at] = static_cast<float>(z_[k] / n_[k]);  // 0/0: NaN, no vertex
+            height_map_.z[at] = static_cast<float>(z_[k] / n_[k]);  // 0/0: NaN, no vertex
             values_[at] = static_cast<float>(d_[k] / n_[k]);
             z_[k] = d_[k] = n_[k] = 0;
         }
     }
 
-    viz::Relief& relief_;
+    viz::HeightMap& height_map_;
     Column<float>& values_;
     std::int64_t per_vertex_, columns_;
     std::vector<double> z_, d_, n_;
@@ -119,7 +119,7 @@ AsMachinedMap make_as_machined_map(const AsMachinedPart& part, const Box3& box, 
         region = region.intersection(shown_plan(camera, low, high + as_machined.tool().radius));
     }
     AsMachinedMap map;
-    viz::Relief& relief = map.relief;
+    viz::HeightMap& height_map = map.height_map;
     if (region.isEmpty()) throw UsageError("nothing of the as-machined surface lies in the part that is shown");
     const double cell = std::max(as_machined.usual_cell(), std::sqrt(region.volume() / most_cells));
     const auto per_vertex = std::max<std::int64_t>(1, std::lround(camera.mm_per_pixel / cell));
@@ -127,17 +127,17 @@ AsMachinedMap make_as_machined_map(const AsMachinedPart& part, const Box3& box, 
     const double fine = per_vertex == 1 ? std::clamp(camera.mm_per_pixel, cell / 10, cell)
                                         : camera.mm_per_pixel / static_cast<double>(per_vertex);
     const MapFrame frame = frame_of(region, fine);
-    relief.columns = frame.columns / per_vertex;
-    relief.rows = frame.rows / per_vertex;
-    relief.pitch = fine * static_cast<double>(per_vertex);
+    height_map.columns = frame.columns / per_vertex;
+    height_map.rows = frame.rows / per_vertex;
+    height_map.pitch = fine * static_cast<double>(per_vertex);
     const Vec2 middle = frame.corner + Vec2::Constant(0.5 * fine * static_cast<double>(per_vertex - 1));
-    relief.origin = Vec3(middle.x(), middle.y(), as_machined.level());
-    relief.z =
-        Column<float>(static_cast<std::size_t>(relief.columns * relief.rows), std::numeric_limits<float>::quiet_NaN());
+    height_map.origin = Vec3(middle.x(), middle.y(), as_machined.level());
+    height_map.z = Column<float>(static_cast<std::size_t>(height_map.columns * height_map.rows),
+                                 std::numeric_limits<float>::quiet_NaN());
     map.field.info = {"formed", "Formed surface over its form", unit::um, FieldScale::diverging,
                       fmt::format("{}, {}", to_text(as_machined.tool()), as_machined.note())};
-    map.field.values = relief.z;
-    Means means(relief, map.field.values, per_vertex, frame.columns);
+    map.field.values = height_map.z;
+    Means means(height_map, map.field.values, per_vertex, frame.columns);
     const Form form(as_machined, region);
     std::vector<float> heights;
     as_machined.map(frame, [&](std::int64_t first_row, std::span<float> z) {

@@ -3,15 +3,15 @@
 
 #include "field/field.h"
 #include "pipeline/as_machined_part.h"
-#include "viz/relief.h"
+#include "viz/height_map.h"
 #include "viz/view.h"
 
 namespace clsurf::cli {
 
 /// A map of the as-machined surface.
 struct AsMachinedMap {
-    viz::Relief relief;
-    Field field;  ///< deviations at the relief's vertices
+    viz::HeightMap height_map;
+    Field field;  ///< deviations at the vertices of the height map
 };
 
 /// A map in the resolution of the picture; each vertex is the mean of its cells. `box` empty: everything that `camera` shows.

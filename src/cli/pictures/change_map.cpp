@@ -53,7 +53,7 @@ std::string changed_roughness_text(const Shown& before, const Shown& after) {
 
 std::optional<viz::Image> draw_change(const Shown& before, const Shown& after, double range,
                                       const RenderOptions& options) {
-    if (has_classes(after.field.info) || after.relief || before.relief) return std::nullopt;
+    if (has_classes(after.field.info) || after.height_map || before.height_map) return std::nullopt;
     const RunAlignment alignment = align_runs(after.surface.positions, before.surface.positions);
     if (alignment.aligned <= 0) return std::nullopt;
     const Field change = difference_of(after.field, before.field, alignment);

@@ -35,8 +35,8 @@ viz::MapPanel panel_of(const Shown& shown, const RenderOptions& options, std::st
     panel.programmed = &shown.programmed;
     panel.place_of = [&shown](PointIndex i) { return shown.place_of(i); };
     if (has_classes(shown.field.info)) panel.classes = &shown.classes;
-    if (shown.relief)
-        panel.relief = &*shown.relief;
+    if (shown.height_map)
+        panel.height_map = &*shown.height_map;
     else if (is_speed(shown.field.info))
         panel.pale = pass_ramps(shown.field, shown.surface.passes, shown.part.log.period);
     for (const PointIndex point : options.points) {
@@ -63,7 +63,7 @@ viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, c
     texts.title = fmt::format(
         "{}, {} {}", shown.field.info.label, positions,
         options.shown.look.style == viz::Style::surface && shown.surface.step_over > 0 ? "surface" : "path");
-    if (shown.relief) texts.title = fmt::format("{}, {}", shown.field.info.label, to_text(*shown.part.tool));
+    if (shown.height_map) texts.title = fmt::format("{}, {}", shown.field.info.label, to_text(*shown.part.tool));
     const std::string program = file_name(options.part.program);
     // The captions of two panels name the logs.
     const std::string counts =
@@ -73,7 +73,7 @@ viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, c
                          : fmt::format("{} · {} · {}", program, run_name(shown, options), counts);
     if (!options.selection.is_all()) texts.notes.push_back("only " + options.selection.words);
     if (!shown.field.info.note.empty()) texts.notes.push_back(shown.field.info.note);
-    if (!shown.relief && is_speed(shown.field.info)) texts.notes.emplace_back(viz::ramps_note);
+    if (!shown.height_map && is_speed(shown.field.info)) texts.notes.emplace_back(viz::ramps_note);
     if (options.programmed) texts.notes.emplace_back("thin lines: the programmed path");
     if (options.defects)
         texts.notes.push_back(shown.defects.outlines.empty()
@@ -82,7 +82,7 @@ viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, c
     if (options.defects) note_judgement(shown.defects.report, "", texts.notes);
     if (options.defects && before) note_judgement(before->defects.report, "before: ", texts.notes);
     texts.notes.insert(texts.notes.end(), range_notes.begin(), range_notes.end());
-    const bool logged_tips = !shown.relief && shown.origin == PointOrigin::log;
+    const bool logged_tips = !shown.height_map && shown.origin == PointOrigin::log;
     if (logged_tips && shown.part.tool && options.shown.look.scales) texts.notes.emplace_back(viz::tool_tip_note);
     return texts;
 }

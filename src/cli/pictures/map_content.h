@@ -23,7 +23,7 @@ namespace clsurf::cli {
 [[nodiscard]] viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before,
                                      const RenderOptions& options, const std::vector<std::string>& range_notes);
 
-/// The defect map: a grey relief with the defective sections, and their names next to it.
+/// The defect map: the surface in grey with the defective sections, and their names next to it.
 [[nodiscard]] viz::Image draw_defect_map(const Shown& shown, const RenderOptions& options);
 
 }  // namespace clsurf::cli

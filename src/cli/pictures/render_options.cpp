@@ -95,7 +95,7 @@ void declare_render(po::options_description& options) {
         ("lines", po::value<std::string>()->value_name("A..B"), "show the points of these lines of the program only")
         ("passes", po::value<std::string>()->value_name("A..B"), "show these passes only, counted from 1 as in `clsurf check`")
         ("programmed", "draw the path of the program, too: thin lines, below all marks")
-        ("defects", "draw what `clsurf check` finds on a grey relief and name the twelve strongest; with --color, --before or --surface formed: outlines with numbers")
+        ("defects", "draw what `clsurf check` finds on a grey surface and name the twelve strongest; with --color, --before or --surface formed: outlines with numbers")
         ("before", po::value<std::string>()->value_name("LOG"), "another log of the program, drawn next to it on the same scale; what changed is drawn below both");
     // clang-format on
     declare_look(options);

@@ -30,7 +30,7 @@ struct RenderOptions {
     Selection selection;
     std::string before;  ///< log of the other panel; empty: one panel
     std::string output;
-    bool defect_map = false;  ///< sections and names on a grey relief, instead of outlines on a field
+    bool defect_map = false;  ///< sections and names on a grey surface, instead of outlines on a field
     std::string field;        ///< empty: feed_share, or speed if no feed is known
     LookOptions shown;
     std::vector<PointIndex> points;

@@ -160,7 +160,7 @@ void show_as_machined(Shown& shown, const RenderOptions& options, StageClock& cl
     AsMachinedMap map = make_as_machined_map(as_machined, options.shown.look.box, camera);
     clock.end();
     shown.field = std::move(map.field);
-    shown.relief = std::move(map.relief);
+    shown.height_map = std::move(map.height_map);
     shown.contacts = std::make_unique<const PartContacts>(shown.part, shown.surface, tool);
 }
 
@@ -169,10 +169,10 @@ ShownRange range_in_picture(const Shown& shown, const RenderOptions& options, co
     const bool whole = zoom.x0 <= 0 && zoom.y0 <= 0 && zoom.x1 >= 1 && zoom.y1 >= 1 && options.shown.look.box.isEmpty();
     const auto in_picture = [&](PointIndex i) {
         return viz::shows(camera, options.shown.look,
-                          shown.relief ? shown.relief->at(i) : shown.surface.positions.absolute(i));
+                          shown.height_map ? shown.height_map->at(i) : shown.surface.positions.absolute(i));
     };
     const ShownPoints points = whole ? ShownPoints() : ShownPoints(in_picture);
-    if (!shown.relief)
+    if (!shown.height_map)
         return find_range(shown.field, shown.surface, options.shown.range, points, shown.defects.report.sections());
     return find_range(shown.field, as_one_pass(static_cast<PointIndex>(shown.field.values.size())), options.shown.range,
                       points);

@@ -13,7 +13,7 @@
 #include "pipeline/contacts.h"
 #include "pipeline/part.h"
 #include "predictor/defect.h"
-#include "viz/relief.h"
+#include "viz/height_map.h"
 #include "viz/scene.h"
 
 namespace clsurf::cli {
@@ -33,8 +33,8 @@ struct Shown {
     Part part;
     ClSurface surface;
     Field field;
-    viz::FieldClasses classes;          ///< classes of the field, if its values are names
-    std::optional<viz::Relief> relief;  ///< the as-machined surface; the field then has values at its vertices
+    viz::FieldClasses classes;                 ///< classes of the field, if its values are names
+    std::optional<viz::HeightMap> height_map;  ///< the as-machined surface; the field then has values at its vertices
     ShownDefects defects;
     std::vector<std::vector<Vec3>> programmed;  ///< path of the program as lines [mm]; empty: not requested
     std::unique_ptr<const PartContacts>

@@ -25,7 +25,7 @@ namespace clsurf::cli {
 namespace {
 
 constexpr std::size_t pictured_defects = 6;
-constexpr int relief_pixels = 700;  ///< width of the as-machined surface on the page
+constexpr int height_map_pixels = 700;  ///< width of the as-machined surface on the page
 
 std::vector<ShownRange> ranges_of(const std::vector<ReportLog>& logs) {
     std::vector<ShownRange> ranges;
@@ -73,8 +73,8 @@ ReportedForm form_for_report(const ReportLog& shown, const ReportOptions& option
     viz::MapPanel panel;
     panel.surface = &shown.surface;
     viz::Look look;
-    look.width = relief_pixels;
-    look.height = relief_pixels;
+    look.width = height_map_pixels;
+    look.height = height_map_pixels;
     look.view = viz::parse_view("top");
     look.legend = false;
     ReportedForm made;
@@ -101,7 +101,7 @@ void add_report_pictures(io::ReportPage& page, const ReportLog& shown, const Rep
     page.pictures.push_back(picture_of_part(pictured, page.first_field));
     if (as_machined)
         page.pictures.push_back(
-            picture_of_relief(pictured, as_machined->map.relief, as_machined->map.field, as_machined->range));
+            picture_of_height_map(pictured, as_machined->map.height_map, as_machined->map.field, as_machined->range));
     if (page.defects.empty()) return;
     const PartSignals read = signals_of(shown.part, shown.surface, options.measured);
     for (std::size_t i = 0; i < page.defects.size(); ++i) {
@@ -129,13 +129,13 @@ io::PageMeasured measured_for_report(const ReportLog& shown, const ReportOptions
     return measured;
 }
 
-io::PageRelief page_relief_of(const ReportedForm& as_machined) {
-    const viz::Relief& r = as_machined.map.relief;
-    return {r.origin,
-            r.pitch,
-            r.columns,
-            r.rows,
-            r.z,
+io::PageHeightMap page_height_map_of(const ReportedForm& as_machined) {
+    const viz::HeightMap& map = as_machined.map.height_map;
+    return {map.origin,
+            map.pitch,
+            map.columns,
+            map.rows,
+            map.z,
             as_machined.map.field.values,
             as_machined.range,
             as_machined.map.field.info.note};

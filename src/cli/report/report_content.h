@@ -20,7 +20,7 @@ struct ReportedForm {
 
 /// Sweeps the tool of the part. Domain: it is known.
 [[nodiscard]] ReportedForm form_for_report(const ReportLog& shown, const ReportOptions& options, StageClock& clock);
-[[nodiscard]] io::PageRelief page_relief_of(const ReportedForm& as_machined);
+[[nodiscard]] io::PageHeightMap page_height_map_of(const ReportedForm& as_machined);
 
 /// The path of the program in the coordinates of the log. Nothing: the program came from standard input, or its machine has
 /// rotary axes, whose programmed path is not that of the tool in the workpiece.

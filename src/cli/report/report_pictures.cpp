@@ -151,11 +151,11 @@ io::PagePicture picture_of_defect(const PicturedPart& shown, const Signals& sign
     return {name, io::sentence_of(shown.report->defects[defect]), viz::encode_image(card, name, "png")};
 }
 
-io::PagePicture picture_of_relief(const PicturedPart& shown, const viz::Relief& relief, const Field& field,
-                                  const ShownRange& range) {
+io::PagePicture picture_of_height_map(const PicturedPart& shown, const viz::HeightMap& height_map, const Field& field,
+                                      const ShownRange& range) {
     const viz::Look look = map_look(shown);
     viz::MapPanel panel{shown.surface, &field, "", {}, {}, {}};
-    panel.relief = &relief;
+    panel.height_map = &height_map;
     viz::MapTexts texts = texts_of(shown, field.info, range);
     texts.title = field.info.label;
     return {field.info.label, field.info.note, draw(panel, range, texts, look)};

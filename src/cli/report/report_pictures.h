@@ -34,7 +34,7 @@ struct PicturedPart {
 [[nodiscard]] io::PagePicture picture_of_defect(const PicturedPart& shown, const Signals& signals, std::size_t defect);
 
 /// A height map that fills the picture.
-[[nodiscard]] io::PagePicture picture_of_relief(const PicturedPart& shown, const viz::Relief& relief,
-                                                const Field& field, const ShownRange& range);
+[[nodiscard]] io::PagePicture picture_of_height_map(const PicturedPart& shown, const viz::HeightMap& height_map,
+                                                    const Field& field, const ShownRange& range);
 
 }  // namespace clsurf::cli

@@ -65,7 +65,7 @@ ExitCode write_page(const ReportOptions& options, const po::variables_map& value
     std::optional<ReportedForm> as_machined;
     if (shown.quality.as_machined) {  // missing if the axis of the tool is unknown
         as_machined = form_for_report(shown, options, clock);
-        page.relief = page_relief_of(*as_machined);
+        page.height_map = page_height_map_of(*as_machined);
         page.as_machined_options = {"--surface", "formed", "--tool", to_text(*shown.part.tool)};
         if (options.measured)
             page.as_machined_options.insert(page.as_machined_options.end(),

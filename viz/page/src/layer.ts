@@ -5,8 +5,8 @@ import { divideByClass, type FieldClasses } from './classes';
 import type { ColourScale } from './colour';
 import { element } from './dom';
 import { GlView, normalsOf, type Mesh } from './gl_view';
+import type { HeightMap } from './height_map';
 import type { Picker } from './picker';
-import type { Relief } from './relief';
 import type { Style } from './store';
 import type { Surface } from './surface';
 
@@ -44,7 +44,7 @@ export class Layer {
         return this.classes === classes;
     }
 
-    showRelief({ xyz, triangles }: Relief): void {
+    showHeightMap({ xyz, triangles }: HeightMap): void {
         this.picker = null;
         this.classes = null;
         this.drawn = [triangles];
@@ -91,7 +91,7 @@ export class Layer {
         return this.drawn.some((cells) => cells.some((vertex) => Number.isNaN(values[source(vertex)])));
     }
 
-    /** `values`: one per vertex of the surface, or of the relief; not used where there are classes. `pale`: 1, a lighter tone. */
+    /** `values`: one per vertex of the surface, or of the height map; not used where there are classes. `pale`: 1, a lighter tone. */
     setValues(values: Float32Array, scale: ColourScale, pale: Uint8Array | null): void {
         if (!this.classes) return this.view.setValues(values, scale, pale);
         const { places } = this.classes;

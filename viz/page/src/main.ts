@@ -15,6 +15,7 @@ import { DefectList } from './defect_list';
 import { showCommand, showKeys } from './dialogs';
 import { baseName, element, saveFile } from './dom';
 import { everyDefect } from './filters';
+import { readHeightMap, type HeightMap } from './height_map';
 import { readManifest, type Manifest } from './manifest';
 import { defectOfLink, Navigation } from './navigation';
 import { ProgramPane } from './program_pane';
@@ -24,7 +25,6 @@ import { readProgrammed, type ProgrammedPath } from './programmed';
 import { rememberKeys, rememberedKeys } from './preferences';
 import { RangePane } from './range_pane';
 import { RecordsPane } from './records_pane';
-import { readRelief, type Relief } from './relief';
 import { Store, type State } from './store';
 import { readSurface, type Surface } from './surface';
 import { TablePane } from './table_pane';
@@ -42,7 +42,7 @@ interface PageData {
     manifest: Manifest;
     surfaces: Surface[];
     text: ProgramText;
-    relief: Relief | null;
+    heightMap: HeightMap | null;
     programmed: ProgrammedPath | null;
     maps: ColourMap[];
 }
@@ -52,11 +52,11 @@ async function readPage(): Promise<PageData> {
     const surfaces = [];
     for (let k = 0; k < manifest.surfaces.length; ++k) surfaces.push(await readSurface(manifest, k));
     const text = new ProgramText(await readBytes(manifest.program.text), manifest.program.lines);
-    const relief = manifest.relief ? await readRelief(manifest.relief, manifest.surfaces[0].origin_mm) : null;
+    const heightMap = manifest.relief ? await readHeightMap(manifest.relief, manifest.surfaces[0].origin_mm) : null;
     const programmed = manifest.programmed
         ? await readProgrammed(manifest.programmed, manifest.surfaces[0].origin_mm)
         : null;
-    return { manifest, surfaces, text, relief, programmed, maps: manifest.colour_maps.map((i) => new ColourMap(i)) };
+    return { manifest, surfaces, text, heightMap, programmed, maps: manifest.colour_maps.map((i) => new ColourMap(i)) };
 }
 
 function initialState(manifest: Manifest): State {
@@ -154,7 +154,7 @@ function buildPanes(data: PageData, store: Store, view: ViewPane, navigation: Na
     const range = new RangePane(store, view);
     const curves = new CurvesPane(manifest, store, surfaces, surface);
     const records = new RecordsPane(manifest, store, surface);
-    const tree = new TreePane(manifest, store, surface, { goToDefect, goToGone }, data.relief !== null);
+    const tree = new TreePane(manifest, store, surface, { goToDefect, goToGone }, data.heightMap !== null);
     const program = new ProgramPane(manifest, text, store, surface);
     const table = new TablePane(manifest, text, store, surface);
     const player = new Player(store, surface);
@@ -230,7 +230,7 @@ async function begin(app: HTMLElement): Promise<void> {
     const { manifest } = data;
     const store = new Store(initialState(manifest));
     followState(manifest, store);
-    const view = new ViewPane(manifest, store, data.surfaces, data.maps, data.relief, data.programmed);
+    const view = new ViewPane(manifest, store, data.surfaces, data.maps, data.heightMap, data.programmed);
     const navigation = new Navigation(manifest, store, data.text, view);
     view.showDefect = navigation.goToDefect;
     const panes = buildPanes(data, store, view, navigation);

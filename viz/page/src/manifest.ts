@@ -124,7 +124,7 @@ export interface SurfaceInfo {
     }[];
 }
 
-export interface ReliefInfo {
+export interface HeightMapInfo {
     origin_mm: [number, number, number];
     pitch_mm: number;
     columns: number;
@@ -182,7 +182,7 @@ export interface Manifest {
     defects: Defect[];
     gone: GoneDefect[];
     surfaces: SurfaceInfo[];
-    relief?: ReliefInfo;
+    relief?: HeightMapInfo; // of the formed surface
     programmed?: ProgrammedInfo;
 }
 

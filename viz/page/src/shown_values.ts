@@ -1,8 +1,8 @@
 // The values that the view colours: a field, what the tool formed, or the difference of two logs.
 
 import { differenceOfClasses, type FieldClasses } from './classes';
+import type { HeightMap } from './height_map';
 import type { Manifest } from './manifest';
-import type { Relief } from './relief';
 import type { Store } from './store';
 import { differenceOf, Kind, type Surface } from './surface';
 
@@ -22,14 +22,14 @@ export class ShownValues {
         private readonly manifest: Manifest,
         private readonly store: Store,
         private readonly surfaces: Surface[],
-        private readonly relief: Relief | null,
+        private readonly heightMap: HeightMap | null,
     ) {}
 
     /** Of a log's surface, one per vertex of what is shown of it. */
     of(surface: Surface): Float32Array {
         const { formed, field, shown } = this.store.state;
         if (surface === this.surfaces[0]) {
-            if (formed && this.relief) return this.relief.deviation;
+            if (formed && this.heightMap) return this.heightMap.deviation;
             if (shown === 'difference' && !this.manifest.fields[field].classes) return this.difference(field);
         }
         return surface.fields[field];
@@ -38,14 +38,14 @@ export class ShownValues {
     /** 1 at the vertices of a log's surface that have a lighter tone; null: none. */
     pale(surface: Surface): Uint8Array | null {
         const { formed, field, shown } = this.store.state;
-        if (surface === this.surfaces[0] && ((formed && this.relief) || shown === 'difference')) return null;
+        if (surface === this.surfaces[0] && ((formed && this.heightMap) || shown === 'difference')) return null;
         return surface.ramps[field];
     }
 
     /** Where what is coloured are names; null: numbers. */
     classes(surface: Surface): FieldClasses | null {
         const { formed, field, shown } = this.store.state;
-        if (!this.manifest.fields[field].classes || (formed && this.relief)) return null;
+        if (!this.manifest.fields[field].classes || (formed && this.heightMap)) return null;
         if (shown !== 'difference' || surface !== this.surfaces[0]) return surface.classes[field];
         let known = this.classDifferences.get(field);
         if (!known) this.classDifferences.set(field, (known = differenceOfClasses(surface, this.surfaces[1], field)));
@@ -55,7 +55,7 @@ export class ShownValues {
     ends(surface: Surface): Ends {
         const { shown, formed, field } = this.store.state;
         const info = this.manifest.fields[field];
-        if (formed && this.relief) return this.relief.info;
+        if (formed && this.heightMap) return this.heightMap.info;
         if (shown !== 'difference' || info.classes) return info;
         let known = this.differenceEnds.get(field);
         if (!known) this.differenceEnds.set(field, (known = this.endsOfDifference(surface, field)));

@@ -6,6 +6,7 @@ import { shownCells } from './cells';
 import type { FieldClasses } from './classes';
 import { rgbOf, type ColourMap, type ColourScale } from './colour';
 import { afterRest, baseName, element, oncePerFrame, styleValue } from './dom';
+import type { HeightMap } from './height_map';
 import { Layer } from './layer';
 import type { Manifest } from './manifest';
 import { marksOf } from './marks';
@@ -14,7 +15,6 @@ import { drawTool } from './tool_shape';
 import { listenToKeys } from './view_keys';
 import { Picker } from './picker';
 import type { ProgrammedPath } from './programmed';
-import type { Relief } from './relief';
 import type { State, Store } from './store';
 import { ShownValues, type Ends } from './shown_values';
 import { Kind, type Surface } from './surface';
@@ -49,10 +49,10 @@ export class ViewPane {
         private readonly store: Store,
         surfaces: Surface[],
         private readonly maps: ColourMap[],
-        private readonly relief: Relief | null,
+        private readonly heightMap: HeightMap | null,
         programmed: ProgrammedPath | null,
     ) {
-        this.shown = new ShownValues(manifest, store, surfaces, relief);
+        this.shown = new ShownValues(manifest, store, surfaces, heightMap);
         for (const surface of surfaces) {
             const layer = new Layer(this.element, surface);
             if (programmed) layer.view.setPath(programmed.xyz, programmed.segments);
@@ -162,7 +162,7 @@ export class ViewPane {
 
     private remesh(layer: Layer): void {
         const { style, formed, role } = this.store.state;
-        if (formed && this.relief && layer === this.layers[0]) return layer.showRelief(this.relief);
+        if (formed && this.heightMap && layer === this.layers[0]) return layer.showHeightMap(this.heightMap);
         const classes = this.shown.classes(layer.surface);
         layer.showSurface({ role, style, shows: this.shows(layer.surface), classes });
     }
@@ -189,9 +189,9 @@ export class ViewPane {
 
     /** Of all that is shown. */
     extent(): Extent {
-        const { surface, relief } = this;
-        if (this.store.state.formed && relief)
-            return extentAlong(this.camera.axes, relief.xyz, (i) => relief.missing[i] !== 1);
+        const { surface, heightMap } = this;
+        if (this.store.state.formed && heightMap)
+            return extentAlong(this.camera.axes, heightMap.xyz, (i) => heightMap.missing[i] !== 1);
         return extentAlong(this.camera.axes, this.xyz, (i) => surface.kind(i) !== Kind.rapid);
     }
     fit(): void {
@@ -248,7 +248,7 @@ export class ViewPane {
     private scene(): OverlayScene {
         const { state } = this.store;
         const field = this.manifest.fields[state.field];
-        const formed = state.formed && this.relief ? this.relief.info : null;
+        const formed = state.formed && this.heightMap ? this.heightMap.info : null;
         const { surface } = this;
         return {
             ...marksOf(this.manifest, state, surface, this.xyz, surface === this.layers[0].surface),

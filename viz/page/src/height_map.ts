@@ -1,17 +1,17 @@
 // The formed surface: a grid of heights with their deviations from the form.
 
 import { readBytes, readNumbers } from './columns';
-import type { ReliefInfo } from './manifest';
+import type { HeightMapInfo } from './manifest';
 
-export interface Relief {
-    info: ReliefInfo;
+export interface HeightMap {
+    info: HeightMapInfo;
     xyz: Float32Array; // 3 per vertex [mm] from `origin`
     triangles: Uint32Array;
     deviation: Float32Array; // [µm]; NaN where the form is not known
     missing: Uint8Array; // per vertex: 1, there is none; 2, it has no deviation
 }
 
-export async function readRelief(info: ReliefInfo, origin: readonly number[]): Promise<Relief> {
+export async function readHeightMap(info: HeightMapInfo, origin: readonly number[]): Promise<HeightMap> {
     const z = await readNumbers(info.z, info.z_quantum_mm);
     const deviation = Float32Array.from(await readNumbers(info.deviation, info.deviation_quantum_um));
     const missing = await readBytes(info.missing);

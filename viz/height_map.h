@@ -1,5 +1,5 @@
 #pragma once
-// Relief: a height map as a mesh, for quantities that do not belong to points of the log.
+// HeightMap: the heights of a surface over a grid in x and y as a mesh, for quantities that do not belong to points of the log.
 
 #include <span>
 
@@ -9,7 +9,7 @@
 
 namespace clsurf::viz {
 
-struct Relief {
+struct HeightMap {
     Vec3 origin = Vec3::Zero();  ///< [mm] x and y of the first vertex, and the origin of all heights
     double pitch = 0;            ///< [mm] distance between vertices
     std::int64_t columns = 0, rows = 0;
@@ -23,10 +23,11 @@ struct Relief {
 };
 
 /// Extent along the axes of a view [mm]. O(vertices).
-[[nodiscard]] Box3 extent_of(const Relief& relief, const Eigen::Matrix3d& axes);
+[[nodiscard]] Box3 extent_of(const HeightMap& map, const Eigen::Matrix3d& axes);
 
 /// Its triangles with `values` per vertex, with lighting. Vertices without a height or outside
 /// the request's box are omitted. O(vertices).
-[[nodiscard]] Detail relief_detail(const Relief& relief, std::span<const float> values, const DetailRequest& request);
+[[nodiscard]] Detail height_map_detail(const HeightMap& map, std::span<const float> values,
+                                       const DetailRequest& request);
 
 }  // namespace clsurf::viz
