@@ -64,7 +64,7 @@ TEST(FindCandidates, AreTheSitesOfThePassThatDiffersOnly) {
         EXPECT_NEAR(candidate->score[speed], 0.1 / 0.03, 0.03);
     }
     EXPECT_EQ(found.with_share_of(Quantity::speed).size(), sites.size());
-    EXPECT_TRUE(found.with_share_of(Quantity::lag).empty());
+    EXPECT_TRUE(found.with_share_of(Quantity::normal_deviation).empty());
 }
 
 TEST(FindCandidates, OfOppositeSignsAreNextToEachOther) {
