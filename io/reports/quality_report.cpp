@@ -239,6 +239,22 @@ std::string baseline_text(const RecordedMatch& match) {
                        count(DefectState::worse), match.gone.size(), count(DefectState::unchanged));
 }
 
+namespace {
+
+double value_of(const std::array<float, quantities>& values, Quantity which) {
+    return static_cast<double>(values[index_of(which)]);
+}
+
+Json thresholds_json(const QualityReport& r) {
+    const std::array<float, quantities>& of = r.thresholds.of;
+    return {{"speed_percent", number(100 * value_of(of, Quantity::speed), 3)},
+            {"acceleration_mm_s2", number(value_of(of, Quantity::acceleration), 2)},
+            {"lag_um", r.has_lag ? number(um(value_of(of, Quantity::normal_deviation)), 3) : Json(nullptr)},
+            {"relief_um", number(um(value_of(of, Quantity::relief)), 3)}};
+}
+
+}  // namespace
+
 std::string quality_json(const ReportedQuality& q) {
     const QualityReport& r = *q.report;
     Json budget = Json::array();
@@ -246,16 +262,8 @@ std::string quality_json(const ReportedQuality& q) {
         budget.push_back({{"name", line.name},
                           {"limit", number(line.limit)},
                           {"measured", number(line.measured, 3)},
-                          {"kept", line.held}});
+                          {"held", line.held}});
     }
-    const auto quantity = [&](const std::array<float, quantities>& values, Quantity which) {
-        return static_cast<double>(values[index_of(which)]);
-    };
-    Json thresholds{
-        {"speed_percent", number(100 * quantity(r.thresholds.of, Quantity::speed), 3)},
-        {"acceleration_mm_s2", number(quantity(r.thresholds.of, Quantity::acceleration), 2)},
-        {"lag_um", r.has_lag ? number(um(quantity(r.thresholds.of, Quantity::normal_deviation)), 3) : Json(nullptr)},
-        {"relief_um", number(um(quantity(r.thresholds.of, Quantity::relief)), 3)}};
     Json summary{{"judged", r.judgement.judged()},
                  {"not_judged_reasons", r.judgement.reasons},
                  {"verdict", verdict_of(r)},
@@ -270,9 +278,9 @@ std::string quality_json(const ReportedQuality& q) {
                  {"coverage_percent", number(100 * r.coverage(), 2)},
                  {"not_finishing_percent", number(100 * r.not_finishing_share(), 2)},
                  {"measured_positions", r.has_lag},
-                 {"speed_mismatch_p99_percent", number(100 * quantity(r.thresholds.p99, Quantity::speed), 3)},
-                 {"acceleration_mismatch_p99_mm_s2", number(quantity(r.thresholds.p99, Quantity::acceleration), 2)},
-                 {"thresholds", std::move(thresholds)},
+                 {"speed_mismatch_p99_percent", number(100 * value_of(r.thresholds.p99, Quantity::speed), 3)},
+                 {"acceleration_mismatch_p99_mm_s2", number(value_of(r.thresholds.p99, Quantity::acceleration), 2)},
+                 {"thresholds", thresholds_json(r)},
                  {"filter", r.note},
                  {"tool", q.tool ? Json(to_text(*q.tool)) : Json(nullptr)},
                  {"budget", std::move(budget)},

@@ -161,8 +161,7 @@ void count_turns_on(Log& log) {
             {Severity::note,
              "log.modulo",
              Place::of_point(log.name, axis.summary.first_wrap),
-             fmt::format("axis {} counts within one turn and wraps {}, first here: its positions are made "
-                         "to count on",
+             fmt::format("axis {} counts within one turn and wraps {}, first here: its positions are unwrapped",
                          axis.letter, counted(axis.summary.wraps, "time")),
              {}});
     }

@@ -258,6 +258,18 @@ Comparison Comparer::compare_at_end(const PathLocation& here) const {
     return result;
 }
 
+namespace {
+
+/// Adds the step to the adjacent pass of one side; NaN: not known.
+void add_step(Comparison& comparison, Quantity q, float difference) {
+    float& step = comparison.step[index_of(q)];
+    float& lesser = comparison.lesser_step[index_of(q)];
+    lesser = step == step ? std::min(step, difference) : difference;
+    step = larger(step, difference);
+}
+
+}  // namespace
+
 Comparison Comparer::compare_with(Peers peers, const PathLocation& here, int aside) const {
     Comparison result;
     result.step.fill(missing<float>);
@@ -296,18 +308,13 @@ Comparison Comparer::compare_with(Peers peers, const PathLocation& here, int asi
     for (std::size_t s = 0; s < 2; ++s) {
         if (count[s] == 0) continue;
         const Compared& adjacent = others.of[s][0];
-        const auto widen = [&](Quantity q, float difference) {
-            float& step = result.step[index_of(q)];
-            float& lesser = result.lesser_step[index_of(q)];
-            lesser = step == step ? std::min(step, difference) : difference;
-            step = larger(step, difference);
-        };
         const Compared next = count[s] > 1 ? others.of[s][1] : no_pass();
-        widen(Quantity::speed, step_beyond_trend(mine.speed, adjacent.speed, next.speed));
-        widen(Quantity::acceleration, step_beyond_trend(mine.acceleration, adjacent.acceleration, next.acceleration));
-        widen(Quantity::normal_deviation,
-              step_beyond_trend(mine.normal_deviation, adjacent.normal_deviation, next.normal_deviation));
-        widen(Quantity::relief, step_beyond_trend(mine.relief, adjacent.relief, next.relief));
+        add_step(result, Quantity::speed, step_beyond_trend(mine.speed, adjacent.speed, next.speed));
+        add_step(result, Quantity::acceleration,
+                 step_beyond_trend(mine.acceleration, adjacent.acceleration, next.acceleration));
+        add_step(result, Quantity::normal_deviation,
+                 step_beyond_trend(mine.normal_deviation, adjacent.normal_deviation, next.normal_deviation));
+        add_step(result, Quantity::relief, step_beyond_trend(mine.relief, adjacent.relief, next.relief));
     }
     result.left = others.count[0];
     result.right = others.count[1];

@@ -148,7 +148,7 @@ foreach(form halscope.csv twincat.csv trace.xml)
 endforeach()
 clsurf_cli_test(NAME query_of_events ARGS query @DATA@/programs/dome_loops.nc @LOGS@/dome_loops.signals.csv --mapping @DATA@/logs/dome_loops.events.mapping.toml --point 9000 --json
   STDOUT "\"line\": 863" "\"confidence\": 1.0")
-clsurf_cli_test(NAME info_of_edge ARGS info @LOGS@/edge_300.json EXIT 3 STDOUT "log, format edge" "300 records every 2 ms" "cmd.x .mm., .*cmd.b .deg." "DES_POS.3 .deg." "program" "axis .Z1. turns: " "no role has x, y and z" NO_STDOUT "cmd.z" "jumps by [0-9]+[.]")
+clsurf_cli_test(NAME info_of_edge ARGS info @LOGS@/edge_300.json EXIT 3 STDOUT "log, format edge" "300 records every 2 ms" "cmd.x .mm., .*cmd.b .deg." "DES_POS.3 .deg." "program" "axis .Z1. turns: " "neither commanded, feedback nor actual positions have all of x, y and z" NO_STDOUT "cmd.z" "jumps by [0-9]+[.]")
 # Subcommands that need positions say which one the recording lacks.
 clsurf_cli_test(NAME check_edge_without_z ARGS check @DATA@/programs/keychain.mpf @LOGS@/edge_300.json EXIT 3 STDERR "no commanded positions: channel .cmd.z. is missing")
 clsurf_cli_test(NAME convert_edge SETUP "$CLSURF convert @LOGS@/edge_300.json -o edge.biip" ARGS info edge.biip --json EXIT 3 STDOUT "\"records\": 300" "\"program\"" "DES_POS.3")
@@ -203,9 +203,9 @@ set(trunnion @DATA@/machines/five_axis_trunnion.toml)
 set(leaning "awk 'BEGIN { t = 20 * atan2(0, -1) / 180; print \"G21 G90 G54\\nG0 X0 Y0 Z20\\nG43.4 H1\"; for (i = 0; i < 6; ++i) { s = i % 2 ? 1 : -1; printf \"G0 X%g Y%.6f Z5 A%g C0\\nG1 Z%.6f F1200\\nX%g\\nG0 Z5\\n\", i % 2 ? 12 : 0, 0.6 * i + s * 3 * sin(t), s * 20, 3 - 3 * cos(t), i % 2 ? 0 : 12 } print \"M30\" }' > plane.nc; $CLSURF simulate plane.nc --machine ${trunnion} -o run.biip")
 clsurf_cli_test(NAME check_of_a_leaning_ball SETUP "${leaning}" ARGS check plane.nc run.biip --machine ${trunnion} --tool ball:6
   EXIT 5  # two of six passes have only one neighbour: not enough for a verdict
-  STDOUT "scallop between clean passes with ball:6: 15.0" "formed surface, .* Rz 1[45][.].. .at most 15")
+  STDOUT "scallop between passes without defects, with ball:6: 15.0" "as-machined surface, .* Rz 1[45][.].. .at most 15")
 clsurf_cli_test(NAME check_of_a_leaning_bull SETUP "${leaning}" ARGS check plane.nc run.biip --machine ${trunnion} --tool bull:6,1
-  EXIT 5 STDERR "bull:6,1 is tilted: the formed surface and its roughness are available for ball-end tools only")
+  EXIT 5 STDERR "bull:6,1 is tilted: the as-machined surface and its roughness are available for ball-end tools only")
 clsurf_cli_test(NAME query_json ARGS query ${part} ${run} --point 5000 --json STDOUT "\"line\": 638" "\"confidence\": 1.0")
 clsurf_cli_test(NAME query_time ARGS query ${part} ${run} --time 3.2 STDOUT "point 3200 at 3.200 s")
 clsurf_cli_test(NAME query_time_before ARGS query ${part} ${run} --time -5 EXIT 2 STDERR "--time -5: the log lasts from 0 to 27[.]516")
@@ -266,7 +266,7 @@ clsurf_cli_test(NAME compare_updates SETUP "cp ${shot}/speed_iso.png a.png" ARGS
 
 # ---- the predictor ----
 clsurf_cli_test(NAME check_text ARGS check ${part} ${run} --tool ball:6
-  STDOUT "point_spacing .*-83.0 .* 2408-2568" "scallop between clean passes with ball:6: 7")
+  STDOUT "point_spacing .*-83.0 .* 2408-2568" "scallop between passes without defects, with ball:6: 7")
 # The planted defects, and no others: data/logs/README.md.
 clsurf_cli_test(NAME check_planted_zigzag ARGS check @DATA@/programs/planted_zigzag.nc @LOGS@/planted_zigzag.biip --tool ball:6
   STDOUT "2 distinct lag_step +6[.][0-9] +-0[.][0-9] +9[.][0-9] pit +4[.]2 +9[.][0-9].*lines 747-753, 679-686" "3 visible +lag_step .* 3[.][0-9] bulge .*lines 1785-1792, 1883-1889"
@@ -280,7 +280,7 @@ clsurf_cli_test(NAME check_csv ARGS check ${part} ${run} --tool none --format cs
 clsurf_cli_test(NAME check_sarif ARGS check ${part} ${run} --tool none --format sarif
   STDOUT "\"version\": \"2.1.0\"" "\"startLine\": 2408" "\"ruleId\": \"point_spacing\"")
 clsurf_cli_test(NAME check_budget_held SETUP "echo 'max_defects = 1000' > part.toml" ARGS check ${part} ${run} --tool none --budget part.toml
-  STDOUT "max_defects .* held")
+  STDOUT "max_defects .* kept")
 clsurf_cli_test(NAME check_budget_not_held SETUP "echo 'max_depth_um = 5' > part.toml" ARGS check ${part} ${run} --tool none --budget part.toml -o report.txt
   EXIT 1 FILE report.txt)
 clsurf_cli_test(NAME check_budget_unknown_key SETUP "echo 'max_dept_um = 5' > part.toml" ARGS check ${part} ${run} --budget part.toml
@@ -409,7 +409,7 @@ clsurf_cli_test(NAME diff_lists_three_of_each_quantity ARGS diff @LOGS@/bottle_u
 clsurf_cli_test(NAME diff_budget_not_held SETUP "${as_recorded}; echo 'max_speed_difference_percent = 10' > runs.toml"
   ARGS diff a.biip slow.biip --budget runs.toml --json EXIT 1 STDOUT "\"within_budget\": false" "\"max_speed_difference_percent\"")
 clsurf_cli_test(NAME diff_budget_held SETUP "${as_recorded}; printf 'max_height_difference_um = 1\\nmin_aligned_percent = 99\\n' > runs.toml"
-  ARGS diff a.biip slow.biip --budget runs.toml STDOUT "max_height_difference_um .* held")
+  ARGS diff a.biip slow.biip --budget runs.toml STDOUT "max_height_difference_um .* kept")
 clsurf_cli_test(NAME diff_budget_unknown_key SETUP "echo 'max_depth_um = 1' > runs.toml" ARGS diff ${run} ${run} --budget runs.toml
   EXIT 3 STDERR "runs.toml:1" "unknown key 'max_depth_um'")
 clsurf_cli_test(NAME diff_names_the_run_that_drifted SETUP "${as_recorded}" ARGS diff a.biip slow.biip again.biip STDOUT "slow.biip drifted: speed")

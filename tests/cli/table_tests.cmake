@@ -4,7 +4,7 @@ clsurf_cli_test(NAME table_in_info SETUP "${own}" ARGS info own.csv EXIT 3 STDOU
 clsurf_cli_test(NAME table_in_info_json SETUP "${own}" ARGS info own.csv --json EXIT 3 STDOUT "\"kind\": \"table\"" "\"suggested_mapping\"" "\"Xcmd\"" STDERR "no column name")
 clsurf_cli_test(NAME table_as_a_program SETUP "${own}" ARGS lint own.csv EXIT 3 STDERR "own.csv: error: is a table of 8 columns: Timestamp, Xcmd, .* not an NC program" "clsurf info --suggest-mapping own.csv")
 clsurf_cli_test(NAME table_as_a_log SETUP "${own}" ARGS check ${part} own.csv EXIT 3 STDERR "own.csv: error: is a table of 8 columns" "use --mapping FILE")
-clsurf_cli_test(NAME table_mapping_can_be_read SETUP "${own}; $CLSURF info --suggest-mapping own.csv -o own.toml; cat own.toml" ARGS info own.csv --mapping own.toml EXIT 3 STDERR "no role has x, y and z"
+clsurf_cli_test(NAME table_mapping_can_be_read SETUP "${own}; $CLSURF info --suggest-mapping own.csv -o own.toml; cat own.toml" ARGS info own.csv --mapping own.toml EXIT 3 STDERR "neither commanded, feedback nor actual positions have all of x, y and z"
   STDOUT "3 records every 1 ms" "channels: time .s., cmd.x .mm., act.x .mm., cmd.y .mm., act.z .mm., speed .mm/min., line")
 foreach(titles "Time[ms];PosX;PosY;PosZ" "t,ENC_POS1,ENC_POS2,ENC_POS3,DES_POS1,DES_POS2,DES_POS3" "Zeit X_Soll Y_Soll Z_Soll Satz" "a\\\"b,Xcmd,Ycmd,Zcmd")
   string(MAKE_C_IDENTIFIER "${titles}" name)

@@ -78,9 +78,9 @@ TEST(TwinCat, CountsTheHeldChannels) {
         }
         return std::string();
     };
-    EXPECT_TRUE(note(scope).starts_with("1 channel has other times")) << note(scope);
+    EXPECT_TRUE(note(scope).starts_with("1 channel has different times")) << note(scope);
     EXPECT_TRUE(note("Name;a\nStarttime of export;1\n\nName;cmd.x;Name;b;c\n\n0;1;0;5;6\n1;2;2;5;6\n")
-                    .starts_with("2 channels have other times"));
+                    .starts_with("2 channels have different times"));
 }
 
 TEST(TwinCat, UnderstandsDecimalPointsAndCommasAsSeparators) {

@@ -172,7 +172,7 @@ TEST(DefectMarks, NumbersOfANarrowPartStandAboveItOrAreCounted) {
     tall.height = 1600;
     const Sheet full = Part().sheet(map_of(std::move(marks)), {}, "front", tall);
     const bool counted = std::any_of(full.texts.begin(), full.texts.end(), [](const FlatText& text) {
-        return text.text.find("no room") != std::string::npos;
+        return text.text.find("do not fit") != std::string::npos;
     });
     EXPECT_TRUE(counted);
 }

@@ -10,9 +10,9 @@ list(JOIN one_pass " && " one_pass)
 set(depth_budget "echo 'max_depth_um = 5' > budget.toml")
 
 clsurf_cli_test(NAME short_passes_are_not_judged SETUP "${short_passes} && ${depth_budget}" ARGS check part.nc run.biip --budget budget.toml
-  EXIT 5 STDOUT "^NOT JUDGED: Only 0[.]0 % of [0-9]+ cutting points" "max_depth_um .* NOT JUDGED" NO_STDOUT "nan" " held" STDERR "warning: not judged: Only")
+  EXIT 5 STDOUT "^NOT JUDGED: Only 0[.]0 % of [0-9]+ cutting points" "max_depth_um .* NOT JUDGED" NO_STDOUT "nan" " kept" STDERR "warning: not judged: Only")
 clsurf_cli_test(NAME one_pass_is_not_judged SETUP "${one_pass} && ${depth_budget}" ARGS check part.nc run.biip --budget budget.toml
-  EXIT 5 STDOUT "NOT JUDGED: No pass has an adjacent pass" NO_STDOUT "nan" " held")
+  EXIT 5 STDOUT "NOT JUDGED: No pass has an adjacent pass" NO_STDOUT "nan" " kept")
 clsurf_cli_test(NAME not_judged_in_json SETUP "${short_passes}" ARGS check part.nc run.biip --json
   EXIT 5 STDOUT "\"judged\": false" "\"within_budget\": false" "\"coverage_percent\": 0" "\"not_judged_reasons\": .*Only 0[.]0 %" NO_STDOUT "nan" "NaN")
 clsurf_cli_test(NAME not_judged_in_sarif SETUP "${short_passes}" ARGS check part.nc run.biip --format sarif
@@ -70,9 +70,9 @@ clsurf_cli_test(NAME accepted_defects_in_csv SETUP "${accept_two} && $CLSURF che
 set(all_but "${accept_two} && python3 -c \"import json; print('max_defects =', len(json.load(open('all.json'))['defects']) - COUNT)\" > budget.toml")
 string(REPLACE COUNT 2 all_but_two "${all_but}")
 string(REPLACE COUNT 3 all_but_three "${all_but}")
-clsurf_cli_test(NAME accepted_defects_do_not_count SETUP "${all_but_two}" ARGS check ${part} ${run} --tool none --accepted ok.json --budget budget.toml STDOUT "max_defects .* held")
-clsurf_cli_test(NAME defects_count_unless_accepted SETUP "${all_but_two}" ARGS check ${part} ${run} --tool none --budget budget.toml EXIT 1 STDOUT "max_defects .* NOT HELD")
-clsurf_cli_test(NAME others_count_beside_accepted SETUP "${all_but_three}" ARGS check ${part} ${run} --tool none --accepted ok.json --budget budget.toml EXIT 1 STDOUT "max_defects .* NOT HELD")
+clsurf_cli_test(NAME accepted_defects_do_not_count SETUP "${all_but_two}" ARGS check ${part} ${run} --tool none --accepted ok.json --budget budget.toml STDOUT "max_defects .* kept")
+clsurf_cli_test(NAME defects_count_unless_accepted SETUP "${all_but_two}" ARGS check ${part} ${run} --tool none --budget budget.toml EXIT 1 STDOUT "max_defects .* NOT KEPT")
+clsurf_cli_test(NAME others_count_beside_accepted SETUP "${all_but_three}" ARGS check ${part} ${run} --tool none --accepted ok.json --budget budget.toml EXIT 1 STDOUT "max_defects .* NOT KEPT")
 set(accept_all "$CLSURF check ${part} ${run} --tool none --json > all.json && python3 -c \"import json; d = json.load(open('all.json'))['defects']; json.dump({'clsurf_accepted': 1, 'defects': [{'fingerprint': x['fingerprint'], 'severity': SEVERITY} for x in d]}, open('ok.json', 'w'))\"")
 string(REPLACE SEVERITY "x['severity']" accept_as_they_are "${accept_all}")
 string(REPLACE SEVERITY "max(1, x['severity'] - 1)" accept_as_milder "${accept_all}")

@@ -24,7 +24,7 @@ clsurf_cli_test(NAME history_adds_what_is_not_judged SETUP "head -c 100000 @LOGS
 # Twelve runs of one part: without defects with the new tool; with the worn one five passes slow down.
 set(twelve "for day in 01 02 03 04 05 06; do $CLSURF history shop.db add ${planted} @LOGS@/planted_loops.biip --time 2026-11-$day --param tool=new --param number=$day -q; done; python3 @DATA@/../tests/cli/worsen_runs.py shop.db 6")
 clsurf_cli_test(NAME history_since_when SETUP "${twelve}" ARGS history shop.db trend --quantity worst_score --by tool -o trend.png FILE trend.png
-  STDOUT "Since run 7 .2026-11-07 00:00. the median is" "worn +6 runs.*new +6 runs")
+  STDOUT "Since run 7 .2026-11-07 00:00. the median has been" "worn +6 runs.*new +6 runs")
 clsurf_cli_test(NAME history_trend_of_a_pass AFTER history_list_is_in_the_order_of_time SETUP "${same_runs}" ARGS history shop.db trend --program bottle_uneven.nc --pass 7 --json STDOUT "\"pass\": 7" "\"value\": [1-9]")
 clsurf_cli_test(NAME history_trend_of_lines AFTER history_list_is_in_the_order_of_time SETUP "${same_runs}" ARGS history shop.db trend --program bottle_uneven.nc --lines 500-670 --quantity defects STDOUT "Defects, lines 500-670 over 1 run: [1-9]")
 clsurf_cli_test(NAME history_trend_of_passes_of_two_programs AFTER history_list_is_in_the_order_of_time SETUP "${same_runs}" ARGS history shop.db trend --pass 7 EXIT 2 STDERR "passes and lines are those of one program" "--program")

@@ -27,11 +27,11 @@ clsurf_cli_test(NAME limits_are_those_of_the_file SETUP "printf '[[axis]]\\nname
 
 # ---- budgets ----
 clsurf_cli_test(NAME limit_factor_not_held SETUP "${axes_only} && ${one}" ARGS check ${exceeded} --machine axes.toml --budget budget.toml
-  EXIT 1 STDOUT "budget max_limit_factor +1[.]50[01] of 1 +NOT HELD")
+  EXIT 1 STDOUT "budget max_limit_factor +1[.]50[01] of 1 +NOT KEPT")
 clsurf_cli_test(NAME limit_factor_held SETUP "${axes_only} && ${two}" ARGS check ${exceeded} --machine axes.toml --budget budget.toml
-  STDOUT "budget max_limit_factor +1[.]50[01] of 2 +held")
+  STDOUT "budget max_limit_factor +1[.]50[01] of 2 +kept")
 clsurf_cli_test(NAME limit_factor_of_a_clean_run SETUP "${axes_only} && ${one}" ARGS check ${kept} --machine axes.toml --budget budget.toml
-  STDOUT "budget max_limit_factor +1 of 1 +held")
+  STDOUT "budget max_limit_factor +1 of 1 +kept")
 clsurf_cli_test(NAME limit_factor_needs_a_machine SETUP "${one}" ARGS check ${kept} --budget budget.toml EXIT 2 STDERR "max_limit_factor in budget.toml needs the limits of the machine")
 clsurf_cli_test(NAME following_error_against_the_budget SETUP "echo 'max_following_error_um = 10' > budget.toml" ARGS check ${exceeded} --budget budget.toml --json
   EXIT 1 STDOUT "\"quantity\": \"following_error\",.*\"limit\": 0[.]01,.*\"unit\": \"mm\"")

@@ -25,7 +25,7 @@ clsurf_cli_test(NAME log_of_a_program_that_lacks_its_end
   ARGS check cut.nc run.csv --tool none STDERR "warning: [0-9]+ of [0-9]+ moving points have line numbers that the program of 3000 lines does not have")
 clsurf_cli_test(NAME info_of_a_log_without_positions EXIT 3
   SETUP "printf '[log]\\nformat = \"delimited\"\\nperiod_s = 0.001\\n[[column]]\\nfrom = \"a\"\\nname = \"cmd.x\"\\nunit = \"mm\"\\n' > map.toml; (echo a; seq 1 50) > run.csv"
-  ARGS info run.csv --mapping map.toml STDOUT "error: .*no role has x, y and z")
+  ARGS info run.csv --mapping map.toml STDOUT "error: .*neither commanded, feedback nor actual positions have all of x, y and z")
 
 # ---- an edited program ----
 set(insert_comment "sed '5i (a comment)' ${uneven} > bottle_uneven.nc")

@@ -56,7 +56,7 @@ set(tilted_ramp "${ramp}; sed 's/G54/G54 G17/; 2i CYCLE800(1,\"T\",0,57,0,0,0,0,
 clsurf_cli_test(NAME query_on_a_tilted_plane SETUP "${tilted_ramp}" ARGS query tilted.mpf tilted.biip --tool ball:6 --at 9.727,4.5,-3.152
   STDOUT "contact X 9[.]72[0-9]+ Y (4[.]50|4[.]49)[0-9]+ Z -3[.]1[45][0-9]+ mm, tool tip X 9[.]52[0-9]+ Y 3[.]000[0-9] Z -3[.](49|50)[0-9]+ mm")
 clsurf_cli_test(NAME check_on_a_tilted_plane SETUP "${tilted_ramp}; sed -i '/Y3[.]0000/s/F1200/F600/' tilted.mpf; $CLSURF simulate tilted.mpf -o tilted.biip -q"
-  ARGS check tilted.mpf tilted.biip --tool ball:6 STDOUT "contact X [-0-9.]+ Y 4[.]50 Z [-0-9.]+ mm" "formed surface, [0-9]+ patch")
+  ARGS check tilted.mpf tilted.biip --tool ball:6 STDOUT "contact X [-0-9.]+ Y 4[.]50 Z [-0-9.]+ mm" "as-machined surface, [0-9]+ patch")
 clsurf_cli_test(NAME check_shard_on_a_tilted_plane SETUP "${tilted_ramp}; $CLSURF survey tilted.mpf tilted.biip -o run.survey -q" ARGS check tilted.mpf tilted.biip --survey run.survey --shard 1/2 --tool ball:6 -o shard.json EXIT 2 NO_FILE shard.json STDERR "shards are for tools along z: [^\n]*tilted.mpf tilts ball:6")
 # Angles determine the tool axis only with the machine's kinematics: every output without contact points says so.
 set(turned_ramp "${ramp}; sed 's/Z20/Z20 A30/' ramp.nc > turned.nc; mv ramp.biip turned.biip")
@@ -122,10 +122,10 @@ clsurf_cli_test(NAME page_without_a_tool_has_tips
   ARGS --version)
 
 # ---- a position read off a map, whose axes show the tool tip ----
-clsurf_cli_test(NAME query_at_a_tip ARGS query ${bottle} "--at=tip:1.9,-5.6" STDOUT "^line 564: " "tool tip X 1.8995 Y -5.6000 Z 4.7190 mm, 0.0005 mm away" NO_STDOUT "On a map")
+clsurf_cli_test(NAME query_at_a_tip ARGS query ${bottle} "--at=tip:1.9,-5.6" STDOUT "^line 564: " "tool tip X 1.8995 Y -5.6000 Z 4.7190 mm, 0.0005 mm away" NO_STDOUT "read off a map")
 clsurf_cli_test(NAME query_at_a_tip_with_a_height ARGS query ${bottle} "--at=tip:1.9 -5.6 4.72" STDOUT "^line 564: ")
-clsurf_cli_test(NAME query_says_what_a_map_has_there ARGS query ${bottle} --at=1.9,-5.6 STDOUT "^line 673: .*On a map, whose axes show the tool tip, these numbers are in line 564: --at tip:1.9,-5.6")
-clsurf_cli_test(NAME query_without_a_tool_has_tips ARGS query ${bottle} --tool none --at=1.9,-5.6 STDOUT "^line 564: " NO_STDOUT "On a map")
+clsurf_cli_test(NAME query_says_what_a_map_has_there ARGS query ${bottle} --at=1.9,-5.6 STDOUT "^line 673: .*If this place was read off a map, it is a tool tip and belongs to line 564: --at tip:1.9,-5.6")
+clsurf_cli_test(NAME query_without_a_tool_has_tips ARGS query ${bottle} --tool none --at=1.9,-5.6 STDOUT "^line 564: " NO_STDOUT "read off a map")
 clsurf_cli_test(NAME query_at_half_a_tip ARGS query ${bottle} --at tip:1.9 EXIT 2 STDERR "--at: 'tip:1.9' is not a place.*--at tip:X,Y for the tool tip")
 
 # ---- rotary axes without tool centre point control: axes that were not named are at the start ----

@@ -38,7 +38,7 @@ set(same_shards "cp @AFTER@/run.survey @AFTER@/shard1.json @AFTER@/shard2.json .
 set(merge_args check @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip --survey run.survey)
 clsurf_cli_test(NAME shards_survey ARGS survey @DATA@/programs/planted_loops.nc @LOGS@/planted_loops.biip -o run.survey FILE run.survey STDOUT "^44930 points, [0-9]+ of them in 25 passes, 0.491 mm apart")
 clsurf_cli_test(NAME shards_say_what_they_read SETUP "${shards_made}" ARGS ${merge_args} --shard 2/2 -o again.json FILE again.json STDOUT "^shard 2/2: [0-9]+ points, [0-9]+ read, [0-9]+ candidates")
-clsurf_cli_test(NAME shards_keep_budgets AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${merge_args} --merge shard1.json shard2.json --max-depth 1um EXIT 1 STDOUT "max_depth_um .* NOT HELD")
+clsurf_cli_test(NAME shards_keep_budgets AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${merge_args} --merge shard1.json shard2.json --max-depth 1um EXIT 1 STDOUT "max_depth_um .* NOT KEPT")
 clsurf_cli_test(NAME shards_one_is_missing AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${merge_args} --merge shard2.json -o whole.json EXIT 2 STDERR "points 0 … [0-9]+ are in none of the shards")
 clsurf_cli_test(NAME shards_one_is_there_twice AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${merge_args} --merge shard1.json shard2.json shard1.json -o whole.json EXIT 2 STDERR "are in two of the shards")
 clsurf_cli_test(NAME shards_of_another_tool AFTER shards_say_what_they_read SETUP "${same_shards}" ARGS ${merge_args} --merge shard1.json shard2.json --tool ball:6 -o whole.json EXIT 3 STDERR "shard1.json: error: was judged with --tool none, not with --tool ball:6")

@@ -46,4 +46,4 @@ foreach(weight 0 1)
 endforeach()
 clsurf_cli_test(NAME tradeoff_repair_text SETUP "${waves}" ARGS optimize part.nc --machine ${mill} --machines 0 --tradeoff front.svg -o better.nc
   STDOUT "accepted" "the program" "candidates are on the front" FILE front.svg better.nc)
-clsurf_cli_test(NAME tradeoff_repair_controller ARGS optimize part.nc --weight 1 --controller "x {program} {log}" -o better.nc EXIT 2 STDERR "do not go with --controller")
+clsurf_cli_test(NAME tradeoff_repair_controller ARGS optimize part.nc --weight 1 --controller "x {program} {log}" -o better.nc EXIT 2 STDERR "they cannot be combined with --controller")
