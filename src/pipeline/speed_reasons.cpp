@@ -22,7 +22,7 @@ namespace {
 constexpr double slow = 0.95;               ///< share of the programmed feed
 constexpr double short_block_time = 0.01;   ///< [s] at the programmed feed
 constexpr std::int64_t blocks_nearby = 10;  ///< to each side
-constexpr double least_corner = 20;         ///< [deg]
+constexpr double least_turn = 20;           ///< [deg]
 constexpr double corner_time = 0.02;        ///< [s] at the programmed feed: range of corners before and after a point
 constexpr double least_share = 0.9;         ///< share of a limit
 constexpr PointIndex points_at_once = 16 * block_points;  ///< points whose shares are in memory at once
@@ -123,7 +123,7 @@ public:
 
     /// The sharpest corner that is near enough to require braking.
     [[nodiscard]] std::optional<std::string> corner() const {
-        double sharpest = least_corner;
+        double sharpest = least_turn;
         std::int64_t found = -1;
         for (const int step : {-1, 1}) {
             double gone = 0;

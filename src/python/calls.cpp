@@ -2,10 +2,8 @@
 
 #include <cmath>
 #include <span>
+#include <utility>
 
-#include "compare/drifted_run.h"
-#include "compare/run_difference.h"
-#include "compare/run_report.h"
 #include "core/error.h"
 #include "core/spelling.h"
 #include "identify/identify.h"
@@ -16,10 +14,8 @@
 #include "io/reports/run_report.h"
 #include "io/reports/simulated_log.h"
 #include "io/reports/simulation_origin.h"
-#include "pipeline/contacts.h"
+#include "pipeline/compare_runs.h"
 #include "pipeline/programmed_part.h"
-#include "pipeline/roles.h"
-#include "surface/stitch.h"
 
 namespace clsurf::python {
 namespace {
@@ -47,14 +43,6 @@ PartRules rules_of(const PartOptions& options) {
     rules.accept_foreign = options.force;
     if (!options.tool.empty() && options.tool != "none") rules.tool = parse_tool(options.tool);
     return rules;
-}
-
-ComparedRun compared(const Part& part, const Part& other) {
-    const Role role = required_common_role(part.log, other.log);
-    ComparedRun run = compared_run(part.log, other.log,
-                                   part.path.role == role ? part.path : reconstruct_like(part.log, role, part.path));
-    run.derivative = part.derivative;
-    return run;
 }
 
 std::vector<Part> copies(const Parts& parts, Diagnostics& diagnostics) {
@@ -135,36 +123,17 @@ std::pair<std::string, std::string> identify_machine(const Parts& parts, const P
 
 std::string diff_parts(const Parts& parts) {
     if (parts.size() < 2) throw UsageError("diff compares two parts or more");
-    const Part& reference = parts.front()->part();
-    Diagnostics diagnostics = reference.log.diagnostics;
+    ReferenceRun reference(placed_run(parts.front()->part()));
+    Diagnostics diagnostics = reference.run().log.diagnostics;
     io::ReportedRuns reported;
-    reported.reference = reference.log.name;
+    reported.reference = reference.run().name;
     reported.diagnostics = &diagnostics;
-    std::optional<ClSurface> surface;
-    std::optional<DriftFinder> drift;
-    Role role = Role::commanded;
     for (std::size_t k = 1; k < parts.size(); ++k) {
-        const Part& other = parts[k]->part();
-        diagnostics.append(other.log.diagnostics);
-        const ComparedRun a = compared(reference, other);
-        const ComparedRun b = compared(other, reference);
-        if (surface && a.path.role != role)
-            throw InputError(Place::of_file(other.log.name), "has other kinds of positions than the runs before it");
-        role = a.path.role;
-        if (!surface) {
-            surface = stitch(gather(a.path), *reference.lines);
-            drift.emplace(*surface);
-        }
-        const RunDifferences differences = compare_runs(a, *surface, b);
-        if (differences.alignment.aligned <= 0)
-            throw InputError(Place::of_file(other.log.name), "nowhere runs along the path of " + reference.log.name);
-        RunReport report = report_run(a, *surface, reference.lines.get(), b, differences);
-        if (reference.tool)
-            PartContacts(reference.log, a.path, *reference.lines, *surface, *reference.tool).locate(report);
-        reported.runs.push_back({other.log.name, std::move(report), {}, {}});
-        drift->add(differences);
+        const PlacedRun run = placed_run(parts[k]->part());
+        diagnostics.append(run.log.diagnostics);
+        reported.runs.push_back({run.name, reference.compare(run, diagnostics).report, {}, {}});
     }
-    reported.departures = drift->departures();
+    reported.departures = reference.departures();
     reported.drifted = drifted_run(reported.departures);
     return io::runs_json(reported);
 }

@@ -1,25 +1,20 @@
 // clsurf diff: compares runs of a part, by path.
 
-#include <memory>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "cli/pictures/difference_map.h"
 #include "cli/runs/diff_options.h"
-#include "cli/runs/run_alignment.h"
-#include "cli/runs/run_roughness.h"
 #include "cli/runs/runs.h"
 #include "cli/stage_clock.h"
 #include "io/reports/run_report.h"
-#include "pipeline/contacts.h"
-#include "surface/stitch.h"
 
 namespace clsurf::cli {
 namespace {
-
-/// nullptr: neither the log nor a program gives lines.
-const LineMap* known_lines(const LineMap& lines, const LoadedRun& run, const RunOptions& options) {
-    return run.log.find("line") != nullptr || run.simulated || !options.program.empty() ? &lines : nullptr;
-}
 
 void write_result(const io::ReportedRuns& reported, const Diagnostics& diagnostics, bool json,
                   const po::variables_map& values) {
@@ -29,11 +24,27 @@ void write_result(const io::ReportedRuns& reported, const Diagnostics& diagnosti
 }
 
 /// A report without runs yet. Both arguments must outlive it.
-io::ReportedRuns reported_against(const LoadedRun& reference, const Diagnostics& diagnostics) {
+io::ReportedRuns reported_against(const PlacedRun& reference, const Diagnostics& diagnostics) {
     io::ReportedRuns reported;
     reported.reference = reference.name;
     reported.diagnostics = &diagnostics;
     return reported;
+}
+
+/// Warns if B has a path that A does not have: it is not compared.
+void note_left_out(const RunReport& report, const PlacedRun& b, const std::string& a, Diagnostics& diagnostics) {
+    constexpr double few = 0.02;  // allows another approach or retract
+    const double left_out = report.arc_length_of_b - report.aligned_of_b;
+    if (left_out <= few * report.arc_length_of_b) return;
+    const PointRange& points = report.left_out_of_b;
+    diagnostics.add(
+        {Severity::warning, "compare.left-out", Place::of_file(b.name),
+         fmt::format(
+             "{:.1f} of its {:.1f} mm are not compared: {} has no such path, or has it only once. Longest part: "
+             "points {}–{}, {:.3f} s",
+             left_out, report.arc_length_of_b, a, points.first, points.last,
+             b.log.time_of(points.last) - b.log.time_of(points.first)),
+         "a second run in this log, or lines that ran twice? Where it is the first argument, all its runs are compared"});
 }
 
 /// Opens the file of the map, if one is requested.
@@ -58,54 +69,26 @@ ExitCode run_diff(const po::variables_map& values) {
     StageClock clock(read_common(values), 2 + 3 * static_cast<int>(options.files.size()));
     Diagnostics diagnostics;
     clock.begin("read the reference");
-    LoadedRun reference = load_run(options.files.front(), options.runs);
-    diagnostics.append(reference.log.diagnostics);
-    io::ReportedRuns reported = reported_against(reference, diagnostics);
-    std::unique_ptr<LineMap> lines;
-    std::unique_ptr<DriftFinder> drift;
-    std::optional<CuttingTool> tool;
-    ClSurface surface;
-    ComparedRun a;
+    ReferenceRun reference(load_run(options.files.front(), options.runs), comparison_rules(options.runs));
+    diagnostics.append(reference.run().log.diagnostics);
+    io::ReportedRuns reported = reported_against(reference.run(), diagnostics);
     std::optional<DrawnDifference> shown;
     for (std::size_t k = 1; k < options.files.size(); ++k) {
         clock.begin("read a run");
-        LoadedRun loaded = load_run(options.files[k], options.runs);
-        diagnostics.append(loaded.log.diagnostics);
-        ComparedRun of_reference = run_of(reference, loaded, options.runs);
-        const ComparedRun b = run_of(loaded, reference, options.runs);
-        if (!lines || of_reference.path.role != a.path.role) {
-            if (drift)
-                throw InputError(Place::of_file(loaded.name), "has other kinds of positions than the runs before it",
-                                 "--surface names one that all have");
-            clock.begin("stitch the surface");
-            lines = lines_of(reference, of_reference.path, options.runs, diagnostics);
-            surface = clsurf::stitch(gather(of_reference.path), *lines);
-            drift = std::make_unique<DriftFinder>(surface);
-            tool = find_tool(options.runs.tool, &reference.log, reference.program.get(), diagnostics);
-        }
-        a = std::move(of_reference);
-        if (tool) state_tool_axes(a.path, reference, *lines, k == 1 ? &diagnostics : nullptr);
-        clock.begin("compare the runs");
-        RunDifferences differences = compare_runs(a, surface, b);
-        require_alignment(differences, reference.name, loaded.name);
-        RunReport report = report_run(a, surface, known_lines(*lines, reference, options.runs), b, differences);
-        note_left_out(report, loaded, reference.name, diagnostics);
-        if (tool) PartContacts(reference.log, a.path, *lines, surface, *tool).locate(report);
-        std::vector<BudgetLine> budget = hold(report, options.budget);
-        std::optional<RoughnessChange> roughness;
-        if (tool) {
-            clock.begin("measure the roughness");
-            roughness = roughness_change_of({reference.log, a.path, *lines, surface}, loaded, b, *tool, options.runs);
-        }
-        reported.runs.push_back({loaded.name, std::move(report), std::move(budget), std::move(roughness)});
-        drift->add(differences);
-        if (output && !shown) shown = drawn_between(options.files.front(), loaded.name, differences, options.shown);
+        const PlacedRun run = load_run(options.files[k], options.runs);
+        diagnostics.append(run.log.diagnostics);
+        ComparedWithReference compared = reference.compare(run, diagnostics, clock.stages());
+        note_left_out(compared.report, run, reported.reference, diagnostics);
+        std::vector<BudgetLine> budget = hold(compared.report, options.budget);
+        if (output && !shown) shown = drawn_between(reported.reference, run.name, compared.differences, options.shown);
+        reported.runs.push_back(
+            {run.name, std::move(compared.report), std::move(budget), std::move(compared.roughness)});
     }
-    reported.departures = drift->departures();
+    reported.departures = reference.departures();
     reported.drifted = drifted_run(reported.departures);
     if (output) {
         clock.begin("draw");
-        draw_difference(*shown, a.path, surface, options.look, *output);
+        draw_difference(*shown, reference.path(), reference.surface(), options.look, *output);
     }
     clock.end();
     write_result(reported, diagnostics, options.json, values);
