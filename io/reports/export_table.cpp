@@ -61,19 +61,9 @@ void write_biip_table(const std::string& path, const std::vector<ExportColumn>& 
                       const std::string& metadata) {
     std::vector<Channel> channels;
     for (const ExportColumn& c : columns) {
-        ChannelView view;
-        view.count = c.size();
-        if (!c.counts.empty()) {
-            view.first = reinterpret_cast<const std::byte*>(c.counts.data());
-            view.type = ScalarType::u32;
-        } else if (!c.exact.empty()) {
-            view.first = reinterpret_cast<const std::byte*>(c.exact.data());
-            view.type = ScalarType::f64;
-        } else {
-            view.first = reinterpret_cast<const std::byte*>(c.values.data());
-            view.type = ScalarType::f32;
-        }
-        view.stride = size_of(view.type);
+        const ChannelView view = !c.counts.empty()  ? view_of(c.counts)
+                                 : !c.exact.empty() ? view_of(c.exact)
+                                                    : view_of(c.values);
         channels.push_back({c.name, c.unit, view});
     }
     write_biip(path, channels, columns.empty() ? 0 : columns.front().size(), period, metadata);

@@ -81,7 +81,34 @@ auto with_type(ScalarType type, F&& f) {
     return f.template operator()<double>();
 }
 
+template <typename T>
+ChannelView strided_view(const T* first, std::size_t stride, std::size_t count, ScalarType type) {
+    ChannelView view;
+    view.first = reinterpret_cast<const std::byte*>(first);
+    view.stride = stride;
+    view.count = static_cast<PointIndex>(count);
+    view.type = type;
+    return view;
+}
+
+template <typename T>
+ChannelView contiguous_view(std::span<const T> values, ScalarType type) {
+    return strided_view(values.data(), sizeof(T), values.size(), type);
+}
+
 }  // namespace
+
+ChannelView view_of(std::span<const float> values) { return contiguous_view(values, ScalarType::f32); }
+ChannelView view_of(std::span<const double> values) { return contiguous_view(values, ScalarType::f64); }
+ChannelView view_of(std::span<const std::uint32_t> values) { return contiguous_view(values, ScalarType::u32); }
+
+ChannelView repeated_view(const double& value, PointIndex count) {
+    return strided_view(&value, 0, static_cast<std::size_t>(count), ScalarType::f64);
+}
+
+ChannelView repeated_view(const std::uint32_t& value, PointIndex count) {
+    return strided_view(&value, 0, static_cast<std::size_t>(count), ScalarType::u32);
+}
 
 std::size_t size_of(ScalarType type) {
     return with_type(type, []<typename T>() { return sizeof(T); });

@@ -31,6 +31,15 @@ struct ChannelView {
     [[nodiscard]] double at(PointIndex i) const;
 };
 
+/// A view of values in memory, which must outlive it.
+[[nodiscard]] ChannelView view_of(std::span<const float> values);
+[[nodiscard]] ChannelView view_of(std::span<const double> values);
+[[nodiscard]] ChannelView view_of(std::span<const std::uint32_t> values);
+
+/// A view of `count` points with the same value, which must outlive it.
+[[nodiscard]] ChannelView repeated_view(const double& value, PointIndex count);
+[[nodiscard]] ChannelView repeated_view(const std::uint32_t& value, PointIndex count);
+
 /// Gathers points [begin, begin + out.size()) as doubles. Domain: inside the view.
 void copy_block(const ChannelView& view, PointIndex begin, std::span<double> out);
 

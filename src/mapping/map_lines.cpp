@@ -52,16 +52,6 @@ double off_share(const LineMap& map) {
     return all > 0 ? static_cast<double>(off) / static_cast<double>(all) : 0.0;
 }
 
-ChannelView view_of(const Column<LineNumber>& lines) {
-    return {reinterpret_cast<const std::byte*>(lines.data()),
-            sizeof(LineNumber),
-            static_cast<PointIndex>(lines.size()),
-            ScalarType::u32,
-            false,
-            1.0,
-            0.0};
-}
-
 /// Combines the lines of a log and a program.
 class LineMapper {
 public:

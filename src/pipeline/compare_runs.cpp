@@ -51,8 +51,7 @@ ComparedWithReference ReferenceRun::compare(const PlacedRun& run, Diagnostics& d
     ComparedWithReference found;
     found.differences = compare_runs(a, surface_, b);
     if (!(found.differences.alignment.aligned > 0))
-        throw InputError(Place::of_file(run.name), "nowhere runs along the path of " + run_.name,
-                         rules_.other_path_hint);
+        throw InputError(Place::of_file(run.name), "shares no path with " + run_.name, rules_.other_path_hint);
     found.report = report_run(a, surface_, lines_.known ? lines_.map.get() : nullptr, b, found.differences);
     if (run_.tool) PartContacts(run_.log, a.path, *lines_.map, surface_, *run_.tool).locate(found.report);
     if (run_.tool && rules_.with_roughness) {

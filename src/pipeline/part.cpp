@@ -50,11 +50,7 @@ LineMap lines_without_program(const Log& log, PointIndex count) {
     Program none;
     none.files.emplace_back();
     if (const Channel* channel = log.find("line")) return {channel->values, none, log.keep_alive};
-    ChannelView everywhere;
-    everywhere.first = reinterpret_cast<const std::byte*>(&no_line);
-    everywhere.count = count;
-    everywhere.type = ScalarType::u32;
-    return {everywhere, none, nullptr};
+    return {repeated_view(no_line, count), none, nullptr};
 }
 
 void refuse_foreign(const ProgramMatch& match, const Program& program, const Log& log, bool accept,

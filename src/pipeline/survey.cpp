@@ -102,12 +102,7 @@ std::shared_ptr<const LineMap> lines_of(const Program& program, const Log& log, 
     if (survey.lines_of_log) {
         map = std::make_shared<LineMap>(log.find("line")->values, program, log.keep_alive, std::move(motions));
     } else if (!survey.lines.empty()) {
-        ChannelView numbers;
-        numbers.first = reinterpret_cast<const std::byte*>(survey.lines.data());
-        numbers.stride = sizeof(std::uint32_t);
-        numbers.count = survey.points;
-        numbers.type = ScalarType::u32;
-        map = std::make_shared<LineMap>(numbers, program, survey.keep_alive, std::move(motions));
+        map = std::make_shared<LineMap>(view_of(survey.lines), program, survey.keep_alive, std::move(motions));
     } else {
         map =
             std::make_shared<LineMap>(std::move(motions), Column<std::uint8_t>::borrowed(survey.confidences), program);

@@ -39,13 +39,7 @@ FusedPositions::FusedPositions(const Log& log, const Trajectory& path, const std
             floor_, axes_[k].weight == 0 ? 0 : std::hypot((1 - axes_[k].weight) * coarse, axes_[k].weight * fine));
         scale_floor_ = std::max(scale_floor_, coarse);
         (*columns)[k] = std::exchange(axes_[k].positions, {});
-        path_.axes[k] = {reinterpret_cast<const std::byte*>((*columns)[k].data()),
-                         sizeof(double),
-                         path.count,
-                         ScalarType::f64,
-                         false,
-                         1.0,
-                         0.0};
+        path_.axes[k] = view_of((*columns)[k]);
     }
     // An axis at rest shows no step. It is assumed to have the step of the others.
     for (std::size_t k = 0; k < 3; ++k) {

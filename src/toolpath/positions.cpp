@@ -59,6 +59,14 @@ void Positions::forget() {
     for (Column<float>* const axis : {&x, &y, &z}) axis->forget();
 }
 
+Trajectory trajectory_of(const Positions& positions) {
+    Trajectory path;
+    path.axes = {view_of(positions.x), view_of(positions.y), view_of(positions.z)};
+    path.offset = positions.origin;
+    path.count = positions.size();
+    return path;
+}
+
 Positions gather(const Trajectory& trajectory) {
     Positions positions;
     positions.origin = first_finite(trajectory);

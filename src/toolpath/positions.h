@@ -33,6 +33,9 @@ struct Positions {
     [[nodiscard]] Vec3 absolute(PointIndex i) const { return (*this)[i].cast<double>() + origin; }
 };
 
+/// A trajectory on these positions, all of which are gathered. They must outlive it.
+[[nodiscard]] Trajectory trajectory_of(const Positions& positions);
+
 /// Gathers all points; the origin is the trajectory's first finite point. O(points), parallel.
 [[nodiscard]] Positions gather(const Trajectory& trajectory);
 

@@ -67,11 +67,7 @@ ChannelView linear_axis(const Log& log, Role role, char letter) {
     static constexpr double zero = 0;
     const std::string name = std::string(prefix_of(role)) + "." + letter;
     if (log.find(name) != nullptr || !log.has(role)) return channel_of(log, role, letter).values;
-    ChannelView still;
-    still.first = reinterpret_cast<const std::byte*>(&zero);
-    still.count = log.records;
-    still.type = ScalarType::f64;
-    return still;
+    return repeated_view(zero, log.records);
 }
 
 Trajectory trajectory_of(const Log& log, Role role) {
@@ -140,15 +136,7 @@ std::shared_ptr<const OwnColumns> make_columns(PointIndex count, Compute&& compu
 
 /// Replaces the columns of a trajectory by its own.
 void set_columns(Trajectory& trajectory, std::shared_ptr<const OwnColumns> columns) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        trajectory.axes[axis] = {reinterpret_cast<const std::byte*>(columns->at(axis).data()),
-                                 sizeof(double),
-                                 trajectory.count,
-                                 ScalarType::f64,
-                                 false,
-                                 1.0,
-                                 0.0};
-    }
+    for (std::size_t axis = 0; axis < 3; ++axis) { trajectory.axes[axis] = view_of(columns->at(axis)); }
     trajectory.keep_alive = std::move(columns);
 }
 

@@ -416,7 +416,7 @@ clsurf_cli_test(NAME diff_names_the_run_that_drifted SETUP "${as_recorded}" ARGS
 clsurf_cli_test(NAME diff_two_runs_name_none SETUP "${as_recorded}" ARGS diff a.biip slow.biip --json NO_STDOUT "drifted")
 clsurf_cli_test(NAME diff_map ARGS diff ${part} ${run} --machine @DATA@/machines/linuxcnc_logs.toml -o map.png --size 320x240 --color height
   FILE map.png STDOUT "lag .µm.")
-clsurf_cli_test(NAME diff_of_another_part ARGS diff @LOGS@/dome_loops.biip ${run} -o map.png EXIT 3 STDERR "nowhere runs along the path of")
+clsurf_cli_test(NAME diff_of_another_part ARGS diff @LOGS@/dome_loops.biip ${run} -o map.png EXIT 3 STDERR "shares no path with")
 clsurf_cli_test(NAME diff_map_of_a_lag_that_nobody_knows SETUP "${as_recorded}; $CLSURF export @DATA@/programs/mixed.ngc a.biip -o a.csv --columns cmd.x,cmd.y,cmd.z"
   ARGS diff a.csv a.csv --period 0.001 -o map.png --color lag EXIT 2 STDERR "--color lag: the runs do not have measured positions")
 clsurf_cli_test(NAME diff_unknown_quantity ARGS diff ${run} ${run} --color hight EXIT 2 STDERR "hight.* is not" "did you mean 'height'")

@@ -53,5 +53,24 @@ TEST(ChannelView, GivesTheBadValueWhereALineNumberIsNone) {
     EXPECT_EQ(lines, (std::array<std::uint32_t, 3>{99, 7, 99}));
 }
 
+TEST(ChannelView, OfValuesInMemoryHasTheirType) {
+    const std::vector<float> floats{0.5F, -2};
+    const std::vector<double> doubles{1e-300, 3, 7};
+    const std::vector<std::uint32_t> lines{4'294'967'295U};
+    EXPECT_EQ(clsurf::view_of(floats).at(1), -2);
+    EXPECT_EQ(clsurf::view_of(doubles).at(0), 1e-300);
+    EXPECT_EQ(clsurf::view_of(doubles).count, 3);
+    EXPECT_EQ(clsurf::view_of(lines).at(0), 4'294'967'295.0);
+}
+
+TEST(ChannelView, RepeatsAValue) {
+    constexpr double value = 0.1;
+    const ChannelView view = repeated_view(value, 1'000'000);
+    EXPECT_EQ(view.count, 1'000'000);
+    std::array<double, 3> last{};
+    copy_block(view, view.count - 3, last);
+    EXPECT_EQ(last, (std::array<double, 3>{0.1, 0.1, 0.1}));
+}
+
 }  // namespace
 }  // namespace clsurf::channel_view_test

@@ -33,11 +33,8 @@ struct Circle {
         log.period = period;
         log.records = 3000;
         for (int k = 0; k < 3; ++k) {
-            const auto view = [](const std::vector<double>& v) {
-                return ChannelView{reinterpret_cast<const std::byte*>(v.data()), 8, 3000, ScalarType::f64, false, 1, 0};
-            };
-            log.channels.push_back({std::string("cmd.") + "xyz"[k], "mm", view(c[k])});
-            log.channels.push_back({std::string("fb.") + "xyz"[k], "mm", view(f[k])});
+            log.channels.push_back({std::string("cmd.") + "xyz"[k], "mm", view_of(c[k])});
+            log.channels.push_back({std::string("fb.") + "xyz"[k], "mm", view_of(f[k])});
         }
         passes.push_back({0, 2999, PassKind::cut});
     }
@@ -54,9 +51,7 @@ Field field_along(const std::vector<double> (&commanded)[3], const char* name) {
     log.period = period;
     log.records = count;
     for (std::size_t k = 0; k < 3; ++k)
-        log.channels.push_back({std::string("cmd.") + "xyz"[k], "mm",
-                                ChannelView{reinterpret_cast<const std::byte*>(commanded[k].data()), 8, count,
-                                            ScalarType::f64, false, 1, 0}});
+        log.channels.push_back({std::string("cmd.") + "xyz"[k], "mm", view_of(commanded[k])});
     Passes passes;
     passes.push_back({0, count - 1, PassKind::cut});
     return FieldSet(log, reconstruct(log, Role::commanded, Vec3::Zero()), passes).get(name);

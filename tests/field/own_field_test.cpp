@@ -41,9 +41,7 @@ struct Circle {
         log.records = points;
         const char* names[] = {"cmd.x", "cmd.y", "cmd.z", "fb.x", "fb.y", "fb.z", "speed", "cmd.c"};
         for (std::size_t k = 0; k < 8; ++k)
-            log.channels.push_back({names[k], k == 6 ? "A" : "mm",
-                                    ChannelView{reinterpret_cast<const std::byte*>(columns[k].data()), 8, points,
-                                                ScalarType::f64, false, 1, 0}});
+            log.channels.push_back({names[k], k == 6 ? "A" : "mm", view_of(columns[k])});
         passes.push_back({0, points - 1, PassKind::cut});
         path = reconstruct(log, Role::commanded, Vec3::Zero());
     }

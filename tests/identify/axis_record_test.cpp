@@ -12,14 +12,6 @@
 namespace clsurf::axis_record_test {
 namespace {
 
-ChannelView view_of(const std::vector<double>& values) {
-    ChannelView view;
-    view.first = reinterpret_cast<const std::byte*>(values.data());
-    view.stride = sizeof(double);
-    view.count = static_cast<PointIndex>(values.size());
-    return view;
-}
-
 std::vector<PointRange> sections_of(const std::vector<double>& values, double period) {
     Log log;
     log.records = static_cast<PointIndex>(values.size());

@@ -23,14 +23,7 @@ struct AxisRun {
     std::vector<double> commanded, feedback;
 
     [[nodiscard]] AxisRecord record() const {
-        const auto view = [](const std::vector<double>& values) {
-            ChannelView v;
-            v.first = reinterpret_cast<const std::byte*>(values.data());
-            v.stride = sizeof(double);
-            v.count = static_cast<PointIndex>(values.size());
-            return v;
-        };
-        return {view(commanded), view(feedback), {{0, static_cast<PointIndex>(commanded.size()) - 1}}};
+        return {view_of(commanded), view_of(feedback), {{0, static_cast<PointIndex>(commanded.size()) - 1}}};
     }
     [[nodiscard]] ServoFit fit(double period) const {
         const AxisRecord only = record();

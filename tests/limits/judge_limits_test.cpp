@@ -37,11 +37,7 @@ Log log_of(const Positions& positions, double step = micrometre_step, const std:
     (*columns)[3] = times;
     const std::array<std::string, 4> names{"cmd.x", "cmd.y", "cmd.z", "time"};
     for (std::size_t c = 0; c < (times.empty() ? 3U : 4U); ++c) {
-        ChannelView view;
-        view.first = reinterpret_cast<const std::byte*>((*columns)[c].data());
-        view.stride = sizeof(double);
-        view.count = log.records;
-        log.channels.push_back({names[c], c < 3 ? "mm" : "s", view});
+        log.channels.push_back({names[c], c < 3 ? "mm" : "s", view_of((*columns)[c])});
     }
     log.keep_alive = columns;
     return log;

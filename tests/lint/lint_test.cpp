@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
+#include "lint/contact_places.h"
 #include "lint/lint.h"
 #include "lint/lint_rule.h"
 #include "numeric/polyline.h"
@@ -108,6 +110,23 @@ TEST(Polyline, CurvatureOfThreePoints) {
     EXPECT_TRUE(std::isinf(three_point_curvature({0, 0, 0}, {1, 0, 0}, {0.5, 0, 0})));
     EXPECT_TRUE(std::isinf(three_point_curvature({0, 0, 0}, {1, 0, 0}, {0, 0, 0})));
     EXPECT_NEAR(chord_error_of(2, 0.1, 0.1), 0.05, 1e-12);
+}
+
+TEST(Lint, AFindingIsWhereTheBallTouchesThePart) {
+    const Program program =
+        read_text(wavy_zigzag(9, 12, [](int pass, double x) { return pass == 4 && x > 4 && x < 8 ? 0.03 : 0.3; }));
+    const ProgrammedSurface programmed = build_programmed_surface(program);
+    LintReport report = lint(program, programmed);
+    ASSERT_GE(report.findings.size(), 1U);
+    add_contacts(report, program, programmed, parse_tool("ball:6"));
+    for (const LintFinding& finding : report.findings) {
+        // The tips are on z = 0.8 sin(0.9 x + 0.1 y), whose normal is also that of the part.
+        const Vec3& tip = finding.place.tip;
+        const double slope = 0.8 * std::cos(0.9 * tip.x() + 0.1 * tip.y());
+        const Vec3 normal = Vec3(-0.9 * slope, -0.1 * slope, 1).normalized();
+        ASSERT_TRUE(finding.place.contact);
+        EXPECT_LT((*finding.place.contact - (tip + 3 * (Vec3::UnitZ() - normal))).norm(), 0.05);
+    }
 }
 
 }  // namespace

@@ -13,10 +13,8 @@ struct Made {
         log.name = "run";
         log.period = 0.001;
         log.records = static_cast<PointIndex>(values.size());
-        log.channels.push_back(
-            {name,
-             unit,
-             {reinterpret_cast<const std::byte*>(values.data()), 8, log.records, ScalarType::f64, false, 1, bias}});
+        log.channels.push_back({name, unit, view_of(values)});
+        log.channels.back().values.bias = bias;
         normalise_units(log);
     }
     [[nodiscard]] double at(PointIndex i) const { return log.channels[0].values.at(i); }

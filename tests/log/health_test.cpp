@@ -47,10 +47,7 @@ struct Made {
         log.records = static_cast<PointIndex>(size());
         for (const auto& [name, values] : columns) {
             const char* unit = name == "time" ? "s" : name == "line" ? "" : "mm";
-            log.channels.push_back(
-                {name,
-                 unit,
-                 {reinterpret_cast<const std::byte*>(values.data()), 8, log.records, ScalarType::f64, false, 1, 0}});
+            log.channels.push_back({name, unit, view_of(values)});
         }
         return check_health(log, program_lines);
     }

@@ -26,10 +26,7 @@ struct Made {
 
 private:
     void add(const std::string& name, const std::vector<double>& column) {
-        log.channels.push_back({name,
-                                "",
-                                {reinterpret_cast<const std::byte*>(column.data()), sizeof(double), log.records,
-                                 ScalarType::f64, false, 1.0, 0.0}});
+        log.channels.push_back({name, "", view_of(column)});
     }
 };
 

@@ -35,16 +35,7 @@ struct Columns {
         Trajectory t;
         t.count = static_cast<PointIndex>(x.size());
         t.period = 0.001;
-        const auto view = [&](const std::vector<double>& v) {
-            return ChannelView{reinterpret_cast<const std::byte*>(v.data()),
-                               sizeof(double),
-                               t.count,
-                               ScalarType::f64,
-                               false,
-                               1.0,
-                               0.0};
-        };
-        t.axes = {view(x), view(y), view(z)};
+        t.axes = {view_of(x), view_of(y), view_of(z)};
         return t;
     }
 };

@@ -82,12 +82,7 @@ TEST_P(WorkOffset, IsFoundFromAPartOfTheLog) {
         return all;
     }();
     made.cut(made.path.count / 4, made.path.count / 2);
-    ChannelView view;
-    view.first = reinterpret_cast<const std::byte*>(lines.data());
-    view.stride = sizeof(LineNumber);
-    view.count = made.path.count;
-    view.type = ScalarType::u32;
-    const LineMap of_part(view, made.program, made.log.keep_alive);
+    const LineMap of_part(view_of(lines), made.program, made.log.keep_alive);
     const std::vector<Eigen::Isometry3d> poses = find_poses(made.path, made.program, &of_part);
     ASSERT_EQ(poses.size(), 1U);
     EXPECT_LT(error_of(poses.front(), made.put), 1e-2);
@@ -151,13 +146,7 @@ TEST(WorkOffsetAmbiguous, ACubesEdgesFitAtEveryQuarterTurn) {
     }
     Trajectory points;
     points.count = static_cast<PointIndex>(x.size());
-    for (int axis = 0; axis < 3; ++axis) {
-        ChannelView& view = points.axes[static_cast<std::size_t>(axis)];
-        view.first = reinterpret_cast<const std::byte*>((axis == 0 ? x : axis == 1 ? y : z).data());
-        view.stride = sizeof(double);
-        view.count = points.count;
-        view.type = ScalarType::f64;
-    }
+    points.axes = {view_of(x), view_of(y), view_of(z)};
     const std::vector<Eigen::Isometry3d> poses = find_poses(points, program, nullptr);
     ASSERT_GT(poses.size(), 1u);
     EXPECT_NE(find_poses(points, program, nullptr).size(), 1U);

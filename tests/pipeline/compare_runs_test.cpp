@@ -160,7 +160,7 @@ TEST(CompareRuns, ARunElsewhereIsRefusedWithTheHintOfTheCaller) {
     Diagnostics diagnostics;
     const Diagnostic why = refused([&] { (void)reference.compare(elsewhere, diagnostics); });
     EXPECT_EQ(why.where.file, "b");
-    EXPECT_EQ(why.text, "nowhere runs along the path of a");
+    EXPECT_EQ(why.text, "shares no path with a");
     EXPECT_EQ(why.hint, "look elsewhere");
     EXPECT_NEAR(reference.compare(simulated("c", zigzag()), diagnostics).report.aligned, 20 * passes, 5)
         << "others can still be compared";

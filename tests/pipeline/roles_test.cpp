@@ -17,10 +17,7 @@ Log log_with(const std::vector<std::string>& channels) {
     Log log;
     log.records = 3;
     log.period = 0.001;
-    for (const std::string& name : channels) {
-        log.channels.push_back(
-            {name, "mm", {reinterpret_cast<const std::byte*>(zeros), sizeof(double), 3, ScalarType::f64}});
-    }
+    for (const std::string& name : channels) { log.channels.push_back({name, "mm", view_of(zeros)}); }
     return log;
 }
 

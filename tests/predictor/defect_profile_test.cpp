@@ -20,13 +20,7 @@ LineMap lines_of(const test::MadeSurface& made, std::vector<std::uint32_t>& colu
         if (pass.kind == PassKind::cut) ++line;
         for (PointIndex i = pass.first; i <= pass.last; ++i) columns[static_cast<std::size_t>(i)] = line;
     }
-    const ChannelView view{reinterpret_cast<const std::byte*>(columns.data()),
-                           sizeof(std::uint32_t),
-                           made.path.count,
-                           ScalarType::u32,
-                           false,
-                           1.0,
-                           0.0};
+    const ChannelView view = view_of(columns);
     Program none;
     none.files.emplace_back();
     return {view, none, nullptr};

@@ -21,12 +21,8 @@ inline Log log_of_columns(double period, NamedColumns made) {
     log.period = period;
     log.records = static_cast<PointIndex>(columns->front().second.size());
     for (const auto& [name, values] : *columns) {
-        ChannelView view;
-        view.first = reinterpret_cast<const std::byte*>(values.data());
-        view.stride = sizeof(double);
-        view.count = log.records;
         const bool is_rotary = is_position(name) && name.back() < 'x';
-        log.channels.push_back({name, is_rotary ? "deg" : is_position(name) ? "mm" : "", view});
+        log.channels.push_back({name, is_rotary ? "deg" : is_position(name) ? "mm" : "", view_of(values)});
     }
     log.keep_alive = columns;
     return log;

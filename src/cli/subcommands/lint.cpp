@@ -10,44 +10,12 @@
 #include "cli/options/known_tool.h"
 #include "cli/options/options.h"
 #include "cli/options/report_output.h"
-#include "core/parallel.h"
 #include "io/readers/program_file.h"
 #include "io/reports/lint_report.h"
-#include "machined/contact_points.h"
+#include "lint/contact_places.h"
 
 namespace clsurf::cli {
 namespace {
-
-ChannelView view_of(const Column<float>& values) {
-    ChannelView view;
-    view.first = reinterpret_cast<const std::byte*>(values.data());
-    view.stride = sizeof(float);
-    view.count = static_cast<PointIndex>(values.size());
-    view.type = ScalarType::f32;
-    return view;
-}
-
-/// A trajectory that shares the positions, which must outlive it.
-Trajectory trajectory_on(const Positions& positions) {
-    Trajectory path;
-    path.axes = {view_of(positions.x), view_of(positions.y), view_of(positions.z)};
-    path.offset = positions.origin;
-    path.count = positions.size();
-    return path;
-}
-
-/// Adds contact points to the findings of lint, unless the program turns the tool. O(findings).
-void locate(LintReport& report, const Program& program, const ProgrammedSurface& programmed, const CuttingTool& tool) {
-    if (!program.motions.rotary.empty() || !program.motions.tool_axis.empty()) return;
-    const Trajectory path = trajectory_on(programmed.surface.positions);
-    const ContactPoints points(programmed.surface, path, std::nullopt, tool);
-    parallel_for(static_cast<std::int64_t>(report.findings.size()), 1, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t k = first; k < last; ++k) {
-            LintFinding& finding = report.findings[static_cast<std::size_t>(k)];
-            finding.place.contact = points.at(finding.point);
-        }
-    });
-}
 
 constexpr const char* lint_formats = "text|json|sarif";
 
@@ -59,7 +27,7 @@ io::ReportedLint lint_program(const std::string& path, const io::ProgramOptions&
     const ProgrammedSurface programmed = build_programmed_surface(program);
     io::ReportedLint linted{program.main().name(), lint(program, programmed, thresholds), program.diagnostics};
     if (const std::optional<CuttingTool> tool = find_tool(choice, nullptr, &program, linted.diagnostics))
-        locate(linted.report, program, programmed, *tool);
+        add_contacts(linted.report, program, programmed, *tool);
     return linted;
 }
 
