@@ -1,6 +1,5 @@
 #include "io/reports/optimize_report.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -120,11 +119,8 @@ std::string optimize_text(const Optimized& r) {
             r.measured->defects == 1 ? "" : "s", r.measured->motions_in_need);
     }
     text += "machine: " + r.machine + "\n";
-    const bool controller =
-        r.on_controller && std::any_of(r.controller_runs.begin(), r.controller_runs.end(),
-                                       [](const ControllerRun& run) { return run.candidate > 0 && run.measured; });
     text += controller_text(r.controller_runs);
-    text += fmt::format("{:<31} {:>11} {:>12} {:>10}\n", controller ? "on the controller" : "simulated", "before",
+    text += fmt::format("{:<31} {:>11} {:>12} {:>10}\n", r.on_controller ? "on the controller" : "simulated", "before",
                         "after", "change");
     row("time [s]", r.before.duration, r.after.duration, 3);
     row("speed mismatch p95 [mm/min]", r.before.mismatch * seconds_per_minute, r.after.mismatch * seconds_per_minute,

@@ -176,14 +176,6 @@ constexpr std::array limit_kinds{
     kind_of(LimitedQuantity::jerk, LimitedQuantity::path_jerk, 5, "/s³", 5e-3),
 };
 
-MachineAxis* axis_of(Machine& machine, char letter) {
-    if (letter >= 'x') return &machine.axes[static_cast<std::size_t>(letter - 'x')];
-    const Kinematics& k = machine.kinematics;
-    if (!k.has_rotary()) return nullptr;
-    if (k.tilt.letter == letter) return &machine.rotary[0];
-    return k.rotation.letter == letter ? &machine.rotary[1] : nullptr;
-}
-
 /// Raises the greatest absolute value of each quantity to that of a part.
 void raise_greatest(const Motion& motion, const PeriodMotion& part, int order, std::size_t stride,
                     std::vector<double>& greatest) {
@@ -307,7 +299,7 @@ private:
 
     void report_axis(std::size_t q, bool reached, Identification& result) const {
         MachineAxis none;
-        MachineAxis* axis = axis_of(result.machine, motion_.letters[q]);
+        MachineAxis* axis = result.machine.axis(motion_.letters[q]);
         const bool rotary = motion_.letters[q] < 'x';
         MachineAxis& target = axis != nullptr ? *axis : none;
         put({motion_.letters[q]}, rotary ? "deg" : "mm", q, reached ? Evidence::reached : Evidence::lower_bound,

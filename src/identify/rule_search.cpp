@@ -79,22 +79,22 @@ void refine(const Rule& rule, std::size_t chosen, RuleScores& scores, Machine& m
         rule.continuous.set(changed, number);
         return changed;
     };
-    const auto score_of = [&](const std::vector<float>& residuals) {
-        return compare({residuals}, scores).front().score;
+    // Relative to the chosen value, because not all machines have the same samples.
+    const std::vector<float> of_chosen = scores.residuals(machine);
+    const auto score_of = [&](double number) {
+        const std::vector<Explanation> both = compare({of_chosen, scores.residuals(machine_with(number))}, scores);
+        return both[1].score - both[0].score;
     };
     const double below = chosen > 0 ? numbers[chosen - 1] : 0.5 * numbers[chosen],
                  above = chosen + 1 < numbers.size() ? numbers[chosen + 1] : 2 * numbers[chosen];
     // Ten bits are about three digits.
     constexpr int bits = 10;
     std::uintmax_t runs = 16;
-    const double shown = rounded(
-        boost::math::tools::brent_find_minima(
-            [&](double number) { return score_of(scores.residuals(machine_with(number))); }, below, above, bits, runs)
-            .first /
-        rule.continuous.unit);
+    const double shown =
+        rounded(boost::math::tools::brent_find_minima(score_of, below, above, bits, runs).first / rule.continuous.unit);
     const double best = shown * rule.continuous.unit;
     RuleCandidate refined{.rule = rule.name, .value = fmt::format("{}", shown), .axis = rule.axis};
-    const std::vector<std::vector<float>> both{scores.residuals(machine), scores.residuals(machine_with(best))};
+    const std::vector<std::vector<float>> both{of_chosen, scores.residuals(machine_with(best))};
     std::vector<RuleCandidate> pair{candidates[chosen], refined};
     score(both, scores, pair);
     if (pair[1].score > pair[0].score - decisive) return;
@@ -230,7 +230,7 @@ std::vector<Explanation> compare(const std::vector<std::vector<float>>& residual
     std::vector<Explanation> found(residuals.size());
     for (std::size_t k = 0; k < residuals.size(); ++k) {
         const auto n = static_cast<double>(samples);
-        found[k].speed_error = samples > 0 ? sums[k] / n : 0;
+        found[k].speed_error = samples > 0 ? sums[k] / n : scores.usual_speed();
         found[k].score = 2 * n * std::log(std::max(found[k].speed_error, scores.resolution()));
     }
     return found;

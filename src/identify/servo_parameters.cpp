@@ -55,15 +55,6 @@ std::vector<AxisData> gather_axes(std::span<const Log* const> runs) {
     return axes;
 }
 
-/// The servo model of this axis in the machine; nullptr: the machine has no such axis.
-ServoModel* servo_of(Machine& machine, char letter) {
-    if (letter >= 'x') return &machine.axes[static_cast<std::size_t>(letter - 'x')].servo;
-    const Kinematics& k = machine.kinematics;
-    if (!k.has_rotary()) return nullptr;
-    if (k.tilt.letter == letter) return &machine.rotary[0].servo;
-    return k.rotation.letter == letter ? &machine.rotary[1].servo : nullptr;
-}
-
 constexpr std::array loop_keys{
     "position_gain", "velocity_feedforward", "velocity_time_constant", "velocity_integral_time", "friction", "backlash",
     "dead_time"};
@@ -244,7 +235,7 @@ void report_axis(const AxisData& axis, Identification& result) {
     if (!axis.fit.moves) return miss_loop(axis, "the axis does not move", result);
     if (axis.fit.records == 0) return miss_loop(axis, "too few records", result);
     ServoModel none;
-    ServoModel* target = servo_of(result.machine, axis.letter);
+    MachineAxis* const target = result.machine.axis(axis.letter);
     if (target == nullptr)
         result.diagnostics.add(
             {Severity::warning,
@@ -252,7 +243,7 @@ void report_axis(const AxisData& axis, Identification& result) {
              {},
              fmt::format("axis {} is not in the machine file: the kinematics are not known", axis.letter),
              "give a machine file with [kinematics] by --machine"});
-    LoopReport(axis, result).report(target != nullptr ? *target : none);
+    LoopReport(axis, result).report(target != nullptr ? target->servo : none);
 }
 
 /// Fits the loop to the records of the shortest period that show its gain, else in which the axis moves. The loop of the
@@ -272,8 +263,9 @@ void fit_axis(AxisData& axis) {
 /// Values of the known machine that were not identified may not suit the period or an identified gain, and a file with them
 /// would not be read. They become half of what is allowed.
 void keep_stable(const AxisData& axis, Identification& result) {
-    ServoModel* servo = servo_of(result.machine, axis.letter);
-    if (servo == nullptr) return;
+    MachineAxis* const in_file = result.machine.axis(axis.letter);
+    if (in_file == nullptr) return;
+    ServoModel& servo = in_file->servo;
     const auto lower = [&](const char* key, double& value, double allowed, const std::string& because) {
         if (value < allowed) return;
         const double kept = 0.5 * allowed;
@@ -286,9 +278,9 @@ void keep_stable(const AxisData& axis, Identification& result) {
         value = kept;
     };
     const double period = result.machine.controller.period;
-    lower("position_gain", servo->position_gain, 1 / period, fmt::format("a period of {:.4g} s", period));
-    lower("velocity_time_constant", servo->velocity_time_constant, 1 / servo->position_gain,
-          fmt::format("a position_gain of {:.4g} 1/s", servo->position_gain));
+    lower("position_gain", servo.position_gain, 1 / period, fmt::format("a period of {:.4g} s", period));
+    lower("velocity_time_constant", servo.velocity_time_constant, 1 / servo.position_gain,
+          fmt::format("a position_gain of {:.4g} 1/s", servo.position_gain));
 }
 
 }  // namespace

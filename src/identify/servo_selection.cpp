@@ -278,17 +278,18 @@ public:
             const unsigned other = now ^ bit_of(k);
             const bool kept = (now & bit_of(k)) != 0;
             const ServoSolution &with = solution_of(kept ? now : other), &without = solution_of(kept ? other : now);
-            selected.evidence.push_back({terms_[k], with.parameters[terms_[k]], without.criterion() - with.criterion(),
-                                         kept && is_certain(with, terms_[k])});
+            selected.evidence.push_back(
+                {terms_[k], with.parameters[terms_[k]], without.criterion() - with.criterion()});
             widen(solution_of(now), solution_of(other), selected.standard_error);
         }
         return selected;
     }
 
 private:
-    /// Widens the errors by the difference to another loop, weighted with the odds of the criterion, because it is not
-    /// known which of the loops the axis has (unconditional variance; Burnham and Anderson, Model Selection and Multimodel
-    /// Inference, 2nd ed., ch. 4.3).
+    /// Widens the errors by the difference to another loop, because it is not known which of the loops the axis has. The
+    /// weight follows from the odds of the criterion, as in model averaging (Burnham and Anderson, Model Selection and
+    /// Multimodel Inference, 2nd ed., ch. 4.3). But the value is not averaged, and of several other loops the one that widens
+    /// most counts, not their sum.
     static void widen(const ServoSolution& now, const ServoSolution& other,
                       std::array<double, servo_terms>& standard_error) {
         const double ratio = std::exp(std::min(0.0, now.criterion() - other.criterion()) / 2),

@@ -16,9 +16,8 @@ inline constexpr double certain_errors = 4;
 /// The evidence for an additional term of the loop.
 struct TermEvidence {
     ServoTerm term = ServoTerm::friction;
-    double value = 0;   ///< as in ServoParameters
-    double gain = 0;    ///< decrease of the Bayesian information criterion with the term
-    bool kept = false;  ///< the criterion decreases, and the value exceeds `certain_errors` standard errors
+    double value = 0;  ///< as in ServoParameters
+    double gain = 0;   ///< decrease of the Bayesian information criterion with the term
 };
 
 struct SelectedLoop {

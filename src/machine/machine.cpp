@@ -22,4 +22,11 @@ std::string_view name_of(FeedRule rule) {
     return names[static_cast<std::size_t>(rule)];
 }
 
+MachineAxis* Machine::axis(char letter) {
+    if (letter >= 'x' && letter <= 'z') return &axes[static_cast<std::size_t>(letter - 'x')];
+    if (!kinematics.has_rotary()) return nullptr;
+    if (kinematics.tilt.letter == letter) return &rotary[0];
+    return kinematics.rotation.letter == letter ? &rotary[1] : nullptr;
+}
+
 }  // namespace clsurf

@@ -154,6 +154,9 @@ struct Machine {
     std::array<MachineAxis, 2> rotary{default_rotary(120), default_rotary(36000)};  ///< tilt, rotation
     std::optional<Fidelity> fidelity;                                               ///< measured on recorded runs
     std::vector<ParameterUncertainty> uncertainty;                                  ///< empty: not in the file
+
+    /// The axis x, y, z, or a rotary axis by the letter of the kinematics; nullptr: the machine does not have it.
+    [[nodiscard]] MachineAxis* axis(char letter);
 };
 
 }  // namespace clsurf

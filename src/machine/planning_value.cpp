@@ -1,6 +1,5 @@
 #include "machine/planning_value.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/units.h"
@@ -47,14 +46,9 @@ std::optional<PlanningValue> controller_value(ControllerSettings& c, std::string
 std::optional<PlanningValue> value_of(Machine& machine, std::string_view key, std::string_view of) {
     if (of == "path") return path_value(machine.path, key);
     if (of == "controller") return controller_value(machine.controller, key);
-    const auto axis = std::find(axis_names.begin(), axis_names.end(), of);
-    if (axis != axis_names.end())
-        return axis_value(machine.axes[static_cast<std::size_t>(axis - axis_names.begin())], key, 1);
-    const Kinematics& kinematics = machine.kinematics;
-    if (!kinematics.has_rotary() || of.size() != 1) return std::nullopt;
-    if (of.front() == kinematics.tilt.letter) return axis_value(machine.rotary[0], key, rad_per_deg);
-    if (of.front() == kinematics.rotation.letter) return axis_value(machine.rotary[1], key, rad_per_deg);
-    return std::nullopt;
+    MachineAxis* const axis = of.size() == 1 ? machine.axis(of.front()) : nullptr;
+    if (axis == nullptr) return std::nullopt;
+    return axis_value(*axis, key, of.front() < 'x' ? rad_per_deg : 1);
 }
 
 }  // namespace

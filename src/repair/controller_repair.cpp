@@ -63,7 +63,7 @@ public:
         if (!runs_.empty()) runs_.back().measured = before_.measures();
         for (const EarlierRound& round : rounds) take_round(round);
         Optimized result = judge_.run ? search(*measured) : simulated(*measured);
-        result.on_controller = judge_.run != nullptr;
+        result.on_controller = after_judged_;
         result.controller_runs = runs_;
         if (!after_judged_) return result;
         if (roughness_) {

@@ -83,7 +83,6 @@ public:
     [[nodiscard]] std::string text(std::string_view header) const;
     /// Lines of the old program that are replaced by others.
     [[nodiscard]] std::size_t changed_lines() const { return changed_; }
-    [[nodiscard]] bool changes() const { return !edits_.empty(); }
 
 private:
     struct Edit {

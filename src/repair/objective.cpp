@@ -16,7 +16,7 @@ constexpr double growth_weight = 0.03;    ///< weight of a program's growth rela
 constexpr double goal_of_mismatch = 0.5;  ///< remaining share, below which …
 constexpr double beyond_goal = 0.1;       ///< … less mismatch counts less
 
-/// The weight of a mismatch.
+/// The mismatch of a run, at least the least one that counts.
 double counted(const RunMeasures& run, const RunMeasures& before) {
     return std::max(objective_mismatch(before, run), least_mismatch * before.speed);
 }

@@ -35,7 +35,8 @@ struct OptimizeRules {
     int machines = 4;                ///< of the ensemble that must be better; 0: the nominal machine alone decides
     bool keeps_front = false;        ///< all candidates that pass are compared by time, mismatch and jerk
     std::optional<double> weight{};  ///< selects one of them (tradeoff/front.h); nullopt: the objective selects
-    bool all_finalists = false;      ///< lists all, instead of only the best that the ensemble accepts
+    [[nodiscard]] bool needs_front() const { return keeps_front || weight.has_value(); }
+    bool all_finalists = false;  ///< lists all, instead of only the best that the ensemble accepts
     ProgramIdentity identity = ProgramIdentity::unknown;  ///< of the program that a recorded run ran
     std::string header;                                   ///< text of the comment that states the origin of the program
 };

@@ -93,17 +93,15 @@ public:
         propose_all({program_, read_, machine_, rules_, !has_log, evaluator_.orientation()});
         result.fidelity = machine_.fidelity;
         result.five_axes = evaluator_.orientation() != nullptr;
-        result.run_before = evaluator_.summary_before();
         if (rules_.weight) evaluator_.prefer(*rules_.weight);
         Proposal& best = *choose(result);
-        if (rules_.keeps_front) result.front = evaluator_.front(best.evaluation.accepted ? &best : nullptr);
+        if (rules_.needs_front()) result.front = evaluator_.front(best.evaluation.accepted ? &best : nullptr);
         result.before = evaluator_.take_before();
         result.roughness_before = best.roughness ? best.roughness->before : evaluator_.roughness_before();
         if (best.roughness) result.roughness_after = std::move(best.roughness->after);
         result.evaluation = std::move(best.evaluation);
         result.text = std::move(best.text);
         result.after = std::move(best.run);
-        result.run_after = std::move(best.summary);
         return result;
     }
 

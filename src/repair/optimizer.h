@@ -48,17 +48,16 @@ struct Optimized {
     JudgedRun before, after;
     /// Roughness of both runs at the same places; nullopt: the tool is not known, or the program was run on five axes.
     std::optional<PartRoughness> roughness_before, roughness_after;
-    SimulationSummary run_before, run_after;
     std::string machine;               ///< origin of its values: a file, or the log to which they were fitted
     std::optional<Fidelity> fidelity;  ///< of simulations with the machine file
     EnsembleResult ensemble;           ///< of the new program; no runs: no proposal reached the ensemble
     /// Accepted by the ensemble, the best first: the first one is `text`. With OptimizeRules::all_finalists the others follow.
     std::vector<Finalist> finalists;
-    /// With OptimizeRules::keeps_front: the program, and the candidates that pass all tests of one simulation. `chosen` is the
+    /// With OptimizeRules::needs_front(): the program, and the candidates that pass all tests of one simulation. `chosen` is the
     /// one with this text.
     TradeoffFront front;
     std::vector<ControllerRun> controller_runs;
-    bool on_controller = false;  ///< runs on the controller decided; false: the simulation decided
+    bool on_controller = false;  ///< `before` and `after` are runs on the controller; false: both are simulated
 };
 
 /// Simulates the program, makes proposals, simulates and judges them. With a recorded run `measured` of the program, only

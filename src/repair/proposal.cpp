@@ -61,7 +61,7 @@ Evaluator::Evaluator(const Program& program, const ReadProgram& read, const Mach
     SimulatedRun simulated = simulate_to_log(program_, machine_, rules_.start, progress_, rules_.zero);
     summary_before_ = std::move(simulated.summary);
     before_ = judge_run(std::move(simulated.log), program_, diagnostics_, kinematics_, ProgramIdentity::same,
-                        rules_.derivative, rules_.keeps_front);
+                        rules_.derivative, rules_.needs_front());
 }
 
 bool Evaluator::has_time(double share) const {
@@ -110,7 +110,7 @@ TriedProposal Evaluator::propose(const std::shared_ptr<const Draft>& draft, std:
     report_progress(candidate_text());
     const auto tried = std::make_shared<Proposal>(evaluate(draft, std::move(targets)));
     tried->number = tried_;
-    if (rules_.keeps_front) keep_candidate(*tried);
+    if (rules_.needs_front()) keep_candidate(*tried);
     ++since_best_;
     if (!best_ || better(*tried, *best_)) {
         best_ = tried;
@@ -145,7 +145,7 @@ Proposal Evaluator::evaluate(const std::shared_ptr<const Draft>& draft, std::vec
     result.summary = std::move(simulated.summary);
     points_ += static_cast<double>(result.summary.points);
     result.run = judge_run(std::move(simulated.log), changed, diagnostics_, kinematics_, ProgramIdentity::same,
-                           rules_.derivative, rules_.keeps_front);
+                           rules_.derivative, rules_.needs_front());
     evaluation.defects_before = before_.report.defects.size();
     evaluation.defects_after = result.run.report.defects.size();
     evaluation.reason = objection(result);

@@ -54,7 +54,6 @@ public:
 
     [[nodiscard]] const JudgedRun& before() const { return before_; }
     [[nodiscard]] JudgedRun take_before() { return std::move(before_); }
-    [[nodiscard]] const SimulationSummary& summary_before() const { return summary_before_; }
     /// The longest run that feeds may cause [s]: the time of the program, unless more is allowed; slightly less if other
     /// machines must not take longer either.
     [[nodiscard]] double longest() const;
@@ -77,10 +76,10 @@ public:
     [[nodiscard]] std::vector<TriedProposal> finalists() const;
 
     /// Makes the candidates of the front that a weight prefers the finalists, the best one first, and runs them again. Domain:
-    /// OptimizeRules::keeps_front.
+    /// OptimizeRules::needs_front().
     void prefer(double weight);
     /// The program and then the accepted candidates in ascending order of time. `chosen`: one of them, or nullptr. Domain:
-    /// OptimizeRules::keeps_front.
+    /// OptimizeRules::needs_front().
     [[nodiscard]] TradeoffFront front(const Proposal* chosen) const;
 
     /// Measures the roughness of the surfaces of the program and of the finalists. From then on it counts in scores and for

@@ -24,6 +24,11 @@ clsurf_cli_test(NAME optimize_controller_fails_on_candidates EXIT 1
   SETUP "${other_mill}; printf '#!/bin/sh\\ngrep -q optimize \"$1\" && { echo no such tool; exit 7; }\\n\"$CLSURF\" simulate \"$1\" --machine other.toml -o \"$2\" -q\\n' > controller; chmod +x controller"
   ARGS optimize part.nc --machine ${mill} --controller "./controller {program} {log}" --runs 2 -o better.nc NO_FILE better.nc
   STDOUT "run 2, candidate 1: failed: it ended with exit code 7 [(]\"no such tool\"[)]" "refused")
+# What the report then compares is simulated.
+clsurf_cli_test(NAME optimize_controller_json_without_a_run_of_a_candidate EXIT 1
+  SETUP "${other_mill}; printf '#!/bin/sh\\ngrep -q optimize \"$1\" && exit 7\\n\"$CLSURF\" simulate \"$1\" --machine other.toml -o \"$2\" -q\\n' > controller; chmod +x controller"
+  ARGS optimize part.nc --machine ${mill} --controller "./controller {program} {log}" --runs 2 -o better.nc --json NO_FILE better.nc
+  STDOUT "\"reason\": \"it ended with exit code 7" "\"proof\": \"simulation\"")
 clsurf_cli_test(NAME optimize_controller_fails EXIT 3
   ARGS optimize ${dome} --controller "false {program} {log}" -o better.nc NO_FILE better.nc STDERR "the controller did not run it: it ended with exit code 1")
 clsurf_cli_test(NAME optimize_controller_hangs EXIT 3
