@@ -122,7 +122,7 @@ test('a marker without room is moved or counted, and none is lost', async () => 
     for (let k = 0; k < 6; ++k) {
         const { markers, texts } = await drawn(page);
         const hidden = Number(
-            /· (\d+) markers? (has|have) no room/.exec(texts.map(({ text }) => text).join('\n'))?.[1] ?? 0,
+            /· (\d+) markers? (does|do) not fit/.exec(texts.map(({ text }) => text).join('\n'))?.[1] ?? 0,
         );
         const inView = k === 0 ? defects.length : markers.length;
         assert.ok(markers.length + hidden >= inView, `${markers.length} markers and ${hidden} hidden`);
@@ -133,7 +133,7 @@ test('a marker without room is moved or counted, and none is lost', async () => 
     const { markers, texts } = await drawn(page);
     assert.ok(markers.length < defects.length);
     assert.ok(
-        texts.some(({ text }) => text.endsWith(`${defects.length - markers.length} markers have no room: zoom in`)),
+        texts.some(({ text }) => text.endsWith(`${defects.length - markers.length} markers do not fit: zoom in`)),
     );
     await closeReport(page);
 });

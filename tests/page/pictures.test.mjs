@@ -67,7 +67,7 @@ test('a defect enlarged', async () => {
     await closeReport(page);
 });
 
-test('the formed surface', async () => {
+test('the as-machined surface', async () => {
     const page = await openReport(browser, file);
     await page.locator('.choices button', { hasText: 'formed' }).click();
     await page.mouse.move(2, 2);

@@ -75,7 +75,7 @@ const cases = {
         await page.getByLabel('upper end').fill('45');
         await page.getByLabel('upper end').press('Enter');
     },
-    'the formed surface': async () => {
+    'the as-machined surface': async () => {
         await press(page, 'i');
         await page.locator('.choices button', { hasText: 'formed' }).click();
         await press(page, 'h');
@@ -128,9 +128,9 @@ for (const [name, prepare] of Object.entries(cases)) {
         await blank.close();
         // Marks and the scale bar lie on the map that render makes, edges are smoothed otherwise.
         assert.ok(same.both > 0.15, JSON.stringify(same));
-        // The formed surface is sampled anew for each picture, and by how much its ragged border reaches out the whole is
+        // The as-machined surface is sampled anew for each picture, and by how much its ragged border reaches out the whole is
         // drawn larger or smaller.
-        const formed = name === 'the formed surface';
+        const formed = name === 'the as-machined surface';
         assert.ok(same.covered > (formed ? 0.88 : 0.985), JSON.stringify(same));
         assert.ok(same.coloured > (formed ? 0.8 : 0.9), JSON.stringify(same));
     });

@@ -200,7 +200,7 @@ test('the range is typed, dragged, and usual again', async () => {
     assert.deepEqual(await range(), usual);
 });
 
-test('positions and the formed surface', async () => {
+test('positions and the as-machined surface', async () => {
     for (const name of ['feedback', 'formed', 'commanded']) {
         await page.locator('.choices button', { hasText: name }).click();
         await settled(page);
@@ -209,7 +209,7 @@ test('positions and the formed surface', async () => {
             name,
         );
         assert.equal(await page.getByLabel('colour map').inputValue(), name === 'formed' ? 'coolwarm' : 'magma');
-        assert.equal(/^Formed surface/.test(await field()), name === 'formed'); // the list of fields says it, too
+        assert.equal(/^As-machined surface/.test(await field()), name === 'formed'); // the list of fields says it, too
     }
 });
 

@@ -134,7 +134,7 @@ AsMachinedMap make_as_machined_map(const AsMachinedPart& part, const Box3& box, 
     height_map.origin = Vec3(middle.x(), middle.y(), as_machined.level());
     height_map.z = Column<float>(static_cast<std::size_t>(height_map.columns * height_map.rows),
                                  std::numeric_limits<float>::quiet_NaN());
-    map.field.info = {"formed", "Formed surface over its form", unit::um, FieldScale::diverging,
+    map.field.info = {"formed", "As-machined surface over its form", unit::um, FieldScale::diverging,
                       fmt::format("{}, {}", to_text(as_machined.tool()), as_machined.note())};
     map.field.values = height_map.z;
     Means means(height_map, map.field.values, per_vertex, frame.columns);

@@ -58,7 +58,7 @@ ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz:
     if (profile.count < 2) throw UsageError("--profile: nothing was cut between the two places");
 
     std::vector<double> x(profile.deviation.size());
-    viz::Curve whole{"Formed surface over its form (µm)", {}};
+    viz::Curve whole{"As-machined surface over its form (µm)", {}};
     viz::Curve rough{fmt::format("Roughness: waviness taken off, cut-off {:g} mm (µm)", profile.roughness.cutoff),
                      std::vector<double>(x.size(), std::numeric_limits<double>::quiet_NaN())};
     for (std::size_t k = 0; k < x.size(); ++k) {
@@ -72,8 +72,8 @@ ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz:
         rough.values[profile.first + k] = (known[k] - waviness[k]) * um_per_mm;
 
     const Roughness& r = profile.roughness;
-    look.title =
-        fmt::format("Profile of the formed surface: Ra {:.2f} µm, Rz {:.2f} µm", r.ra * um_per_mm, r.rz * um_per_mm);
+    look.title = fmt::format("Profile of the as-machined surface: Ra {:.2f} µm, Rz {:.2f} µm", r.ra * um_per_mm,
+                             r.rz * um_per_mm);
     look.subtitle = fmt::format("{} · {} · X {:g} Y {:g} to X {:g} Y {:g}", file_name(options.program),
                                 file_name(options.log), ends[0], ends[1], ends[2], ends[3]);
     look.x_label = "along the profile (mm)";

@@ -1,4 +1,4 @@
-// The formed surface: a grid of heights with their deviations from the form.
+// The as-machined surface: a grid of heights with their deviations from the form.
 
 import { readBytes, readNumbers } from './columns';
 import type { HeightMapInfo } from './manifest';

@@ -68,7 +68,7 @@ export interface Defect {
     score: number; // times the threshold
     speed_percent: number | null;
     length_mm: number | null;
-    formed_um?: number | null; // in the formed surface, where the tool is known
+    formed_um?: number | null; // in the as-machined surface, where the tool is known
     shape: string;
     change?: 'new' | 'remaining'; // against the log before
     id_before?: number; // of a remaining one
@@ -182,7 +182,7 @@ export interface Manifest {
     defects: Defect[];
     gone: GoneDefect[];
     surfaces: SurfaceInfo[];
-    relief?: HeightMapInfo; // of the formed surface
+    relief?: HeightMapInfo; // of the as-machined surface
     programmed?: ProgrammedInfo;
 }
 

@@ -59,9 +59,9 @@ const mostHidden = 99; // that have room in the caption
 const crowdedRoom = 14; // px from line to line
 const wipeLabels = 56; // px from the top: below the title and its caption
 
-/** What is said of markers that have no room; empty: all have. */
+/** What is said of markers that do not fit; empty: all do. */
 const hiddenText = (count: number) =>
-    count === 0 ? '' : ` · ${count === 1 ? '1 marker has' : `${count} markers have`} no room: zoom in`;
+    count === 0 ? '' : ` · ${count === 1 ? '1 marker does' : `${count} markers do`} not fit: zoom in`;
 
 /** The length of the scale bar: a round number [mm]. */
 function barLength(camera: Camera): number {

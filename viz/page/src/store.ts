@@ -15,7 +15,7 @@ export interface State {
     high: number;
     style: Style;
     role: number; // of the surface's roles
-    formed: boolean; // the formed surface in place of the CL surface
+    formed: boolean; // the as-machined surface in place of the CL surface
     defects: boolean; // outlined
     programmed: boolean; // the programmed path is drawn
     shown: Shown;
@@ -40,7 +40,7 @@ export interface State {
     keys: boolean; // one-letter keys are on
 }
 
-/** The formed surface, of which there is no difference. */
+/** The as-machined surface, of which there is no difference. */
 export function showFormed({ shown }: Readonly<State>): Partial<State> {
     return { formed: true, shown: shown === 'difference' ? 'after' : shown };
 }

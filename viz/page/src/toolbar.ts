@@ -26,7 +26,7 @@ export class Toolbar {
         manifest.fields.forEach((f, k) =>
             field.append(new Option(f.unit ? `${f.label} [${f.unit}]` : f.label, String(k))),
         );
-        if (manifest.relief) field.append(new Option('Formed surface over its form [µm]', formedChoice));
+        if (manifest.relief) field.append(new Option('As-machined surface over its form [µm]', formedChoice));
         field.addEventListener('change', () => {
             if (field.value === formedChoice) store.set(showFormed(store.state));
             else store.set({ field: Number(field.value), formed: false });

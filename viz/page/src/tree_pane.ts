@@ -1,4 +1,4 @@
-// What is loaded: program, positions, formed surface, passes, defects.
+// What is loaded: program, positions, as-machined surface, passes, defects.
 
 import { baseName, element } from './dom';
 import { FilterBar, keeps } from './filters';

@@ -258,7 +258,7 @@ export class ViewPane {
             missing: this.missing,
             ramps: this.shown.pale(surface) !== null,
             title: formed
-                ? 'Formed surface over its form'
+                ? 'As-machined surface over its form'
                 : state.shown === 'difference'
                   ? `${field.label}, after ${this.classes ? 'against' : 'minus'} before`
                   : field.label,
