@@ -325,7 +325,7 @@ private:
             const double error = std::max(levels_[q]->standard_error, margin) * kind_.factor;
             p.value = rounded_to(levels_[q]->value * kind_.factor, error);
             p.standard_error = error;
-            p.note = fmt::format("reached in {} places", levels_[q]->plateaus.size());
+            p.note = fmt::format("the motion stays at it in {} places", levels_[q]->plateaus.size());
             target = p.value / kind_.factor * to_machine;
         } else if (kind_.order == 3 && reverses_at_once(of, q, result)) {
             // The path's jerk limit must be a number; this one has no effect.
@@ -341,10 +341,10 @@ private:
                 target = levels_[q]->value * to_machine;
             else if (!unlimited && target < bounds_[q] * to_machine)
                 target = p.shown / kind_.factor * to_machine;
-            const std::string held =
-                shared ? fmt::format("reached in {} places, by the path or by an axis", levels_[q]->plateaus.size())
+            const std::string evident =
+                shared ? fmt::format("the path or an axis stays at it in {} places", levels_[q]->plateaus.size())
                        : "hardly exceeded";
-            p.note = fmt::format("{}; the file has {:.6g}", held, target * kind_.factor / to_machine);
+            p.note = fmt::format("{}; the file has {:.6g}", evident, target * kind_.factor / to_machine);
         }
         result.parameters.push_back(std::move(p));
     }

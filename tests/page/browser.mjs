@@ -196,7 +196,7 @@ export async function countPixels(page, locator, counts) {
 }
 
 /** Compares a screenshot with its baseline by `clsurf compare`: on the mean, since letters are drawn otherwise elsewhere. */
-export async function comparePicture(page, name, most = 0.012) {
+export async function comparePicture(page, name, most = 0.005) {
     const made = path.join(folder, `${name}.png`);
     const baseline = path.join(process.env.PAGE_BASELINE, `${name}.png`);
     await settled(page);

@@ -86,7 +86,11 @@ export class DefectList {
     }
 
     private head(k: number): HTMLElement {
-        const button = element('button', { title: 'sort by this column; click again to reverse' }, this.columns[k].head);
+        const button = element(
+            'button',
+            { title: 'sort by this column; click again to reverse' },
+            this.columns[k].head,
+        );
         button.addEventListener('click', () => {
             this.descending = this.sorted === k && !this.descending;
             this.sorted = k;
