@@ -9,11 +9,13 @@ The list is json_keys.txt beside this file: each command, then the paths of its 
 
 import difflib
 import json
-import math
 import pathlib
 import subprocess
 import sys
 import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
+from crowded_part import crowded_part
 
 KEYS = pathlib.Path(__file__).with_name("json_keys.txt")
 # Each line makes what the lines below it read. {data}, {samples} and {tests} are folders.
@@ -26,7 +28,7 @@ clsurf simulate part.nc --machine {data}/machines/three_axis_mill.toml -o simula
 cp part.nc measured.nc
 cp {data}/programs/bottle_uneven.nc part.nc
 /usr/bin/python3 {tests}/scan/scanned_part.py make .
-clsurf simulate waves.nc --machine {data}/machines/three_axis_mill.toml -o waves.biip
+clsurf simulate crowded.nc --machine {data}/machines/three_axis_mill.toml -o crowded.biip
 clsurf history shop.db add part.nc run.biip --tool none --time 2026-11-01 --param tool=new
 clsurf history shop.db add part.nc run.biip --tool none --time 2026-11-02 --param tool=worn
 """
@@ -38,9 +40,9 @@ align profile.csv measured.nc run.csv --tool ball:6 --measured-at 7.1,2.9,90
 query part.nc run.biip --line 1200
 info part.nc run.biip
 simulate part.nc -o s.biip
-identify waves.nc waves.biip -o m.toml
+identify crowded.nc crowded.biip -o m.toml
 diff run.biip simulated.biip --program part.nc --tool ball:6 --budget runs.toml
-optimize waves.nc --machine {data}/machines/three_axis_mill.toml -o better.nc
+optimize crowded.nc --machine {data}/machines/three_axis_mill.toml -o better.nc
 profile scan.csv --x x --z height --window 40 -o cut.nc
 lint part.nc
 intervals part.nc
@@ -65,18 +67,6 @@ def paths(value, at=""):
             yield from paths(inner, at + "[]")
 
 
-def waves():
-    """A small part: six passes over a wave, the fourth of which has fifty points in a millimetre."""
-    lines = ["G21 G90 G17", "G64 P0.005", "G0 X0 Y0 Z10", "G1 Z0 F1000", "G1 F3000"]
-    for k in range(6):
-        w = 0.0
-        while w < 9.01:
-            x = 9 - w if k % 2 else w
-            lines.append(f"X{x:.3f} Y{0.4 * k:.3f} Z{0.8 * math.sin(0.9 * x):.3f}")
-            w += 0.02 if k == 3 and 3 < w < 4 else 0.25
-    return "\n".join([*lines, "G0 Z10", "M2", ""])
-
-
 def main():
     clsurf, project, samples = (str(pathlib.Path(path).resolve()) for path in sys.argv[1:4])
     folders = {"data": f"{project}/data", "samples": samples, "tests": f"{project}/tests"}
@@ -89,7 +79,7 @@ def main():
             return subprocess.run(words, cwd=folder, capture_output=True, text=True)
 
         (pathlib.Path(folder) / "runs.toml").write_text("max_height_difference_um = 1\n", encoding="utf-8")
-        (pathlib.Path(folder) / "waves.nc").write_text(waves(), encoding="utf-8")
+        (pathlib.Path(folder) / "crowded.nc").write_text(crowded_part(), encoding="utf-8")
         for line in PREPARATION.strip().splitlines():
             done = run(line.split())
             assert done.returncode in (0, 1), f"{line}\n{done.stderr}"

@@ -129,6 +129,6 @@ foreach(words "check ${part} ${run} --tool none --json" "lint ${part} --json" "q
   clsurf_cli_test(NAME json_version_of_${name} ARGS ${words} EXIT ${exit} STDOUT "^.[^a-z]*\"schema_version\": 2,")
 endforeach()
 # All keys, of the samples: scripts of users depend on them.
-add_test(NAME cli.json_keys COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/cli/json_keys.py $<TARGET_FILE:clsurf>
+add_test(NAME cli.json_keys COMMAND /usr/bin/python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/cli/json_keys.py $<TARGET_FILE:clsurf>
   ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/samples)
 set_tests_properties(cli.json_keys PROPERTIES TIMEOUT 300)

@@ -3,9 +3,12 @@
 import json
 import os
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
+
+sys.path.insert(0, str(Path(__file__).parent.parent / "support"))
 
 DATA = Path(os.environ["CLSURF_DATA"])
 SAMPLES = Path(os.environ["CLSURF_SAMPLES"])

@@ -1,12 +1,12 @@
 """The repair of programs against that of the program."""
 
 import json
-import math
 import subprocess
 
 import clsurf
 import pytest
 from conftest import DATA, PROGRAM, run_json
+from crowded_part import crowded_part
 
 
 def compare(tmp_path, program, log=None):
@@ -21,16 +21,8 @@ def compare(tmp_path, program, log=None):
 
 
 def crowded(tmp_path):
-    """Six passes over a wave, the fourth of which has fifty points in a millimetre: quickly repaired."""
-    lines = ["G21 G90", "G64 P0.005", "G0 X0 Y0 Z10", "G1 Z0 F1000", "G1 F3000"]
-    for k in range(6):
-        w = 0.0
-        while w < 9.01:
-            x = 9 - w if k % 2 else w
-            lines.append(f"X{x:.3f} Y{0.4 * k:.3f} Z{0.5 * math.sin(0.8 * x):.3f}")
-            w += 0.02 if k == 3 and 3 < w < 4 else 0.25
     program = tmp_path / "part.nc"
-    program.write_text("\n".join([*lines, "G0 Z10", "M2", ""]))
+    program.write_text(crowded_part())
     return program
 
 
