@@ -156,8 +156,7 @@ public:
 private:
     [[nodiscard]] double time_at_b(PointIndex i) const {
         const PathLocation& at = differences_.alignment.locations[static_cast<std::size_t>(i)];
-        const double time = b_.log->time_of(at.point);
-        return at.fraction > 0 ? time + at.fraction * (b_.log->time_of(at.point + 1) - time) : time;
+        return interpolate([&](PointIndex point) { return b_.log->time_of(point); }, at);
     }
     [[nodiscard]] double time_of_b(const PointRange& points) const {
         return time_at_b(points.last) - time_at_b(points.first);

@@ -227,9 +227,7 @@ Vec3 PassesBetween::smooth(PointIndex point) const {
 }
 
 Vec3 PassesBetween::smooth(const PathLocation& at) const {
-    const Vec3 here = smooth(at.point);
-    if (at.fraction == 0) return here;
-    return here + static_cast<double>(at.fraction) * (smooth(at.point + 1) - here);
+    return interpolate([&](PointIndex i) { return smooth(i); }, at);
 }
 
 bool PassesBetween::between(PointIndex point, Side side, Row& row) const {

@@ -54,8 +54,7 @@ using HeightOf = DefectProfile::HeightOf;
 float height_at(HeightOf of, const PathLocation& at, const Compared& there, const Eigen::Vector3f& normal,
                 const ProgrammedMarks& marks) {
     if (of == HeightOf::relief) return there.relief;
-    Vec3 mark = marks.at(at.point);
-    if (at.fraction > 0) mark += static_cast<double>(at.fraction) * (marks.at(at.point + 1) - mark);
+    const Vec3 mark = interpolate([&](PointIndex i) { return marks.at(i); }, at);
     const auto above = static_cast<float>(mark.dot(normal.cast<double>()));
     return of == HeightOf::measured ? there.normal_deviation + above : above;
 }

@@ -80,8 +80,7 @@ public:
 
 private:
     static float speed_at(const Signals& signals, const PathLocation& at) {
-        const float a = signals[at.point].speed;
-        return at.fraction == 0 ? a : a + at.fraction * (signals[at.point + 1].speed - a);
+        return interpolate([&](PointIndex i) { return signals[i].speed; }, at);
     }
 
     /// Places `spacing_` apart, from one on, as long as the pass is judged.

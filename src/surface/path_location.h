@@ -4,6 +4,8 @@
 // period apart along the feed: while braking at 600 mm/s², this alone is a speed difference of 0.3 mm/s.
 
 #include <cmath>
+#include <concepts>
+#include <type_traits>
 #include <utility>
 
 #include "surface/cl_surface.h"
@@ -18,12 +20,25 @@ struct PathLocation {
     [[nodiscard]] PointIndex nearest() const { return fraction < 0.5F ? point : point + 1; }
 };
 
-/// A column's value at a location, linear between the points. Domain: exists().
-template <typename T>
-[[nodiscard]] T interpolate(const Column<T>& column, const PathLocation& at) {
-    const auto i = static_cast<std::size_t>(at.point);
-    if (at.fraction == 0) return column[i];
-    return column[i] + at.fraction * (column[i + 1] - column[i]);
+/// The value at a location, linear between the points. `value_of`: number or vector of a point. Domain: exists().
+template <typename ValueOf>
+    requires std::invocable<ValueOf, PointIndex>
+[[nodiscard]] auto interpolate(ValueOf&& value_of, const PathLocation& at) {
+    using Value = std::decay_t<std::invoke_result_t<ValueOf, PointIndex>>;
+    const Value here = value_of(at.point);
+    if (at.fraction == 0) return here;
+    const Value next = value_of(at.point + 1);
+    if constexpr (std::is_arithmetic_v<Value>)
+        return here + at.fraction * (next - here);
+    else
+        return Value(here + static_cast<typename Value::Scalar>(at.fraction) * (next - here));
+}
+
+/// The same of values in the order of the points.
+template <typename Values>
+    requires(!std::invocable<Values, PointIndex>)
+[[nodiscard]] auto interpolate(const Values& values, const PathLocation& at) {
+    return interpolate([&](PointIndex i) { return values[static_cast<std::size_t>(i)]; }, at);
 }
 
 [[nodiscard]] inline Eigen::Vector3f position_at(const Positions& p, const PathLocation& at) {

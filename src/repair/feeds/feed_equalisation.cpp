@@ -38,8 +38,8 @@ public:
             const auto other = static_cast<std::size_t>(at->nearest());
             if (cause < 0 && causes_[other] < 0) continue;
             float ratio = ratio_;
-            if (equalised_[k] == 0 && equalised_[other] == 0) ratio = std::max(ratio, own_[k] / value_at(own_, *at));
-            const float limit = ratio * value_at(speeds_, *at) + more_;
+            if (equalised_[k] == 0 && equalised_[other] == 0) ratio = std::max(ratio, own_[k] / interpolate(own_, *at));
+            const float limit = ratio * interpolate(speeds_, *at) + more_;
             if (!(limit < mine)) continue;
             mine = limit;
             if (cause < 0) cause = causes_[other];
@@ -60,11 +60,6 @@ public:
     }
 
 private:
-    static float value_at(const std::vector<float>& values, const PathLocation& at) {
-        const auto j = static_cast<std::size_t>(at.point);
-        return at.fraction > 0 ? values[j] + at.fraction * (values[j + 1] - values[j]) : values[j];
-    }
-
     const JudgedRun& run_;
     float ratio_, more_;
     Ramp ramp_;

@@ -50,10 +50,7 @@ private:
                     surface_.positions[std::min(i + 1, pass.last)] - surface_.positions[std::max(i - 1, pass.first)];
                 const PathLocation at = adjacent_location(surface_, {i, 0}, feed, side);
                 if (!at.exists()) continue;
-                const auto j = static_cast<std::size_t>(at.point);
-                const double phase = at.fraction > 0 ? phases_.of_point[j] +
-                                                           at.fraction * (phases_.of_point[j + 1] - phases_.of_point[j])
-                                                     : phases_.of_point[j];
+                const double phase = interpolate(phases_.of_point, at);
                 if (phase == phase) mine_[k] = phase;
             }
         }
