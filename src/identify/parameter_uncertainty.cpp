@@ -6,12 +6,11 @@
 #include <optional>
 #include <utility>
 
+#include "identify/rule_list.h"
 #include "machine/planning_value.h"
 
 namespace clsurf {
 namespace {
-
-constexpr double limits_no_path = 1e6;  ///< mm/s²: only the axes limit the path; as no_path_limit
 
 std::optional<double> number_in(const std::string& text) {
     double value = 0;
@@ -21,7 +20,7 @@ std::optional<double> number_in(const std::string& text) {
 }
 
 bool has_no_path_limit(const IdentifiedParameter& p, const Machine& machine) {
-    return p.axis == "path" && p.name.ends_with("acceleration") && machine.path.max_acceleration >= limits_no_path;
+    return p.axis == "path" && p.name.ends_with("acceleration") && machine.path.max_acceleration >= no_path_limit;
 }
 
 }  // namespace

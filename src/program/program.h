@@ -2,13 +2,13 @@
 // Program: the text of an NC program, its lines and its motions. A value: built by parse_program(), not changed
 // afterwards.
 
-#include <compare>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -69,7 +69,9 @@ struct ToolWord {
     std::optional<double> number;  ///< as programmed; nullopt: the tool has a name
     std::string name;
 
-    auto operator<=>(const ToolWord&) const = default;
+    friend bool operator<(const ToolWord& a, const ToolWord& b) {
+        return std::tie(a.number, a.name) < std::tie(b.number, b.name);
+    }
 };
 
 /// The effect of an event on the interpretation of motions; std::monostate: for display only.

@@ -18,8 +18,7 @@ constexpr double interval_width =
     0.005;  ///< share of the speeds in a constant-speed interval: adjacent passes may differ by as much
 // Bounds on time and memory; the results depend on them (docs/experiments/repair.md#the-search-in-detail, Evaluation).
 constexpr double most_run_points = 16e6;  ///< of all runs together; then the search ends …
-constexpr double large_run = 1e6;         ///< … or less, down to a share, if a run has so many points …
-constexpr double share_of_large = 0.25;   ///< … this share
+constexpr double share_of_large = 0.25;   ///< … or less, down to this share, if a run is large
 constexpr int most_since_best = 192;      ///< consecutive proposals without an improvement
 // Four were too few: one machine of an ensemble refused them all (docs/experiments/kernel.md#what-made-the-difference).
 constexpr std::size_t most_finalists = 16;          ///< of each kind …

@@ -99,6 +99,9 @@ public:
     [[nodiscard]] double score(const Proposal& proposal) const;
 
 private:
+    /// Points of a run. Fewer runs are made of a larger one, which bounds time and memory
+    /// (docs/experiments/repair.md#the-search-in-detail, Evaluation).
+    static constexpr double large_run = 1e6;
     /// The data of a proposal for its comparison and for another run.
     struct Candidate {
         int number = 0;

@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::size_t most_preferred = 8;           ///< candidates that a weight prefers are run again …
 constexpr std::size_t most_preferred_of_large = 2;  ///< … if runs are large
-constexpr double large = 1e6;                       ///< points of a run; as large_run (proposal.cpp)
 
 /// "candidate 14: 231 sections and feeds"
 std::string name_of(const Proposal& proposal) {
@@ -54,7 +53,7 @@ void Evaluator::prefer(double weight) {
     const std::vector<const Candidate*> candidates = accepted_candidates();
     const TradeoffFront front = front_of(candidates);
     const std::size_t most =
-        static_cast<double>(before_.log.records) >= large ? most_preferred_of_large : most_preferred;
+        static_cast<double>(before_.log.records) >= large_run ? most_preferred_of_large : most_preferred;
     report_progress("the candidates that the weight prefers");
     for (const std::size_t row : front_by_weight(front.rows, weight)) {
         if (row == 0) continue;  // the unchanged program

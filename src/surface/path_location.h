@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <concepts>
+#include <ranges>
 #include <type_traits>
 #include <utility>
 
@@ -21,8 +22,7 @@ struct PathLocation {
 };
 
 /// The value at a location, linear between the points. `value_of`: number or vector of a point. Domain: exists().
-template <typename ValueOf>
-    requires std::invocable<ValueOf, PointIndex>
+template <std::invocable<PointIndex> ValueOf>
 [[nodiscard]] auto interpolate(ValueOf&& value_of, const PathLocation& at) {
     using Value = std::decay_t<std::invoke_result_t<ValueOf, PointIndex>>;
     const Value here = value_of(at.point);
@@ -35,8 +35,7 @@ template <typename ValueOf>
 }
 
 /// The same of values in the order of the points.
-template <typename Values>
-    requires(!std::invocable<Values, PointIndex>)
+template <std::ranges::random_access_range Values>
 [[nodiscard]] auto interpolate(const Values& values, const PathLocation& at) {
     return interpolate([&](PointIndex i) { return values[static_cast<std::size_t>(i)]; }, at);
 }

@@ -110,33 +110,33 @@ void tool_length(Interpreter& in, int code, const Block& block) {
         return tool_of(in, static_cast<int>(std::clamp(std::round(block.words.of('H')), 0.0, 1e8)), column);
     };
     const auto assumed_in = [](const Tool& tool) { return tool.assumed ? tool.offset : Vec3(Vec3::Zero()); };
-    auto [offset, assumed] = in.state_.tool_offset;
+    ToolOffset next = in.state_.tool_offset;
     if (code == 43.1_g) {
         in.this_block_.motion_suppressed = true;
-        offset = words_move(offset);
+        next.total = words_move(next.total);
         for (int axis = 0; axis < 3; ++axis) {
-            if (block.words.given("XYZ"[axis])) assumed[axis] = 0;
+            if (block.words.given("XYZ"[axis])) next.assumed[axis] = 0;
         }
     } else if (code == 49_g) {
-        offset = assumed = Vec3::Zero();
+        next = {};
     } else if (in.rules_->tools.length_of == LengthOf::tool_in_spindle && code == 43_g) {
         const Tool tool = tool_named(!block.words.given('H') || block.words.of('H') == 0);
-        offset = tool.offset;
-        assumed = assumed_in(tool);
+        next = {tool.offset, assumed_in(tool)};
     } else if (in.rules_->tools.length_of == LengthOf::tool_in_spindle && code == 43.2_g) {
         if (!block.words.given('H')) in.fail("G43.2 needs the tool's number (H)");
         const Tool tool = tool_named(false);
-        offset += tool.offset;
-        assumed += assumed_in(tool);
+        next.total += tool.offset;
+        next.assumed += assumed_in(tool);
     } else if (in.rules_->tools.length_of == LengthOf::row_of_h && code >= 43_g && code <= 44_g && code != 43.2_g &&
                !in.tools_.table.tools.empty()) {
         if (block.words.given('H'))
             in.tools_.length_row = static_cast<int>(std::clamp(std::round(block.words.of('H')), 0.0, 1e8));
-        offset = tool_of(in, in.tools_.length_row, block.words.given('H') ? block.words.column['H' - 'A'] : 0).offset *
-                 (code == 44_g ? -1.0 : 1.0);
+        next.total =
+            tool_of(in, in.tools_.length_row, block.words.given('H') ? block.words.column['H' - 'A'] : 0).offset *
+            (code == 44_g ? -1.0 : 1.0);
     }
-    part_from_machine(in.compensation_, in.program_.motions.size(), offset - in.state_.tool_offset.total);
-    in.state_.rebase([&] { in.state_.tool_offset = {offset, assumed}; });
+    part_from_machine(in.compensation_, in.program_.motions.size(), next.total - in.state_.tool_offset.total);
+    in.state_.rebase([&] { in.state_.tool_offset = next; });
     in.event("tool-length", code_text(code) + words_text(block, "H"));
 }
 
