@@ -116,7 +116,7 @@ TEST(CompareRuns, TheToolIsAskedOnceAndGivesContactsAndRoughness) {
     for (int k = 0; k < 2; ++k) {
         const ComparedWithReference found = reference.compare(simulated("b", zigzag(2400)), diagnostics);
         ASSERT_EQ(speeds_of(found.report).size(), 1U);
-        const CutterPlace& place = speeds_of(found.report).front().place;
+        const CutterPlace place = speeds_of(found.report).front().place;
         ASSERT_TRUE(place.contact);
         EXPECT_LT((*place.contact - place.tip).norm(), 1e-3) << "a level surface is touched by the tip";
         EXPECT_TRUE(found.roughness);
