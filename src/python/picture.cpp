@@ -37,7 +37,7 @@ viz::ColourScale scale_of_picture(const Field& field, const ClSurface& surface, 
         rule.kind = RangeRule::Kind::fixed;
         rule.low = request.range->first;
         rule.high = request.range->second;
-        if (!(rule.low <= rule.high)) throw UsageError("range: the lower end must be below the upper one");
+        if (!(rule.low <= rule.high)) throw UsageError("range: the lower end must not be above the upper one");
     }
     const ShownRange range = find_range(field, surface, rule);
     for (std::string& note : viz::notes_of(range)) texts.notes.push_back(std::move(note));

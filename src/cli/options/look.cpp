@@ -20,7 +20,7 @@ RangeRule parse_range(const std::string& text) {
     const std::vector<double> pair = parse_numbers(numbers, "--range", 2);
     rule.low = pair[0];
     rule.high = pair[1];
-    if (rule.low > rule.high) throw UsageError("--range: MIN must be below MAX");
+    if (rule.low > rule.high) throw UsageError("--range: MIN must not be above MAX");
     if (rule.kind == RangeRule::Kind::percentiles && (rule.low < 0 || rule.high > 100))
         throw UsageError("--range: percentiles are 0 … 100");
     return rule;
