@@ -84,11 +84,10 @@ struct ThresholdRule {
         0.15F;  ///< least threshold, relative to the usual acceleration; at least the effect of rounding (as for the speed),
                 ///< and at least the acceleration of a sharp change of the speed by its least threshold
     float least_speed = 0.25F;  ///< share of the usual speed; more if rounding alone reaches the threshold there
-    float height = 0.0015F;     ///< least threshold [mm] …
-    float normal_deviation_quanta =
-        1.5F;                    ///< … and in steps of the positions: a whole pass may be rounded in one direction,
-    float relief_quanta = 2.4F;  ///< and a relief depends on three passes
-    float spreads = 6;           ///< above the median; the usual scatter of a part is no defect …
+    /// Least threshold of heights: in mm, and in steps of the positions. A whole pass may be rounded in one direction, and a
+    /// relief depends on three passes.
+    float height = 0.0015F, normal_deviation_quanta = 1.5F, relief_quanta = 2.4F;
+    float spreads = 6;               ///< above the median; the usual scatter of a part is no defect …
     float acceleration_spreads = 9;  ///< (the length of a noise vector has a longer tail)
     float most = 3;  ///< … but at most this multiple of the least threshold, so that a bad part is detected
 };

@@ -19,9 +19,9 @@ enum class Zone : std::uint8_t {
 /// cache line costs time.
 struct Sample {
     float speed;  ///< [mm/s] of the surface's own positions
-    float
-        normal_deviation;  ///< [mm] height of the measured path above (+) the commanded one, along the normal; NaN: none
-    float relief;          ///< [mm] height of the point above the chord between its neighbours, along the normal
+    /// [mm] height of the measured path above (+) the commanded one, along the normal; NaN: none
+    float normal_deviation;
+    float relief;           ///< [mm] height of the point above the chord between its neighbours, along the normal
     float acceleration[3];  ///< [mm/s²]
     float feed[3];          ///< unit vector; NaN if the tool rests
     float normal[3];        ///< unit vector of the CL surface, feed × (left − right); NaN: no neighbour

@@ -136,7 +136,7 @@ std::shared_ptr<const OwnColumns> make_columns(PointIndex count, Compute&& compu
 
 /// Replaces the columns of a trajectory by its own.
 void set_columns(Trajectory& trajectory, std::shared_ptr<const OwnColumns> columns) {
-    for (std::size_t axis = 0; axis < 3; ++axis) { trajectory.axes[axis] = view_of(columns->at(axis)); }
+    for (std::size_t axis = 0; axis < 3; ++axis) trajectory.axes[axis] = view_of(columns->at(axis));
     trajectory.keep_alive = std::move(columns);
 }
 
